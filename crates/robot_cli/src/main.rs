@@ -1,0 +1,3 @@
+//! The command `robot-symbolic`.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Straight-line programs from expressions, and the source code they become.

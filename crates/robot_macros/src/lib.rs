@@ -1,0 +1,1 @@
+//! include_robot!: a robot file becomes a module at compile time.

@@ -1,0 +1,2 @@
+#![no_std]
+//! What generated robot code calls at run time.

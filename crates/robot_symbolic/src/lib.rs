@@ -1,0 +1,1 @@
+//! Symbolic algebra: interned expressions, canonical polynomials, text and LaTeX.

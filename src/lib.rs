@@ -1,0 +1,1 @@
+//! Equations of motion of the robots in `robots/`, generated at build time.
