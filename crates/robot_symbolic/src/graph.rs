@@ -1,0 +1,269 @@
+//! The arena of interned nodes.
+
+use std::cell::RefCell;
+use std::hash::BuildHasher;
+
+use hashbrown::HashTable;
+use indexmap::{IndexMap, IndexSet};
+use rustc_hash::FxBuildHasher;
+
+use crate::expr::Expr;
+use crate::number::Number;
+use crate::rational::Rational;
+
+/// The identity of a node in its [`Graph`]. Operands always have smaller ids than their node, so
+/// that a pass in the order of ids meets operands first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Id(pub(crate) u32);
+
+impl Id {
+    /// The id as an index into a table over the graph's nodes.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// The identity of a symbol in its [`Graph`], in order of first use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SymbolId(pub(crate) u32);
+
+impl SymbolId {
+    /// The id as an index into a table over the graph's symbols.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// The functions of one argument that expressions can apply.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Function {
+    /// Sine of an angle in radians.
+    Sin,
+    /// Cosine of an angle in radians.
+    Cos,
+    /// Square root.
+    Sqrt,
+    /// Absolute value.
+    Abs,
+    /// −1, 0 or 1 by the sign of the argument; sgn 0 = 0.
+    Sign,
+    /// Hyperbolic tangent.
+    Tanh,
+}
+
+impl Function {
+    /// All functions, in the order of their declaration.
+    pub const ALL: [Function; 6] = [
+        Function::Sin,
+        Function::Cos,
+        Function::Sqrt,
+        Function::Abs,
+        Function::Sign,
+        Function::Tanh,
+    ];
+
+    /// The name in infix text.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Function::Sin => "sin",
+            Function::Cos => "cos",
+            Function::Sqrt => "sqrt",
+            Function::Abs => "abs",
+            Function::Sign => "sign",
+            Function::Tanh => "tanh",
+        }
+    }
+
+    /// The value at a number.
+    #[must_use]
+    pub fn apply(self, argument: f64) -> f64 {
+        match self {
+            Function::Sin => argument.sin(),
+            Function::Cos => argument.cos(),
+            Function::Sqrt => argument.sqrt(),
+            Function::Abs => argument.abs(),
+            Function::Sign if argument == 0.0 || argument.is_nan() => argument,
+            Function::Sign => argument.signum(),
+            Function::Tanh => argument.tanh(),
+        }
+    }
+}
+
+/// A node. Numbers are never negative: signs are hoisted into `Neg`, which the rules move outward.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Node {
+    Number(u32),
+    Pi,
+    Symbol(SymbolId),
+    Add(Id, Id),
+    Sub(Id, Id),
+    Mul(Id, Id),
+    Div(Id, Id),
+    Neg(Id),
+    Call(Function, Id),
+}
+
+/// An arena of expressions, each stored once.
+///
+/// The same sequence of operations gives the same ids, and with them the same order in every
+/// output. A graph is meant to live for one derivation.
+#[derive(Default)]
+pub struct Graph {
+    inner: RefCell<Inner>,
+}
+
+#[derive(Default)]
+struct Inner {
+    nodes: Vec<Node>,
+    index: HashTable<u32>,
+    numbers: IndexSet<Number, FxBuildHasher>,
+    symbols: IndexMap<String, Id, FxBuildHasher>,
+}
+
+impl Graph {
+    /// An empty graph.
+    #[must_use]
+    pub fn new() -> Graph {
+        Graph::default()
+    }
+
+    /// The symbol of that name, the same at each call.
+    pub fn symbol(&self, name: &str) -> Expr<'_> {
+        let known = self.inner.borrow().symbols.get(name).copied();
+        let id = known.unwrap_or_else(|| {
+            let symbol = SymbolId(self.inner.borrow().symbols.len() as u32);
+            let id = self.intern(Node::Symbol(symbol));
+            self.inner.borrow_mut().symbols.insert(name.to_owned(), id);
+            id
+        });
+        self.expr(id)
+    }
+
+    /// The symbol of that name where one has been made.
+    #[must_use]
+    pub fn find_symbol(&self, name: &str) -> Option<Expr<'_>> {
+        self.inner
+            .borrow()
+            .symbols
+            .get(name)
+            .map(|id| self.expr(*id))
+    }
+
+    /// The name of a symbol of this graph; empty for the id of another graph's symbol.
+    #[must_use]
+    pub fn symbol_name(&self, symbol: SymbolId) -> String {
+        let inner = self.inner.borrow();
+        inner
+            .symbols
+            .get_index(symbol.index())
+            .map(|(name, _)| name.clone())
+            .unwrap_or_default()
+    }
+
+    /// The number of symbols made so far.
+    #[must_use]
+    pub fn symbol_count(&self) -> usize {
+        self.inner.borrow().symbols.len()
+    }
+
+    /// A constant.
+    pub fn number(&self, value: impl Into<Number>) -> Expr<'_> {
+        self.expr(self.intern_number(&value.into()))
+    }
+
+    /// An integer constant.
+    pub fn integer(&self, value: i64) -> Expr<'_> {
+        self.number(Rational::integer(value))
+    }
+
+    /// The constant 0.
+    pub fn zero(&self) -> Expr<'_> {
+        self.integer(0)
+    }
+
+    /// The constant 1.
+    pub fn one(&self) -> Expr<'_> {
+        self.integer(1)
+    }
+
+    /// The constant π, exact.
+    pub fn pi(&self) -> Expr<'_> {
+        self.expr(self.intern(Node::Pi))
+    }
+
+    /// The number of nodes made so far, shared ones once.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.inner.borrow().nodes.len()
+    }
+
+    /// Whether no expression has been made.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The expression with an id of this graph.
+    ///
+    /// Ids of another graph name other expressions; one past the end reads as NaN.
+    #[must_use]
+    pub fn expr(&self, id: Id) -> Expr<'_> {
+        Expr::new(self, id)
+    }
+
+    pub(crate) fn node(&self, id: Id) -> Node {
+        self.inner.borrow().nodes[id.index()]
+    }
+
+    /// Interns a constant; the sign of a negative one becomes a `Neg` node.
+    pub(crate) fn intern_number(&self, value: &Number) -> Id {
+        if value.is_negative() {
+            let positive = self.intern_number(&-value);
+            return self.intern(Node::Neg(positive));
+        }
+        // One zero only: the float zero is the exact one.
+        let value = if value.is_zero() {
+            Number::integer(0)
+        } else {
+            value.clone()
+        };
+        let (index, _) = self.inner.borrow_mut().numbers.insert_full(value);
+        self.intern(Node::Number(index as u32))
+    }
+
+    /// The constant that a node is, its sign included.
+    pub(crate) fn as_number(&self, id: Id) -> Option<Number> {
+        let inner = self.inner.borrow();
+        let positive = |id: Id| match inner.nodes[id.index()] {
+            Node::Number(index) => inner.numbers.get_index(index as usize).cloned(),
+            _ => None,
+        };
+        match inner.nodes[id.index()] {
+            Node::Neg(operand) => positive(operand).map(|number| -&number),
+            _ => positive(id),
+        }
+    }
+
+    pub(crate) fn intern(&self, node: Node) -> Id {
+        let mut inner = self.inner.borrow_mut();
+        let Inner { nodes, index, .. } = &mut *inner;
+        let hash = |node: &Node| FxBuildHasher.hash_one(node);
+        let entry = index.entry(
+            hash(&node),
+            |known| nodes[*known as usize] == node,
+            |known| hash(&nodes[*known as usize]),
+        );
+        match entry {
+            hashbrown::hash_table::Entry::Occupied(known) => Id(*known.get()),
+            hashbrown::hash_table::Entry::Vacant(free) => {
+                let id = nodes.len() as u32;
+                free.insert(id);
+                nodes.push(node);
+                Id(id)
+            }
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Constants: exact while they are rational, floating-point once an irrational enters.
+
+use std::hash::{Hash, Hasher};
+
+use crate::rational::{MAX_BITS, Rational};
+
+/// A constant of an expression.
+///
+/// Robot files hold decimals, which are exact rationals; sums and products of them stay exact.
+/// A constant becomes `Real` where it has no rational value (the sine of an arbitrary angle,
+/// evaluated for code), or would need more than a few thousand bits.
+#[derive(Clone, Debug)]
+pub enum Number {
+    /// An exact value.
+    Rational(Rational),
+    /// The nearest `f64` to a value that has no short exact form.
+    Real(f64),
+}
+
+impl Number {
+    /// An integer.
+    #[must_use]
+    pub const fn integer(value: i64) -> Number {
+        Number::Rational(Rational::integer(value))
+    }
+
+    /// The nearest `f64`.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        match self {
+            Number::Rational(rational) => rational.to_f64(),
+            Number::Real(value) => *value,
+        }
+    }
+
+    /// The exact value where there is one.
+    #[must_use]
+    pub fn as_rational(&self) -> Option<&Rational> {
+        match self {
+            Number::Rational(rational) => Some(rational),
+            Number::Real(_) => None,
+        }
+    }
+
+    /// Whether the value is 0 (exactly, or the float zero).
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Number::Rational(rational) => rational.is_zero(),
+            Number::Real(value) => *value == 0.0,
+        }
+    }
+
+    /// Whether the value is exactly 1.
+    #[must_use]
+    pub fn is_one(&self) -> bool {
+        match self {
+            Number::Rational(rational) => rational.is_one(),
+            Number::Real(value) => *value == 1.0,
+        }
+    }
+
+    /// Whether the value is below 0. NaN is not.
+    #[must_use]
+    pub fn is_negative(&self) -> bool {
+        match self {
+            Number::Rational(rational) => rational.is_negative(),
+            Number::Real(value) => *value < 0.0,
+        }
+    }
+
+    /// `1 / self`; the reciprocal of 0 is the float NaN: a value that every reader can refuse.
+    #[must_use]
+    pub fn recip(&self) -> Number {
+        match self {
+            Number::Rational(rational) => rational
+                .recip()
+                .map_or(Number::Real(f64::NAN), Number::Rational),
+            Number::Real(value) => Number::Real(1.0 / value),
+        }
+    }
+
+    fn combine(
+        &self,
+        other: &Number,
+        exact: impl Fn(&Rational, &Rational) -> Rational,
+        real: impl Fn(f64, f64) -> f64,
+    ) -> Number {
+        if let (Number::Rational(a), Number::Rational(b)) = (self, other) {
+            let value = exact(a, b);
+            if value.bits() <= MAX_BITS {
+                return Number::Rational(value);
+            }
+        }
+        Number::Real(real(self.to_f64(), other.to_f64()))
+    }
+}
+
+impl std::ops::Add for &Number {
+    type Output = Number;
+    fn add(self, other: &Number) -> Number {
+        self.combine(other, |a, b| a + b, |a, b| a + b)
+    }
+}
+
+impl std::ops::Sub for &Number {
+    type Output = Number;
+    fn sub(self, other: &Number) -> Number {
+        self.combine(other, |a, b| a - b, |a, b| a - b)
+    }
+}
+
+impl std::ops::Mul for &Number {
+    type Output = Number;
+    fn mul(self, other: &Number) -> Number {
+        self.combine(other, |a, b| a * b, |a, b| a * b)
+    }
+}
+
+impl std::ops::Neg for &Number {
+    type Output = Number;
+    fn neg(self) -> Number {
+        match self {
+            Number::Rational(rational) => Number::Rational(-rational),
+            Number::Real(value) => Number::Real(-value),
+        }
+    }
+}
+
+/// Identity of representation: floats by their bits, so that interning is deterministic.
+impl PartialEq for Number {
+    fn eq(&self, other: &Number) -> bool {
+        match (self, other) {
+            (Number::Rational(a), Number::Rational(b)) => a == b,
+            (Number::Real(a), Number::Real(b)) => a.to_bits() == b.to_bits(),
+            _ => false,
+        }
+    }
+}
+
+impl Eq for Number {}
+
+impl Hash for Number {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match self {
+            Number::Rational(rational) => rational.hash(state),
+            Number::Real(value) => value.to_bits().hash(state),
+        }
+    }
+}
+
+impl From<Rational> for Number {
+    fn from(value: Rational) -> Number {
+        Number::Rational(value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn repeated_squaring_ends_in_a_float() {
+        let mut number = Number::Rational(Rational::new(10, 7).unwrap());
+        for _ in 0..20 {
+            number = &number * &number;
+        }
+        assert!(matches!(number, Number::Real(_)));
+    }
+
+    #[test]
+    fn the_reciprocal_of_zero_is_no_number() {
+        assert!(Number::integer(0).recip().to_f64().is_nan());
+    }
+}

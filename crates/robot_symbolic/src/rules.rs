@@ -1,0 +1,253 @@
+//! The local rules by which the arena builds sums, products and quotients.
+//!
+//! Rules about the rules: each looks at an operation and at most two levels of its operands; none
+//! makes an expression larger; none distributes a product over a sum or flattens a sum, for the
+//! association of a recursion is the skeleton of cheap code. What the rules do:
+//!
+//! - constants fold, `x + 0`, `1 x`, `0 x` vanish, `c₁ (c₂ x) = (c₁ c₂) x`, `(c₁ x) (c₂ y) =
+//!   (c₁ c₂) (x y)`, `c₁ x + c₂ x = (c₁ + c₂) x`;
+//! - signs move outward: `(−x) y = −(x y)`, `(−x) + y = y − x`, and numbers are never negative;
+//! - operands of sums and products are ordered, and of `a − b` and `b − a` only one is stored, the
+//!   other is its negative, so that both share;
+//! - what was just added is taken off again: `(x + y) − y = x`, `(x − y) + y = x`;
+//! - `x / c = (1/c) x`, `(x y) / y = x`, `√x √x = x`.
+
+use crate::graph::{Function, Graph, Id, Node};
+use crate::number::Number;
+
+impl Graph {
+    pub(crate) fn add(&self, a: Id, b: Id) -> Id {
+        if let (Node::Neg(x), Node::Neg(y)) = (self.node(a), self.node(b)) {
+            return self.neg(self.add(x, y));
+        }
+        if let Node::Neg(y) = self.node(b) {
+            return self.sub(a, y);
+        }
+        if let Node::Neg(x) = self.node(a) {
+            return self.sub(b, x);
+        }
+        if let Some(sum) = self.merge_terms(a, b, false) {
+            return sum;
+        }
+        // (x − y) + y, y + (x − y)
+        for (sum, term) in [(a, b), (b, a)] {
+            if let Node::Sub(x, y) = self.node(sum)
+                && y == term
+            {
+                return x;
+            }
+        }
+        self.intern(Node::Add(a.min(b), a.max(b)))
+    }
+
+    pub(crate) fn sub(&self, a: Id, b: Id) -> Id {
+        if a == b {
+            return self.intern_number(&Number::integer(0));
+        }
+        if let Node::Neg(y) = self.node(b) {
+            return self.add(a, y);
+        }
+        if let Node::Neg(x) = self.node(a) {
+            return self.neg(self.add(x, b));
+        }
+        if let Some(difference) = self.merge_terms(a, b, true) {
+            return difference;
+        }
+        match (self.node(a), self.node(b)) {
+            (Node::Add(x, y), _) if y == b => return x,
+            (Node::Add(x, y), _) if x == b => return y,
+            (Node::Sub(x, y), _) if x == b => return self.neg(y),
+            (_, Node::Add(x, y)) if x == a => return self.neg(y),
+            (_, Node::Add(x, y)) if y == a => return self.neg(x),
+            (_, Node::Sub(x, y)) if x == a => return y,
+            _ => {}
+        }
+        if a < b {
+            self.intern(Node::Sub(a, b))
+        } else {
+            self.neg(self.intern(Node::Sub(b, a)))
+        }
+    }
+
+    /// `a ± b` where constants fold, or both are multiples of one expression.
+    fn merge_terms(&self, a: Id, b: Id, subtract: bool) -> Option<Id> {
+        let combine = |a: &Number, b: &Number| if subtract { a - b } else { a + b };
+        match (self.as_number(a), self.as_number(b)) {
+            (Some(x), Some(y)) => return Some(self.intern_number(&combine(&x, &y))),
+            (Some(x), None) if x.is_zero() => return Some(if subtract { self.neg(b) } else { b }),
+            (None, Some(y)) if y.is_zero() => return Some(a),
+            _ => {}
+        }
+        let ((p, x), (q, y)) = (self.split_coefficient(a), self.split_coefficient(b));
+        (x == y).then(|| self.mul(self.intern_number(&combine(&p, &q)), x))
+    }
+
+    /// `(c, x)` where the expression is `c x`; `c` is 1 for all but products with a constant.
+    fn split_coefficient(&self, id: Id) -> (Number, Id) {
+        if let Node::Mul(a, b) = self.node(id)
+            && let Some(coefficient) = self.as_number(a)
+        {
+            return (coefficient, b);
+        }
+        (Number::integer(1), id)
+    }
+
+    pub(crate) fn neg(&self, a: Id) -> Id {
+        match self.node(a) {
+            Node::Neg(x) => x,
+            _ if self.as_number(a).is_some_and(|number| number.is_zero()) => a,
+            _ => self.intern(Node::Neg(a)),
+        }
+    }
+
+    pub(crate) fn mul(&self, a: Id, b: Id) -> Id {
+        match (self.node(a), self.node(b)) {
+            (Node::Neg(x), Node::Neg(y)) => return self.mul(x, y),
+            (Node::Neg(x), _) => return self.neg(self.mul(x, b)),
+            (_, Node::Neg(y)) => return self.neg(self.mul(a, y)),
+            _ => {}
+        }
+        match (self.as_number(a), self.as_number(b)) {
+            (Some(x), Some(y)) => self.intern_number(&(&x * &y)),
+            (Some(x), None) => self.scale(&x, a, b),
+            (None, Some(y)) => self.scale(&y, b, a),
+            (None, None) => self.mul_expressions(a, b),
+        }
+    }
+
+    /// `c x` for a constant that is not negative.
+    fn scale(&self, number: &Number, c: Id, x: Id) -> Id {
+        if number.is_zero() {
+            return c;
+        }
+        if number.is_one() {
+            return x;
+        }
+        let (inner, y) = self.split_coefficient(x);
+        if y == x {
+            self.intern(Node::Mul(c, x))
+        } else {
+            let product = self.intern_number(&(number * &inner));
+            self.mul(product, y)
+        }
+    }
+
+    fn mul_expressions(&self, a: Id, b: Id) -> Id {
+        if let Node::Call(Function::Sqrt, x) = self.node(a)
+            && a == b
+        {
+            return x;
+        }
+        // (c₁ x) (c₂ y) = (c₁ c₂) (x y)
+        let ((p, x), (q, y)) = (self.split_coefficient(a), self.split_coefficient(b));
+        if x != a && y != b {
+            return self.mul(self.intern_number(&(&p * &q)), self.mul(x, y));
+        }
+        // x (1 / y) and (x / y) y
+        for (x, quotient) in [(a, b), (b, a)] {
+            if let Node::Div(numerator, denominator) = self.node(quotient) {
+                if denominator == x {
+                    return numerator;
+                }
+                if self
+                    .as_number(numerator)
+                    .is_some_and(|number| number.is_one())
+                {
+                    return self.div(x, denominator);
+                }
+            }
+        }
+        self.intern(Node::Mul(a.min(b), a.max(b)))
+    }
+
+    pub(crate) fn div(&self, a: Id, b: Id) -> Id {
+        if let Some(divisor) = self.as_number(b) {
+            return self.mul(self.intern_number(&divisor.recip()), a);
+        }
+        if a == b {
+            return self.intern_number(&Number::integer(1));
+        }
+        match (self.node(a), self.node(b)) {
+            (Node::Neg(x), Node::Neg(y)) => return self.div(x, y),
+            (Node::Neg(x), _) => return self.neg(self.div(x, b)),
+            (_, Node::Neg(y)) => return self.neg(self.div(a, y)),
+            (Node::Mul(x, y), _) if y == b => return x,
+            (Node::Mul(x, y), _) if x == b => return y,
+            _ => {}
+        }
+        if self.as_number(a).is_some_and(|number| number.is_zero()) {
+            return a;
+        }
+        self.intern(Node::Div(a, b))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Graph, Rational};
+
+    #[test]
+    fn constants_fold_exactly() {
+        let g = Graph::new();
+        let tenth = g.number(Rational::new(1, 10).unwrap());
+        let fifth = g.number(Rational::new(1, 5).unwrap());
+        assert_eq!(tenth + fifth, g.number(Rational::new(3, 10).unwrap()));
+        assert_eq!(tenth * 10, g.one());
+        assert_eq!((g.one() / 3) * 3, g.one());
+        assert!((g.one() / 0).as_number().unwrap().to_f64().is_nan());
+    }
+
+    #[test]
+    fn sums_order_and_share_their_negatives() {
+        let g = Graph::new();
+        let (x, y) = (g.symbol("x"), g.symbol("y"));
+        assert_eq!(x + y, y + x);
+        assert_eq!(x - y, -(y - x));
+        assert_eq!(x - x, g.zero());
+        assert_eq!(x + x, x * 2);
+        assert_eq!(x * 3 - x * 2, x);
+        assert_eq!(-x - y, -(x + y));
+        assert_eq!(x + g.zero(), x);
+        assert_eq!(g.zero() - x, -x);
+    }
+
+    #[test]
+    fn what_was_added_is_taken_off() {
+        let g = Graph::new();
+        let (x, y) = (g.symbol("x"), g.symbol("y"));
+        assert_eq!((x + y) - y, x);
+        assert_eq!((x + y) - x, y);
+        assert_eq!((x - y) + y, x);
+        assert_eq!((x - y) - x, -y);
+        assert_eq!(x - (x + y), -y);
+        assert_eq!(x - (x - y), y);
+        assert_eq!(y + (x - y), x);
+    }
+
+    #[test]
+    fn products_hoist_signs_and_constants() {
+        let g = Graph::new();
+        let (x, y) = (g.symbol("x"), g.symbol("y"));
+        assert_eq!((-x) * y, -(x * y));
+        assert_eq!((-x) * (-y), x * y);
+        assert_eq!((x * 2) * 3, x * 6);
+        assert_eq!(x * -3, -(x * 3));
+        assert_eq!(x * g.zero(), g.zero());
+        assert_eq!(x.sqrt() * x.sqrt(), x);
+    }
+
+    #[test]
+    fn quotients_cancel_single_factors() {
+        let g = Graph::new();
+        let (x, y) = (g.symbol("x"), g.symbol("y"));
+        assert_eq!((x * y) / y, x);
+        assert_eq!((x / y) * y, x);
+        assert_eq!(x / x, g.one());
+        assert_eq!(x * (g.one() / y), x / y);
+        assert_eq!(x / 4, x * g.number(Rational::new(1, 4).unwrap()));
+        assert_eq!((-x) / y, -(x / y));
+        assert_eq!(x.powi(-2), g.one() / (x * x));
+        assert_eq!(x.powi(5), (x * x) * (x * x) * x);
+        assert_eq!(x.powi(0), g.one());
+    }
+}
