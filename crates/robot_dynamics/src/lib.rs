@@ -1,1 +1,7 @@
-//! Robots and mechanics: robot files, the Newton-Euler iterations, dynamic quantities as named expressions.
+//! Robots and their mechanics.
+//!
+//! A robot file is read by [`description`] into a checked [`model::Robot`]; [`mechanism`] puts it
+//! into symbols; the recursions turn it into equations of motion, every quantity a named expression.
+
+pub mod model;
+pub mod unit;
