@@ -13,15 +13,18 @@
 //! ```
 
 mod expr;
+pub mod formula;
 mod graph;
 mod number;
 mod operators;
+pub mod print;
 mod rational;
 pub mod rules;
 mod trigonometry;
 pub mod walk;
 
 pub use expr::{Expr, View};
+pub use formula::{Formula, ParseError};
 pub use graph::{Function, Graph, Id, SymbolId};
 pub use number::Number;
 pub use rational::Rational;

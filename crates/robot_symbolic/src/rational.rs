@@ -11,6 +11,9 @@ use dashu_ratio::RBig;
 /// [`crate::Number`]): no honest robot file needs more, and a hostile one must not fill the memory.
 pub(crate) const MAX_BITS: usize = 8192;
 
+/// Decimal text of more digits than this is refused: no number of [`MAX_BITS`] bits has more.
+const MAX_DIGITS: usize = 2600;
+
 /// An exact rational number in lowest terms.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Rational(Repr);
@@ -57,7 +60,7 @@ impl Rational {
         let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
         let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
         let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
-        let too_long = mantissa.len() > 400 || !(-400..=400).contains(&exponent);
+        let too_long = mantissa.len() > MAX_DIGITS || !(-400..=400).contains(&exponent);
         if !digits(unsigned)
             || !digits(fraction)
             || unsigned.len() + fraction.len() == 0

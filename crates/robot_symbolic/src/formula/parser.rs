@@ -1,0 +1,385 @@
+//! Tokens to postfix, by the shunting-yard algorithm: the stacks are data, so that no depth of
+//! nesting can exhaust the machine's.
+
+use std::ops::Range;
+
+use super::error::ParseError;
+use super::lexer::{Lexer, Names, Token};
+use super::{Formula, MAX_DEPTH, MAX_EXPONENT, MAX_TOKENS, Op};
+use crate::graph::Function;
+
+/// What waits on the stack of operators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pending {
+    Open,
+    Call(Function),
+    Tan,
+    Binary(u8),
+    Neg,
+}
+
+impl Pending {
+    /// How tightly it binds; parentheses never yield to an operator.
+    const fn strength(self) -> u8 {
+        match self {
+            Pending::Open | Pending::Call(_) | Pending::Tan => 0,
+            Pending::Binary(b'+' | b'-') => 1,
+            Pending::Binary(b'^') => 4,
+            Pending::Binary(_) => 2,
+            Pending::Neg => 3,
+        }
+    }
+
+    const fn is_parenthesis(self) -> bool {
+        self.strength() == 0
+    }
+}
+
+/// A finished operand: where its postfix begins, its bytes, and its value where that is an integer
+/// (which exponents must be).
+struct Operand {
+    start: usize,
+    span: Range<usize>,
+    integer: Option<i64>,
+}
+
+struct Parser<'t> {
+    text: &'t str,
+    lexer: Lexer<'t>,
+    ops: Vec<Op>,
+    operands: Vec<Operand>,
+    pending: Vec<(Pending, Range<usize>)>,
+    /// Open parentheses, signs and powers.
+    depth: usize,
+    /// The bytes of the token before.
+    last: Range<usize>,
+}
+
+/// See [`Formula::parse`].
+pub(super) fn parse(text: &str, names: Names) -> Result<Formula, ParseError> {
+    if text.trim().is_empty() {
+        return Err(
+            ParseError::new(0..text.len(), "expected a formula, found nothing")
+                .help("write a number such as `0.35` or an expression such as `l1 + l2/2`"),
+        );
+    }
+    let mut parser = Parser {
+        text,
+        lexer: Lexer::new(text, names),
+        ops: vec![],
+        operands: vec![],
+        pending: vec![],
+        depth: 0,
+        last: 0..0,
+    };
+    parser.run()?;
+    Ok(Formula {
+        text: text.to_owned(),
+        ops: parser.ops,
+    })
+}
+
+impl Parser<'_> {
+    fn run(&mut self) -> Result<(), ParseError> {
+        let mut operand_next = true;
+        for _ in 0..MAX_TOKENS {
+            let (token, span) = self.lexer.next()?;
+            let end = token == Token::End;
+            operand_next = if operand_next {
+                self.operand(token, span.clone())?
+            } else {
+                self.operator(&token, span.clone())?
+            };
+            if end {
+                return Ok(());
+            }
+            // A function has taken its parenthesis as well.
+            if self.last.end < span.end {
+                self.last = span;
+            }
+        }
+        Err(ParseError::new(
+            self.last.clone(),
+            format!("the formula is longer than {MAX_TOKENS} numbers, names and signs"),
+        )
+        .help("give parts of it names of their own"))
+    }
+
+    /// Takes a token where an operand is due; whether one is still due after it.
+    fn operand(&mut self, token: Token, span: Range<usize>) -> Result<bool, ParseError> {
+        match token {
+            Token::Number(value) => {
+                let integer = value.to_integer();
+                self.push(Op::Number(value), span, integer);
+                Ok(false)
+            }
+            Token::Name => self.name(span),
+            Token::Sign(b'(') => self.open(Pending::Open, span),
+            Token::Sign(b'-') => self.open(Pending::Neg, span),
+            Token::Sign(b'+') => {
+                Err(self
+                    .expected("a number, a name or `(`", span)
+                    .help(if self.last.is_empty() {
+                        "leave out the leading `+`"
+                    } else {
+                        "leave out one of the two signs"
+                    }))
+            }
+            Token::Sign(b')') if self.pending.last().is_some_and(|p| p.0.is_parenthesis()) => {
+                Err(ParseError::new(
+                    self.last.start..span.end,
+                    "expected an expression between the parentheses",
+                )
+                .help("write what belongs there, or take the parentheses away"))
+            }
+            Token::Sign(_) => Err(self
+                .expected("a number, a name or `(`", span)
+                .help("every operator stands between two operands")),
+            Token::End => {
+                let operator = self.quote(&self.last);
+                Err(ParseError::new(
+                    self.last.clone(),
+                    format!("expected a number, a name or `(` after `{operator}`, found the end"),
+                )
+                .help("complete the formula or take the last sign away"))
+            }
+        }
+    }
+
+    /// Takes a token where an operator is due; whether an operand is due after it.
+    fn operator(&mut self, token: &Token, span: Range<usize>) -> Result<bool, ParseError> {
+        match token {
+            Token::Sign(b')') => {
+                self.close(span)?;
+                Ok(false)
+            }
+            Token::Sign(b'(') | Token::Number(_) | Token::Name => {
+                let whole = self.last.start..span.end;
+                let (before, after) = (self.quote(&self.last), self.quote(&span));
+                let dots = if after == "(" { "…)" } else { "" };
+                Err(ParseError::new(
+                    whole,
+                    format!("expected an operator between `{before}` and `{after}`"),
+                )
+                .help(if before == ")" {
+                    format!("write a product as `(…)*{after}{dots}`")
+                } else {
+                    format!("write a product as `{before}*{after}{dots}`")
+                }))
+            }
+            Token::Sign(sign) => {
+                let operator = Pending::Binary(*sign);
+                let limit = operator.strength() + u8::from(*sign == b'^');
+                self.reduce(limit)?;
+                self.open(operator, span)
+            }
+            Token::End => {
+                self.reduce(1)?;
+                match self.pending.pop() {
+                    None => Ok(false),
+                    Some((_, span)) => Err(ParseError::new(
+                        span,
+                        "this parenthesis is not closed: expected `)` before the end",
+                    )
+                    .help("add `)`")),
+                }
+            }
+        }
+    }
+
+    fn name(&mut self, span: Range<usize>) -> Result<bool, ParseError> {
+        let name = self.text.get(span.clone()).unwrap_or_default();
+        let rest = self.text.get(span.end..).unwrap_or_default();
+        let called = rest.trim_ascii_start().starts_with('(');
+        let function = match Function::ALL.iter().find(|f| f.name() == name) {
+            Some(function) => Pending::Call(*function),
+            None if name == "tan" => Pending::Tan,
+            None if called => return Err(unknown_function(name, span)),
+            None => {
+                let op = if name == "pi" {
+                    Op::Pi
+                } else {
+                    Op::Symbol(span.clone())
+                };
+                self.push(op, span, None);
+                return Ok(false);
+            }
+        };
+        if !called {
+            return Err(
+                ParseError::new(span, format!("expected `(` after the function `{name}`"))
+                    .help(format!("write `{name}(…)`")),
+            );
+        }
+        let (_, parenthesis) = self.lexer.next()?;
+        self.last = parenthesis.clone();
+        self.open(function, span.start..parenthesis.end)
+    }
+
+    fn push(&mut self, op: Op, span: Range<usize>, integer: Option<i64>) {
+        self.operands.push(Operand {
+            start: self.ops.len(),
+            span,
+            integer,
+        });
+        self.ops.push(op);
+    }
+
+    fn open(&mut self, pending: Pending, span: Range<usize>) -> Result<bool, ParseError> {
+        if !matches!(pending, Pending::Binary(b'+' | b'-' | b'*' | b'/')) {
+            self.depth += 1;
+            if self.depth > MAX_DEPTH {
+                return Err(ParseError::new(
+                    span,
+                    format!("the formula is nested deeper than {MAX_DEPTH} levels"),
+                )
+                .help("give inner parts names of their own"));
+            }
+        }
+        self.pending.push((pending, span));
+        Ok(true)
+    }
+
+    fn close(&mut self, span: Range<usize>) -> Result<(), ParseError> {
+        self.reduce(1)?;
+        let Some((pending, open)) = self.pending.pop() else {
+            return Err(ParseError::new(span, "this `)` closes nothing")
+                .help("take it away, or add the `(` that it should close"));
+        };
+        self.depth -= 1;
+        if let Some(operand) = self.operands.last_mut() {
+            operand.span = open.start..span.end;
+            if pending != Pending::Open {
+                operand.integer = None;
+            }
+        }
+        match pending {
+            Pending::Call(function) => self.ops.push(Op::Call(function)),
+            Pending::Tan => self.ops.push(Op::Tan),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Applies the waiting operators that bind at least as tightly as `limit`.
+    fn reduce(&mut self, limit: u8) -> Result<(), ParseError> {
+        while let Some((pending, span)) = self.pending.last().cloned()
+            && pending.strength() >= limit.max(1)
+        {
+            self.pending.pop();
+            match pending {
+                Pending::Binary(b'^') => {
+                    self.depth -= 1;
+                    self.power()?;
+                }
+                Pending::Binary(sign) => self.binary(sign),
+                _ => {
+                    self.depth -= 1;
+                    self.ops.push(Op::Neg);
+                    if let Some(operand) = self.operands.last_mut() {
+                        operand.span.start = span.start;
+                        operand.integer = operand.integer.and_then(i64::checked_neg);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn binary(&mut self, sign: u8) {
+        let Some(right) = self.operands.pop() else {
+            return;
+        };
+        let Some(left) = self.operands.last_mut() else {
+            return;
+        };
+        left.span.end = right.span.end;
+        let integers = left.integer.zip(right.integer);
+        left.integer = integers.and_then(|(a, b)| match sign {
+            b'+' => a.checked_add(b),
+            b'-' => a.checked_sub(b),
+            b'*' => a.checked_mul(b),
+            _ => a.checked_div(b).filter(|quotient| quotient * b == a),
+        });
+        self.ops.push(match sign {
+            b'+' => Op::Add,
+            b'-' => Op::Sub,
+            b'*' => Op::Mul,
+            _ => Op::Div,
+        });
+    }
+
+    fn power(&mut self) -> Result<(), ParseError> {
+        let (Some(exponent), Some(base)) = (self.operands.pop(), self.operands.last_mut()) else {
+            return Ok(());
+        };
+        let Some(value) = exponent.integer else {
+            return Err(
+                ParseError::new(exponent.span, "expected an integer as the exponent")
+                    .help("write a root as `sqrt(x)`"),
+            );
+        };
+        if value.unsigned_abs() > MAX_EXPONENT.unsigned_abs() {
+            return Err(ParseError::new(
+                exponent.span,
+                format!("the exponent {value} is beyond ±{MAX_EXPONENT}"),
+            )
+            .help("write it as a product of smaller powers"));
+        }
+        base.span.end = exponent.span.end;
+        base.integer = base
+            .integer
+            .filter(|_| value >= 0)
+            .and_then(|base| base.checked_pow(value.unsigned_abs() as u32));
+        // The exponent's own steps give way to the one number.
+        self.ops.truncate(exponent.start);
+        self.ops.push(Op::Power(value as i32));
+        Ok(())
+    }
+
+    /// The text of a span, its middle left out where it is long.
+    fn quote(&self, span: &Range<usize>) -> String {
+        shorten(self.text.get(span.clone()).unwrap_or_default())
+    }
+
+    fn expected(&self, what: &str, span: Range<usize>) -> ParseError {
+        let found = self.quote(&span);
+        ParseError::new(span, format!("expected {what}, found `{found}`"))
+    }
+}
+
+/// Tokens are ASCII, but for those of an error in the lexer, which are not quoted here.
+fn shorten(text: &str) -> String {
+    match text
+        .get(..30)
+        .zip(text.get(text.len().saturating_sub(10)..))
+    {
+        Some((head, tail)) if text.len() > 40 => format!("{head}…{tail}"),
+        _ => text.to_owned(),
+    }
+}
+
+fn unknown_function(name: &str, span: Range<usize>) -> ParseError {
+    let name = &shorten(name);
+    let known = Function::ALL.iter().map(|function| function.name());
+    let near = known
+        .chain(["tan"])
+        .map(|known| {
+            (
+                strsim::damerau_levenshtein(&name.to_lowercase(), known),
+                known,
+            )
+        })
+        .min()
+        .filter(|(distance, _)| *distance <= 1);
+    let error = ParseError::new(span, format!("`{name}` is no function"));
+    match near {
+        Some((_, near)) => error.help(format!(
+            "did you mean `{near}(…)`? For a product write `{name}*(…)`"
+        )),
+        None => error.help(format!(
+            "the functions are sin, cos, tan, sqrt, abs, sign and tanh; for a product write \
+             `{name}*(…)`"
+        )),
+    }
+}

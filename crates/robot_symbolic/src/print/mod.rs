@@ -1,0 +1,5 @@
+//! Printers: numbers and expressions as text.
+
+mod number;
+
+pub use number::exact_text;

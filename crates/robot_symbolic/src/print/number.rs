@@ -1,0 +1,70 @@
+//! Numbers as text.
+
+use crate::rational::Rational;
+
+/// Fractions of more decimal places than this are printed as quotients.
+const MAX_PLACES: usize = 40;
+
+/// The exact value: `7`, `-0.35` where the denominator divides a power of ten, else `2/3`.
+#[must_use]
+pub fn exact_text(value: &Rational) -> String {
+    let (numerator, denominator) = value.to_digits();
+    if denominator == "1" {
+        return numerator;
+    }
+    decimal_places(value)
+        .and_then(|(digits, places)| place_point(&digits.to_digits(), places))
+        .unwrap_or_else(|| format!("{numerator}/{denominator}"))
+}
+
+/// `(n, k)` with the value `n / 10^k` and the least such `k`, where there is one.
+fn decimal_places(value: &Rational) -> Option<(Rational, usize)> {
+    let ten = Rational::integer(10);
+    let mut scaled = value.clone();
+    for places in 1..=MAX_PLACES {
+        scaled = &scaled * &ten;
+        if scaled.to_digits().1 == "1" {
+            return Some((scaled, places));
+        }
+    }
+    None
+}
+
+fn place_point((numerator, _): &(String, String), places: usize) -> Option<String> {
+    let (sign, digits) = match numerator.strip_prefix('-') {
+        Some(digits) => ("-", digits),
+        None => ("", numerator.as_str()),
+    };
+    let padded = format!("{digits:0>width$}", width = places + 1);
+    let (whole, fraction) = padded.split_at_checked(padded.len() - places)?;
+    Some(format!("{sign}{whole}.{fraction}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_print_exactly() {
+        let text =
+            |numerator, denominator| exact_text(&Rational::new(numerator, denominator).unwrap());
+        assert_eq!(text(7, 1), "7");
+        assert_eq!(text(-7, 20), "-0.35");
+        assert_eq!(text(2, 3), "2/3");
+        assert_eq!(text(-1, 3000), "-1/3000");
+        assert_eq!(text(1, 1_000_000_000), "0.000000001");
+        assert_eq!(text(12345, 100), "123.45");
+    }
+
+    #[test]
+    fn every_printed_decimal_reads_back() {
+        for text in [
+            "0.000123",
+            "-12.5",
+            "98765432109876543210.123456789",
+            "0.0625",
+        ] {
+            assert_eq!(exact_text(&Rational::from_decimal(text).unwrap()), text);
+        }
+    }
+}
