@@ -1,0 +1,220 @@
+//! Lowering: formulas to expressions, moves to rotations and translations, bodies to one body.
+
+use std::f64::consts::FRAC_PI_2;
+
+use robot_symbolic::{Expr, Formula, Graph, Number, walk};
+
+use super::{
+    Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap,
+};
+use crate::model::{Axis, Body, Frame, Friction, Inertia, Link, Move, Placement, Robot};
+use crate::vector::{Matrix, Vector};
+
+/// The robot in symbols of `graph`.
+pub(super) fn lower<'g>(
+    robot: &Robot,
+    graph: &'g Graph,
+    options: &MechanismOptions,
+) -> Mechanism<'g> {
+    let mut lowering = Lowering { graph, options, snapped: vec![] };
+    // The symbols' order is the file's and the mechanism's, whatever the formulas use first.
+    for prefix in ["q", "qd", "qdd"] {
+        for number in 1..=robot.coordinates.len() {
+            graph.symbol(&format!("{prefix}{number}"));
+        }
+    }
+    for parameter in &robot.parameters {
+        graph.symbol(&parameter.name);
+    }
+    let gravity = lowering.vector(&robot.gravity);
+    let links = robot.links.iter().map(|link| lowering.link(link)).collect();
+    let frames = robot.frames.iter().map(|frame| lowering.frame(frame)).collect();
+    Mechanism {
+        graph,
+        gravity,
+        links,
+        frames,
+        degrees_of_freedom: robot.coordinates.len(),
+        snapped: lowering.snapped,
+    }
+}
+
+struct Lowering<'g, 'o> {
+    graph: &'g Graph,
+    options: &'o MechanismOptions,
+    snapped: Vec<Snap>,
+}
+
+impl<'g> Lowering<'g, '_> {
+    fn value(&self, formula: &Formula) -> Expr<'g> {
+        self.round(formula.lower(self.graph, &mut |name| self.graph.symbol(name)))
+    }
+
+    fn vector(&self, formulas: &[Formula; 3]) -> Vector<'g> {
+        Vector([0, 1, 2].map(|i| self.value(&formulas[i])))
+    }
+
+    /// An irrational constant as a float where code asks for it; everything else as it is.
+    fn round(&self, expr: Expr<'g>) -> Expr<'g> {
+        let keep = !self.options.rounded || expr.as_number().is_some();
+        if keep || !walk::symbols(&[expr]).is_empty() {
+            return expr;
+        }
+        self.graph.number(Number::Real(expr.evaluate(|_| f64::NAN)))
+    }
+
+    fn link(&mut self, link: &Link) -> MechanismLink<'g> {
+        let (rotation, translation) = self.placement(&link.name, &link.placement);
+        let joint = &link.joint;
+        let (ratio, offset) = (self.value(&joint.ratio), self.value(&joint.offset));
+        let number = joint.coordinate + 1;
+        let motion = |prefix: &str| ratio * self.graph.symbol(&format!("{prefix}{number}"));
+        let (mass, center_of_mass, inertia) = self.bodies(&link.name, &link.bodies);
+        let drive = &link.drive;
+        let gear_ratio = self.value(&drive.gear_ratio);
+        MechanismLink {
+            parent: link.parent,
+            rotation,
+            translation,
+            kind: joint.kind,
+            axis: self.unit_vector(self.vector(&joint.axis)),
+            coordinate: joint.coordinate,
+            ratio,
+            position: motion("q") + offset,
+            velocity: motion("qd"),
+            acceleration: motion("qdd"),
+            mass,
+            center_of_mass,
+            inertia,
+            friction: self.friction(&link.friction),
+            reflected_inertia: self.value(&drive.armature)
+                + self.value(&drive.rotor_inertia) * gear_ratio * gear_ratio,
+        }
+    }
+
+    fn friction(&self, friction: &Friction) -> MechanismFriction<'g> {
+        MechanismFriction {
+            viscous: self.value(&friction.viscous),
+            coulomb: self.value(&friction.coulomb),
+            spindle_diameter: self.value(&friction.spindle_diameter),
+            coulomb_positive: self.value(&friction.coulomb_positive),
+            coulomb_negative: self.value(&friction.coulomb_negative),
+            offset: self.value(&friction.offset),
+            smoothing: friction.smoothing.as_ref().map(|width| self.value(width)),
+        }
+    }
+
+    fn frame(&mut self, frame: &Frame) -> MechanismFrame<'g> {
+        let (rotation, translation) = self.placement(&frame.name, &frame.placement);
+        let symbols = |names: &[String; 3]| {
+            Vector([0, 1, 2].map(|i| self.graph.symbol(&names[i])))
+        };
+        MechanismFrame {
+            name: frame.name.clone(),
+            link: frame.link,
+            rotation,
+            translation,
+            wrench: frame
+                .wrench
+                .as_ref()
+                .map(|wrench| (symbols(&wrench.force), symbols(&wrench.moment))),
+        }
+    }
+
+    /// Rotation and translation of a displacement: x_outer = R x_inner + p.
+    fn placement(&mut self, name: &str, placement: &Placement) -> (Matrix<'g>, Vector<'g>) {
+        let mut rotation = Matrix::identity(self.graph);
+        let mut translation = Vector::zero(self.graph);
+        for step in &placement.0 {
+            match step {
+                Move::Translate(by) => translation = translation + rotation * self.vector(by),
+                Move::Rotate(axis, angle) => {
+                    let angle = self.angle(name, angle);
+                    let (sine, cosine) = (self.round(angle.sin()), self.round(angle.cos()));
+                    let axis = self.coordinate_axis(*axis);
+                    rotation = rotation * Matrix::rotation(axis, sine, cosine);
+                }
+            }
+        }
+        (rotation, translation)
+    }
+
+    /// A constant angle next to a multiple of π/2 becomes that multiple.
+    fn angle(&mut self, name: &str, formula: &Formula) -> Expr<'g> {
+        // Rounding would make a float of `pi/2`, whose sine is exact.
+        let exact = formula.lower(self.graph, &mut |name| self.graph.symbol(name));
+        let Some(number) = exact.as_number() else {
+            return exact;
+        };
+        let angle = number.to_f64();
+        let quarters = (angle / FRAC_PI_2).round();
+        let change = quarters * FRAC_PI_2 - angle;
+        if number.is_zero() || change.abs() > self.options.snap || quarters.abs() > 1e6 {
+            return exact;
+        }
+        if change != 0.0 {
+            self.snapped.push(Snap { name: name.to_owned(), angle, change });
+        }
+        // |quarters| is below 1e6, so the cast is exact.
+        self.graph.pi() * quarters as i64 / 2
+    }
+
+    fn coordinate_axis(&self, axis: Axis) -> Vector<'g> {
+        let column = match axis {
+            Axis::X => 0,
+            Axis::Y => 1,
+            Axis::Z => 2,
+        };
+        Matrix::identity(self.graph).column(column)
+    }
+
+    /// The vector scaled to length 1; exact for multiples of a coordinate axis.
+    fn unit_vector(&self, vector: Vector<'g>) -> Vector<'g> {
+        let along: Vec<usize> = (0..3).filter(|i| !vector.0[*i].is_zero()).collect();
+        match (along.as_slice(), along.first().and_then(|i| vector.0[*i].as_number())) {
+            (&[i], Some(number)) => {
+                let sign = if number.is_negative() { -1 } else { 1 };
+                let mut unit = Vector::zero(self.graph);
+                unit.0[i] = self.graph.integer(sign);
+                unit
+            }
+            _ => {
+                let norm = self.round(vector.norm());
+                vector.map(|component| self.round(component / norm))
+            }
+        }
+    }
+
+    /// Mass, centre of mass and central inertia of the bodies together.
+    fn bodies(&mut self, link: &str, bodies: &[Body]) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
+        let parts: Vec<_> = bodies.iter().map(|body| self.body(link, body)).collect();
+        if let [single] = parts[..] {
+            return single;
+        }
+        let zero = (self.graph.zero(), Vector::zero(self.graph), Matrix::zero(self.graph));
+        let mass = parts.iter().fold(zero.0, |sum, part| sum + part.0);
+        if mass.is_zero() {
+            let inertia = parts.iter().fold(zero.2, |sum, part| sum + part.2);
+            return (mass, zero.1, inertia);
+        }
+        let moment = parts.iter().fold(zero.1, |sum, part| sum + part.1 * part.0);
+        let center = moment.map(|component| component / mass);
+        let inertia = parts.iter().fold(zero.2, |sum, (mass, own_center, inertia)| {
+            sum + *inertia + steiner(*mass, *own_center - center)
+        });
+        (mass, center, inertia)
+    }
+
+    fn body(&mut self, link: &str, body: &Body) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
+        let (rotation, center) = self.placement(link, &body.placement);
+        let Inertia { xx, yy, zz, xy, xz, yz } = &body.inertia;
+        let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        let inertia = Matrix::from_fn(|row, column| self.value(rows[row][column]));
+        (self.value(&body.mass), center, rotation * inertia * rotation.transpose())
+    }
+}
+
+/// What a point mass at `r` adds to an inertia tensor: m (r² 1 − r rᵀ).
+fn steiner<'g>(mass: Expr<'g>, r: Vector<'g>) -> Matrix<'g> {
+    (Matrix::identity(mass.graph()) * r.dot(r) - Matrix::outer(r, r)) * mass
+}

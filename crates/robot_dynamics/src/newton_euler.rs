@@ -1,0 +1,250 @@
+//! The paper's iterations: Newton–Euler in the frames of the links, outward and inward.
+//!
+//! Symbols and equation numbers are those of the paper "The dynamic model of TRTTR1 modular serial
+//! robot": a_c, F, M_c per link, F_l and M_l per joint, Q per coordinate. Every vector is in its own
+//! link's frame; M_l is taken about the origin of that frame. The iterations hold for trees and for
+//! joints about or along any axis.
+//!
+//! This recursion is for people: its expressions expand to the equations that the paper prints. The
+//! code's own recursion is cheaper, and its inner forces mean nothing.
+
+use robot_symbolic::Expr;
+
+use crate::mechanism::{Mechanism, MechanismFriction};
+use crate::model::JointKind;
+use crate::quantity::{Kind, Quantity, Symbol};
+use crate::unit::Dimension;
+use crate::vector::{Matrix, Vector};
+
+/// Which effects the iterations take in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effects {
+    /// The wrenches of the tips.
+    pub wrench: bool,
+    /// Friction in the joints, equations (4)-(5).
+    pub friction: bool,
+}
+
+/// The motion of a link, in its own frame.
+#[derive(Clone, Copy, Debug)]
+pub struct LinkMotion<'g> {
+    /// [R]ᵢ of the parent: link components to parent components.
+    pub rotation: Matrix<'g>,
+    /// r̄ᵢ: the origin in parent components, m.
+    pub origin: Vector<'g>,
+    /// ω̄: angular velocity, rad/s.
+    pub angular_velocity: Vector<'g>,
+    /// ε̄: angular acceleration, rad/s².
+    pub angular_acceleration: Vector<'g>,
+    /// ā: acceleration of the origin, gravity included as an acceleration of the base, m/s².
+    pub acceleration: Vector<'g>,
+    /// ā_c: acceleration of the mass centre, equation (8), m/s².
+    pub mass_centre_acceleration: Vector<'g>,
+    /// F̄ = M ā_c, equation (14), N.
+    pub force: Vector<'g>,
+    /// M̄_c = J* ε̄ + ω̄ × J* ω̄, equation (20), N m.
+    pub moment: Vector<'g>,
+}
+
+/// The contact torsor of a joint, in its link's frame.
+#[derive(Clone, Copy, Debug)]
+pub struct LinkWrench<'g> {
+    /// F̄_l: the force that the link receives through its joint, equation (26), N.
+    pub force: Vector<'g>,
+    /// M̄_l: the moment about the frame's origin, equation (36), N m.
+    pub moment: Vector<'g>,
+}
+
+/// Everything that the iterations yield.
+#[derive(Clone, Debug)]
+pub struct NewtonEuler<'g> {
+    /// Per link, from the outward iterations.
+    pub motions: Vec<LinkMotion<'g>>,
+    /// Per link, from the inward iterations.
+    pub wrenches: Vec<LinkWrench<'g>>,
+    /// Per coordinate: the generalised driving force, equation (3), N m or N.
+    pub driving_forces: Vec<Expr<'g>>,
+    kinds: Vec<JointKind>,
+}
+
+/// Runs both iterations and the projection on the joint axes.
+#[must_use]
+pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEuler<'g> {
+    let motions = outward(mechanism);
+    let wrenches = inward(mechanism, &motions, effects);
+    let mut driving_forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
+    let mut kinds = vec![JointKind::Revolute; mechanism.degrees_of_freedom];
+    for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
+        // (2): the torsor projected on the joint axis, with the drive's own inertia.
+        let contact = if link.is_revolute() { wrench.moment } else { wrench.force };
+        let mut force = contact.dot(link.axis) + link.reflected_inertia * link.acceleration;
+        if effects.friction {
+            force += friction(&link.friction, link.kind, link.axis, wrench.force, link.velocity);
+        }
+        driving_forces[link.coordinate] += force * link.ratio;
+        kinds[link.coordinate] = link.kind;
+    }
+    NewtonEuler { motions, wrenches, driving_forces, kinds }
+}
+
+/// The outward iterations: from the base to the tips.
+fn outward<'g>(mechanism: &Mechanism<'g>) -> Vec<LinkMotion<'g>> {
+    let zero = Vector::zero(mechanism.graph);
+    // The base at rest; gravity enters as the base's acceleration against it.
+    let base = (zero, zero, -mechanism.gravity);
+    let mut motions: Vec<LinkMotion<'g>> = Vec::with_capacity(mechanism.links.len());
+    for link in &mechanism.links {
+        let (omega, epsilon, a) = link.parent.map_or(base, |parent| {
+            let motion = &motions[parent];
+            (motion.angular_velocity, motion.angular_acceleration, motion.acceleration)
+        });
+        let (rotation, origin) = (link.joint_rotation(), link.joint_translation());
+        let turned_back = rotation.transpose();
+        // The parent's motion at this link's origin, in this link's axes.
+        let carried_omega = turned_back * omega;
+        let carried_epsilon = turned_back * epsilon;
+        let carried_a = turned_back * (a + epsilon.cross(origin) + omega.cross(omega.cross(origin)));
+        let (speed, rate) = (link.axis * link.velocity, link.axis * link.acceleration);
+        let (omega, epsilon, a) = match link.kind {
+            JointKind::Revolute => (
+                carried_omega + speed,
+                carried_epsilon + carried_omega.cross(speed) + rate,
+                carried_a,
+            ),
+            JointKind::Prismatic => (
+                carried_omega,
+                carried_epsilon,
+                carried_a + carried_omega.cross(speed) * mechanism.graph.integer(2) + rate,
+            ),
+        };
+        let r = link.center_of_mass;
+        let a_c = a + epsilon.cross(r) + omega.cross(omega.cross(r)); // (8)
+        let inertia = link.inertia;
+        motions.push(LinkMotion {
+            rotation,
+            origin,
+            angular_velocity: omega,
+            angular_acceleration: epsilon,
+            acceleration: a,
+            mass_centre_acceleration: a_c,
+            force: a_c * link.mass,                                    // (14)
+            moment: inertia * epsilon + omega.cross(inertia * omega), // (20)
+        });
+    }
+    motions
+}
+
+/// The inward iterations: from the tips to the base.
+fn inward<'g>(
+    mechanism: &Mechanism<'g>,
+    motions: &[LinkMotion<'g>],
+    effects: Effects,
+) -> Vec<LinkWrench<'g>> {
+    let zero = Vector::zero(mechanism.graph);
+    let mut wrenches = vec![LinkWrench { force: zero, moment: zero }; mechanism.links.len()];
+    for (frame, (force, moment)) in
+        mechanism.frames.iter().filter_map(|frame| Some((frame, frame.wrench?)))
+    {
+        if let (true, Some(link)) = (effects.wrench, frame.link) {
+            let torsor = LinkWrench { force, moment };
+            wrenches[link] = wrenches[link].plus(torsor.seen_from(frame.rotation, frame.translation));
+        }
+    }
+    for (index, link) in mechanism.links.iter().enumerate().rev() {
+        let motion = &motions[index];
+        // (26) and (36): what the children and the tips hand over, and the link's own share.
+        let own = LinkWrench {
+            force: motion.force,
+            moment: motion.moment + link.center_of_mass.cross(motion.force),
+        };
+        wrenches[index] = wrenches[index].plus(own);
+        if let Some(parent) = link.parent {
+            let handed = wrenches[index].seen_from(motion.rotation, motion.origin);
+            wrenches[parent] = wrenches[parent].plus(handed);
+        }
+    }
+    wrenches
+}
+
+impl<'g> LinkWrench<'g> {
+    /// The torsor in the axes and about the origin of the frame in which its own frame lies at
+    /// `origin`, turned by `rotation`.
+    fn seen_from(self, rotation: Matrix<'g>, origin: Vector<'g>) -> LinkWrench<'g> {
+        let force = rotation * self.force;
+        LinkWrench { force, moment: rotation * self.moment + origin.cross(force) }
+    }
+
+    fn plus(self, other: LinkWrench<'g>) -> LinkWrench<'g> {
+        LinkWrench { force: self.force + other.force, moment: self.moment + other.moment }
+    }
+}
+
+/// Q_f of equations (4)-(5), with the further terms of the robot file.
+pub(crate) fn friction<'g>(
+    figures: &MechanismFriction<'g>,
+    kind: JointKind,
+    axis: Vector<'g>,
+    contact_force: Vector<'g>,
+    velocity: Expr<'g>,
+) -> Expr<'g> {
+    let sign = match figures.smoothing {
+        Some(width) => (velocity / width).tanh(),
+        None => velocity.sign(),
+    };
+    let mut force = figures.viscous * velocity + figures.offset; // (4)
+    if !figures.coulomb.is_zero() {
+        let across = axis.cross(contact_force).norm();
+        let lever = match kind {
+            JointKind::Revolute => figures.spindle_diameter / 2,
+            JointKind::Prismatic => velocity.graph().one(),
+        };
+        force += figures.coulomb * lever * across * sign; // (5)
+    }
+    let (positive, negative) = (figures.coulomb_positive, figures.coulomb_negative);
+    // Constant dry friction: the mean with the sign, and half the difference with its square.
+    force += (positive + negative) / 2 * sign;
+    force + (positive - negative) / 2 * sign * sign
+}
+
+impl<'g> NewtonEuler<'g> {
+    /// The quantities of a kind, in order of links (coordinates for Q) and components.
+    #[must_use]
+    pub fn quantities(&self, kind: Kind) -> Vec<Quantity<'g>> {
+        let vectors: Vec<Vector<'g>> = match kind {
+            Kind::MassCentreAcceleration => {
+                self.motions.iter().map(|motion| motion.mass_centre_acceleration).collect()
+            }
+            Kind::Force => self.motions.iter().map(|motion| motion.force).collect(),
+            Kind::Moment => self.motions.iter().map(|motion| motion.moment).collect(),
+            Kind::LinkForce => self.wrenches.iter().map(|wrench| wrench.force).collect(),
+            Kind::LinkMoment => self.wrenches.iter().map(|wrench| wrench.moment).collect(),
+            Kind::DrivingForce => return self.driving_force_quantities(),
+        };
+        let dimension = match kind {
+            Kind::MassCentreAcceleration => Dimension::ACCELERATION,
+            Kind::Force | Kind::LinkForce => Dimension::FORCE,
+            _ => Dimension::MOMENT,
+        };
+        let mut quantities = vec![];
+        for (index, Vector(components)) in vectors.into_iter().enumerate() {
+            for (component, value) in components.into_iter().enumerate() {
+                let symbol = Symbol { kind, number: index + 1, component: Some(component) };
+                quantities.push(Quantity { symbol, value, dimension });
+            }
+        }
+        quantities
+    }
+
+    fn driving_force_quantities(&self) -> Vec<Quantity<'g>> {
+        let forces = self.driving_forces.iter().zip(&self.kinds).enumerate();
+        let quantity = |(index, (value, kind)): (usize, (&Expr<'g>, &JointKind))| Quantity {
+            symbol: Symbol { kind: Kind::DrivingForce, number: index + 1, component: None },
+            value: *value,
+            dimension: match kind {
+                JointKind::Revolute => Dimension::MOMENT,
+                JointKind::Prismatic => Dimension::FORCE,
+            },
+        };
+        forces.map(quantity).collect()
+    }
+}

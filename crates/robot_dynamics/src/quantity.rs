@@ -1,0 +1,91 @@
+//! Named expressions with their meaning.
+
+use robot_symbolic::Expr;
+
+use crate::unit::Dimension;
+
+/// A scalar quantity of a robot's dynamics, or one component of a vector.
+#[derive(Clone, Debug)]
+pub struct Quantity<'g> {
+    /// Which quantity it is.
+    pub symbol: Symbol,
+    /// Its value.
+    pub value: Expr<'g>,
+    /// Its dimension.
+    pub dimension: Dimension,
+}
+
+/// The quantities that the paper names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Kind {
+    /// a_c: acceleration of the mass centre, equation (8).
+    MassCentreAcceleration,
+    /// F = M a_c, equation (14).
+    Force,
+    /// M_c = J ε + ω × J ω, equation (20).
+    Moment,
+    /// F_l: the force in the joint, equation (26).
+    LinkForce,
+    /// M_l: the moment in the joint about the frame's origin, equation (36).
+    LinkMoment,
+    /// Q: the generalised driving force, equation (3).
+    DrivingForce,
+}
+
+impl Kind {
+    /// All kinds, in the order in which the paper derives them.
+    pub const ALL: [Kind; 6] = [
+        Kind::MassCentreAcceleration,
+        Kind::Force,
+        Kind::Moment,
+        Kind::LinkForce,
+        Kind::LinkMoment,
+        Kind::DrivingForce,
+    ];
+
+    /// The name in text: `a_c`, `F`, `M_c`, `F_l`, `M_l`, `Q`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Kind::MassCentreAcceleration => "a_c",
+            Kind::Force => "F",
+            Kind::Moment => "M_c",
+            Kind::LinkForce => "F_l",
+            Kind::LinkMoment => "M_l",
+            Kind::DrivingForce => "Q",
+        }
+    }
+
+    /// The kind of that name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Kind> {
+        Kind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Whether the quantity is a vector of three components in its link's frame.
+    #[must_use]
+    pub const fn is_vector(self) -> bool {
+        !matches!(self, Kind::DrivingForce)
+    }
+}
+
+/// A quantity of one link or joint: `F_l5.x`, `Q2`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Symbol {
+    /// Which quantity.
+    pub kind: Kind,
+    /// The number of the link or coordinate, from 1.
+    pub number: usize,
+    /// 0, 1, 2 for x, y, z; `None` for scalars.
+    pub component: Option<usize>,
+}
+
+impl std::fmt::Display for Symbol {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{}{}", self.kind.name(), self.number)?;
+        match self.component {
+            Some(component) => write!(formatter, ".{}", ["x", "y", "z"][component.min(2)]),
+            None => Ok(()),
+        }
+    }
+}
