@@ -23,9 +23,15 @@ impl MechanismOptions {
     /// The default snapping tolerance, rad.
     pub const SNAP: f64 = 1e-9;
     /// For print: exact constants.
-    pub const EXACT: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: false };
+    pub const EXACT: MechanismOptions = MechanismOptions {
+        snap: Self::SNAP,
+        rounded: false,
+    };
     /// For code: irrational constants as floating-point numbers.
-    pub const ROUNDED: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: true };
+    pub const ROUNDED: MechanismOptions = MechanismOptions {
+        snap: Self::SNAP,
+        rounded: true,
+    };
 }
 
 /// A robot in symbols.
@@ -160,8 +166,7 @@ impl<'g> MechanismLink<'g> {
     #[must_use]
     pub fn joint_rotation(&self) -> Matrix<'g> {
         if self.is_revolute() {
-            let motion =
-                Matrix::rotation(self.axis, self.position.sin(), self.position.cos());
+            let motion = Matrix::rotation(self.axis, self.position.sin(), self.position.cos());
             self.rotation * motion
         } else {
             self.rotation

@@ -211,7 +211,7 @@ impl Friction {
     /// No friction.
     #[must_use]
     pub fn none() -> Friction {
-        let zero = || Formula::number(Rational::ZERO);
+        let zero = || Formula::number(&Rational::ZERO);
         Friction {
             viscous: zero(),
             coulomb: zero(),
@@ -228,11 +228,11 @@ impl Drive {
     /// No inertia in the drive.
     #[must_use]
     pub fn none() -> Drive {
-        let zero = || Formula::number(Rational::ZERO);
+        let zero = || Formula::number(&Rational::ZERO);
         Drive {
             armature: zero(),
             rotor_inertia: zero(),
-            gear_ratio: Formula::number(Rational::ONE),
+            gear_ratio: Formula::number(&Rational::ONE),
             gyroscopic: false,
         }
     }
@@ -270,12 +270,16 @@ impl Robot {
 
     /// The frames that exert a wrench, in the file's order.
     pub fn tips(&self) -> impl Iterator<Item = (&Frame, &Wrench)> {
-        self.frames.iter().filter_map(|frame| Some((frame, frame.wrench.as_ref()?)))
+        self.frames
+            .iter()
+            .filter_map(|frame| Some((frame, frame.wrench.as_ref()?)))
     }
 
     /// The parameter of that name.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<&Parameter> {
-        self.parameters.iter().find(|parameter| parameter.name == name)
+        self.parameters
+            .iter()
+            .find(|parameter| parameter.name == name)
     }
 }

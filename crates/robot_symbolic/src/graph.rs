@@ -123,6 +123,13 @@ struct Inner {
     symbols: IndexMap<String, Id, FxBuildHasher>,
 }
 
+/// The number of nodes: a graph is too large to print.
+impl std::fmt::Debug for Graph {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "Graph({} nodes)", self.len())
+    }
+}
+
 impl Graph {
     /// An empty graph.
     #[must_use]
