@@ -6,6 +6,7 @@
 pub mod mechanism;
 pub mod model;
 pub mod newton_euler;
+pub mod numeric;
 pub mod quantity;
 pub mod unit;
 pub mod vector;

@@ -1,0 +1,104 @@
+//! What can be wrong with a mechanism or with the arguments of a call.
+
+use std::fmt;
+
+/// One thing that is wrong with the data of a mechanism.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{place}: {reason}")]
+pub struct Fault {
+    /// Where it is: `gravity`, `link 3`, `frame 0`.
+    pub place: String,
+    /// What is wrong and what was expected.
+    pub reason: String,
+}
+
+/// An argument of a call that has the wrong number of elements.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{argument}` must have {expected} elements, not {found}")]
+pub struct Mismatch {
+    /// Name of the argument.
+    pub argument: &'static str,
+    /// The number of elements that it must have.
+    pub expected: usize,
+    /// The number that it has.
+    pub found: usize,
+}
+
+/// Why a quantity could not be computed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum NumericError {
+    /// The mechanism cannot be: every fault that was found.
+    #[error("no such mechanism: {}", listed(.0))]
+    Mechanism(Vec<Fault>),
+    /// Arguments of wrong length: every one of them.
+    #[error("{}", listed(.0))]
+    Lengths(Vec<Mismatch>),
+    /// There is no link or frame of this index.
+    #[error("{kind} {index} does not exist: the mechanism has {count}, counted from 0")]
+    NoSuchBody {
+        /// `link` or `frame`.
+        kind: &'static str,
+        /// The index asked for.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// The mass matrix is not positive definite at this position (a coordinate that moves no mass,
+    /// an inertia that no body can have, or a number that is not finite), so that torques do not
+    /// determine accelerations.
+    #[error(
+        "the mass matrix is not positive definite at this position: check that every coordinate \
+         moves mass and that inertias and arguments are finite and physical"
+    )]
+    NotPositiveDefinite,
+    /// The articulated-body algorithm needs a coordinate of its own for each joint, and this
+    /// coordinate drives several. [`Mechanism::forward_dynamics`] has no such limit.
+    ///
+    /// [`Mechanism::forward_dynamics`]: super::Mechanism::forward_dynamics
+    #[error(
+        "coordinate {coordinate} drives several joints, which the articulated-body algorithm \
+         cannot treat: use the forward dynamics by the mass matrix"
+    )]
+    SharedCoordinate {
+        /// The coordinate.
+        coordinate: usize,
+    },
+}
+
+fn listed(items: &[impl fmt::Display]) -> String {
+    let lines: Vec<String> = items.iter().map(ToString::to_string).collect();
+    lines.join("; ")
+}
+
+/// Checks the lengths of arguments, given as (name, expected, found).
+pub(super) fn check_lengths(
+    arguments: &[(&'static str, usize, usize)],
+) -> Result<(), NumericError> {
+    let wrong: Vec<Mismatch> = arguments
+        .iter()
+        .filter(|(_, expected, found)| expected != found)
+        .map(|&(argument, expected, found)| Mismatch {
+            argument,
+            expected,
+            found,
+        })
+        .collect();
+    if wrong.is_empty() {
+        Ok(())
+    } else {
+        Err(NumericError::Lengths(wrong))
+    }
+}
+
+/// Checks the index of a link or frame.
+pub(super) fn check_index(
+    kind: &'static str,
+    index: usize,
+    count: usize,
+) -> Result<(), NumericError> {
+    if index < count {
+        Ok(())
+    } else {
+        Err(NumericError::NoSuchBody { kind, index, count })
+    }
+}

@@ -1,0 +1,135 @@
+//! Friction in the joints.
+
+use nalgebra::{DVector, Vector3};
+
+use super::{
+    error::NumericError,
+    mechanism::{JointKind, Link, Mechanism, Wrench},
+    newton_euler::LinkDynamics,
+};
+
+/// How the sign of a velocity is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Sign {
+    /// sgn q̇, with sgn 0 = 0.
+    #[default]
+    Exact,
+    /// q̇ / √(q̇² + w²) with the width w > 0 (rad/s or m/s): 0.7 of the full friction at q̇ = w.
+    Smooth(f64),
+}
+
+/// Friction in a joint, as the force or torque that the drive must overcome.
+///
+/// With the joint's velocity q̇, its axis k and the force F_l that it carries:
+///
+/// Q_f = b q̇ + c (d/2) |k × F_l| sgn q̇ + C± sgn q̇ + o for a rotation,
+/// Q_f = b q̇ + c |k × F_l| sgn q̇ + C± sgn q̇ + o for a translation.
+///
+/// The first two terms are equations (4) and (5) of the paper on TRTTR1. The constant friction C±
+/// is `constant[0]` for q̇ > 0 and `constant[1]` for q̇ < 0; with a smooth sign s in the place of
+/// sgn q̇ its term is s (C₊ + C₋)/2 + s² (C₊ − C₋)/2, which for s = ±1 is the same.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Friction {
+    /// Viscous friction b, in N m s/rad or N s/m.
+    pub viscous: f64,
+    /// Coefficient of dry friction c, without unit; its friction grows with the load of the joint.
+    pub coulomb: f64,
+    /// Diameter d of the spindle of a rotation, in metres.
+    pub spindle_diameter: f64,
+    /// Dry friction that does not depend on the load, C₊ and C₋, each ≥ 0, in N m or N.
+    pub constant: [f64; 2],
+    /// A force or torque that is always there, o, in N m or N.
+    pub offset: f64,
+    /// How the sign of the velocity is taken.
+    pub sign: Sign,
+}
+
+impl Friction {
+    /// Every number of it.
+    pub(super) fn numbers(&self) -> [f64; 7] {
+        let width = if let Sign::Smooth(width) = self.sign {
+            width
+        } else {
+            0.0
+        };
+        let [forward, backward] = self.constant;
+        [
+            self.viscous,
+            self.coulomb,
+            self.spindle_diameter,
+            forward,
+            backward,
+            self.offset,
+            width,
+        ]
+    }
+
+    /// The sign of a velocity in the sense of this friction.
+    pub(super) fn sign_of(&self, velocity: f64) -> f64 {
+        match self.sign {
+            Sign::Smooth(width) => velocity / velocity.hypot(width),
+            Sign::Exact if velocity == 0.0 => 0.0,
+            Sign::Exact => velocity.signum(),
+        }
+    }
+
+    /// Q_f of a joint of the given kind and axis that moves with the velocity and carries the force.
+    fn torque(
+        &self,
+        kind: JointKind,
+        axis: &Vector3<f64>,
+        velocity: f64,
+        force: &Vector3<f64>,
+    ) -> f64 {
+        let lever = if kind == JointKind::Revolute {
+            self.spindle_diameter / 2.0
+        } else {
+            1.0
+        };
+        let sign = self.sign_of(velocity);
+        let [forward, backward] = self.constant;
+        self.viscous * velocity
+            + self.coulomb * lever * axis.cross(force).norm() * sign
+            + (forward + backward) / 2.0 * sign
+            + (forward - backward) / 2.0 * sign * sign
+            + self.offset
+    }
+}
+
+/// Q_f of each coordinate, given what each joint carries.
+pub(super) fn torques(mechanism: &Mechanism, qd: &[f64], loads: &[LinkDynamics]) -> DVector<f64> {
+    let mut torques = DVector::zeros(mechanism.coordinates());
+    for (link, load) in mechanism.links().iter().zip(loads) {
+        let Link {
+            joint, friction, ..
+        } = link;
+        if let Some(coordinate) = joint.driver() {
+            let velocity = joint.ratio * qd[coordinate];
+            let torque = friction.torque(joint.kind, &joint.axis, velocity, &load.contact_force);
+            torques[coordinate] += joint.ratio * torque;
+        }
+    }
+    torques
+}
+
+impl Mechanism {
+    /// Generalised friction forces Q_f (N m or N), to be overcome by the drives, at positions q,
+    /// velocities q̇ and accelerations q̈, with one wrench for each frame (or none at all).
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    pub fn friction_torques(
+        &self,
+        q: &[f64],
+        qd: &[f64],
+        qdd: &[f64],
+        wrenches: &[Wrench],
+    ) -> Result<DVector<f64>, NumericError> {
+        Ok(torques(
+            self,
+            qd,
+            &self.link_dynamics(q, qd, qdd, wrenches)?,
+        ))
+    }
+}

@@ -1,0 +1,164 @@
+//! Geometric Jacobians of links and frames.
+
+use nalgebra::{DVector, Matrix6xX, Vector3, Vector6};
+
+use super::{
+    error::{NumericError, check_index, check_lengths},
+    kinematics::Configuration,
+    mechanism::{JointKind, Mechanism, Wrench},
+    newton_euler::outward,
+    pose::Pose,
+    spatial::{angular, linear, motion_transform},
+};
+
+/// A column with the rows of a Jacobian: the linear half, then the angular one (the force, then the
+/// moment), the other way round than in spatial vectors.
+fn rows(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(
+        linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
+    )
+}
+
+impl Mechanism {
+    /// Geometric Jacobian J of a frame, 6 × n: J q̇ is the velocity of the frame's origin (rows
+    /// 0-2) and the angular velocity of the frame (rows 3-5), both in the axes of the base.
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Lengths`] where q has the wrong length, [`NumericError::NoSuchBody`] where
+    /// there is no such frame.
+    pub fn frame_jacobian(&self, q: &[f64], frame: usize) -> Result<Matrix6xX<f64>, NumericError> {
+        check_index("frame", frame, self.frames().len())?;
+        let frame = &self.frames()[frame];
+        self.jacobian(q, frame.link, &frame.placement.translation)
+    }
+
+    /// Geometric Jacobian of a link frame, 6 × n, with the rows of [`Mechanism::frame_jacobian`].
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Lengths`] where q has the wrong length, [`NumericError::NoSuchBody`] where
+    /// there is no such link.
+    pub fn link_jacobian(&self, q: &[f64], link: usize) -> Result<Matrix6xX<f64>, NumericError> {
+        check_index("link", link, self.links().len())?;
+        self.jacobian(q, Some(link), &Vector3::zeros())
+    }
+
+    /// J̇ q̇ of a frame: the part of the acceleration of its origin (rows 0-2, m/s²) and of its
+    /// angular acceleration (rows 3-5, rad/s²) that does not come from q̈, in the axes of the base.
+    ///
+    /// # Errors
+    ///
+    /// As [`Mechanism::frame_jacobian`].
+    pub fn frame_jacobian_dot_qd(
+        &self,
+        q: &[f64],
+        qd: &[f64],
+        frame: usize,
+    ) -> Result<Vector6<f64>, NumericError> {
+        check_index("frame", frame, self.frames().len())?;
+        let frame = &self.frames()[frame];
+        self.jacobian_dot_qd(q, qd, frame.link, &frame.placement)
+    }
+
+    /// J̇ q̇ of a link frame, with the rows of [`Mechanism::frame_jacobian_dot_qd`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Mechanism::link_jacobian`].
+    pub fn link_jacobian_dot_qd(
+        &self,
+        q: &[f64],
+        qd: &[f64],
+        link: usize,
+    ) -> Result<Vector6<f64>, NumericError> {
+        check_index("link", link, self.links().len())?;
+        self.jacobian_dot_qd(q, qd, Some(link), &Pose::identity())
+    }
+
+    /// A column for each coordinate: the axes of the joints on the way to the base that it moves,
+    /// and their moments about the point.
+    fn jacobian(
+        &self,
+        q: &[f64],
+        carrier: Option<usize>,
+        point: &Vector3<f64>,
+    ) -> Result<Matrix6xX<f64>, NumericError> {
+        check_lengths(&[("q", self.coordinates(), q.len())])?;
+        let poses = Configuration::new(self, q).in_base(self);
+        let mut jacobian = Matrix6xX::zeros(self.coordinates());
+        let Some(carrier) = carrier else {
+            return Ok(jacobian);
+        };
+        let point = poses[carrier].rotation * point + poses[carrier].translation;
+        let mut next = Some(carrier);
+        while let Some(index) = next {
+            let (link, pose) = (&self.links()[index], &poses[index]);
+            next = link.parent;
+            let Some(coordinate) = link.joint.driver() else {
+                continue;
+            };
+            let axis = pose.rotation * link.joint.axis * link.joint.ratio;
+            let column = if link.joint.kind == JointKind::Revolute {
+                rows(&axis.cross(&(point - pose.translation)), &axis)
+            } else {
+                rows(&axis, &Vector3::zeros())
+            };
+            let sum = jacobian.column(coordinate) + column;
+            jacobian.set_column(coordinate, &sum);
+        }
+        Ok(jacobian)
+    }
+
+    /// The acceleration of a frame at q̈ = 0 without gravity.
+    fn jacobian_dot_qd(
+        &self,
+        q: &[f64],
+        qd: &[f64],
+        carrier: Option<usize>,
+        placement: &Pose,
+    ) -> Result<Vector6<f64>, NumericError> {
+        let n = self.coordinates();
+        check_lengths(&[("q", n, q.len()), ("qd", n, qd.len())])?;
+        let Some(carrier) = carrier else {
+            return Ok(Vector6::zeros());
+        };
+        let configuration = Configuration::new(self, q);
+        let motions = outward(self, &configuration, qd, &vec![0.0; n], &Vector3::zeros());
+        let x = motion_transform(placement);
+        let velocity = x * motions.velocities[carrier];
+        let acceleration = x * motions.accelerations[carrier];
+        // A spatial acceleration is that of the point of the body that passes through the origin;
+        // the acceleration of the moving origin itself has ω × v more.
+        let of_origin = linear(&acceleration) + angular(&velocity).cross(&linear(&velocity));
+        let rotation = configuration.in_base(self)[carrier].rotation * placement.rotation;
+        Ok(rows(
+            &(rotation * of_origin),
+            &(rotation * angular(&acceleration)),
+        ))
+    }
+
+    /// Torques that wrenches exerted by the frames (one for each frame) need at rest and without
+    /// weight: the sum of Jᵀ w.
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    pub fn wrench_torques(
+        &self,
+        q: &[f64],
+        wrenches: &[Wrench],
+    ) -> Result<DVector<f64>, NumericError> {
+        check_lengths(&[
+            ("q", self.coordinates(), q.len()),
+            ("wrenches", self.frames().len(), wrenches.len()),
+        ])?;
+        let placements = self.forward_kinematics(q)?;
+        let mut torques = DVector::zeros(self.coordinates());
+        for (index, (pose, wrench)) in placements.frames.iter().zip(wrenches).enumerate() {
+            let (force, moment) = (pose.rotation * wrench.force, pose.rotation * wrench.moment);
+            torques += self.frame_jacobian(q, index)?.transpose() * rows(&force, &moment);
+        }
+        Ok(torques)
+    }
+}

@@ -1,0 +1,107 @@
+//! Positions: where the links and frames are.
+
+use nalgebra::{Matrix6, Vector3};
+
+use super::{
+    error::{NumericError, check_lengths},
+    mechanism::{JointKind, Link, Mechanism},
+    pose::{Pose, rotation_about},
+    scalar::Number,
+    spatial::motion_transform,
+};
+
+/// The mechanism at one position.
+pub(super) struct Configuration<T: Number> {
+    /// Placement of each link frame in its parent's.
+    pub(super) in_parent: Vec<Pose<T>>,
+    /// Transform X of motion vectors from the parent to the link, for each link.
+    pub(super) transforms: Vec<Matrix6<T>>,
+}
+
+impl<T: Number> Configuration<T> {
+    pub(super) fn new(mechanism: &Mechanism, q: &[T]) -> Self {
+        let in_parent: Vec<Pose<T>> = mechanism
+            .links()
+            .iter()
+            .map(|link| place(link, q))
+            .collect();
+        let transforms = in_parent.iter().map(motion_transform).collect();
+        Self {
+            in_parent,
+            transforms,
+        }
+    }
+
+    /// Placement of each link frame in the base frame.
+    pub(super) fn in_base(&self, mechanism: &Mechanism) -> Vec<Pose<T>> {
+        let mut poses: Vec<Pose<T>> = Vec::with_capacity(self.in_parent.len());
+        for (link, pose) in mechanism.links().iter().zip(&self.in_parent) {
+            poses.push(link.parent.map_or(*pose, |parent| poses[parent].then(pose)));
+        }
+        poses
+    }
+}
+
+/// Placement of a link frame in its parent's: the joint frame, moved by the joint.
+fn place<T: Number>(link: &Link, q: &[T]) -> Pose<T> {
+    let joint = &link.joint;
+    let mut motion = Pose::identity();
+    if let Some(coordinate) = joint.driver() {
+        let position = q[coordinate] * T::from_real(joint.ratio) + T::from_real(joint.offset);
+        if joint.kind == JointKind::Revolute {
+            motion.rotation = rotation_about(&joint.axis, position);
+        } else {
+            motion.translation = joint.axis.map(T::from_real) * position;
+        }
+    }
+    link.placement.cast().then(&motion)
+}
+
+/// Where everything is, in the base frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placements {
+    /// Placement of each link frame.
+    pub links: Vec<Pose>,
+    /// Placement of each frame of interest.
+    pub frames: Vec<Pose>,
+}
+
+impl Mechanism {
+    /// Placements of all link frames and frames in the base frame at positions q (rad or m).
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Lengths`] where q has the wrong length.
+    pub fn forward_kinematics(&self, q: &[f64]) -> Result<Placements, NumericError> {
+        check_lengths(&[("q", self.coordinates(), q.len())])?;
+        let links = Configuration::new(self, q).in_base(self);
+        let frames = self
+            .frames()
+            .iter()
+            .map(|frame| {
+                frame
+                    .link
+                    .map_or(frame.placement, |link| links[link].then(&frame.placement))
+            })
+            .collect();
+        Ok(Placements { links, frames })
+    }
+
+    /// Centre of mass of all links in the base frame, in metres, weighted by their masses; where
+    /// the masses sum to zero, no numbers.
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Lengths`] where q has the wrong length.
+    pub fn center_of_mass(&self, q: &[f64]) -> Result<Vector3<f64>, NumericError> {
+        let placements = self.forward_kinematics(q)?;
+        let moment: Vector3<f64> = self
+            .links()
+            .iter()
+            .zip(&placements.links)
+            .map(|(link, pose)| pose.rotation * link.first_moment() + pose.translation * link.mass)
+            .sum();
+        let mass: f64 = self.links().iter().map(|link| link.mass).sum();
+        Ok(moment / mass)
+    }
+}
