@@ -143,6 +143,12 @@ fn wrong_lengths_are_errors_and_all_named() {
         "`q` must have 3 elements, not 2; `qdd` must have 3 elements, not 9; \
          `wrenches` must have 2 elements, not 1"
     );
+}
+
+#[test]
+fn no_function_takes_a_wrong_length_or_index() {
+    let mut random = Random::new(5);
+    let mechanism = random.mechanism(&Recipe::serial(3));
     let (one, three) = ([0.0], [0.0; 3]);
     let lengths = |result: Result<(), NumericError>| {
         assert!(
