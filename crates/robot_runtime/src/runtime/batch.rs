@@ -1,0 +1,31 @@
+//! Many states at once: between states, one array each, and lanes, one state each.
+
+use super::lanes::Lanes;
+use super::scalar::Scalar;
+
+/// The states' coordinates in lanes: lane n of element d is coordinate d of state n.
+#[inline(always)]
+pub fn lanes_from_states<T: Scalar, const D: usize, const N: usize>(
+    states: &[[T; D]; N],
+) -> [Lanes<T, N>; D] {
+    core::array::from_fn(|d| Lanes::from_array(core::array::from_fn(|n| states[n][d])))
+}
+
+/// The inverse of [`lanes_from_states`].
+#[inline(always)]
+pub fn states_from_lanes<T: Scalar, const D: usize, const N: usize>(
+    lanes: &[Lanes<T, N>; D],
+) -> [[T; D]; N] {
+    let lanes = lanes.map(Lanes::to_array);
+    core::array::from_fn(|n| core::array::from_fn(|d| lanes[d][n]))
+}
+
+/// The first `N` states, filled up with zeros: for the rest of a slice that blocks of `N` leave.
+#[inline(always)]
+pub fn padded_states<T: Scalar, const D: usize, const N: usize>(states: &[[T; D]]) -> [[T; D]; N] {
+    let mut block = [[T::ZERO; D]; N];
+    for (to, from) in block.iter_mut().zip(states) {
+        *to = *from;
+    }
+    block
+}

@@ -1,0 +1,38 @@
+//! Multiply and add, in one instruction where the target has one.
+
+#[cfg(feature = "std")]
+extern crate std;
+
+/// Whether [`Scalar::mul_add`](super::Scalar::mul_add) rounds once.
+///
+/// True with feature `std` (only the standard library offers the instruction in stable Rust) on a
+/// target compiled with it: x86 with `fma`, 64-bit ARM, RISC-V with `d`. Elsewhere a product and a
+/// sum, each rounded, whose results are the same bits on every such target.
+pub const FUSED: bool = cfg!(all(
+    feature = "std",
+    any(
+        target_feature = "fma",
+        target_arch = "aarch64",
+        all(
+            any(target_arch = "riscv64", target_arch = "riscv32"),
+            target_feature = "d"
+        )
+    )
+));
+
+macro_rules! multiply_add {
+    ($name:ident, $float:ident) => {
+        /// `a · b + c`, fused where [`FUSED`].
+        #[inline(always)]
+        pub(super) fn $name(a: $float, b: $float, c: $float) -> $float {
+            #[cfg(feature = "std")]
+            if FUSED {
+                return a.mul_add(b, c);
+            }
+            a * b + c
+        }
+    };
+}
+
+multiply_add!(mul_add_f64, f64);
+multiply_add!(mul_add_f32, f32);

@@ -1,0 +1,151 @@
+//! Several numbers computed side by side.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::scalar::Scalar;
+
+/// `N` numbers of type `T` on which every operation acts lane by lane.
+///
+/// A plain array whose loops have a constant length, so that LLVM turns them into vector
+/// instructions of whatever size the target has. Four `f64` or eight `f32` fill a 256-bit
+/// register, eight or sixteen a 512-bit one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Lanes<T, const N: usize>([T; N]);
+
+/// Four `f64`: one 256-bit register.
+pub type F64x4 = Lanes<f64, 4>;
+/// Eight `f64`: one 512-bit register, or two of 256 bits.
+pub type F64x8 = Lanes<f64, 8>;
+/// Eight `f32`: one 256-bit register.
+pub type F32x8 = Lanes<f32, 8>;
+/// Sixteen `f32`: one 512-bit register, or two of 256 bits.
+pub type F32x16 = Lanes<f32, 16>;
+
+impl<T: Scalar, const N: usize> Lanes<T, N> {
+    /// The same number in every lane.
+    #[inline(always)]
+    pub const fn splat(value: T) -> Self {
+        Self([value; N])
+    }
+
+    /// Lane i holds element i.
+    #[inline(always)]
+    pub const fn from_array(values: [T; N]) -> Self {
+        Self(values)
+    }
+
+    /// Element i is that of lane i.
+    #[inline(always)]
+    pub const fn to_array(self) -> [T; N] {
+        self.0
+    }
+
+    /// `function` of each lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn map(self, function: impl Fn(T) -> T) -> Self {
+        let mut result = self;
+        for lane in &mut result.0 {
+            *lane = function(*lane);
+        }
+        result
+    }
+
+    /// `function` of each lane of `self` and the same lane of `other`.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip(self, other: Self, function: impl Fn(T, T) -> T) -> Self {
+        let mut result = self;
+        for (lane, other) in result.0.iter_mut().zip(other.0) {
+            *lane = function(*lane, other);
+        }
+        result
+    }
+}
+
+impl<T: Scalar, const N: usize> From<[T; N]> for Lanes<T, N> {
+    #[inline(always)]
+    fn from(values: [T; N]) -> Self {
+        Self(values)
+    }
+}
+
+impl<T: Scalar, const N: usize> From<Lanes<T, N>> for [T; N] {
+    #[inline(always)]
+    fn from(lanes: Lanes<T, N>) -> Self {
+        lanes.0
+    }
+}
+
+macro_rules! lane_by_lane {
+    ($operator:ident, $method:ident) => {
+        impl<T: Scalar, const N: usize> $operator for Lanes<T, N> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                self.zip(other, T::$method)
+            }
+        }
+    };
+}
+
+lane_by_lane!(Add, add);
+lane_by_lane!(Sub, sub);
+lane_by_lane!(Mul, mul);
+lane_by_lane!(Div, div);
+
+impl<T: Scalar, const N: usize> Neg for Lanes<T, N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(T::neg)
+    }
+}
+
+impl<T: Scalar, const N: usize> Scalar for Lanes<T, N> {
+    const ZERO: Self = Self([T::ZERO; N]);
+    const ONE: Self = Self([T::ONE; N]);
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Self::splat(T::from_f64(value))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        let mut result = self;
+        for ((lane, factor), addend) in result.0.iter_mut().zip(factor.0).zip(addend.0) {
+            *lane = T::mul_add(*lane, factor, addend);
+        }
+        result
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.map(T::sqrt)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.map(T::abs)
+    }
+
+    #[inline(always)]
+    fn signum0(self) -> Self {
+        self.map(T::signum0)
+    }
+
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        self.map(T::tanh)
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sines, cosines) = T::sin_cos_array(&self.0);
+        (Self(sines), Self(cosines))
+    }
+}

@@ -1,0 +1,142 @@
+//! The number type that generated code computes with.
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::fused::{mul_add_f32, mul_add_f64};
+use super::root::{sqrt_f32, sqrt_f64};
+use super::tanh::{tanh_f32, tanh_f64};
+use super::trig::{block, double, single};
+
+/// A real number, or several computed side by side: `f64`, `f32` and
+/// [`Lanes`](super::Lanes) of either.
+///
+/// No method branches on the value, allocates or panics; NaN in is NaN out.
+///
+/// With the standard library in scope `f64` and `f32` have methods of their own called `mul_add`,
+/// `sqrt`, `tanh` and `sin_cos`, and method syntax on those two types prefers them. Code that is
+/// not generic calls the trait by path: `Scalar::mul_add(a, b, c)`.
+pub trait Scalar:
+    Copy
+    + Debug
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The number 0.
+    const ZERO: Self;
+    /// The number 1.
+    const ONE: Self;
+
+    /// The number of this type nearest to `value`; all lanes alike.
+    fn from_f64(value: f64) -> Self;
+
+    /// `self · factor + addend`, rounded once where [`FUSED`](super::FUSED) says that the target
+    /// has the instruction, twice elsewhere; never the slow software emulation.
+    #[must_use]
+    fn mul_add(self, factor: Self, addend: Self) -> Self;
+
+    /// Square root, correctly rounded with feature `std` and to at most 0.51 units in the last
+    /// place without; √−0 = −0, and NaN for a number below zero.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// Absolute value.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// Sign with sgn 0 = 0: −1, 0 or 1, and NaN for NaN. The law of dry friction at rest.
+    #[must_use]
+    fn signum0(self) -> Self;
+
+    /// Hyperbolic tangent, the smooth sign: within 3 units in the last place everywhere.
+    #[must_use]
+    fn tanh(self) -> Self;
+
+    /// Sine and cosine of an angle in radians by branch-free polynomials. Range and worst error
+    /// are those of [`double`] and [`single`].
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Sines and cosines of all angles (radians), the same values as [`Scalar::sin_cos`] one by
+    /// one; `f64` and `f32` compute eight at a time in vector registers.
+    #[inline(always)]
+    fn sin_cos_array<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+        block::one_by_one(angles, Self::sin_cos)
+    }
+}
+
+macro_rules! implement_scalar {
+    ($float:ident, $bits:ident, $mul_add:path, $sqrt:path, $tanh:path, $sin_cos:path, $block:literal) => {
+        impl Scalar for $float {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                value as Self
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                $mul_add(self, factor, addend)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <$float>::abs(self)
+            }
+
+            #[inline(always)]
+            fn signum0(self) -> Self {
+                const SIGN: $bits = 1 << ($bits::BITS - 1);
+                let keep_if = |condition: bool| $bits::from(condition).wrapping_neg();
+                let unit = self.to_bits() & SIGN | Self::ONE.to_bits();
+                // The bits of 1 set in those of a NaN leave it a NaN.
+                let nan = self.to_bits() & keep_if(self.is_nan());
+                <$float>::from_bits(unit & keep_if(self != 0.0) | nan)
+            }
+
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                $tanh(self)
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn sin_cos_array<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+                block::in_blocks::<$block, _, N>(angles, $sin_cos)
+            }
+        }
+    };
+}
+
+implement_scalar!(
+    f64,
+    u64,
+    mul_add_f64,
+    sqrt_f64,
+    tanh_f64,
+    double::sin_cos,
+    8
+);
+implement_scalar!(
+    f32,
+    u32,
+    mul_add_f32,
+    sqrt_f32,
+    tanh_f32,
+    single::sin_cos,
+    16
+);

@@ -1,0 +1,40 @@
+//! Sine and cosine: the branch-free polynomials, and the choice of where they come from.
+
+pub(crate) mod block;
+pub mod double;
+pub mod single;
+
+use super::scalar::Scalar;
+
+/// A source of sines and cosines, chosen by type: [`PolyTrig`], or with feature `std`
+/// `StdTrig`.
+pub trait Trig<T: Scalar> {
+    /// Sine and cosine of an angle in radians.
+    fn sin_cos(angle: T) -> (T, T);
+
+    /// Sines and cosines of angles in radians, the same values as one by one.
+    fn sin_cos_array<const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
+}
+
+/// The polynomials of [`double`] and [`single`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PolyTrig;
+
+impl<T: Scalar> Trig<T> for PolyTrig {
+    #[inline(always)]
+    fn sin_cos(angle: T) -> (T, T) {
+        angle.sin_cos()
+    }
+
+    #[inline(always)]
+    fn sin_cos_array<const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+        T::sin_cos_array(angles)
+    }
+}
+
+/// Sines and cosines of `angles` (radians) by the branch-free polynomials, vectorised for `f64`
+/// and `f32`.
+#[inline(always)]
+pub fn sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+    PolyTrig::sin_cos_array(angles)
+}

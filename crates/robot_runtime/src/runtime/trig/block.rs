@@ -1,0 +1,93 @@
+//! Functions of whole arrays of angles, shaped so that LLVM vectorises them.
+
+use super::super::scalar::Scalar;
+
+/// Whether the target has vector registers of floating-point numbers.
+const VECTORS: bool = cfg!(any(
+    target_feature = "sse2",
+    target_feature = "neon",
+    target_feature = "simd128",
+    target_feature = "v",
+    target_feature = "altivec",
+));
+
+/// `function` of each angle, one after the other.
+#[inline(always)]
+pub(crate) fn one_by_one<T: Scalar, const N: usize>(
+    angles: &[T; N],
+    function: impl Fn(T) -> (T, T),
+) -> ([T; N], [T; N]) {
+    let (mut sines, mut cosines) = ([T::ZERO; N], [T::ZERO; N]);
+    for ((angle, sine), cosine) in angles.iter().zip(&mut sines).zip(&mut cosines) {
+        (*sine, *cosine) = function(*angle);
+    }
+    (sines, cosines)
+}
+
+/// `function` of each angle, where vectors exist in blocks of `BLOCK` angles.
+///
+/// A loop of `BLOCK` must be too long to be unrolled before the vectoriser sees it. Up to `BLOCK`
+/// angles are filled up with zeros and computed in place. More, and angles on a target without
+/// vectors, are computed by calls of one function, so that the code neither loops nor repeats
+/// itself; the last block ends with the last angle and overlaps the one before.
+#[inline(always)]
+pub(crate) fn in_blocks<const BLOCK: usize, T: Scalar, const N: usize>(
+    angles: &[T; N],
+    function: impl Fn(T) -> (T, T),
+) -> ([T; N], [T; N]) {
+    if N < 2 {
+        return one_by_one(angles, function);
+    }
+    if !VECTORS {
+        return one_by_one(angles, |angle| out_of_line(angle, &function));
+    }
+    let (mut sines, mut cosines) = ([T::ZERO; N], [T::ZERO; N]);
+    if N <= BLOCK {
+        let mut padded = [T::ZERO; BLOCK];
+        copy(angles, &mut padded);
+        let block = one_by_one(&padded, function);
+        copy(&block.0, &mut sines);
+        copy(&block.1, &mut cosines);
+        return (sines, cosines);
+    }
+    let results = sines
+        .as_chunks_mut()
+        .0
+        .iter_mut()
+        .zip(cosines.as_chunks_mut().0);
+    for (angles, (sines, cosines)) in angles.as_chunks::<BLOCK>().0.iter().zip(results) {
+        block_out_of_line(angles, sines, cosines, &function);
+    }
+    let last = (
+        angles.last_chunk::<BLOCK>(),
+        sines.last_chunk_mut(),
+        cosines.last_chunk_mut(),
+    );
+    if let (false, (Some(angles), Some(sines), Some(cosines))) = (N.is_multiple_of(BLOCK), last) {
+        block_out_of_line(angles, sines, cosines, &function);
+    }
+    (sines, cosines)
+}
+
+#[inline(never)]
+fn out_of_line<T: Scalar>(angle: T, function: impl Fn(T) -> (T, T)) -> (T, T) {
+    function(angle)
+}
+
+#[inline(never)]
+fn block_out_of_line<T: Scalar, const BLOCK: usize>(
+    angles: &[T; BLOCK],
+    sines: &mut [T; BLOCK],
+    cosines: &mut [T; BLOCK],
+    function: impl Fn(T) -> (T, T),
+) {
+    (*sines, *cosines) = one_by_one(angles, function);
+}
+
+/// The elements that both have; unlike `copy_from_slice` it knows no panic.
+#[inline(always)]
+fn copy<T: Copy>(from: &[T], to: &mut [T]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}

@@ -1,0 +1,23 @@
+//! The text of this crate's modules.
+
+/// Path and text of every file of the run-time module, its root `mod.rs` first.
+///
+/// A generator of self-contained crates writes them as they stand into a folder `runtime` beside
+/// its crate root and declares `pub mod runtime;` (private, it would warn of unused functions).
+/// The manifest declares a feature `std`, empty; with it the module offers `StdTrig`, without it
+/// the module needs `core` alone. Nothing else is asked of the crate around it: no dependency, no
+/// edition before 2024, no `unsafe`.
+pub const SOURCES: &[(&str, &str)] = &[
+    ("mod.rs", include_str!("runtime/mod.rs")),
+    ("batch.rs", include_str!("runtime/batch.rs")),
+    ("fused.rs", include_str!("runtime/fused.rs")),
+    ("lanes.rs", include_str!("runtime/lanes.rs")),
+    ("root.rs", include_str!("runtime/root.rs")),
+    ("scalar.rs", include_str!("runtime/scalar.rs")),
+    ("std_trig.rs", include_str!("runtime/std_trig.rs")),
+    ("tanh.rs", include_str!("runtime/tanh.rs")),
+    ("trig.rs", include_str!("runtime/trig.rs")),
+    ("trig/block.rs", include_str!("runtime/trig/block.rs")),
+    ("trig/double.rs", include_str!("runtime/trig/double.rs")),
+    ("trig/single.rs", include_str!("runtime/trig/single.rs")),
+];
