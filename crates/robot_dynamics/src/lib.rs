@@ -3,6 +3,7 @@
 //! A robot file is read by [`description`] into a checked [`model::Robot`]; [`mechanism`] puts it
 //! into symbols; the recursions turn it into equations of motion, every quantity a named expression.
 
+pub mod economical;
 pub mod mechanism;
 pub mod model;
 pub mod newton_euler;

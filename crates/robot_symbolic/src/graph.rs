@@ -225,6 +225,11 @@ impl Graph {
         self.inner.borrow().nodes[id.index()]
     }
 
+    /// A copy of the nodes with ids up to and including `last`.
+    pub(crate) fn nodes_up_to(&self, last: usize) -> Vec<Node> {
+        self.inner.borrow().nodes[..=last].to_vec()
+    }
+
     /// Interns a constant; the sign of a negative one becomes a `Neg` node.
     pub(crate) fn intern_number(&self, value: &Number) -> Id {
         if value.is_negative() {

@@ -1,0 +1,294 @@
+//! The mechanism prepared for the economical recursion: working frames and regrouped inertias.
+
+use robot_symbolic::{Expr, Graph};
+
+use super::frames::{self, WorkingFrame};
+use super::inertia::PseudoInertia;
+use super::plan::{Entry, LinkPlan, Plan};
+use super::rotation::ConstantRotation;
+use crate::mechanism::Mechanism;
+use crate::model::JointKind;
+use crate::vector::{Matrix, Vector};
+
+/// Residuals may exceed the robot's own mass, first and second moment by no more than this factor:
+/// beyond it, differences of large numbers would cost digits.
+const RESIDUAL_CAP: f64 = 3.0;
+
+/// A mechanism in working frames.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain<'g> {
+    pub(crate) graph: &'g Graph,
+    /// Acceleration of gravity in the base frame, in the plan's unit of length.
+    pub(crate) gravity: Vector<'g>,
+    pub(crate) links: Vec<ChainLink<'g>>,
+    pub(crate) frames: Vec<WorkingFrame<'g>>,
+    pub(crate) degrees_of_freedom: usize,
+    /// The unit of length, m.
+    pub(crate) unit: Expr<'g>,
+}
+
+/// A link in its working frame; lengths in the plan's unit.
+#[derive(Clone, Debug)]
+pub(crate) struct ChainLink<'g> {
+    pub(crate) parent: Option<usize>,
+    pub(crate) kind: JointKind,
+    pub(crate) coordinate: usize,
+    /// The coordinate's share in the joint's motion along or about z, sign included.
+    pub(crate) ratio: Expr<'g>,
+    /// Joint position, velocity and acceleration along or about z.
+    pub(crate) motion: [Expr<'g>; 3],
+    /// From the parent's working frame to this one at joint position 0.
+    pub(crate) rotation: ConstantRotation<'g>,
+    /// Origin at joint position 0 in the parent's working frame.
+    pub(crate) translation: Vector<'g>,
+    /// The joint axis in the parent's working frame.
+    pub(crate) axis: Vector<'g>,
+    /// Regrouped pseudo-inertia.
+    pub(crate) inertia: PseudoInertia<'g>,
+    /// Reflected inertia of the drive, kg m² or kg.
+    pub(crate) reflected_inertia: Expr<'g>,
+}
+
+impl<'g> ChainLink<'g> {
+    pub(crate) fn is_revolute(&self) -> bool {
+        self.kind == JointKind::Revolute
+    }
+
+    /// Whether the axis is parallel to the parent's.
+    pub(crate) fn is_parallel(&self) -> bool {
+        self.axis.0[0].is_zero() && self.axis.0[1].is_zero() && self.axis.0[2].is_one()
+    }
+}
+
+/// The mechanism under a plan; `None` where a joint axis is not constant.
+pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Chain<'g>> {
+    let file = frames::file_frames(mechanism)?;
+    let mut inertias: Vec<_> = mechanism.links.iter().map(PseudoInertia::of_link).collect();
+    for (inertia, frame) in inertias.iter_mut().zip(&file) {
+        *inertia = inertia.seen_in(frame.axes, frame.origin);
+    }
+    let displacements = displacements(mechanism, &file);
+    let mut regrouped = inertias.clone();
+    regroup(mechanism, &displacements, &mut regrouped);
+
+    let placed = frames::place(mechanism, &plan.links, &file, &regrouped);
+    for (inertia, (frame, file)) in inertias.iter_mut().zip(placed.iter().zip(&file)) {
+        let back = file.axes.transpose();
+        *inertia = inertia.seen_in(back * frame.axes, back * (frame.origin - file.origin));
+    }
+    let displacements = self::displacements(mechanism, &placed);
+    regroup(mechanism, &displacements, &mut inertias);
+    let limits = residual_limits(mechanism, &displacements);
+    leave_residuals(
+        mechanism,
+        &plan.links,
+        &displacements,
+        &mut inertias,
+        limits,
+    );
+
+    let mut chain = assemble(mechanism, &placed, &displacements, &inertias);
+    if let Some((link, component)) = plan.unit_length {
+        chain.rescale(link, component);
+    }
+    Some(chain)
+}
+
+type Displacement<'g> = (Matrix<'g>, Vector<'g>);
+
+fn displacements<'g>(
+    mechanism: &Mechanism<'g>,
+    frames: &[WorkingFrame<'g>],
+) -> Vec<Displacement<'g>> {
+    let links = mechanism.links.iter().zip(frames);
+    links
+        .map(|(link, own)| frames::between(link, own, link.parent.map(|parent| &frames[parent])))
+        .collect()
+}
+
+/// Moves to each parent what the joint cannot tell from the parent's own: for a rotation about z
+/// the mass and the moments along z, for a translation all second moments.
+fn regroup<'g>(
+    mechanism: &Mechanism<'g>,
+    displacements: &[Displacement<'g>],
+    inertias: &mut [PseudoInertia<'g>],
+) {
+    for index in (0..mechanism.links.len()).rev() {
+        move_inward(mechanism, displacements, inertias, index);
+    }
+}
+
+fn move_inward<'g>(
+    mechanism: &Mechanism<'g>,
+    displacements: &[Displacement<'g>],
+    inertias: &mut [PseudoInertia<'g>],
+    index: usize,
+) {
+    let graph = mechanism.graph;
+    let link = &mechanism.links[index];
+    let own = inertias[index];
+    let zero = PseudoInertia::zero(graph);
+    let (moved, kept) = if link.is_revolute() {
+        let z = Matrix::identity(graph).column(2);
+        let moved = PseudoInertia::rod(own.along_z(), z);
+        (moved, own.with_along_z([graph.zero(); 3]))
+    } else {
+        let moved = PseudoInertia {
+            second: own.second,
+            ..zero
+        };
+        (
+            moved,
+            PseudoInertia {
+                second: zero.second,
+                ..own
+            },
+        )
+    };
+    inertias[index] = kept;
+    if let Some(parent) = link.parent {
+        let (rotation, origin) = displacements[index];
+        inertias[parent] = inertias[parent].plus(moved.seen_from(rotation, origin));
+    }
+}
+
+/// What residuals may not exceed: mass, first and second moment of the whole robot.
+fn residual_limits(mechanism: &Mechanism<'_>, displacements: &[Displacement<'_>]) -> [f64; 3] {
+    let size = |expr: Expr<'_>| expr.as_number().map_or(0.0, |number| number.to_f64().abs());
+    let mass: f64 = mechanism.links.iter().map(|link| size(link.mass)).sum();
+    let reach: f64 = displacements
+        .iter()
+        .flat_map(|(_, origin)| origin.0)
+        .map(size)
+        .sum::<f64>()
+        .max(1e-3);
+    [0, 1, 2].map(|power| RESIDUAL_CAP * mass * reach.powi(power))
+}
+
+/// Gives back to links, from the tips to the base, what makes an entry of the parent vanish.
+fn leave_residuals<'g>(
+    mechanism: &Mechanism<'g>,
+    plans: &[LinkPlan],
+    displacements: &[Displacement<'g>],
+    inertias: &mut [PseudoInertia<'g>],
+    limits: [f64; 3],
+) {
+    for index in (0..mechanism.links.len()).rev() {
+        let link = &mechanism.links[index];
+        // Residuals of the children may have left something along this link's own axis.
+        move_inward(mechanism, displacements, inertias, index);
+        let Some(parent) = link.parent.filter(|_| link.is_revolute()) else {
+            continue;
+        };
+        let mut residual = [mechanism.graph.zero(); 3];
+        for (kind, target) in plans[index].residual.iter().enumerate() {
+            let Some(target) = target else { continue };
+            let place = displacements[index];
+            if let Some(amount) = solve(&inertias[parent], place, kind, *target, limits[kind]) {
+                let mut rod = [mechanism.graph.zero(); 3];
+                rod[kind] = amount;
+                let taken = rod_at(rod, place);
+                inertias[parent] = inertias[parent].minus(taken);
+                inertias[parent].clear(*target);
+                residual[kind] = amount;
+            }
+        }
+        inertias[index] = inertias[index].with_along_z(residual);
+    }
+}
+
+/// The rod of a child in its parent's working frame.
+fn rod_at<'g>(rod: [Expr<'g>; 3], (rotation, origin): Displacement<'g>) -> PseudoInertia<'g> {
+    PseudoInertia::rod(rod, Matrix::identity(rod[0].graph()).column(2)).seen_from(rotation, origin)
+}
+
+/// How much of a kind (0 mass, 1 first, 2 second moment along the axis) makes the parent's entry
+/// vanish; `None` where nothing does, or too much would be needed.
+fn solve<'g>(
+    parent: &PseudoInertia<'g>,
+    place: Displacement<'g>,
+    kind: usize,
+    target: Entry,
+    limit: f64,
+) -> Option<Expr<'g>> {
+    let wanted = parent.entry(target);
+    if wanted.is_zero() {
+        return None;
+    }
+    let graph = wanted.graph();
+    let mut unit = [graph.zero(); 3];
+    unit[kind] = graph.one();
+    let share = rod_at(unit, place).entry(target);
+    let size = share.as_number()?.to_f64().abs();
+    if size < 1e-3 {
+        return None;
+    }
+    let amount = wanted / share;
+    let acceptable = amount
+        .as_number()
+        .is_none_or(|number| number.to_f64().abs() <= limit);
+    acceptable.then_some(amount)
+}
+
+fn assemble<'g>(
+    mechanism: &Mechanism<'g>,
+    placed: &[WorkingFrame<'g>],
+    displacements: &[Displacement<'g>],
+    inertias: &[PseudoInertia<'g>],
+) -> Chain<'g> {
+    let links = mechanism.links.iter().enumerate().map(|(index, link)| {
+        let (rotation, translation) = displacements[index];
+        let along = |value: Expr<'g>| if placed[index].flipped { -value } else { value };
+        let rotation = frames::constant_rotation(rotation);
+        ChainLink {
+            parent: link.parent,
+            kind: link.kind,
+            coordinate: link.coordinate,
+            ratio: along(link.ratio),
+            motion: [link.position, link.velocity, link.acceleration].map(along),
+            axis: rotation.axis(),
+            rotation,
+            translation,
+            inertia: inertias[index],
+            reflected_inertia: link.reflected_inertia,
+        }
+    });
+    Chain {
+        graph: mechanism.graph,
+        gravity: mechanism.gravity,
+        links: links.collect(),
+        frames: placed.to_vec(),
+        degrees_of_freedom: mechanism.degrees_of_freedom,
+        unit: mechanism.graph.one(),
+    }
+}
+
+impl<'g> Chain<'g> {
+    /// Takes a component of a link's position for the unit of length. Second moments and torques
+    /// keep the metre: r and a shrink by the unit where h grows by it, and m by its square.
+    fn rescale(&mut self, link: usize, component: usize) {
+        let Some(length) = self
+            .links
+            .get(link)
+            .map(|link| link.translation.0[component])
+        else {
+            return;
+        };
+        let usable = length
+            .as_number()
+            .is_some_and(|number| number.to_f64().abs() > 1e-3);
+        if !usable {
+            return;
+        }
+        self.unit = length;
+        self.gravity = self.gravity.map(|entry| entry / length);
+        for link in &mut self.links {
+            link.translation = link.translation.map(|entry| entry / length);
+            link.inertia.first = link.inertia.first * length;
+            link.inertia.mass = link.inertia.mass * length * length;
+            if link.kind == JointKind::Prismatic {
+                link.motion = link.motion.map(|value| value / length);
+            }
+        }
+    }
+}

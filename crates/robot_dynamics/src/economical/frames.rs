@@ -1,0 +1,264 @@
+//! Working frames: z along the joint axis, origin and turn as the plan says.
+
+use robot_symbolic::Expr;
+
+use super::inertia::PseudoInertia;
+use super::plan::{LinkPlan, Origin, Turn};
+use super::rotation::{ConstantRotation, constant_root};
+use crate::mechanism::{Mechanism, MechanismLink};
+use crate::vector::{Matrix, Vector};
+
+/// Axes closer to parallel than this sine squared have no common normal worth dividing by.
+const NEARLY_PARALLEL: f64 = 1e-4;
+
+/// A frame fixed to a link.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WorkingFrame<'g> {
+    /// Columns: the frame's axes in components of the link's frame.
+    pub(crate) axes: Matrix<'g>,
+    /// The origin in the link's frame, m.
+    pub(crate) origin: Vector<'g>,
+    /// Whether z runs against the joint axis, which makes antiparallel joints parallel.
+    pub(crate) flipped: bool,
+}
+
+/// Frames at the links' own origins, z along the joint axis, x as near to the file's as that
+/// allows. `None` where a joint axis is not constant.
+pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFrame<'g>>> {
+    let mut frames: Vec<WorkingFrame<'g>> = vec![];
+    for link in &mechanism.links {
+        let axis = link.rotation * link.axis;
+        let parent_axis = link.parent.map(|parent| frames[parent].axes.column(2));
+        let flipped = parent_axis.is_some_and(|parent| parent == -axis);
+        let z = if flipped { -link.axis } else { link.axis };
+        let axes = axes_about(z)?;
+        frames.push(WorkingFrame {
+            axes,
+            origin: Vector::zero(mechanism.graph),
+            flipped,
+        });
+    }
+    Some(frames)
+}
+
+/// A right-handed triad with the given z; a permutation of the coordinate axes where z is one.
+fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
+    let graph = z.0[0].graph();
+    let numbers =
+        z.0.map(|component| component.as_number().map(|number| number.to_f64()));
+    let [Some(a), Some(b), Some(c)] = numbers else {
+        return None;
+    };
+    let unit = Matrix::identity(graph);
+    // The coordinate axis most nearly normal to z lends its direction to x.
+    let x = if z.0[0].is_zero() && z.0[1].is_zero() {
+        unit.column(0)
+    } else if z.0[1].is_zero() && z.0[2].is_zero() {
+        unit.column(1)
+    } else if z.0[0].is_zero() && z.0[2].is_zero() {
+        unit.column(2)
+    } else {
+        let least = if a.abs() <= b.abs() && a.abs() <= c.abs() {
+            0
+        } else if b.abs() <= c.abs() {
+            1
+        } else {
+            2
+        };
+        let normal = unit.column(least).cross(z);
+        let length = constant_root(normal.dot(normal));
+        normal.map(|component| component / length)
+    };
+    let y = z.cross(x);
+    Some(Matrix([x, y, z].map(|axis| axis.0)).transpose())
+}
+
+/// Places the working frames as the plan says, from the base outward.
+pub(crate) fn place<'g>(
+    mechanism: &Mechanism<'g>,
+    plans: &[LinkPlan],
+    file: &[WorkingFrame<'g>],
+    regrouped: &[PseudoInertia<'g>],
+) -> Vec<WorkingFrame<'g>> {
+    let mut placed: Vec<WorkingFrame<'g>> = vec![];
+    for (index, link) in mechanism.links.iter().enumerate() {
+        let mut frame = file[index];
+        let child = mechanism.children(index).next();
+        let next = child.map(|child| Axis::of(&mechanism.links[child], &file[child], &frame));
+        let plan = &plans[index];
+        let turn = match plan.turn {
+            Turn::File => None,
+            Turn::NextNormal => next.as_ref().and_then(Axis::normal_turn),
+            Turn::FirstMoment => direction(regrouped[index].first.0),
+        };
+        if let Some((sine, cosine)) = turn {
+            let z = Matrix::identity(mechanism.graph).column(2);
+            frame.axes = frame.axes * Matrix::rotation(z, sine, cosine);
+        }
+        let previous = link.parent.map(|parent| (&file[parent], &placed[parent]));
+        let offset = if link.is_revolute() {
+            let along = origin_along(
+                plan.origin,
+                link,
+                &file[index],
+                next,
+                previous,
+                &regrouped[index],
+            );
+            along.map(|t| file[index].axes.column(2) * t)
+        } else {
+            free_origin(plan.origin, link, previous.map(|(_, placed)| placed))
+        };
+        frame.origin = offset.unwrap_or(frame.origin);
+        placed.push(frame);
+    }
+    placed
+}
+
+/// The position along the joint axis where a rotating link's working frame has its origin.
+fn origin_along<'g>(
+    origin: Origin,
+    link: &MechanismLink<'g>,
+    file: &WorkingFrame<'g>,
+    next: Option<Axis<'g>>,
+    previous: Option<(&WorkingFrame<'g>, &WorkingFrame<'g>)>,
+    inertia: &PseudoInertia<'g>,
+) -> Option<Expr<'g>> {
+    let (Vector(h), Matrix(s)) = (inertia.first, inertia.second);
+    match origin {
+        Origin::File | Origin::MassCentre | Origin::Parent => None,
+        Origin::NextNormal => next.filter(|axis| axis.has_place)?.foot_on_z(),
+        Origin::PreviousNormal => {
+            let (parent_file, parent) = previous?;
+            let back = file.axes.transpose() * link.rotation.transpose();
+            let direction = back * parent_file.axes.column(2);
+            let point = back * (parent.origin - link.translation);
+            let axis = Axis {
+                direction,
+                point,
+                has_place: true,
+            };
+            // Parallel axes have normals everywhere: take the one through the parent's origin.
+            axis.foot_on_z()
+                .or_else(|| axis.is_parallel().then_some(point.0[2]))
+        }
+        // Moving the origin by t takes t h from Σ's third column.
+        Origin::ZeroXz => safe_quotient(s[0][2], h[0]),
+        Origin::ZeroYz => safe_quotient(s[1][2], h[1]),
+    }
+}
+
+/// The origin of a translating link's working frame, which may lie anywhere.
+fn free_origin<'g>(
+    origin: Origin,
+    link: &MechanismLink<'g>,
+    parent: Option<&WorkingFrame<'g>>,
+) -> Option<Vector<'g>> {
+    match origin {
+        Origin::MassCentre => Some(link.center_of_mass),
+        Origin::Parent => {
+            let zero = Vector::zero(link.mass.graph());
+            let parent_origin = parent.map_or(zero, |parent| parent.origin);
+            Some(link.rotation.transpose() * (parent_origin - link.translation))
+        }
+        _ => None,
+    }
+}
+
+/// `numerator / denominator` where the denominator is a number that is not small.
+fn safe_quotient<'g>(numerator: Expr<'g>, denominator: Expr<'g>) -> Option<Expr<'g>> {
+    let size = denominator.as_number()?.to_f64().abs();
+    (size > 1e-3 && !numerator.is_zero()).then(|| numerator / denominator)
+}
+
+/// Sine and cosine of the direction of the first two components.
+fn direction<'g>([x, y, _]: [Expr<'g>; 3]) -> Option<(Expr<'g>, Expr<'g>)> {
+    if y.is_zero() {
+        return None;
+    }
+    if x.is_zero() {
+        return Some((x.graph().one(), x));
+    }
+    let (Some(a), Some(b)) = (x.as_number(), y.as_number()) else {
+        return None;
+    };
+    if a.to_f64().hypot(b.to_f64()) < 1e-9 {
+        return None;
+    }
+    let length = constant_root(x * x + y * y);
+    Some((y / length, x / length))
+}
+
+/// A joint axis seen from another link's file frame.
+struct Axis<'g> {
+    direction: Vector<'g>,
+    point: Vector<'g>,
+    /// Whether the axis lies somewhere; that of a translation has a direction only.
+    has_place: bool,
+}
+
+impl<'g> Axis<'g> {
+    /// The axis of a link's joint in the file frame of its parent.
+    fn of(link: &MechanismLink<'g>, own: &WorkingFrame<'g>, parent: &WorkingFrame<'g>) -> Axis<'g> {
+        let back = parent.axes.transpose();
+        Axis {
+            direction: back * (link.rotation * own.axes.column(2)),
+            point: back * link.translation,
+            has_place: link.is_revolute(),
+        }
+    }
+
+    fn is_parallel(&self) -> bool {
+        self.direction.0[0].is_zero() && self.direction.0[1].is_zero()
+    }
+
+    /// Where the common normal with the z axis meets it.
+    fn foot_on_z(&self) -> Option<Expr<'g>> {
+        let (Vector([ex, ey, ez]), Vector([_, _, z])) = (self.direction, self.point);
+        let sine_squared = ex * ex + ey * ey;
+        let size = sine_squared.as_number()?.to_f64();
+        let foot = z - ez * self.point.dot(self.direction);
+        (size > NEARLY_PARALLEL).then(|| foot / sine_squared)
+    }
+
+    /// Sine and cosine of the turn about z that puts x along the common normal.
+    fn normal_turn(&self) -> Option<(Expr<'g>, Expr<'g>)> {
+        let Vector([ex, ey, _]) = self.direction;
+        if self.is_parallel() {
+            return self.has_place.then(|| direction(self.point.0)).flatten();
+        }
+        direction([-ey, ex, ex])
+    }
+}
+
+/// The constant displacement from a parent's working frame to a link's, at joint position 0.
+pub(crate) fn between<'g>(
+    link: &MechanismLink<'g>,
+    own: &WorkingFrame<'g>,
+    parent: Option<&WorkingFrame<'g>>,
+) -> (Matrix<'g>, Vector<'g>) {
+    let rotation = link.rotation * own.axes;
+    let origin = link.translation + link.rotation * own.origin;
+    match parent {
+        Some(parent) => {
+            let back = parent.axes.transpose();
+            (clean(back * rotation), back * (origin - parent.origin))
+        }
+        None => (rotation, origin),
+    }
+}
+
+/// Rounded entries next to 0 are 0: they come from turning by an angle and back.
+fn clean(matrix: Matrix<'_>) -> Matrix<'_> {
+    matrix.map(|entry| match entry.as_number() {
+        Some(number) if number.as_rational().is_none() && number.to_f64().abs() < 1e-15 => {
+            entry.graph().zero()
+        }
+        _ => entry,
+    })
+}
+
+/// The constant rotation between working frames, ready to apply.
+pub(crate) fn constant_rotation(matrix: Matrix<'_>) -> ConstantRotation<'_> {
+    ConstantRotation::new(matrix)
+}

@@ -1,0 +1,122 @@
+//! The options of the economical recursion, as data.
+//!
+//! Every option yields the same torques; they differ in operations. Letters in brackets are those
+//! of the ablation tables in `docs/performance.md`.
+
+/// The options for a whole mechanism.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Per link, in the mechanism's order.
+    pub links: Vec<LinkPlan>,
+    /// \[l\] The unit of length in which the recursion works: that of the component (0, 1, 2) of
+    /// this link's position in its parent, which thereby becomes ±1.
+    pub unit_length: Option<(usize, usize)>,
+}
+
+/// The options for one link.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LinkPlan {
+    /// \[t\] Where the working frame's origin lies on the joint axis.
+    pub origin: Origin,
+    /// \[t, φ\] How the working frame is turned about the joint axis.
+    pub turn: Turn,
+    /// \[a\] Whether the joint joins the parallel group of its parent's joint: rotations then go
+    /// by the sum of the group's angles. Without effect where the axes are not parallel.
+    pub angle_sum: bool,
+    /// \[c\] Whether the third column of U comes from the parent's U.
+    pub column: bool,
+    /// \[b\] Per component of the moment: products of angular velocities and accelerations in place
+    /// of entries of U.
+    pub moment: [bool; 3],
+    /// \[m, z\] What of the link's mass, first moment and second moment along its joint axis stays
+    /// with it, so that an entry of the parent's inertia vanishes; in that order.
+    pub residual: [Option<Entry>; 3],
+}
+
+/// Where a working frame's origin lies on its joint axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Where the robot file has it.
+    File,
+    /// At the foot of the common normal with the next joint's axis (modified Denavit–Hartenberg).
+    NextNormal,
+    /// At the foot of the common normal with the previous joint's axis (Denavit–Hartenberg).
+    PreviousNormal,
+    /// Where the regrouped Σxz vanishes.
+    ZeroXz,
+    /// Where the regrouped Σyz vanishes.
+    ZeroYz,
+    /// At the link's mass centre: for translation joints, whose axis has a direction only.
+    MassCentre,
+    /// Where the parent's origin lies at joint position 0: for translation joints.
+    Parent,
+}
+
+/// How a working frame is turned about its joint axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// The x axis as near to the file's as the joint axis allows.
+    File,
+    /// The x axis along the common normal with the next joint's axis.
+    NextNormal,
+    /// The x axis along the regrouped first moment, so that its y component vanishes.
+    FirstMoment,
+}
+
+/// An entry of a link's regrouped inertia that can be made to vanish, or a difference of two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// First moment, x.
+    X,
+    /// First moment, y.
+    Y,
+    /// Second moment Σxx.
+    Xx,
+    /// Second moment Σyy.
+    Yy,
+    /// Second moment Σxy.
+    Xy,
+    /// Second moment Σxz.
+    Xz,
+    /// Second moment Σyz.
+    Yz,
+    /// The difference Σxx − Σyy.
+    XxYy,
+}
+
+impl Entry {
+    /// All entries.
+    pub const ALL: [Entry; 8] = [
+        Entry::X,
+        Entry::Y,
+        Entry::Xx,
+        Entry::Yy,
+        Entry::Xy,
+        Entry::Xz,
+        Entry::Yz,
+        Entry::XxYy,
+    ];
+}
+
+impl LinkPlan {
+    /// Frames of modified Denavit–Hartenberg, full regrouping, nothing else.
+    pub const BASIC: LinkPlan = LinkPlan {
+        origin: Origin::NextNormal,
+        turn: Turn::NextNormal,
+        angle_sum: false,
+        column: false,
+        moment: [false; 3],
+        residual: [None; 3],
+    };
+}
+
+impl Plan {
+    /// The same plan for every link.
+    #[must_use]
+    pub fn uniform(links: usize, plan: &LinkPlan) -> Plan {
+        Plan {
+            links: vec![plan.clone(); links],
+            unit_length: None,
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Rotations as sequences of plane rotations, the cheapest form to apply.
+
+use robot_symbolic::{Expr, Number};
+
+use crate::vector::{Matrix, Vector};
+
+/// A rotation in a coordinate plane by an angle with this sine and cosine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane<'g> {
+    /// The two axes of the plane, the first turning towards the second.
+    axes: (usize, usize),
+    sine: Expr<'g>,
+    cosine: Expr<'g>,
+}
+
+impl<'g> Plane<'g> {
+    /// About x.
+    pub(crate) fn x(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
+        Plane {
+            axes: (1, 2),
+            sine,
+            cosine,
+        }
+    }
+
+    /// About y.
+    pub(crate) fn y(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
+        Plane {
+            axes: (2, 0),
+            sine,
+            cosine,
+        }
+    }
+
+    /// About z.
+    pub(crate) fn z(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
+        Plane {
+            axes: (0, 1),
+            sine,
+            cosine,
+        }
+    }
+
+    /// Turned components to unturned ones: R v.
+    pub(crate) fn forward(&self, mut vector: Vector<'g>) -> Vector<'g> {
+        let (i, j) = self.axes;
+        let (a, b) = (vector.0[i], vector.0[j]);
+        vector.0[i] = self.cosine * a - self.sine * b;
+        vector.0[j] = self.sine * a + self.cosine * b;
+        vector
+    }
+
+    /// Unturned components to turned ones: Rᵀ v.
+    pub(crate) fn back(&self, mut vector: Vector<'g>) -> Vector<'g> {
+        let (i, j) = self.axes;
+        let (a, b) = (vector.0[i], vector.0[j]);
+        vector.0[i] = self.cosine * a + self.sine * b;
+        vector.0[j] = self.cosine * b - self.sine * a;
+        vector
+    }
+}
+
+/// A constant rotation R = before · Rz(θ): what lies before the last turn about z, and that turn.
+#[derive(Clone, Debug)]
+pub(crate) struct ConstantRotation<'g> {
+    /// Applied first to parent components, in this order.
+    before: Before<'g>,
+    /// Sine and cosine of θ.
+    pub(crate) turn: (Expr<'g>, Expr<'g>),
+}
+
+#[derive(Clone, Debug)]
+enum Before<'g> {
+    Planes(Vec<Plane<'g>>),
+    Full(Box<Matrix<'g>>),
+}
+
+impl<'g> ConstantRotation<'g> {
+    /// The cheapest sequence of plane rotations whose product is the matrix.
+    pub(crate) fn new(matrix: Matrix<'g>) -> ConstantRotation<'g> {
+        let Matrix(r) = matrix;
+        let graph = r[0][0].graph();
+        let (zero, one) = (graph.zero(), graph.one());
+        let z = matrix.column(2);
+        // Rx(α) Rz(θ) has third column (0, −sin α, cos α) and first row (cos θ, −sin θ, 0).
+        if z.0[0].is_zero() {
+            let plane = Plane::x(-z.0[1], z.0[2]);
+            return ConstantRotation {
+                before: planes(&[plane]),
+                turn: (-r[0][1], r[0][0]),
+            };
+        }
+        // Ry(β) Rz(θ) has third column (sin β, 0, cos β) and second row (sin θ, cos θ, 0).
+        if z.0[1].is_zero() {
+            let plane = Plane::y(z.0[0], z.0[2]);
+            return ConstantRotation {
+                before: planes(&[plane]),
+                turn: (r[1][0], r[1][1]),
+            };
+        }
+        if r.iter().flatten().any(|entry| entry.as_number().is_none()) {
+            let before = Before::Full(Box::new(matrix));
+            return ConstantRotation {
+                before,
+                turn: (zero, one),
+            };
+        }
+        // Rz(φ) Rx(α) Rz(θ): third column (sin φ sin α, −cos φ sin α, cos α).
+        let sine = constant_root(z.0[0] * z.0[0] + z.0[1] * z.0[1]);
+        let (sin_phi, cos_phi) = (z.0[0] / sine, -z.0[1] / sine);
+        let outer = Plane::z(sin_phi, cos_phi);
+        let x = outer.back(matrix.column(0));
+        let y = outer.back(matrix.column(1));
+        ConstantRotation {
+            before: planes(&[outer, Plane::x(sine, z.0[2])]),
+            turn: (-y.0[0], x.0[0]),
+        }
+    }
+
+    /// Parent components to components before the last turn.
+    pub(crate) fn back(&self, vector: Vector<'g>) -> Vector<'g> {
+        match &self.before {
+            Before::Planes(planes) => planes.iter().fold(vector, |v, plane| plane.back(v)),
+            Before::Full(matrix) => matrix.transpose() * vector,
+        }
+    }
+
+    /// Components before the last turn to parent components.
+    pub(crate) fn forward(&self, vector: Vector<'g>) -> Vector<'g> {
+        match &self.before {
+            Before::Planes(planes) => planes
+                .iter()
+                .rev()
+                .fold(vector, |v, plane| plane.forward(v)),
+            Before::Full(matrix) => **matrix * vector,
+        }
+    }
+
+    /// The z axis in parent components.
+    pub(crate) fn axis(&self) -> Vector<'g> {
+        let graph = self.turn.0.graph();
+        self.forward(Matrix::identity(graph).column(2))
+    }
+}
+
+fn planes<'g>(planes: &[Plane<'g>]) -> Before<'g> {
+    Before::Planes(planes.to_vec())
+}
+
+/// The square root of a constant: exact where it is rational, else a float.
+pub(crate) fn constant_root(constant: Expr<'_>) -> Expr<'_> {
+    let root = constant.sqrt();
+    if root.as_number().is_some() {
+        return root;
+    }
+    constant
+        .graph()
+        .number(Number::Real(root.evaluate(|_| f64::NAN)))
+}
