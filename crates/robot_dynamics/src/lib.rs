@@ -4,6 +4,7 @@
 //! into symbols; the recursions turn it into equations of motion, every quantity a named expression.
 
 pub mod economical;
+pub mod functions;
 pub mod mechanism;
 pub mod model;
 pub mod newton_euler;

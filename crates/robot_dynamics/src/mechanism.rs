@@ -23,15 +23,9 @@ impl MechanismOptions {
     /// The default snapping tolerance, rad.
     pub const SNAP: f64 = 1e-9;
     /// For print: exact constants.
-    pub const EXACT: MechanismOptions = MechanismOptions {
-        snap: Self::SNAP,
-        rounded: false,
-    };
+    pub const EXACT: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: false };
     /// For code: irrational constants as floating-point numbers.
-    pub const ROUNDED: MechanismOptions = MechanismOptions {
-        snap: Self::SNAP,
-        rounded: true,
-    };
+    pub const ROUNDED: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: true };
 }
 
 /// A robot in symbols.

@@ -270,16 +270,18 @@ impl Robot {
 
     /// The frames that exert a wrench, in the file's order.
     pub fn tips(&self) -> impl Iterator<Item = (&Frame, &Wrench)> {
-        self.frames
-            .iter()
-            .filter_map(|frame| Some((frame, frame.wrench.as_ref()?)))
+        self.frames.iter().filter_map(|frame| Some((frame, frame.wrench.as_ref()?)))
+    }
+
+    /// Whether any joint has friction.
+    #[must_use]
+    pub fn has_friction(&self) -> bool {
+        self.links.iter().any(|link| link.friction != Friction::none())
     }
 
     /// The parameter of that name.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<&Parameter> {
-        self.parameters
-            .iter()
-            .find(|parameter| parameter.name == name)
+        self.parameters.iter().find(|parameter| parameter.name == name)
     }
 }

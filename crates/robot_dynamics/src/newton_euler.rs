@@ -76,30 +76,15 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
     let mut kinds = vec![JointKind::Revolute; mechanism.degrees_of_freedom];
     for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
         // (2): the torsor projected on the joint axis, with the drive's own inertia.
-        let contact = if link.is_revolute() {
-            wrench.moment
-        } else {
-            wrench.force
-        };
+        let contact = if link.is_revolute() { wrench.moment } else { wrench.force };
         let mut force = contact.dot(link.axis) + link.reflected_inertia * link.acceleration;
         if effects.friction {
-            force += friction(
-                &link.friction,
-                link.kind,
-                link.axis,
-                wrench.force,
-                link.velocity,
-            );
+            force += friction(&link.friction, link.kind, link.axis, wrench.force, link.velocity);
         }
         driving_forces[link.coordinate] += force * link.ratio;
         kinds[link.coordinate] = link.kind;
     }
-    NewtonEuler {
-        motions,
-        wrenches,
-        driving_forces,
-        kinds,
-    }
+    NewtonEuler { motions, wrenches, driving_forces, kinds }
 }
 
 /// The outward iterations: from the base to the tips.
@@ -111,11 +96,7 @@ fn outward<'g>(mechanism: &Mechanism<'g>) -> Vec<LinkMotion<'g>> {
     for link in &mechanism.links {
         let (omega, epsilon, a) = link.parent.map_or(base, |parent| {
             let motion = &motions[parent];
-            (
-                motion.angular_velocity,
-                motion.angular_acceleration,
-                motion.acceleration,
-            )
+            (motion.angular_velocity, motion.angular_acceleration, motion.acceleration)
         });
         let (rotation, origin) = (link.joint_rotation(), link.joint_translation());
         let turned_back = rotation.transpose();
@@ -161,17 +142,9 @@ fn inward<'g>(
     effects: Effects,
 ) -> Vec<LinkWrench<'g>> {
     let zero = Vector::zero(mechanism.graph);
-    let mut wrenches = vec![
-        LinkWrench {
-            force: zero,
-            moment: zero
-        };
-        mechanism.links.len()
-    ];
-    for (frame, (force, moment)) in mechanism
-        .frames
-        .iter()
-        .filter_map(|frame| Some((frame, frame.wrench?)))
+    let mut wrenches = vec![LinkWrench { force: zero, moment: zero }; mechanism.links.len()];
+    for (frame, (force, moment)) in
+        mechanism.frames.iter().filter_map(|frame| Some((frame, frame.wrench?)))
     {
         if let (true, Some(link)) = (effects.wrench, frame.link) {
             let torsor = LinkWrench { force, moment };
@@ -200,17 +173,11 @@ impl<'g> LinkWrench<'g> {
     /// `origin`, turned by `rotation`.
     fn seen_from(self, rotation: Matrix<'g>, origin: Vector<'g>) -> LinkWrench<'g> {
         let force = rotation * self.force;
-        LinkWrench {
-            force,
-            moment: rotation * self.moment + origin.cross(force),
-        }
+        LinkWrench { force, moment: rotation * self.moment + origin.cross(force) }
     }
 
     fn plus(self, other: LinkWrench<'g>) -> LinkWrench<'g> {
-        LinkWrench {
-            force: self.force + other.force,
-            moment: self.moment + other.moment,
-        }
+        LinkWrench { force: self.force + other.force, moment: self.moment + other.moment }
     }
 }
 
@@ -246,11 +213,9 @@ impl<'g> NewtonEuler<'g> {
     #[must_use]
     pub fn quantities(&self, kind: Kind) -> Vec<Quantity<'g>> {
         let vectors: Vec<Vector<'g>> = match kind {
-            Kind::MassCentreAcceleration => self
-                .motions
-                .iter()
-                .map(|motion| motion.mass_centre_acceleration)
-                .collect(),
+            Kind::MassCentreAcceleration => {
+                self.motions.iter().map(|motion| motion.mass_centre_acceleration).collect()
+            }
             Kind::Force => self.motions.iter().map(|motion| motion.force).collect(),
             Kind::Moment => self.motions.iter().map(|motion| motion.moment).collect(),
             Kind::LinkForce => self.wrenches.iter().map(|wrench| wrench.force).collect(),
@@ -265,16 +230,8 @@ impl<'g> NewtonEuler<'g> {
         let mut quantities = vec![];
         for (index, Vector(components)) in vectors.into_iter().enumerate() {
             for (component, value) in components.into_iter().enumerate() {
-                let symbol = Symbol {
-                    kind,
-                    number: index + 1,
-                    component: Some(component),
-                };
-                quantities.push(Quantity {
-                    symbol,
-                    value,
-                    dimension,
-                });
+                let symbol = Symbol { kind, number: index + 1, component: Some(component) };
+                quantities.push(Quantity { symbol, value, dimension });
             }
         }
         quantities
@@ -283,11 +240,7 @@ impl<'g> NewtonEuler<'g> {
     fn driving_force_quantities(&self) -> Vec<Quantity<'g>> {
         let forces = self.driving_forces.iter().zip(&self.kinds).enumerate();
         let quantity = |(index, (value, kind)): (usize, (&Expr<'g>, &JointKind))| Quantity {
-            symbol: Symbol {
-                kind: Kind::DrivingForce,
-                number: index + 1,
-                component: None,
-            },
+            symbol: Symbol { kind: Kind::DrivingForce, number: index + 1, component: None },
             value: *value,
             dimension: match kind {
                 JointKind::Revolute => Dimension::MOMENT,

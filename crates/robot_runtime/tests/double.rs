@@ -39,20 +39,13 @@ const KNOWN_SIN_COS: [(f64, Sum, Sum); 7] = [
         (0.03574879797201651, 1.5429743706109861e-18),
         (-0.9993608074382124, -2.3447088905187402e-17),
     ),
-    (
-        FRAC_PI_2,
-        (1.0, -1.874699728327322e-33),
-        (6.123233995736766e-17, -1.4973848991e-33),
-    ),
+    (FRAC_PI_2, (1.0, -1.874699728327322e-33), (6.123233995736766e-17, -1.4973848991e-33)),
     (1e-9, (1e-9, -1.6666666666666669e-28), (1.0, -5e-19)),
 ];
 const KNOWN_TANH: [(f64, Sum); 6] = [
     (1e-8, (1e-8, -3.3333333333333335e-25)),
     (0.1, (0.09966799462495582, 3.542433877641546e-18)),
-    (
-        0.34657359027997264,
-        (0.3333333333333333, 8.196842348880167e-18),
-    ),
+    (0.34657359027997264, (0.3333333333333333, 8.196842348880167e-18)),
     (1.0, (0.7615941559557649, 3.7090214482164924e-17)),
     (5.5, (0.9999665971563038, 4.933089545428797e-17)),
     (18.7, (0.9999999999999999, -3.3751550837457984e-18)),
@@ -107,10 +100,7 @@ fn sin_cos_is_accurate_over_the_stated_range() {
             worst.update(limit * (2.0 * random() - 1.0));
         }
     }
-    println!(
-        "worst error {:e}, {} last places",
-        worst.absolute, worst.last_places
-    );
+    println!("worst error {:e}, {} last places", worst.absolute, worst.last_places);
     assert!(worst.absolute < SIN_COS_ERROR);
     assert!(worst.last_places < 1.7);
 }
@@ -128,10 +118,7 @@ fn sin_cos_is_accurate_next_to_every_multiple_of_a_right_angle() {
             x = x.next_up();
         }
     }
-    println!(
-        "worst error {:e}, {} last places",
-        worst.absolute, worst.last_places
-    );
+    println!("worst error {:e}, {} last places", worst.absolute, worst.last_places);
     assert!(worst.absolute < 1e-21);
     assert!(worst.last_places < 1.0);
 }

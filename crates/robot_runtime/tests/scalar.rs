@@ -11,14 +11,7 @@ mod random;
 #[test]
 fn double_software_square_root_has_the_bits_of_the_processors() {
     let mut random = random::uniform(5);
-    let special = [
-        0.0,
-        -0.0,
-        f64::from_bits(1),
-        f64::MIN_POSITIVE,
-        f64::MAX,
-        f64::INFINITY,
-    ];
+    let special = [0.0, -0.0, f64::from_bits(1), f64::MIN_POSITIVE, f64::MAX, f64::INFINITY];
     let magnitudes = (-1074..1024).map(|exponent| 2f64.powi(exponent));
     let mut check = |x: f64| {
         assert_eq!(software_sqrt_f64(x).to_bits(), x.sqrt().to_bits(), "{x:e}");
@@ -60,19 +53,10 @@ fn sign_of_zero_is_zero() {
 fn numbers_convert_and_compare() {
     assert_eq!((f64::from_f64(0.1), f32::from_f64(0.1)), (0.1, 0.1));
     assert_eq!(F64x4::from_f64(0.1), Lanes::splat(0.1));
-    assert_eq!(
-        (F32x8::ZERO, F32x8::ONE),
-        (Lanes::splat(0.0), Lanes::splat(1.0))
-    );
+    assert_eq!((F32x8::ZERO, F32x8::ONE), (Lanes::splat(0.0), Lanes::splat(1.0)));
     assert_eq!((-2.5f64).abs(), Scalar::abs(-2.5));
-    assert_ne!(
-        F64x4::from([1.0, 2.0, 3.0, 4.0]),
-        F64x4::from([1.0, 2.0, 3.0, 5.0])
-    );
-    assert_eq!(
-        <[f64; 4]>::from(F64x4::from([1.0, 2.0, 3.0, 4.0])),
-        [1.0, 2.0, 3.0, 4.0]
-    );
+    assert_ne!(F64x4::from([1.0, 2.0, 3.0, 4.0]), F64x4::from([1.0, 2.0, 3.0, 5.0]));
+    assert_eq!(<[f64; 4]>::from(F64x4::from([1.0, 2.0, 3.0, 4.0])), [1.0, 2.0, 3.0, 4.0]);
 }
 
 /// Every operation on lanes is that on their numbers.
@@ -119,10 +103,7 @@ fn states_pass_through_lanes_and_back() {
     let states: [[f64; 3]; 8] =
         std::array::from_fn(|n| std::array::from_fn(|d| (10 * n + d) as f64));
     let lanes: [F64x8; 3] = lanes_from_states(&states);
-    assert_eq!(
-        lanes[2].to_array(),
-        [2.0, 12.0, 22.0, 32.0, 42.0, 52.0, 62.0, 72.0]
-    );
+    assert_eq!(lanes[2].to_array(), [2.0, 12.0, 22.0, 32.0, 42.0, 52.0, 62.0, 72.0]);
     assert_eq!(states_from_lanes(&lanes), states);
 
     let some: [[f64; 3]; 4] = padded_states(&states[..3]);
@@ -136,19 +117,10 @@ fn states_pass_through_lanes_and_back() {
 fn the_standard_library_is_a_source_of_sines() {
     use robot_runtime::{StdTrig, std_sin_cos_array};
     let angles = [0.3, -40.0, 1e9];
-    assert_eq!(
-        std_sin_cos_array(&angles),
-        (angles.map(f64::sin), angles.map(f64::cos))
-    );
+    assert_eq!(std_sin_cos_array(&angles), (angles.map(f64::sin), angles.map(f64::cos)));
     let angles = [0.3f32, -40.0, 1e9];
-    assert_eq!(
-        std_sin_cos_array(&angles),
-        (angles.map(f32::sin), angles.map(f32::cos))
-    );
+    assert_eq!(std_sin_cos_array(&angles), (angles.map(f32::sin), angles.map(f32::cos)));
     let lanes = F64x4::from([0.1, 0.2, 0.3, 1e9]);
-    assert_eq!(
-        StdTrig::sin_cos(lanes),
-        (lanes.map(f64::sin), lanes.map(f64::cos))
-    );
+    assert_eq!(StdTrig::sin_cos(lanes), (lanes.map(f64::sin), lanes.map(f64::cos)));
     assert_eq!(std_sin_cos_array(&[lanes]).0, [lanes.map(f64::sin)]);
 }

@@ -107,14 +107,7 @@ fn software_square_root_has_the_bits_of_the_processors() {
     for x in numbers(f32::INFINITY, 997) {
         assert_eq!(software_sqrt_f32(x).to_bits(), x.sqrt().to_bits(), "{x:e}");
     }
-    for x in [
-        0.0,
-        -0.0,
-        f32::from_bits(1),
-        f32::MIN_POSITIVE,
-        f32::MAX,
-        f32::INFINITY,
-    ] {
+    for x in [0.0, -0.0, f32::from_bits(1), f32::MIN_POSITIVE, f32::MAX, f32::INFINITY] {
         assert_eq!(software_sqrt_f32(x).to_bits(), x.sqrt().to_bits(), "{x:e}");
     }
     for x in [-1e-40, -1.0, f32::NEG_INFINITY, f32::NAN, -f32::NAN] {

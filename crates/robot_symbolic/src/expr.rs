@@ -60,11 +60,9 @@ impl<'g> Expr<'g> {
     pub fn view(self) -> View<'g> {
         let expr = |id| Expr::new(self.graph, id);
         match self.graph.node(self.id) {
-            Node::Number(_) => View::Number(
-                self.graph
-                    .as_number(self.id)
-                    .unwrap_or(Number::Real(f64::NAN)),
-            ),
+            Node::Number(_) => {
+                View::Number(self.graph.as_number(self.id).unwrap_or(Number::Real(f64::NAN)))
+            }
             Node::Pi => View::Pi,
             Node::Symbol(symbol) => View::Symbol(symbol),
             Node::Add(a, b) => View::Add(expr(a), expr(b)),
@@ -165,11 +163,7 @@ impl<'g> Expr<'g> {
                 square = square * square;
             }
         }
-        if exponent < 0 {
-            self.graph.one() / result
-        } else {
-            result
-        }
+        if exponent < 0 { self.graph.one() / result } else { result }
     }
 
     pub(crate) fn wrap(self, id: Id) -> Expr<'g> {

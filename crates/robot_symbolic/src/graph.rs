@@ -152,22 +152,14 @@ impl Graph {
     /// The symbol of that name where one has been made.
     #[must_use]
     pub fn find_symbol(&self, name: &str) -> Option<Expr<'_>> {
-        self.inner
-            .borrow()
-            .symbols
-            .get(name)
-            .map(|id| self.expr(*id))
+        self.inner.borrow().symbols.get(name).map(|id| self.expr(*id))
     }
 
     /// The name of a symbol of this graph; empty for the id of another graph's symbol.
     #[must_use]
     pub fn symbol_name(&self, symbol: SymbolId) -> String {
         let inner = self.inner.borrow();
-        inner
-            .symbols
-            .get_index(symbol.index())
-            .map(|(name, _)| name.clone())
-            .unwrap_or_default()
+        inner.symbols.get_index(symbol.index()).map(|(name, _)| name.clone()).unwrap_or_default()
     }
 
     /// The number of symbols made so far.
@@ -237,11 +229,7 @@ impl Graph {
             return self.intern(Node::Neg(positive));
         }
         // One zero only: the float zero is the exact one.
-        let value = if value.is_zero() {
-            Number::integer(0)
-        } else {
-            value.clone()
-        };
+        let value = if value.is_zero() { Number::integer(0) } else { value.clone() };
         let (index, _) = self.inner.borrow_mut().numbers.insert_full(value);
         self.intern(Node::Number(index as u32))
     }

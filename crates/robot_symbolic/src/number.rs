@@ -73,9 +73,9 @@ impl Number {
     #[must_use]
     pub fn recip(&self) -> Number {
         match self {
-            Number::Rational(rational) => rational
-                .recip()
-                .map_or(Number::Real(f64::NAN), Number::Rational),
+            Number::Rational(rational) => {
+                rational.recip().map_or(Number::Real(f64::NAN), Number::Rational)
+            }
             Number::Real(value) => Number::Real(1.0 / value),
         }
     }

@@ -86,10 +86,7 @@ mod tests {
         let shared = constant * q.sin();
         let roots = [shared + q, -(shared * shared)];
         let count = operations(&roots, |symbol| symbol.index() == 0);
-        assert_eq!(
-            (count.multiplications, count.additions, count.trigonometric),
-            (2, 1, 1)
-        );
+        assert_eq!((count.multiplications, count.additions, count.trigonometric), (2, 1, 1));
         assert_eq!(operations(&roots, |_| false).flops(), 6);
     }
 }

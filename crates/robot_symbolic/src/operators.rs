@@ -9,10 +9,7 @@ macro_rules! binary {
         impl<'g> $trait for Expr<'g> {
             type Output = Expr<'g>;
             fn $method(self, other: Expr<'g>) -> Expr<'g> {
-                debug_assert!(
-                    std::ptr::eq(self.graph(), other.graph()),
-                    "operands of two graphs"
-                );
+                debug_assert!(std::ptr::eq(self.graph(), other.graph()), "operands of two graphs");
                 self.wrap(self.graph().$rule(self.id(), other.id()))
             }
         }

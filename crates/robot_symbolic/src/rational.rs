@@ -34,10 +34,7 @@ impl Rational {
     /// An integer.
     #[must_use]
     pub const fn integer(value: i64) -> Rational {
-        Rational(Repr::Small {
-            numerator: value,
-            denominator: 1,
-        })
+        Rational(Repr::Small { numerator: value, denominator: 1 })
     }
 
     /// `numerator / denominator`; `None` where the denominator is 0.
@@ -76,11 +73,7 @@ impl Rational {
         } else {
             RBig::from_parts_signed(numerator, power)
         };
-        Some(from_big(if whole.starts_with('-') {
-            -value
-        } else {
-            value
-        }))
+        Some(from_big(if whole.starts_with('-') { -value } else { value }))
     }
 
     /// The exact value of a finite `f64`; `None` for NaN and infinities.
@@ -94,10 +87,9 @@ impl Rational {
     pub fn to_f64(&self) -> f64 {
         match &self.0 {
             // Both exact below 2^53, so that one division rounds once.
-            Repr::Small {
-                numerator,
-                denominator,
-            } if numerator.unsigned_abs() < 1 << 53 && *denominator < 1 << 53 => {
+            Repr::Small { numerator, denominator }
+                if numerator.unsigned_abs() < 1 << 53 && *denominator < 1 << 53 =>
+            {
                 *numerator as f64 / *denominator as f64
             }
             _ => match self.to_big().to_f64() {
@@ -110,10 +102,7 @@ impl Rational {
     #[must_use]
     pub fn to_small(&self) -> Option<(i64, i64)> {
         match self.0 {
-            Repr::Small {
-                numerator,
-                denominator,
-            } => Some((numerator, denominator)),
+            Repr::Small { numerator, denominator } => Some((numerator, denominator)),
             Repr::Big(_) => None,
         }
     }
@@ -121,18 +110,16 @@ impl Rational {
     /// The value as an integer where it is one and fits.
     #[must_use]
     pub fn to_integer(&self) -> Option<i64> {
-        self.to_small()
-            .and_then(|(numerator, denominator)| (denominator == 1).then_some(numerator))
+        self.to_small().and_then(|(numerator, denominator)| (denominator == 1).then_some(numerator))
     }
 
     /// Numerator and denominator in decimal digits, the sign with the numerator.
     #[must_use]
     pub fn to_digits(&self) -> (String, String) {
         match &self.0 {
-            Repr::Small {
-                numerator,
-                denominator,
-            } => (numerator.to_string(), denominator.to_string()),
+            Repr::Small { numerator, denominator } => {
+                (numerator.to_string(), denominator.to_string())
+            }
             Repr::Big(big) => (big.numerator().to_string(), big.denominator().to_string()),
         }
     }
@@ -140,11 +127,7 @@ impl Rational {
     /// The absolute value.
     #[must_use]
     pub fn abs(&self) -> Rational {
-        if self.is_negative() {
-            -self
-        } else {
-            self.clone()
-        }
+        if self.is_negative() { -self } else { self.clone() }
     }
 
     /// Whether the value is below 0.
@@ -172,10 +155,7 @@ impl Rational {
     #[must_use]
     pub fn recip(&self) -> Option<Rational> {
         match &self.0 {
-            Repr::Small {
-                numerator,
-                denominator,
-            } => Rational::new(*denominator, *numerator),
+            Repr::Small { numerator, denominator } => Rational::new(*denominator, *numerator),
             Repr::Big(big) => Some(from_big(RBig::ONE / big)),
         }
     }
@@ -190,10 +170,9 @@ impl Rational {
 
     fn to_big(&self) -> RBig {
         match &self.0 {
-            Repr::Small {
-                numerator,
-                denominator,
-            } => RBig::from_parts_signed(IBig::from(*numerator), IBig::from(*denominator)),
+            Repr::Small { numerator, denominator } => {
+                RBig::from_parts_signed(IBig::from(*numerator), IBig::from(*denominator))
+            }
             Repr::Big(big) => big.clone(),
         }
     }
@@ -205,21 +184,11 @@ impl Rational {
         big: impl Fn(RBig, RBig) -> RBig,
     ) -> Rational {
         if let (
-            Repr::Small {
-                numerator: a,
-                denominator: b,
-            },
-            Repr::Small {
-                numerator: c,
-                denominator: d,
-            },
+            Repr::Small { numerator: a, denominator: b },
+            Repr::Small { numerator: c, denominator: d },
         ) = (&self.0, &other.0)
-            && let Some((numerator, denominator)) = small(
-                i128::from(*a),
-                i128::from(*b),
-                i128::from(*c),
-                i128::from(*d),
-            )
+            && let Some((numerator, denominator)) =
+                small(i128::from(*a), i128::from(*b), i128::from(*c), i128::from(*d))
         {
             return reduce(numerator, denominator);
         }
@@ -231,18 +200,13 @@ impl Rational {
 fn reduce(numerator: i128, denominator: i128) -> Rational {
     let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
     // The divisor is at most |denominator| < 2^127, so the casts are exact.
-    let divisor = if denominator < 0 {
-        -(divisor as i128)
-    } else {
-        divisor as i128
-    };
+    let divisor = if denominator < 0 { -(divisor as i128) } else { divisor as i128 };
     let (numerator, denominator) = (numerator / divisor, denominator / divisor);
     match (i64::try_from(numerator), i64::try_from(denominator)) {
         // i64::MIN is left to the big form so that negation never overflows.
-        (Ok(numerator), Ok(denominator)) if numerator != i64::MIN => Rational(Repr::Small {
-            numerator,
-            denominator,
-        }),
+        (Ok(numerator), Ok(denominator)) if numerator != i64::MIN => {
+            Rational(Repr::Small { numerator, denominator })
+        }
         _ => Rational(Repr::Big(RBig::from_parts_signed(
             IBig::from(numerator),
             IBig::from(denominator),
@@ -269,10 +233,9 @@ fn from_big(big: RBig) -> Rational {
         .ok()
         .zip(i64::try_from(big.denominator().clone()).ok());
     match small {
-        Some((numerator, denominator)) if numerator != i64::MIN => Rational(Repr::Small {
-            numerator,
-            denominator,
-        }),
+        Some((numerator, denominator)) if numerator != i64::MIN => {
+            Rational(Repr::Small { numerator, denominator })
+        }
         _ => Rational(Repr::Big(big)),
     }
 }
@@ -281,11 +244,7 @@ impl std::ops::Add for &Rational {
     type Output = Rational;
     fn add(self, other: &Rational) -> Rational {
         let small = |a: i128, b: i128, c: i128, d: i128| {
-            if b == d {
-                Some((a + c, b))
-            } else {
-                Some(((a * d).checked_add(c * b)?, b * d))
-            }
+            if b == d { Some((a + c, b)) } else { Some(((a * d).checked_add(c * b)?, b * d)) }
         };
         self.combine(other, small, |a, b| a + b)
     }
@@ -309,13 +268,9 @@ impl std::ops::Neg for &Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
         match &self.0 {
-            Repr::Small {
-                numerator,
-                denominator,
-            } => Rational(Repr::Small {
-                numerator: -numerator,
-                denominator: *denominator,
-            }),
+            Repr::Small { numerator, denominator } => {
+                Rational(Repr::Small { numerator: -numerator, denominator: *denominator })
+            }
             Repr::Big(big) => from_big(-big.clone()),
         }
     }
@@ -367,9 +322,7 @@ mod tests {
         assert_eq!(decimal("1_000.0"), Rational::integer(1000));
         assert_eq!(&decimal("0.1") + &decimal("0.2"), decimal("0.3"));
         assert_eq!(decimal("0.010267495893").to_f64(), 0.010267495893);
-        for text in [
-            "", ".", "-", "nan", "inf", "1e999", "0x10", "1,5", "1.2.3", "--1",
-        ] {
+        for text in ["", ".", "-", "nan", "inf", "1e999", "0x10", "1,5", "1.2.3", "--1"] {
             assert_eq!(Rational::from_decimal(text), None, "{text}");
         }
     }

@@ -62,11 +62,7 @@ impl Graph {
             (_, Node::Sub(x, y)) if x == a => return y,
             _ => {}
         }
-        if a < b {
-            self.intern(Node::Sub(a, b))
-        } else {
-            self.neg(self.intern(Node::Sub(b, a)))
-        }
+        if a < b { self.intern(Node::Sub(a, b)) } else { self.neg(self.intern(Node::Sub(b, a))) }
     }
 
     /// `a ± b` where constants fold, or both are multiples of one expression.
@@ -149,10 +145,7 @@ impl Graph {
                 if denominator == x {
                     return numerator;
                 }
-                if self
-                    .as_number(numerator)
-                    .is_some_and(|number| number.is_one())
-                {
+                if self.as_number(numerator).is_some_and(|number| number.is_one()) {
                     return self.div(x, denominator);
                 }
             }

@@ -102,11 +102,7 @@ impl Graph {
         }
         let zero = self.intern_number(&Number::integer(0));
         let rest = terms.into_iter().fold(zero, |sum, (term, negative)| {
-            if negative {
-                self.sub(sum, term)
-            } else {
-                self.add(sum, term)
-            }
+            if negative { self.sub(sum, term) } else { self.add(sum, term) }
         });
         (rest, multiple)
     }
@@ -122,10 +118,7 @@ impl Graph {
     }
 
     fn times_pi(&self, multiple: &Rational) -> Id {
-        self.mul(
-            self.intern_number(&multiple.clone().into()),
-            self.intern(Node::Pi),
-        )
+        self.mul(self.intern_number(&multiple.clone().into()), self.intern(Node::Pi))
     }
 }
 
@@ -202,10 +195,7 @@ mod tests {
         assert_eq!((g.pi() / 4).sin() * (g.pi() / 4).cos(), g.one() / 2);
         assert_eq!((g.pi() / 3).sin(), g.integer(3).sqrt() / 2);
         assert_eq!((g.pi() * 5 / 4).cos(), -(g.integer(2).sqrt() / 2));
-        assert_eq!(
-            g.number(Rational::new(9, 4).unwrap()).sqrt(),
-            g.integer(3) / 2
-        );
+        assert_eq!(g.number(Rational::new(9, 4).unwrap()).sqrt(), g.integer(3) / 2);
     }
 
     #[test]
@@ -214,9 +204,6 @@ mod tests {
         let angle = g.number(Rational::new(3, 10).unwrap());
         assert!(angle.sin().as_number().is_none());
         assert_eq!((-angle).sin(), -angle.sin());
-        assert_eq!(
-            g.number(Number::Real(0.3)).abs(),
-            g.number(Number::Real(0.3))
-        );
+        assert_eq!(g.number(Number::Real(0.3)).abs(), g.number(Number::Real(0.3)));
     }
 }

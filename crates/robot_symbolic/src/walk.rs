@@ -27,10 +27,7 @@ pub fn reachable<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
 /// The symbols that `roots` depend on, in order of their first use in the graph.
 #[must_use]
 pub fn symbols(roots: &[Expr<'_>]) -> Vec<SymbolId> {
-    let mut symbols: Vec<_> = reachable(roots)
-        .iter()
-        .filter_map(|expr| expr.as_symbol())
-        .collect();
+    let mut symbols: Vec<_> = reachable(roots).iter().filter_map(|expr| expr.as_symbol()).collect();
     symbols.sort_unstable();
     symbols
 }
@@ -135,9 +132,7 @@ impl<'g> Expr<'g> {
     #[must_use]
     pub fn substitute(self, replace: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         let graph = self.graph();
-        rebuild(&[self], graph, |name| {
-            replace(name).unwrap_or_else(|| graph.symbol(name))
-        })[0]
+        rebuild(&[self], graph, |name| replace(name).unwrap_or_else(|| graph.symbol(name)))[0]
     }
 
     /// The derivative of `self = function(argument)` by its argument.
@@ -164,9 +159,7 @@ mod tests {
         let (x, y) = (g.symbol("x"), g.symbol("y"));
         let f = (x * y).sin() * x / (y + x.cos()) + (x * x + y * y).sqrt() - (x - y).tanh();
         let at = |x: f64, y: f64| f.evaluate(|s| if s.index() == 0 { x } else { y });
-        let slope = f
-            .derivative(x)
-            .evaluate(|s| if s.index() == 0 { 0.7 } else { 1.9 });
+        let slope = f.derivative(x).evaluate(|s| if s.index() == 0 { 0.7 } else { 1.9 });
         let h = 1e-6;
         let difference = (at(0.7 + h, 1.9) - at(0.7 - h, 1.9)) / (2.0 * h);
         assert!((slope - difference).abs() < 1e-9, "{slope} {difference}");
@@ -180,10 +173,7 @@ mod tests {
         assert_eq!(f.substitute(|name| (name == "x").then(|| -y)), g.zero());
         let other = Graph::new();
         let copy = rebuild(&[f], &other, |name| other.symbol(name))[0];
-        assert_eq!(
-            copy,
-            (other.symbol("x") + other.symbol("y")).sin() * other.symbol("x")
-        );
+        assert_eq!(copy, (other.symbol("x") + other.symbol("y")).sin() * other.symbol("x"));
     }
 
     #[test]

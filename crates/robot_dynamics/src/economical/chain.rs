@@ -79,13 +79,7 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Chai
     let displacements = self::displacements(mechanism, &placed);
     regroup(mechanism, &displacements, &mut inertias);
     let limits = residual_limits(mechanism, &displacements);
-    leave_residuals(
-        mechanism,
-        &plan.links,
-        &displacements,
-        &mut inertias,
-        limits,
-    );
+    leave_residuals(mechanism, &plan.links, &displacements, &mut inertias, limits);
 
     let mut chain = assemble(mechanism, &placed, &displacements, &inertias);
     if let Some((link, component)) = plan.unit_length {
@@ -133,17 +127,8 @@ fn move_inward<'g>(
         let moved = PseudoInertia::rod(own.along_z(), z);
         (moved, own.with_along_z([graph.zero(); 3]))
     } else {
-        let moved = PseudoInertia {
-            second: own.second,
-            ..zero
-        };
-        (
-            moved,
-            PseudoInertia {
-                second: zero.second,
-                ..own
-            },
-        )
+        let moved = PseudoInertia { second: own.second, ..zero };
+        (moved, PseudoInertia { second: zero.second, ..own })
     };
     inertias[index] = kept;
     if let Some(parent) = link.parent {
@@ -156,12 +141,8 @@ fn move_inward<'g>(
 fn residual_limits(mechanism: &Mechanism<'_>, displacements: &[Displacement<'_>]) -> [f64; 3] {
     let size = |expr: Expr<'_>| expr.as_number().map_or(0.0, |number| number.to_f64().abs());
     let mass: f64 = mechanism.links.iter().map(|link| size(link.mass)).sum();
-    let reach: f64 = displacements
-        .iter()
-        .flat_map(|(_, origin)| origin.0)
-        .map(size)
-        .sum::<f64>()
-        .max(1e-3);
+    let reach: f64 =
+        displacements.iter().flat_map(|(_, origin)| origin.0).map(size).sum::<f64>().max(1e-3);
     [0, 1, 2].map(|power| RESIDUAL_CAP * mass * reach.powi(power))
 }
 
@@ -224,9 +205,7 @@ fn solve<'g>(
         return None;
     }
     let amount = wanted / share;
-    let acceptable = amount
-        .as_number()
-        .is_none_or(|number| number.to_f64().abs() <= limit);
+    let acceptable = amount.as_number().is_none_or(|number| number.to_f64().abs() <= limit);
     acceptable.then_some(amount)
 }
 
@@ -267,16 +246,10 @@ impl<'g> Chain<'g> {
     /// Takes a component of a link's position for the unit of length. Second moments and torques
     /// keep the metre: r and a shrink by the unit where h grows by it, and m by its square.
     fn rescale(&mut self, link: usize, component: usize) {
-        let Some(length) = self
-            .links
-            .get(link)
-            .map(|link| link.translation.0[component])
-        else {
+        let Some(length) = self.links.get(link).map(|link| link.translation.0[component]) else {
             return;
         };
-        let usable = length
-            .as_number()
-            .is_some_and(|number| number.to_f64().abs() > 1e-3);
+        let usable = length.as_number().is_some_and(|number| number.to_f64().abs() > 1e-3);
         if !usable {
             return;
         }

@@ -32,11 +32,7 @@ pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFr
         let flipped = parent_axis.is_some_and(|parent| parent == -axis);
         let z = if flipped { -link.axis } else { link.axis };
         let axes = axes_about(z)?;
-        frames.push(WorkingFrame {
-            axes,
-            origin: Vector::zero(mechanism.graph),
-            flipped,
-        });
+        frames.push(WorkingFrame { axes, origin: Vector::zero(mechanism.graph), flipped });
     }
     Some(frames)
 }
@@ -44,8 +40,7 @@ pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFr
 /// A right-handed triad with the given z; a permutation of the coordinate axes where z is one.
 fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     let graph = z.0[0].graph();
-    let numbers =
-        z.0.map(|component| component.as_number().map(|number| number.to_f64()));
+    let numbers = z.0.map(|component| component.as_number().map(|number| number.to_f64()));
     let [Some(a), Some(b), Some(c)] = numbers else {
         return None;
     };
@@ -97,14 +92,8 @@ pub(crate) fn place<'g>(
         }
         let previous = link.parent.map(|parent| (&file[parent], &placed[parent]));
         let offset = if link.is_revolute() {
-            let along = origin_along(
-                plan.origin,
-                link,
-                &file[index],
-                next,
-                previous,
-                &regrouped[index],
-            );
+            let along =
+                origin_along(plan.origin, link, &file[index], next, previous, &regrouped[index]);
             along.map(|t| file[index].axes.column(2) * t)
         } else {
             free_origin(plan.origin, link, previous.map(|(_, placed)| placed))
@@ -133,14 +122,9 @@ fn origin_along<'g>(
             let back = file.axes.transpose() * link.rotation.transpose();
             let direction = back * parent_file.axes.column(2);
             let point = back * (parent.origin - link.translation);
-            let axis = Axis {
-                direction,
-                point,
-                has_place: true,
-            };
+            let axis = Axis { direction, point, has_place: true };
             // Parallel axes have normals everywhere: take the one through the parent's origin.
-            axis.foot_on_z()
-                .or_else(|| axis.is_parallel().then_some(point.0[2]))
+            axis.foot_on_z().or_else(|| axis.is_parallel().then_some(point.0[2]))
         }
         // Moving the origin by t takes t h from Σ's third column.
         Origin::ZeroXz => safe_quotient(s[0][2], h[0]),

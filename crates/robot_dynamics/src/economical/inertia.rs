@@ -34,11 +34,7 @@ impl<'g> PseudoInertia<'g> {
         // About the mass centre J = tr(Σ) 1 − Σ, hence tr J = 2 tr Σ.
         let central = Matrix::identity(graph) * (inertia.trace() / 2) - inertia;
         let first = centre * link.mass;
-        PseudoInertia {
-            second: central + Matrix::outer(first, centre),
-            first,
-            mass: link.mass,
-        }
+        PseudoInertia { second: central + Matrix::outer(first, centre), first, mass: link.mass }
     }
 
     /// Masses on a line through the origin: mass, first and second moment along a unit vector.
@@ -57,12 +53,7 @@ impl<'g> PseudoInertia<'g> {
         let second = rotation * self.second * rotation.transpose()
             + (mixed + mixed.transpose())
             + Matrix::outer(origin * self.mass, origin);
-        PseudoInertia {
-            second,
-            first: turned + origin * self.mass,
-            mass: self.mass,
-        }
-        .symmetric()
+        PseudoInertia { second, first: turned + origin * self.mass, mass: self.mass }.symmetric()
     }
 
     /// The same body in a frame that lies at `origin`, turned by `rotation`, in this one.

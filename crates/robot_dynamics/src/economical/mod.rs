@@ -37,11 +37,7 @@ pub fn inverse_dynamics<'g>(
 ) -> Option<Vec<Expr<'g>>> {
     let chain = chain::prepare(mechanism, plan)?;
     let states = outward::outward(&chain, &plan.links);
-    let tips = if wrench {
-        tip_wrenches(mechanism, &chain)
-    } else {
-        vec![]
-    };
+    let tips = if wrench { tip_wrenches(mechanism, &chain) } else { vec![] };
     Some(inward::inward(&chain, &plan.links, &states, &tips))
 }
 
@@ -55,11 +51,7 @@ fn tip_wrenches<'g>(mechanism: &Mechanism<'g>, chain: &chain::Chain<'g>) -> Vec<
         let arm = back * (frame.translation - working.origin);
         let moment: Vector<'g> = back * (frame.rotation * moment) + arm.cross(force);
         // In the chain's unit of length a force is measured by the torque at one unit.
-        Some(TipWrench {
-            link,
-            force: force * chain.unit,
-            moment,
-        })
+        Some(TipWrench { link, force: force * chain.unit, moment })
     });
     tips.collect()
 }

@@ -58,11 +58,7 @@ pub(crate) fn outward<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<LinkStat
         };
         let group_turn = Plane::z(angle.0, angle.1);
         angles.push(angle);
-        groups.push(if group == index {
-            Group::new(chain, link, parent)
-        } else {
-            groups[group]
-        });
+        groups.push(if group == index { Group::new(chain, link, parent) } else { groups[group] });
 
         let origin = match link.is_revolute() {
             true => link.translation,
@@ -138,11 +134,7 @@ impl<'g> Group<'g> {
     fn new(chain: &Chain<'g>, link: &ChainLink<'g>, parent: Option<&LinkState<'g>>) -> Group<'g> {
         let Some(parent) = parent else {
             let zero = Vector::zero(chain.graph);
-            return Group {
-                angular_velocity: zero,
-                angular_acceleration: zero,
-                column: zero,
-            };
+            return Group { angular_velocity: zero, angular_acceleration: zero, column: zero };
         };
         Group {
             angular_velocity: link.rotation.back(parent.angular_velocity),

@@ -3,6 +3,8 @@
 //! Every option yields the same torques; they differ in operations. Letters in brackets are those
 //! of the ablation tables in `docs/performance.md`.
 
+use crate::model::Robot;
+
 /// The options for a whole mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
@@ -86,16 +88,8 @@ pub enum Entry {
 
 impl Entry {
     /// All entries.
-    pub const ALL: [Entry; 8] = [
-        Entry::X,
-        Entry::Y,
-        Entry::Xx,
-        Entry::Yy,
-        Entry::Xy,
-        Entry::Xz,
-        Entry::Yz,
-        Entry::XxYy,
-    ];
+    pub const ALL: [Entry; 8] =
+        [Entry::X, Entry::Y, Entry::Xx, Entry::Yy, Entry::Xy, Entry::Xz, Entry::Yz, Entry::XxYy];
 }
 
 impl LinkPlan {
@@ -111,12 +105,21 @@ impl LinkPlan {
 }
 
 impl Plan {
+    /// What suits most arms, without a search: the cheapest searched plans have most links so.
+    #[must_use]
+    pub fn default_for(robot: &Robot) -> Plan {
+        let link = LinkPlan {
+            angle_sum: true,
+            column: true,
+            moment: [false, false, true],
+            ..LinkPlan::BASIC
+        };
+        Plan::uniform(robot.links.len(), &link)
+    }
+
     /// The same plan for every link.
     #[must_use]
     pub fn uniform(links: usize, plan: &LinkPlan) -> Plan {
-        Plan {
-            links: vec![plan.clone(); links],
-            unit_length: None,
-        }
+        Plan { links: vec![plan.clone(); links], unit_length: None }
     }
 }

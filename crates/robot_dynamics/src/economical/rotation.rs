@@ -16,29 +16,17 @@ pub(crate) struct Plane<'g> {
 impl<'g> Plane<'g> {
     /// About x.
     pub(crate) fn x(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
-        Plane {
-            axes: (1, 2),
-            sine,
-            cosine,
-        }
+        Plane { axes: (1, 2), sine, cosine }
     }
 
     /// About y.
     pub(crate) fn y(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
-        Plane {
-            axes: (2, 0),
-            sine,
-            cosine,
-        }
+        Plane { axes: (2, 0), sine, cosine }
     }
 
     /// About z.
     pub(crate) fn z(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
-        Plane {
-            axes: (0, 1),
-            sine,
-            cosine,
-        }
+        Plane { axes: (0, 1), sine, cosine }
     }
 
     /// Turned components to unturned ones: R v.
@@ -85,25 +73,16 @@ impl<'g> ConstantRotation<'g> {
         // Rx(α) Rz(θ) has third column (0, −sin α, cos α) and first row (cos θ, −sin θ, 0).
         if z.0[0].is_zero() {
             let plane = Plane::x(-z.0[1], z.0[2]);
-            return ConstantRotation {
-                before: planes(&[plane]),
-                turn: (-r[0][1], r[0][0]),
-            };
+            return ConstantRotation { before: planes(&[plane]), turn: (-r[0][1], r[0][0]) };
         }
         // Ry(β) Rz(θ) has third column (sin β, 0, cos β) and second row (sin θ, cos θ, 0).
         if z.0[1].is_zero() {
             let plane = Plane::y(z.0[0], z.0[2]);
-            return ConstantRotation {
-                before: planes(&[plane]),
-                turn: (r[1][0], r[1][1]),
-            };
+            return ConstantRotation { before: planes(&[plane]), turn: (r[1][0], r[1][1]) };
         }
         if r.iter().flatten().any(|entry| entry.as_number().is_none()) {
             let before = Before::Full(Box::new(matrix));
-            return ConstantRotation {
-                before,
-                turn: (zero, one),
-            };
+            return ConstantRotation { before, turn: (zero, one) };
         }
         // Rz(φ) Rx(α) Rz(θ): third column (sin φ sin α, −cos φ sin α, cos α).
         let sine = constant_root(z.0[0] * z.0[0] + z.0[1] * z.0[1]);
@@ -128,10 +107,7 @@ impl<'g> ConstantRotation<'g> {
     /// Components before the last turn to parent components.
     pub(crate) fn forward(&self, vector: Vector<'g>) -> Vector<'g> {
         match &self.before {
-            Before::Planes(planes) => planes
-                .iter()
-                .rev()
-                .fold(vector, |v, plane| plane.forward(v)),
+            Before::Planes(planes) => planes.iter().rev().fold(vector, |v, plane| plane.forward(v)),
             Before::Full(matrix) => **matrix * vector,
         }
     }
@@ -153,7 +129,5 @@ pub(crate) fn constant_root(constant: Expr<'_>) -> Expr<'_> {
     if root.as_number().is_some() {
         return root;
     }
-    constant
-        .graph()
-        .number(Number::Real(root.evaluate(|_| f64::NAN)))
+    constant.graph().number(Number::Real(root.evaluate(|_| f64::NAN)))
 }

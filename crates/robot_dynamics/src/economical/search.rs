@@ -39,22 +39,9 @@ pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
     let links = mechanism.links.len();
     let starts = [
         LinkPlan::BASIC,
-        LinkPlan {
-            origin: Origin::File,
-            turn: Turn::File,
-            ..LinkPlan::BASIC
-        },
-        LinkPlan {
-            angle_sum: true,
-            column: true,
-            moment: [true; 3],
-            ..LinkPlan::BASIC
-        },
-        LinkPlan {
-            origin: Origin::PreviousNormal,
-            angle_sum: true,
-            ..LinkPlan::BASIC
-        },
+        LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC },
+        LinkPlan { angle_sum: true, column: true, moment: [true; 3], ..LinkPlan::BASIC },
+        LinkPlan { origin: Origin::PreviousNormal, angle_sum: true, ..LinkPlan::BASIC },
     ];
     let mut best: Option<(usize, Plan)> = None;
     for start in &starts {
@@ -68,11 +55,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
         }
     }
     let (operations, plan) = best?;
-    Some(Found {
-        plan,
-        operations,
-        tried: search.tried,
-    })
+    Some(Found { plan, operations, tried: search.tried })
 }
 
 struct Search<'m, 'g> {
@@ -87,10 +70,7 @@ struct Search<'m, 'g> {
 impl<'m, 'g> Search<'m, 'g> {
     fn new(mechanism: &'m Mechanism<'g>) -> Search<'m, 'g> {
         let graph = mechanism.graph;
-        let effects = Effects {
-            wrench: false,
-            friction: false,
-        };
+        let effects = Effects { wrench: false, friction: false };
         let reference = newton_euler::newton_euler(mechanism, effects).driving_forces;
         let motions = ["q", "qd", "qdd"];
         let symbols = motions.iter().flat_map(|prefix| {
@@ -98,20 +78,10 @@ impl<'m, 'g> Search<'m, 'g> {
                 .filter_map(move |number| graph.symbol(&format!("{prefix}{number}")).as_symbol())
         });
         let inputs = symbols.collect();
-        let states: Vec<Vec<f64>> = (0..4)
-            .map(|state| test_state(state, graph.symbol_count()))
-            .collect();
-        let reference = states
-            .iter()
-            .map(|state| evaluate(&reference, state))
-            .collect();
-        Search {
-            mechanism,
-            inputs,
-            states,
-            reference,
-            tried: 0,
-        }
+        let states: Vec<Vec<f64>> =
+            (0..4).map(|state| test_state(state, graph.symbol_count())).collect();
+        let reference = states.iter().map(|state| evaluate(&reference, state)).collect();
+        Search { mechanism, inputs, states, reference, tried: 0 }
     }
 
     fn torques(&mut self, plan: &Plan) -> Option<Vec<Expr<'g>>> {
@@ -132,20 +102,12 @@ impl<'m, 'g> Search<'m, 'g> {
     }
 
     fn is_accurate(&self, torques: &[Expr<'g>]) -> bool {
-        self.states
-            .iter()
-            .zip(&self.reference)
-            .all(|(state, reference)| {
-                let size = reference
-                    .iter()
-                    .fold(0.0_f64, |size, torque| size.max(torque.abs()));
-                let values = evaluate(torques, state);
-                // A comparison with NaN is false: such a plan is refused.
-                values
-                    .iter()
-                    .zip(reference)
-                    .all(|(a, b)| (a - b).abs() <= TOLERANCE * size)
-            })
+        self.states.iter().zip(&self.reference).all(|(state, reference)| {
+            let size = reference.iter().fold(0.0_f64, |size, torque| size.max(torque.abs()));
+            let values = evaluate(torques, state);
+            // A comparison with NaN is false: such a plan is refused.
+            values.iter().zip(reference).all(|(a, b)| (a - b).abs() <= TOLERANCE * size)
+        })
     }
 
     fn descend(&mut self, mut plan: Plan, mut cost: usize) -> (usize, Plan) {
@@ -178,10 +140,7 @@ impl<'m, 'g> Search<'m, 'g> {
     fn descend_unit(&mut self, plan: &mut Plan, cost: &mut usize) {
         let components = (0..plan.links.len()).flat_map(|link| (0..3).map(move |k| (link, k)));
         for unit in components {
-            let candidate = Plan {
-                unit_length: Some(unit),
-                ..plan.clone()
-            };
+            let candidate = Plan { unit_length: Some(unit), ..plan.clone() };
             if let Some(lower) = self.better(&candidate, *cost) {
                 (*plan, *cost) = (candidate, lower);
             }
@@ -203,12 +162,7 @@ fn alternatives(current: &LinkPlan) -> Vec<Change> {
         Origin::MassCentre,
         Origin::Parent,
     ];
-    for turn in [
-        current.turn,
-        Turn::File,
-        Turn::NextNormal,
-        Turn::FirstMoment,
-    ] {
+    for turn in [current.turn, Turn::File, Turn::NextNormal, Turn::FirstMoment] {
         for origin in origins {
             changes.push(Box::new(move |plan| {
                 (plan.origin, plan.turn) = (origin, turn);
@@ -234,9 +188,7 @@ fn alternatives(current: &LinkPlan) -> Vec<Change> {
 }
 
 fn evaluate(roots: &[Expr<'_>], state: &[f64]) -> Vec<f64> {
-    walk::evaluate(roots, |symbol| {
-        state.get(symbol.index()).copied().unwrap_or(f64::NAN)
-    })
+    walk::evaluate(roots, |symbol| state.get(symbol.index()).copied().unwrap_or(f64::NAN))
 }
 
 /// Values for all symbols, spread by the golden ratio: parameters positive, states of order 1.

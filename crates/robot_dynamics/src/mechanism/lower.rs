@@ -14,11 +14,7 @@ pub(super) fn lower<'g>(
     graph: &'g Graph,
     options: &MechanismOptions,
 ) -> Mechanism<'g> {
-    let mut lowering = Lowering {
-        graph,
-        options,
-        snapped: vec![],
-    };
+    let mut lowering = Lowering { graph, options, snapped: vec![] };
     // The symbols' order is the file's and the mechanism's, whatever the formulas use first.
     for prefix in ["q", "qd", "qdd"] {
         for number in 1..=robot.coordinates.len() {
@@ -30,11 +26,7 @@ pub(super) fn lower<'g>(
     }
     let gravity = lowering.vector(&robot.gravity);
     let links = robot.links.iter().map(|link| lowering.link(link)).collect();
-    let frames = robot
-        .frames
-        .iter()
-        .map(|frame| lowering.frame(frame))
-        .collect();
+    let frames = robot.frames.iter().map(|frame| lowering.frame(frame)).collect();
     Mechanism {
         graph,
         gravity,
@@ -157,11 +149,7 @@ impl<'g> Lowering<'g, '_> {
             return exact;
         }
         if change != 0.0 {
-            self.snapped.push(Snap {
-                name: name.to_owned(),
-                angle,
-                change,
-            });
+            self.snapped.push(Snap { name: name.to_owned(), angle, change });
         }
         // |quarters| is below 1e6, so the cast is exact.
         self.graph.pi() * quarters as i64 / 2
@@ -179,10 +167,7 @@ impl<'g> Lowering<'g, '_> {
     /// The vector scaled to length 1; exact for multiples of a coordinate axis.
     fn unit_vector(&self, vector: Vector<'g>) -> Vector<'g> {
         let along: Vec<usize> = (0..3).filter(|i| !vector.0[*i].is_zero()).collect();
-        match (
-            along.as_slice(),
-            along.first().and_then(|i| vector.0[*i].as_number()),
-        ) {
+        match (along.as_slice(), along.first().and_then(|i| vector.0[*i].as_number())) {
             (&[i], Some(number)) => {
                 let sign = if number.is_negative() { -1 } else { 1 };
                 let mut unit = Vector::zero(self.graph);
@@ -202,11 +187,7 @@ impl<'g> Lowering<'g, '_> {
         if let [single] = parts[..] {
             return single;
         }
-        let zero = (
-            self.graph.zero(),
-            Vector::zero(self.graph),
-            Matrix::zero(self.graph),
-        );
+        let zero = (self.graph.zero(), Vector::zero(self.graph), Matrix::zero(self.graph));
         let mass = parts.iter().fold(zero.0, |sum, part| sum + part.0);
         if mass.is_zero() {
             let inertia = parts.iter().fold(zero.2, |sum, part| sum + part.2);
@@ -214,31 +195,18 @@ impl<'g> Lowering<'g, '_> {
         }
         let moment = parts.iter().fold(zero.1, |sum, part| sum + part.1 * part.0);
         let center = moment.map(|component| component / mass);
-        let inertia = parts
-            .iter()
-            .fold(zero.2, |sum, (mass, own_center, inertia)| {
-                sum + *inertia + steiner(*mass, *own_center - center)
-            });
+        let inertia = parts.iter().fold(zero.2, |sum, (mass, own_center, inertia)| {
+            sum + *inertia + steiner(*mass, *own_center - center)
+        });
         (mass, center, inertia)
     }
 
     fn body(&mut self, link: &str, body: &Body) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
         let (rotation, center) = self.placement(link, &body.placement);
-        let Inertia {
-            xx,
-            yy,
-            zz,
-            xy,
-            xz,
-            yz,
-        } = &body.inertia;
+        let Inertia { xx, yy, zz, xy, xz, yz } = &body.inertia;
         let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         let inertia = Matrix::from_fn(|row, column| self.value(rows[row][column]));
-        (
-            self.value(&body.mass),
-            center,
-            rotation * inertia * rotation.transpose(),
-        )
+        (self.value(&body.mass), center, rotation * inertia * rotation.transpose())
     }
 }
 

@@ -47,10 +47,7 @@ impl Mechanism {
             .zip(velocities)
             .map(|(link, velocity)| {
                 let inertia = rigid_body_inertia(link);
-                Composite {
-                    inertia,
-                    coriolis: body_coriolis(&inertia, velocity),
-                }
+                Composite { inertia, coriolis: body_coriolis(&inertia, velocity) }
             })
             .collect();
         let mut matrix = DMatrix::zeros(n, n);
@@ -111,8 +108,6 @@ impl Mechanism {
         let symbol = |k: usize, i: usize, j: usize| {
             (slopes[j][(k, i)] + slopes[i][(k, j)] - slopes[k][(i, j)]) / 2.0
         };
-        Ok((0..n)
-            .map(|k| DMatrix::from_fn(n, n, |i, j| symbol(k, i, j)))
-            .collect())
+        Ok((0..n).map(|k| DMatrix::from_fn(n, n, |i, j| symbol(k, i, j))).collect())
     }
 }

@@ -112,16 +112,12 @@ mod tests {
     fn forward_derivatives_agree_with_steps_through_the_articulated_body_algorithm() {
         for seed in 0..40 {
             let mut random = Random::new(seed);
-            let recipe = Recipe {
-                branching: seed % 2 == 1,
-                ..Recipe::serial(1 + seed as usize % 8)
-            };
+            let recipe =
+                Recipe { branching: seed % 2 == 1, ..Recipe::serial(1 + seed as usize % 8) };
             let mechanism = random.mechanism(&recipe);
             let state = random.state(&mechanism);
             let (q, qd, tau, wrenches) = (&state.q, &state.qd, &state.tau, &state.wrenches);
-            let found = mechanism
-                .forward_dynamics_derivatives(q, qd, tau, wrenches)
-                .unwrap();
+            let found = mechanism.forward_dynamics_derivatives(q, qd, tau, wrenches).unwrap();
             let n = mechanism.coordinates();
             let stepped = |which: usize| {
                 columns(n, |k| {

@@ -26,10 +26,7 @@ impl Mechanism {
         check_lengths(&[("q", n, q.len()), ("qd", n, qd.len())])?;
         let poses = self.forward_kinematics(q)?.links;
         let motions = self.link_dynamics(q, qd, &vec![0.0; n], &[])?;
-        let mut energies = Energies {
-            kinetic: 0.0,
-            potential: 0.0,
-        };
+        let mut energies = Energies { kinetic: 0.0, potential: 0.0 };
         for ((link, pose), motion) in self.links().iter().zip(&poses).zip(&motions) {
             let omega = motion.angular_velocity;
             let velocity = motion.velocity + omega.cross(&link.center_of_mass);

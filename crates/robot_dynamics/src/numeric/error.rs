@@ -77,17 +77,9 @@ pub(super) fn check_lengths(
     let wrong: Vec<Mismatch> = arguments
         .iter()
         .filter(|(_, expected, found)| expected != found)
-        .map(|&(argument, expected, found)| Mismatch {
-            argument,
-            expected,
-            found,
-        })
+        .map(|&(argument, expected, found)| Mismatch { argument, expected, found })
         .collect();
-    if wrong.is_empty() {
-        Ok(())
-    } else {
-        Err(NumericError::Lengths(wrong))
-    }
+    if wrong.is_empty() { Ok(()) } else { Err(NumericError::Lengths(wrong)) }
 }
 
 /// Checks the index of a link or frame.
@@ -96,9 +88,5 @@ pub(super) fn check_index(
     index: usize,
     count: usize,
 ) -> Result<(), NumericError> {
-    if index < count {
-        Ok(())
-    } else {
-        Err(NumericError::NoSuchBody { kind, index, count })
-    }
+    if index < count { Ok(()) } else { Err(NumericError::NoSuchBody { kind, index, count }) }
 }

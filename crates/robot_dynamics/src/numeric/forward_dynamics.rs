@@ -48,11 +48,7 @@ pub(super) fn articulated_body<T: Number>(
         let mut passed_on = bias;
         if let Some(coordinate) = link.joint.driver() {
             let resistance = resist(link, &bodies[index], tau[coordinate])?;
-            let Resistance {
-                force,
-                inertia: scalar,
-                torque,
-            } = resistance;
+            let Resistance { force, inertia: scalar, torque } = resistance;
             inertia -= force * force.transpose() / scalar;
             passed_on += force * (torque / scalar);
             resistances[index] = Some(resistance);
@@ -64,10 +60,7 @@ pub(super) fn articulated_body<T: Number>(
             bodies[parent].bias += x.transpose() * passed_on;
         }
     }
-    let base = spatial(
-        &Vector3::zeros(),
-        &mechanism.gravity().map(|g| T::from_real(-g)),
-    );
+    let base = spatial(&Vector3::zeros(), &mechanism.gravity().map(|g| T::from_real(-g)));
     let mut accelerations: Vec<Vector6<T>> = Vec::with_capacity(links.len());
     let mut qdd = vec![T::zero(); mechanism.coordinates()];
     for (index, link) in links.iter().enumerate() {
@@ -91,15 +84,10 @@ fn free_bodies<T: Number>(
 ) -> (Vec<Articulated<T>>, Vec<Vector6<T>>) {
     let mut velocities: Vec<Vector6<T>> = Vec::with_capacity(transforms.len());
     let (mut bodies, mut drifts) = (Vec::new(), Vec::new());
-    for ((link, x), load) in mechanism
-        .links()
-        .iter()
-        .zip(transforms)
-        .zip(exerted(mechanism, wrenches))
+    for ((link, x), load) in
+        mechanism.links().iter().zip(transforms).zip(exerted(mechanism, wrenches))
     {
-        let mut velocity = link
-            .parent
-            .map_or(Vector6::zeros(), |parent| x * velocities[parent]);
+        let mut velocity = link.parent.map_or(Vector6::zeros(), |parent| x * velocities[parent]);
         let mut drift = Vector6::zeros();
         if let Some(coordinate) = link.joint.driver() {
             let joint_velocity = link.joint.subspace() * qd[coordinate];
@@ -120,11 +108,7 @@ fn resist<T: Number>(link: &Link, body: &Articulated<T>, tau: T) -> Option<Resis
     let force = body.inertia * subspace;
     let inertia = subspace.dot(&force) + T::from_real(link.rotor_on_coordinate());
     let resists = inertia.real() > 0.0;
-    resists.then(|| Resistance {
-        force,
-        inertia,
-        torque: tau - subspace.dot(&body.bias),
-    })
+    resists.then(|| Resistance { force, inertia, torque: tau - subspace.dot(&body.bias) })
 }
 
 impl Mechanism {

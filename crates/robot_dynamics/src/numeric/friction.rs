@@ -14,7 +14,7 @@ pub enum Sign {
     /// sgn q̇, with sgn 0 = 0.
     #[default]
     Exact,
-    /// q̇ / √(q̇² + w²) with the width w > 0 (rad/s or m/s): 0.7 of the full friction at q̇ = w.
+    /// tanh(q̇ / w) with the width w > 0 (rad/s or m/s): 0.76 of the full friction at q̇ = w.
     Smooth(f64),
 }
 
@@ -47,27 +47,15 @@ pub struct Friction {
 impl Friction {
     /// Every number of it.
     pub(super) fn numbers(&self) -> [f64; 7] {
-        let width = if let Sign::Smooth(width) = self.sign {
-            width
-        } else {
-            0.0
-        };
+        let width = if let Sign::Smooth(width) = self.sign { width } else { 0.0 };
         let [forward, backward] = self.constant;
-        [
-            self.viscous,
-            self.coulomb,
-            self.spindle_diameter,
-            forward,
-            backward,
-            self.offset,
-            width,
-        ]
+        [self.viscous, self.coulomb, self.spindle_diameter, forward, backward, self.offset, width]
     }
 
     /// The sign of a velocity in the sense of this friction.
     pub(super) fn sign_of(&self, velocity: f64) -> f64 {
         match self.sign {
-            Sign::Smooth(width) => velocity / velocity.hypot(width),
+            Sign::Smooth(width) => (velocity / width).tanh(),
             Sign::Exact if velocity == 0.0 => 0.0,
             Sign::Exact => velocity.signum(),
         }
@@ -81,11 +69,7 @@ impl Friction {
         velocity: f64,
         force: &Vector3<f64>,
     ) -> f64 {
-        let lever = if kind == JointKind::Revolute {
-            self.spindle_diameter / 2.0
-        } else {
-            1.0
-        };
+        let lever = if kind == JointKind::Revolute { self.spindle_diameter / 2.0 } else { 1.0 };
         let sign = self.sign_of(velocity);
         let [forward, backward] = self.constant;
         self.viscous * velocity
@@ -100,9 +84,7 @@ impl Friction {
 pub(super) fn torques(mechanism: &Mechanism, qd: &[f64], loads: &[LinkDynamics]) -> DVector<f64> {
     let mut torques = DVector::zeros(mechanism.coordinates());
     for (link, load) in mechanism.links().iter().zip(loads) {
-        let Link {
-            joint, friction, ..
-        } = link;
+        let Link { joint, friction, .. } = link;
         if let Some(coordinate) = joint.driver() {
             let velocity = joint.ratio * qd[coordinate];
             let torque = friction.torque(joint.kind, &joint.axis, velocity, &load.contact_force);
@@ -126,10 +108,6 @@ impl Mechanism {
         qdd: &[f64],
         wrenches: &[Wrench],
     ) -> Result<DVector<f64>, NumericError> {
-        Ok(torques(
-            self,
-            qd,
-            &self.link_dynamics(q, qd, qdd, wrenches)?,
-        ))
+        Ok(torques(self, qd, &self.link_dynamics(q, qd, qdd, wrenches)?))
     }
 }

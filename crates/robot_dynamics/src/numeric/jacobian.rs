@@ -14,9 +14,7 @@ use super::{
 /// A column with the rows of a Jacobian: the linear half, then the angular one (the force, then the
 /// moment), the other way round than in spatial vectors.
 fn rows(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
-    Vector6::new(
-        linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
-    )
+    Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }
 
 impl Mechanism {
@@ -132,10 +130,7 @@ impl Mechanism {
         // the acceleration of the moving origin itself has ω × v more.
         let of_origin = linear(&acceleration) + angular(&velocity).cross(&linear(&velocity));
         let rotation = configuration.in_base(self)[carrier].rotation * placement.rotation;
-        Ok(rows(
-            &(rotation * of_origin),
-            &(rotation * angular(&acceleration)),
-        ))
+        Ok(rows(&(rotation * of_origin), &(rotation * angular(&acceleration))))
     }
 
     /// Torques that wrenches exerted by the frames (one for each frame) need at rest and without

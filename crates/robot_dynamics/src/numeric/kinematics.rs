@@ -20,16 +20,9 @@ pub(super) struct Configuration<T: Number> {
 
 impl<T: Number> Configuration<T> {
     pub(super) fn new(mechanism: &Mechanism, q: &[T]) -> Self {
-        let in_parent: Vec<Pose<T>> = mechanism
-            .links()
-            .iter()
-            .map(|link| place(link, q))
-            .collect();
+        let in_parent: Vec<Pose<T>> = mechanism.links().iter().map(|link| place(link, q)).collect();
         let transforms = in_parent.iter().map(motion_transform).collect();
-        Self {
-            in_parent,
-            transforms,
-        }
+        Self { in_parent, transforms }
     }
 
     /// Placement of each link frame in the base frame.
@@ -79,9 +72,7 @@ impl Mechanism {
             .frames()
             .iter()
             .map(|frame| {
-                frame
-                    .link
-                    .map_or(frame.placement, |link| links[link].then(&frame.placement))
+                frame.link.map_or(frame.placement, |link| links[link].then(&frame.placement))
             })
             .collect();
         Ok(Placements { links, frames })

@@ -54,13 +54,7 @@ impl Joint {
     }
 
     fn of(kind: JointKind, axis: Vector3<f64>, coordinate: usize) -> Self {
-        Self {
-            kind,
-            axis,
-            coordinate,
-            ratio: 1.0,
-            offset: 0.0,
-        }
+        Self { kind, axis, coordinate, ratio: 1.0, offset: 0.0 }
     }
 
     /// The coordinate that moves the joint, if one does.
@@ -118,16 +112,7 @@ impl Link {
         inertia: Matrix3<f64>,
     ) -> Self {
         let (rotor_inertia, friction) = (0.0, Friction::default());
-        Self {
-            parent,
-            placement,
-            joint,
-            mass,
-            center_of_mass,
-            inertia,
-            rotor_inertia,
-            friction,
-        }
+        Self { parent, placement, joint, mass, center_of_mass, inertia, rotor_inertia, friction }
     }
 
     /// First moment m c, in kg m.
@@ -171,10 +156,7 @@ pub struct Wrench {
 impl Wrench {
     /// No load.
     pub fn zero() -> Self {
-        Self {
-            force: Vector3::zeros(),
-            moment: Vector3::zeros(),
-        }
+        Self { force: Vector3::zeros(), moment: Vector3::zeros() }
     }
 }
 
@@ -213,12 +195,7 @@ impl Mechanism {
     pub(super) fn assemble(gravity: Vector3<f64>, links: Vec<Link>, frames: Vec<Frame>) -> Self {
         let drivers = links.iter().filter_map(|link| link.joint.driver());
         let coordinates = drivers.max().map_or(0, |last| last + 1);
-        Self {
-            gravity,
-            links,
-            frames,
-            coordinates,
-        }
+        Self { gravity, links, frames, coordinates }
     }
 
     /// Acceleration of gravity in the base frame, m/s².

@@ -32,9 +32,7 @@ pub(super) fn outward<T: Number>(
     let mut velocities: Vec<Vector6<T>> = Vec::new();
     let mut accelerations: Vec<Vector6<T>> = Vec::new();
     for (link, x) in mechanism.links().iter().zip(&configuration.transforms) {
-        let mut velocity = link
-            .parent
-            .map_or(Vector6::zeros(), |parent| x * velocities[parent]);
+        let mut velocity = link.parent.map_or(Vector6::zeros(), |parent| x * velocities[parent]);
         let mut acceleration = x * link.parent.map_or(base, |parent| accelerations[parent]);
         if let Some(coordinate) = link.joint.driver() {
             let subspace = link.joint.subspace();
@@ -45,10 +43,7 @@ pub(super) fn outward<T: Number>(
         velocities.push(velocity);
         accelerations.push(acceleration);
     }
-    Motions {
-        velocities,
-        accelerations,
-    }
+    Motions { velocities, accelerations }
 }
 
 /// The inward pass: the force that each joint transmits to its link, in link coordinates.
@@ -113,11 +108,7 @@ pub(super) fn inverse_dynamics<T: Number>(
 ) -> Vec<T> {
     let configuration = Configuration::new(mechanism, q);
     let motions = outward(mechanism, &configuration, qd, qdd, &-mechanism.gravity());
-    project(
-        mechanism,
-        &inward(mechanism, &configuration, &motions, wrenches),
-        qdd,
-    )
+    project(mechanism, &inward(mechanism, &configuration, &motions, wrenches), qdd)
 }
 
 /// Checks the wrenches: one for each frame, or none at all.
@@ -125,11 +116,7 @@ pub(super) fn wrench_length(
     mechanism: &Mechanism,
     wrenches: &[Wrench],
 ) -> (&'static str, usize, usize) {
-    let expected = if wrenches.is_empty() {
-        0
-    } else {
-        mechanism.frames().len()
-    };
+    let expected = if wrenches.is_empty() { 0 } else { mechanism.frames().len() };
     ("wrenches", expected, wrenches.len())
 }
 

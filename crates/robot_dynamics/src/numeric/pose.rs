@@ -18,10 +18,7 @@ pub struct Pose<T = f64> {
 impl<T: Number> Pose<T> {
     /// The frame itself.
     pub fn identity() -> Self {
-        Self {
-            rotation: Matrix3::identity(),
-            translation: Vector3::zeros(),
-        }
+        Self { rotation: Matrix3::identity(), translation: Vector3::zeros() }
     }
 
     /// The placement of C in A, where `self` is that of B in A and `next` that of C in B.
@@ -35,10 +32,7 @@ impl<T: Number> Pose<T> {
     /// The placement of A in B.
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.transpose();
-        Self {
-            rotation,
-            translation: -(rotation * self.translation),
-        }
+        Self { rotation, translation: -(rotation * self.translation) }
     }
 }
 
@@ -62,19 +56,11 @@ impl Pose {
     pub fn rpy(&self) -> [f64; 3] {
         let r = &self.rotation;
         let cos_pitch = r[(2, 1)].hypot(r[(2, 2)]);
-        let roll = if cos_pitch < 1e-15 {
-            0.0
-        } else {
-            r[(2, 1)].atan2(r[(2, 2)])
-        };
+        let roll = if cos_pitch < 1e-15 { 0.0 } else { r[(2, 1)].atan2(r[(2, 2)]) };
         // The yaw is read from R Rx(roll)ᵀ = Rz Ry, whose second column never vanishes: what a
         // small cos(pitch) leaves uncertain in the roll is then made good by the yaw.
         let second = r.column(1) * roll.cos() - r.column(2) * roll.sin();
-        [
-            roll,
-            (-r[(2, 0)]).atan2(cos_pitch),
-            (-second[0]).atan2(second[1]),
-        ]
+        [roll, (-r[(2, 0)]).atan2(cos_pitch), (-second[0]).atan2(second[1])]
     }
 
     /// The same placement over other numbers.

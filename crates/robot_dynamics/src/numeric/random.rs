@@ -35,21 +35,12 @@ pub struct Recipe {
 impl Recipe {
     /// A chain of links, each with a coordinate of its own, without rotors and friction.
     pub fn serial(joints: usize) -> Self {
-        Self {
-            joints,
-            branching: false,
-            mimic: false,
-            fixed: false,
-            drives: false,
-        }
+        Self { joints, branching: false, mimic: false, fixed: false, drives: false }
     }
 
     /// A tree of links, otherwise like a chain.
     pub fn tree(joints: usize) -> Self {
-        Self {
-            branching: true,
-            ..Self::serial(joints)
-        }
+        Self { branching: true, ..Self::serial(joints) }
     }
 }
 
@@ -113,11 +104,8 @@ impl Random {
 
     /// A placement: any rotation (as roll, pitch, yaw), up to half a metre away in each direction.
     pub fn pose(&mut self) -> Pose {
-        let rpy = [
-            self.uniform(-PI, PI),
-            self.uniform(-FRAC_PI_2, FRAC_PI_2),
-            self.uniform(-PI, PI),
-        ];
+        let rpy =
+            [self.uniform(-PI, PI), self.uniform(-FRAC_PI_2, FRAC_PI_2), self.uniform(-PI, PI)];
         Pose::from_xyz_rpy(self.vector(0.5).into(), rpy)
     }
 
@@ -125,9 +113,7 @@ impl Random {
     fn square_pose(&mut self) -> Pose {
         let mut right_angle = || (self.index(4) as f64 - 1.0) * FRAC_PI_2;
         let rpy = [right_angle(), 0.0, right_angle()];
-        let xyz = self
-            .vector(0.5)
-            .map(|x| if self.once_in(2) { 0.0 } else { x });
+        let xyz = self.vector(0.5).map(|x| if self.once_in(2) { 0.0 } else { x });
         let mut pose = Pose::from_xyz_rpy(xyz.into(), rpy);
         pose.rotation = pose.rotation.map(f64::round);
         pose
@@ -149,30 +135,16 @@ impl Random {
     pub fn mechanism(&mut self, recipe: &Recipe) -> Mechanism {
         let mut links: Vec<Link> = Vec::new();
         let mut coordinates = 0;
-        while links
-            .iter()
-            .filter(|link| link.joint.driver().is_some())
-            .count()
-            < recipe.joints
-        {
+        while links.iter().filter(|link| link.joint.driver().is_some()).count() < recipe.joints {
             let fixed = recipe.fixed && self.once_in(4);
-            let joint = if fixed {
-                Joint::fixed()
-            } else {
-                self.joint(recipe, &mut coordinates)
-            };
+            let joint = if fixed { Joint::fixed() } else { self.joint(recipe, &mut coordinates) };
             let link = self.link(recipe, joint, links.len());
             links.push(link);
         }
         let gravity = self.unit_vector() * 9.81;
-        let frames = [
-            links.len().checked_sub(1),
-            links.len().checked_sub(1 + self.index(links.len())),
-        ]
-        .map(|link| Frame {
-            link,
-            placement: self.pose(),
-        });
+        let frames =
+            [links.len().checked_sub(1), links.len().checked_sub(1 + self.index(links.len()))]
+                .map(|link| Frame { link, placement: self.pose() });
         Mechanism::assemble(gravity, links, frames.to_vec())
     }
 
@@ -183,18 +155,8 @@ impl Random {
         } else {
             self.unit_vector()
         };
-        let kind = if self.once_in(3) {
-            JointKind::Prismatic
-        } else {
-            JointKind::Revolute
-        };
-        let mut joint = Joint {
-            kind,
-            axis,
-            coordinate: *coordinates,
-            ratio: 1.0,
-            offset: 0.0,
-        };
+        let kind = if self.once_in(3) { JointKind::Prismatic } else { JointKind::Revolute };
+        let mut joint = Joint { kind, axis, coordinate: *coordinates, ratio: 1.0, offset: 0.0 };
         if recipe.mimic && *coordinates > 0 && self.once_in(3) {
             joint.coordinate = self.index(*coordinates);
             joint.ratio = self.uniform(-3.0, 3.0);
@@ -211,20 +173,10 @@ impl Random {
             // Counted from 1, so that 0 is the base.
             parent = self.index(index + 1).checked_sub(1);
         }
-        let placement = if self.once_in(3) {
-            self.square_pose()
-        } else {
-            self.pose()
-        };
+        let placement = if self.once_in(3) { self.square_pose() } else { self.pose() };
         let mass = self.uniform(0.2, 5.0);
-        let mut link = Link::new(
-            parent,
-            placement,
-            joint,
-            mass,
-            self.vector(0.3),
-            self.inertia(mass),
-        );
+        let mut link =
+            Link::new(parent, placement, joint, mass, self.vector(0.3), self.inertia(mass));
         if recipe.drives {
             link.rotor_inertia = self.uniform(0.0, 0.5);
             link.friction = Friction {
@@ -253,22 +205,10 @@ impl Random {
                 ranges[joint.coordinate] = 0.5;
             }
         }
-        let q = ranges
-            .into_iter()
-            .map(|range| self.uniform(-range, range))
-            .collect();
+        let q = ranges.into_iter().map(|range| self.uniform(-range, range)).collect();
         let mut numbers = |size: f64| (0..n).map(|_| self.uniform(-size, size)).collect();
         let (qd, qdd, tau) = (numbers(2.0), numbers(5.0), numbers(20.0));
-        let wrench = |_| Wrench {
-            force: self.vector(10.0),
-            moment: self.vector(3.0),
-        };
-        State {
-            q,
-            qd,
-            qdd,
-            tau,
-            wrenches: mechanism.frames().iter().map(wrench).collect(),
-        }
+        let wrench = |_| Wrench { force: self.vector(10.0), moment: self.vector(3.0) };
+        State { q, qd, qdd, tau, wrenches: mechanism.frames().iter().map(wrench).collect() }
     }
 }

@@ -24,18 +24,7 @@ impl Link {
         let h = self.first_moment();
         let i = self.inertia_about_origin();
         let (xx, xy, yy) = (i[(0, 0)], i[(0, 1)], i[(1, 1)]);
-        [
-            self.mass,
-            h.x,
-            h.y,
-            h.z,
-            xx,
-            xy,
-            yy,
-            i[(0, 2)],
-            i[(1, 2)],
-            i[(2, 2)],
-        ]
+        [self.mass, h.x, h.y, h.z, xx, xy, yy, i[(0, 2)], i[(1, 2)], i[(2, 2)]]
     }
 }
 
@@ -48,9 +37,7 @@ fn of_link(motion: &LinkDynamics) -> LinkRegressor {
     let mut matrix = LinkRegressor::zeros();
     matrix.fixed_view_mut::<3, 1>(3, 0).copy_from(acceleration);
     matrix.fixed_view_mut::<3, 3>(3, 1).copy_from(&turning);
-    matrix
-        .fixed_view_mut::<3, 3>(0, 1)
-        .copy_from(&-skew(acceleration));
+    matrix.fixed_view_mut::<3, 3>(0, 1).copy_from(&-skew(acceleration));
     let moment = tensor_columns(epsilon) + skew(omega) * tensor_columns(omega);
     matrix.fixed_view_mut::<3, 6>(0, 4).copy_from(&moment);
     matrix
@@ -115,13 +102,7 @@ impl Mechanism {
         let of_drive = |link: &Link| {
             let [forward, backward] = link.friction.constant;
             let friction = &link.friction;
-            [
-                link.rotor_inertia,
-                friction.viscous,
-                forward,
-                backward,
-                friction.offset,
-            ]
+            [link.rotor_inertia, friction.viscous, forward, backward, friction.offset]
         };
         DVector::from_vec(self.links().iter().flat_map(of_drive).collect())
     }

@@ -19,11 +19,7 @@ const STEP: f64 = 1e-100;
 /// number.
 pub(super) fn step(numbers: &[f64], index: usize) -> Vec<Complex<f64>> {
     let step_of = |place| if place == index { STEP } else { 0.0 };
-    numbers
-        .iter()
-        .enumerate()
-        .map(|(place, &x)| Complex::new(x, step_of(place)))
-        .collect()
+    numbers.iter().enumerate().map(|(place, &x)| Complex::new(x, step_of(place))).collect()
 }
 
 /// The derivative that a result carries: f′(x) = Im f(x + i h) / h up to a relative h².

@@ -14,9 +14,7 @@ use super::{
 
 /// The spatial vector with the given angular (moment) and linear (force) halves.
 pub(super) fn spatial<T: Number>(angular: &Vector3<T>, linear: &Vector3<T>) -> Vector6<T> {
-    Vector6::new(
-        angular.x, angular.y, angular.z, linear.x, linear.y, linear.z,
-    )
+    Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
 /// The angular half of a motion vector, the moment of a force vector.
@@ -72,11 +70,7 @@ pub(super) fn rigid_body_inertia<T: Number>(link: &Link) -> Matrix6<T> {
     let first_moment = c * link.mass;
     let about_origin = link.inertia + first_moment * c.transpose();
     let mass = Matrix3::identity() * link.mass;
-    blocks(
-        [&about_origin, &first_moment],
-        [&first_moment.transpose(), &mass],
-    )
-    .map(T::from_real)
+    blocks([&about_origin, &first_moment], [&first_moment.transpose(), &mass]).map(T::from_real)
 }
 
 #[cfg(test)]

@@ -16,28 +16,16 @@ const TOLERANCE: f64 = 1e-9;
 pub(super) fn faults(gravity: &Vector3<f64>, links: &[Link], frames: &[Frame]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut report = |place: String, reasons: Vec<String>| {
-        faults.extend(reasons.into_iter().map(|reason| Fault {
-            place: place.clone(),
-            reason,
-        }));
+        faults.extend(reasons.into_iter().map(|reason| Fault { place: place.clone(), reason }));
     };
-    report(
-        "gravity".into(),
-        not_finite("acceleration", gravity.as_slice()),
-    );
+    report("gravity".into(), not_finite("acceleration", gravity.as_slice()));
     for (index, link) in links.iter().enumerate() {
-        report(
-            format!("link {index}"),
-            link_reasons(link, index, links.len()),
-        );
+        report(format!("link {index}"), link_reasons(link, index, links.len()));
     }
     for (index, frame) in frames.iter().enumerate() {
         let mut reasons = pose_reasons(&frame.placement);
         if let Some(link) = frame.link.filter(|&link| link >= links.len()) {
-            reasons.push(format!(
-                "link {link} does not exist: there are {}",
-                links.len()
-            ));
+            reasons.push(format!("link {link} does not exist: there are {}", links.len()));
         }
         report(format!("frame {index}"), reasons);
     }
@@ -50,11 +38,7 @@ fn link_reasons(link: &Link, index: usize, count: usize) -> Vec<String> {
     if let Some(parent) = link.parent.filter(|&parent| parent >= index) {
         reasons.push(format!("parent {parent} must come before its child"));
     }
-    if let Some(coordinate) = link
-        .joint
-        .driver()
-        .filter(|&coordinate| coordinate >= count)
-    {
+    if let Some(coordinate) = link.joint.driver().filter(|&coordinate| coordinate >= count) {
         reasons.push(format!(
             "coordinate {coordinate} must be less than the number of links, {count}"
         ));
@@ -106,10 +90,7 @@ fn idle_coordinates(links: &[Link]) -> Vec<String> {
             *entry = true;
         }
     }
-    let used = drives
-        .iter()
-        .rposition(|&drives| drives)
-        .map_or(0, |last| last + 1);
+    let used = drives.iter().rposition(|&drives| drives).map_or(0, |last| last + 1);
     (0..used)
         .filter(|&coordinate| !drives[coordinate])
         .map(|coordinate| format!("coordinate {coordinate} moves no joint: number them from 0"))

@@ -29,12 +29,7 @@ fn gravity_torques_are_the_slope_of_the_potential() {
         let still = vec![0.0; q.len()];
         let slope = |k| {
             derivative(|step| {
-                vec![
-                    mechanism
-                        .energies(&nudged(q, k, step), &still)
-                        .unwrap()
-                        .potential,
-                ]
+                vec![mechanism.energies(&nudged(q, k, step), &still).unwrap().potential]
             })[0]
         };
         let expected: Vec<f64> = (0..q.len()).map(slope).collect();
@@ -49,18 +44,9 @@ fn slopes_of_the_mass_matrix_agree_with_differences() {
     let mut worst = Worst::default();
     for case in cases(36) {
         let (mechanism, q) = (&case.mechanism, &case.state.q);
-        for (k, slope) in mechanism
-            .mass_matrix_derivatives(q)
-            .unwrap()
-            .iter()
-            .enumerate()
-        {
+        for (k, slope) in mechanism.mass_matrix_derivatives(q).unwrap().iter().enumerate() {
             let expected = derivative(|step| {
-                mechanism
-                    .mass_matrix(&nudged(q, k, step))
-                    .unwrap()
-                    .as_slice()
-                    .to_vec()
+                mechanism.mass_matrix(&nudged(q, k, step)).unwrap().as_slice().to_vec()
             });
             worst.compare("dM/dq", &case.name, slope.as_slice(), &expected, 1.0);
         }
@@ -82,10 +68,7 @@ fn power_balances() {
     for case in cases(60) {
         let (mechanism, state) = (&case.mechanism, &case.state);
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
-        let loads = Loads {
-            wrenches: state.wrenches.clone(),
-            friction: false,
-        };
+        let loads = Loads { wrenches: state.wrenches.clone(), friction: false };
         let tau = mechanism.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         let velocity = DVector::from_column_slice(qd);
         let mut power = tau.dot(&velocity);
@@ -101,13 +84,7 @@ fn power_balances() {
             let energies = mechanism.energies(&position, &moved(qd, qdd, t)).unwrap();
             vec![energies.kinetic + energies.potential]
         });
-        worst.compare(
-            "power",
-            &case.name,
-            &change,
-            &[power],
-            tau.amax() * velocity.amax(),
-        );
+        worst.compare("power", &case.name, &change, &[power], tau.amax() * velocity.amax());
     }
     worst.check(|_| 1e-10);
 }
@@ -137,9 +114,7 @@ fn jacobians_are_derivatives_of_poses() {
         let last = mechanism.links().len() - 1;
         let expected = derivative(|t| {
             let jacobian = mechanism.link_jacobian(&moved(q, qd, t), last).unwrap();
-            (jacobian * DVector::from_column_slice(qd))
-                .as_slice()
-                .to_vec()
+            (jacobian * DVector::from_column_slice(qd)).as_slice().to_vec()
         });
         let found = mechanism.link_jacobian_dot_qd(q, qd, last).unwrap();
         worst.compare("link Jdot v", &case.name, found.as_slice(), &expected, 1.0);
@@ -153,41 +128,17 @@ fn torque_derivatives_agree_with_differences() {
     for case in cases(36) {
         let (mechanism, state) = (&case.mechanism, &case.state);
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
-        let loads = Loads {
-            wrenches: state.wrenches.clone(),
-            friction: false,
-        };
+        let loads = Loads { wrenches: state.wrenches.clone(), friction: false };
         let torques = |q: &[f64], qd: &[f64]| {
-            mechanism
-                .inverse_dynamics_with(q, qd, qdd, &loads)
-                .unwrap()
-                .as_slice()
-                .to_vec()
+            mechanism.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
         };
-        let found = mechanism
-            .inverse_dynamics_derivatives(q, qd, qdd, &state.wrenches)
-            .unwrap();
-        let scale = mechanism
-            .inverse_dynamics_with(q, qd, qdd, &loads)
-            .unwrap()
-            .amax();
+        let found = mechanism.inverse_dynamics_derivatives(q, qd, qdd, &state.wrenches).unwrap();
+        let scale = mechanism.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().amax();
         for k in 0..q.len() {
             let expected = derivative(|step| torques(&nudged(q, k, step), qd));
-            worst.compare(
-                "dtau/dq",
-                &case.name,
-                found.dq.column(k).as_slice(),
-                &expected,
-                scale,
-            );
+            worst.compare("dtau/dq", &case.name, found.dq.column(k).as_slice(), &expected, scale);
             let expected = derivative(|step| torques(q, &nudged(qd, k, step)));
-            worst.compare(
-                "dtau/dqd",
-                &case.name,
-                found.dqd.column(k).as_slice(),
-                &expected,
-                scale,
-            );
+            worst.compare("dtau/dqd", &case.name, found.dqd.column(k).as_slice(), &expected, scale);
         }
     }
     worst.check(|_| 1e-10);

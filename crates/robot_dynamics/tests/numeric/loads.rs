@@ -12,20 +12,11 @@ fn wrenches_enter_through_the_transposed_jacobian() {
         let (mechanism, state) = (&case.mechanism, &case.state);
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
         let free = mechanism.inverse_dynamics(q, qd, qdd).unwrap();
-        let loads = Loads {
-            wrenches: state.wrenches.clone(),
-            friction: false,
-        };
+        let loads = Loads { wrenches: state.wrenches.clone(), friction: false };
         let loaded = mechanism.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         let expected = mechanism.wrench_torques(q, &state.wrenches).unwrap();
         let found = loaded - free;
-        worst.compare(
-            "wrenches",
-            &case.name,
-            found.as_slice(),
-            expected.as_slice(),
-            100.0,
-        );
+        worst.compare("wrenches", &case.name, found.as_slice(), expected.as_slice(), 100.0);
     }
     worst.check(|_| 1e-13);
 }
@@ -51,10 +42,7 @@ fn expected_contact(
     };
     for (child, link) in mechanism.links().iter().enumerate() {
         if link.parent == Some(index) {
-            let (force, moment) = (
-                dynamics[child].contact_force,
-                dynamics[child].contact_moment,
-            );
+            let (force, moment) = (dynamics[child].contact_force, dynamics[child].contact_moment);
             passed_on(&placements.links[child], &Wrench { force, moment });
         }
     }
@@ -72,26 +60,12 @@ fn every_link_is_in_balance_and_drives_carry_their_share() {
     for case in cases(60) {
         let (mechanism, state, name) = (&case.mechanism, &case.state, &case.name);
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
-        let dynamics = mechanism
-            .link_dynamics(q, qd, qdd, &state.wrenches)
-            .unwrap();
+        let dynamics = mechanism.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
         let mut torques = DVector::zeros(mechanism.coordinates());
         for (index, (link, motion)) in mechanism.links().iter().zip(&dynamics).enumerate() {
             let (force, moment) = expected_contact(mechanism, q, &dynamics, &state.wrenches, index);
-            worst.compare(
-                "F_l",
-                name,
-                motion.contact_force.as_slice(),
-                force.as_slice(),
-                1.0,
-            );
-            worst.compare(
-                "M_l",
-                name,
-                motion.contact_moment.as_slice(),
-                moment.as_slice(),
-                1.0,
-            );
+            worst.compare("F_l", name, motion.contact_force.as_slice(), force.as_slice(), 1.0);
+            worst.compare("M_l", name, motion.contact_moment.as_slice(), moment.as_slice(), 1.0);
             let joint = &link.joint;
             let share = match joint.kind {
                 JointKind::Fixed => continue,
@@ -101,10 +75,7 @@ fn every_link_is_in_balance_and_drives_carry_their_share() {
             let rotor = link.rotor_inertia * joint.ratio * qdd[joint.coordinate];
             torques[joint.coordinate] += joint.ratio * (share + rotor);
         }
-        let loads = Loads {
-            wrenches: state.wrenches.clone(),
-            friction: false,
-        };
+        let loads = Loads { wrenches: state.wrenches.clone(), friction: false };
         let tau = mechanism.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         worst.compare("Q", name, torques.as_slice(), tau.as_slice(), 1.0);
     }
@@ -119,17 +90,9 @@ fn friction_adds_to_the_torques_and_takes_power() {
         let (state, name) = (&case.state, &case.name);
         let (q, qd, qdd, wrenches) = (&state.q, &state.qd, &state.qdd, &state.wrenches);
         let mechanism = without_load_friction(&case.mechanism);
-        let free = Loads {
-            wrenches: wrenches.clone(),
-            friction: false,
-        };
-        let braked = Loads {
-            friction: true,
-            ..free.clone()
-        };
-        let difference = mechanism
-            .inverse_dynamics_with(q, qd, qdd, &braked)
-            .unwrap()
+        let free = Loads { wrenches: wrenches.clone(), friction: false };
+        let braked = Loads { friction: true, ..free.clone() };
+        let difference = mechanism.inverse_dynamics_with(q, qd, qdd, &braked).unwrap()
             - mechanism.inverse_dynamics_with(q, qd, qdd, &free).unwrap();
         // What does not grow with the load is linear in the drive parameters, rotors apart.
         let still = vec![0.0; qd.len()];
@@ -137,16 +100,10 @@ fn friction_adds_to_the_torques_and_takes_power() {
             mechanism.drive_regressor(qd, &still).unwrap() * mechanism.drive_parameters();
         worst.compare("Q_f", name, difference.as_slice(), expected.as_slice(), 1.0);
         // The rest, which the case's own friction adds, only ever brakes.
-        let all = case
-            .mechanism
-            .friction_torques(q, qd, qdd, wrenches)
-            .unwrap();
+        let all = case.mechanism.friction_torques(q, qd, qdd, wrenches).unwrap();
         let by_load = all - expected;
         let power = by_load.dot(&DVector::from_column_slice(qd));
-        assert!(
-            power > 0.0,
-            "{name}: dry friction must take power, not {power}"
-        );
+        assert!(power > 0.0, "{name}: dry friction must take power, not {power}");
         compared += 1;
     }
     assert!(compared > 10);
@@ -176,24 +133,13 @@ fn friction_follows_the_equations_of_the_paper() {
     };
     let gravity = Vector3::new(0.0, 0.0, -10.0);
     let torque = |joint: Joint, friction: Friction, rate: f64| {
-        let mut link = Link::new(
-            None,
-            Pose::identity(),
-            joint,
-            3.0,
-            Vector3::zeros(),
-            Matrix3::identity(),
-        );
+        let mut link =
+            Link::new(None, Pose::identity(), joint, 3.0, Vector3::zeros(), Matrix3::identity());
         link.friction = friction;
         let mechanism = Mechanism::new(gravity, vec![link], vec![]).unwrap();
-        mechanism
-            .friction_torques(&[0.4], &[rate], &[0.0], &[])
-            .unwrap()[0]
+        mechanism.friction_torques(&[0.4], &[rate], &[0.0], &[]).unwrap()[0]
     };
-    let (wheel, slider) = (
-        Joint::revolute(Vector3::y(), 0),
-        Joint::prismatic(Vector3::x(), 0),
-    );
+    let (wheel, slider) = (Joint::revolute(Vector3::y(), 0), Joint::prismatic(Vector3::x(), 0));
     // The joint carries 30 N upwards, across both axes.
     let cases = [
         (wheel, 2.0, 1.0 + 0.1 * 0.02 * 30.0 + 0.3 + 0.05),
@@ -204,27 +150,18 @@ fn friction_follows_the_equations_of_the_paper() {
     ];
     for (joint, rate, expected) in cases {
         let found = torque(joint, friction, rate);
-        assert!(
-            (found - expected).abs() < 1e-14,
-            "{joint:?} at {rate}: {found}, not {expected}"
-        );
+        assert!((found - expected).abs() < 1e-14, "{joint:?} at {rate}: {found}, not {expected}");
     }
     // Along the axis the load does not press.
     let upright = Joint::prismatic(Vector3::z(), 0);
     assert!((torque(upright, friction, 2.0) - 1.35).abs() < 1e-14);
     // A drive that turns twice as fast the other way round feels its friction so.
-    let geared = Joint {
-        ratio: -2.0,
-        ..slider
-    };
+    let geared = Joint { ratio: -2.0, ..slider };
     let expected = -2.0 * (-2.0 - 0.1 * 30.0 - 0.2 + 0.05);
     assert!((torque(geared, friction, 2.0) - expected).abs() < 1e-14);
-    // A smooth sign of width 1.5 at the velocity 2 is 2 / 2.5.
-    let smooth = Friction {
-        sign: Sign::Smooth(1.5),
-        offset: 0.0,
-        ..friction
-    };
-    let expected = 1.0 + 0.1 * 30.0 * 0.8 + 0.25 * 0.8 + 0.05 * 0.64;
+    // A smooth sign of width 2 / ln 2 at the velocity 2 is tanh(ln 2) = 3/5.
+    let smooth =
+        Friction { sign: Sign::Smooth(2.0 / std::f64::consts::LN_2), offset: 0.0, ..friction };
+    let expected = 1.0 + 0.1 * 30.0 * 0.6 + 0.25 * 0.6 + 0.05 * 0.36;
     assert!((torque(slider, smooth, 2.0) - expected).abs() < 1e-14);
 }

@@ -18,10 +18,7 @@ impl Worst {
     /// Notes an error; one that is not a number is worse than any.
     pub(crate) fn note(&mut self, what: &str, place: &str, error: f64) {
         let error = if error.is_nan() { f64::INFINITY } else { error };
-        let entry = self
-            .errors
-            .entry(what.into())
-            .or_insert((-1.0, String::new()));
+        let entry = self.errors.entry(what.into()).or_insert((-1.0, String::new()));
         if error > entry.0 {
             *entry = (error, place.into());
         }
@@ -38,23 +35,12 @@ impl Worst {
         scale: f64,
     ) {
         assert_eq!(found.len(), expected.len(), "{what}, {place}: lengths");
-        let largest = expected
-            .iter()
-            .fold(scale, |largest, x| largest.max(x.abs()));
+        let largest = expected.iter().fold(scale, |largest, x| largest.max(x.abs()));
         let difference = |(a, b): (&f64, &f64)| {
             let difference = (a - b).abs();
-            if difference.is_nan() {
-                f64::INFINITY
-            } else {
-                difference
-            }
+            if difference.is_nan() { f64::INFINITY } else { difference }
         };
-        let error = found
-            .iter()
-            .zip(expected)
-            .map(difference)
-            .fold(0.0, f64::max)
-            / largest;
+        let error = found.iter().zip(expected).map(difference).fold(0.0, f64::max) / largest;
         self.note(what, place, error);
     }
 
@@ -66,10 +52,7 @@ impl Worst {
         }
         for (what, (error, place)) in &self.errors {
             let limit = limit(what);
-            assert!(
-                *error <= limit,
-                "{what}: {error:e} exceeds {limit:e}, first at {place}"
-            );
+            assert!(*error <= limit, "{what}: {error:e} exceeds {limit:e}, first at {place}");
         }
     }
 }
@@ -97,12 +80,7 @@ pub(crate) fn cases(count: u64) -> impl Iterator<Item = Case> {
         let mut random = Random::new(seed);
         let mechanism = random.mechanism(&recipe);
         let state = random.state(&mechanism);
-        Case {
-            name: format!("seed {seed}"),
-            recipe,
-            mechanism,
-            state,
-        }
+        Case { name: format!("seed {seed}"), recipe, mechanism, state }
     })
 }
 
@@ -123,11 +101,7 @@ pub(crate) fn derivative(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
 
 /// The numbers, moved by `distance` along the direction.
 pub(crate) fn moved(numbers: &[f64], direction: &[f64], distance: f64) -> Vec<f64> {
-    numbers
-        .iter()
-        .zip(direction)
-        .map(|(x, d)| x + d * distance)
-        .collect()
+    numbers.iter().zip(direction).map(|(x, d)| x + d * distance).collect()
 }
 
 /// The numbers, the one at `index` moved by `distance`.

@@ -15,12 +15,7 @@ fn load(robot: &str) -> Value {
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|number| number.as_f64().unwrap())
-        .collect()
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
 
 fn array<const N: usize>(value: &Value) -> [f64; N] {
@@ -58,19 +53,8 @@ fn mechanism(fixture: &Value) -> Mechanism {
             translation: Vector3::from(array(&frame["xyz"])),
         },
     };
-    let links = data["links"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .enumerate()
-        .map(link)
-        .collect();
-    let frames = data["frames"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(frame)
-        .collect();
+    let links = data["links"].as_array().unwrap().iter().enumerate().map(link).collect();
+    let frames = data["frames"].as_array().unwrap().iter().map(frame).collect();
     Mechanism::new(Vector3::from(array(&data["gravity"])), links, frames).unwrap()
 }
 
@@ -97,24 +81,11 @@ fn compare_dynamics(worst: &mut Worst, place: &str, mechanism: &Mechanism, state
     vector("tau", &mechanism.inverse_dynamics(&q, &v, &a).unwrap());
     vector("g", &mechanism.gravity_torques(&q).unwrap());
     vector("nle", &mechanism.bias(&q, &v).unwrap());
-    vector(
-        "aba_a",
-        &mechanism.forward_dynamics(&q, &v, &tau, &[]).unwrap(),
-    );
+    vector("aba_a", &mechanism.forward_dynamics(&q, &v, &tau, &[]).unwrap());
     let found = mechanism.articulated_body(&q, &v, &tau, &[]).unwrap();
-    worst.compare(
-        "aba_a, articulated body",
-        place,
-        found.as_slice(),
-        &value("aba_a"),
-        1e-3,
-    );
-    let inverse = mechanism
-        .inverse_dynamics_derivatives(&q, &v, &a, &[])
-        .unwrap();
-    let forward = mechanism
-        .forward_dynamics_derivatives(&q, &v, &tau, &[])
-        .unwrap();
+    worst.compare("aba_a, articulated body", place, found.as_slice(), &value("aba_a"), 1e-3);
+    let inverse = mechanism.inverse_dynamics_derivatives(&q, &v, &a, &[]).unwrap();
+    let forward = mechanism.forward_dynamics_derivatives(&q, &v, &tau, &[]).unwrap();
     let mut matrix = |key: &str, found: &DMatrix<f64>| {
         worst.compare(key, place, &rows(found), &value(key), 1e-3);
     };
@@ -129,10 +100,7 @@ fn compare_dynamics(worst: &mut Worst, place: &str, mechanism: &Mechanism, state
     matrix("da_dv", &forward.dqd);
     matrix("Y", &mechanism.regressor(&q, &v, &a).unwrap());
     let energies = mechanism.energies(&q, &v).unwrap();
-    for (key, found) in [
-        ("kinetic", energies.kinetic),
-        ("potential", energies.potential),
-    ] {
+    for (key, found) in [("kinetic", energies.kinetic), ("potential", energies.potential)] {
         worst.compare(key, place, &[found], &[state[key].as_f64().unwrap()], 1e-3);
     }
 }
@@ -147,20 +115,8 @@ fn compare_kinematics(worst: &mut Worst, place: &str, fixture: &Value, state: &V
             Body::Frame(frame) => &placements.frames[frame],
         };
         let rotation = pose.rotation.transpose();
-        worst.compare(
-            "poses",
-            place,
-            rotation.as_slice(),
-            &numbers(&expected["R"]),
-            1.0,
-        );
-        worst.compare(
-            "poses",
-            place,
-            pose.translation.as_slice(),
-            &numbers(&expected["p"]),
-            1.0,
-        );
+        worst.compare("poses", place, rotation.as_slice(), &numbers(&expected["R"]), 1.0);
+        worst.compare("poses", place, pose.translation.as_slice(), &numbers(&expected["p"]), 1.0);
     }
     for (name, expected) in state["J"].as_object().unwrap() {
         let (jacobian, drift) = match body(fixture, name) {
@@ -173,29 +129,11 @@ fn compare_kinematics(worst: &mut Worst, place: &str, fixture: &Value, state: &V
                 mechanism.frame_jacobian_dot_qd(&q, &v, frame).unwrap(),
             ),
         };
-        worst.compare(
-            "J",
-            place,
-            jacobian.transpose().as_slice(),
-            &numbers(expected),
-            1.0,
-        );
-        worst.compare(
-            "Jdot_v",
-            place,
-            drift.as_slice(),
-            &numbers(&state["Jdot_v"][name]),
-            1.0,
-        );
+        worst.compare("J", place, jacobian.transpose().as_slice(), &numbers(expected), 1.0);
+        worst.compare("Jdot_v", place, drift.as_slice(), &numbers(&state["Jdot_v"][name]), 1.0);
     }
     let center = mechanism.center_of_mass(&q).unwrap();
-    worst.compare(
-        "com",
-        place,
-        center.as_slice(),
-        &numbers(&state["com"]),
-        1.0,
-    );
+    worst.compare("com", place, center.as_slice(), &numbers(&state["com"]), 1.0);
 }
 
 fn agrees_with_pinocchio(robot: &str) {
@@ -203,13 +141,7 @@ fn agrees_with_pinocchio(robot: &str) {
     let mechanism = mechanism(&fixture);
     let mut worst = Worst::default();
     let parameters = mechanism.parameters();
-    worst.compare(
-        "pi",
-        robot,
-        parameters.as_slice(),
-        &numbers(&fixture["pi"]),
-        1e-3,
-    );
+    worst.compare("pi", robot, parameters.as_slice(), &numbers(&fixture["pi"]), 1e-3);
     let states = fixture["states"].as_array().unwrap();
     assert_eq!(states.len(), 8);
     for (number, state) in states.iter().enumerate() {

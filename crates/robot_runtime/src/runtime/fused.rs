@@ -13,10 +13,7 @@ pub const FUSED: bool = cfg!(all(
     any(
         target_feature = "fma",
         target_arch = "aarch64",
-        all(
-            any(target_arch = "riscv64", target_arch = "riscv32"),
-            target_feature = "d"
-        )
+        all(any(target_arch = "riscv64", target_arch = "riscv32"), target_feature = "d")
     )
 ));
 

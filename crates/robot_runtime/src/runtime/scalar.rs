@@ -122,21 +122,5 @@ macro_rules! implement_scalar {
     };
 }
 
-implement_scalar!(
-    f64,
-    u64,
-    mul_add_f64,
-    sqrt_f64,
-    tanh_f64,
-    double::sin_cos,
-    8
-);
-implement_scalar!(
-    f32,
-    u32,
-    mul_add_f32,
-    sqrt_f32,
-    tanh_f32,
-    single::sin_cos,
-    16
-);
+implement_scalar!(f64, u64, mul_add_f64, sqrt_f64, tanh_f64, double::sin_cos, 8);
+implement_scalar!(f32, u32, mul_add_f32, sqrt_f32, tanh_f32, single::sin_cos, 16);

@@ -25,13 +25,8 @@ const EXPONENTIAL_F64: [f64; 10] = [
     2.5054284888318235e-08,
 ];
 
-const EXPONENTIAL_F32: [f32; 5] = [
-    4.9999997e-1,
-    1.6666543e-1,
-    4.1667197e-2,
-    8.366525e-3,
-    1.388279e-3,
-];
+const EXPONENTIAL_F32: [f32; 5] =
+    [4.9999997e-1, 1.6666543e-1, 4.1667197e-2, 8.366525e-3, 1.388279e-3];
 
 macro_rules! tanh {
     (
@@ -44,11 +39,7 @@ macro_rules! tanh {
         pub(super) fn $name(x: $float) -> $float {
             let twice = 2.0 * x.abs();
             // From here on the result rounds to 1; a NaN passes.
-            let y = if twice > $saturated {
-                $saturated
-            } else {
-                twice
-            };
+            let y = if twice > $saturated { $saturated } else { twice };
 
             let shifted = $mul_add(y, core::$float::consts::LOG2_E, $shift);
             let n = shifted - $shift;
@@ -62,10 +53,7 @@ macro_rules! tanh {
 
             const MANTISSA: u32 = $float::MANTISSA_DIGITS - 1;
             let power = $float::from_bits(
-                shifted
-                    .to_bits()
-                    .wrapping_shl(MANTISSA)
-                    .wrapping_add($float::to_bits(1.0)),
+                shifted.to_bits().wrapping_shl(MANTISSA).wrapping_add($float::to_bits(1.0)),
             );
             let t = $mul_add(power, e, power - 1.0);
             (t / (t + 2.0)).copysign(x)

@@ -10,26 +10,17 @@ pub(crate) struct Exact {
 
 impl Exact {
     pub(crate) fn new(value: f64) -> Self {
-        Self {
-            high: value,
-            low: 0.0,
-        }
+        Self { high: value, low: 0.0 }
     }
 
     /// `a + b` for |a| ≥ |b|.
     fn normalised(a: f64, b: f64) -> Self {
         let high = a + b;
-        Self {
-            high,
-            low: b - (high - a),
-        }
+        Self { high, low: b - (high - a) }
     }
 
     fn negated(self) -> Self {
-        Self {
-            high: -self.high,
-            low: -self.low,
-        }
+        Self { high: -self.high, low: -self.low }
     }
 
     fn plus(self, other: Self) -> Self {
@@ -42,10 +33,7 @@ impl Exact {
     fn times(self, other: Self) -> Self {
         let product = self.high * other.high;
         let error = f64::mul_add(self.high, other.high, -product);
-        Self::normalised(
-            product,
-            error + (self.high * other.low + self.low * other.high),
-        )
+        Self::normalised(product, error + (self.high * other.low + self.low * other.high))
     }
 
     fn over(self, divisor: Self) -> Self {

@@ -16,11 +16,7 @@ pub struct ParseError {
 
 impl ParseError {
     pub(crate) fn new(span: Range<usize>, message: impl Into<String>) -> ParseError {
-        ParseError {
-            span,
-            message: message.into(),
-            help: None,
-        }
+        ParseError { span, message: message.into(), help: None }
     }
 
     #[must_use]

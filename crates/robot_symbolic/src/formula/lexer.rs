@@ -39,11 +39,7 @@ pub(super) const fn continues_name(byte: u8) -> bool {
 
 impl<'t> Lexer<'t> {
     pub(super) fn new(text: &'t str, names: Names) -> Lexer<'t> {
-        Lexer {
-            text,
-            position: 0,
-            names,
-        }
+        Lexer { text, position: 0, names }
     }
 
     /// The next token and its bytes; [`Token::End`] with an empty range at the end.
@@ -143,14 +139,10 @@ impl<'t> Lexer<'t> {
         };
         let around = digit(start.checked_sub(1)) && digit(Some(start + 1));
         let (message, help) = match character {
-            ',' if around => (
-                "a decimal number has a point".to_owned(),
-                "write `1.5` for `1,5`",
-            ),
-            ',' => (
-                "`,` has no meaning in a formula".to_owned(),
-                "every function takes one argument",
-            ),
+            ',' if around => ("a decimal number has a point".to_owned(), "write `1.5` for `1,5`"),
+            ',' => {
+                ("`,` has no meaning in a formula".to_owned(), "every function takes one argument")
+            }
             '·' | '×' | '∗' | '⋅' => (unknown(character), "write a product as `a*b`"),
             '÷' | '∕' => (unknown(character), "write a quotient as `a/b`"),
             '−' | '–' | '—' => (unknown(character), "write the sign on the keyboard, `-`"),
@@ -169,10 +161,7 @@ impl<'t> Lexer<'t> {
 }
 
 fn unknown(character: char) -> String {
-    format!(
-        "`{}` has no meaning in a formula",
-        character.escape_debug().collect::<String>()
-    )
+    format!("`{}` has no meaning in a formula", character.escape_debug().collect::<String>())
 }
 
 /// Whether the nearest `f64` is finite, and 0 for 0 alone.

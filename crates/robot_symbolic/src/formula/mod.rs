@@ -89,19 +89,13 @@ impl Formula {
         if value.is_negative() {
             ops.push(Op::Neg);
         }
-        Formula {
-            text: print::exact_text(value),
-            ops,
-        }
+        Formula { text: print::exact_text(value), ops }
     }
 
     /// The formula that is one name, taken as it is.
     #[must_use]
     pub fn symbol(name: &str) -> Formula {
-        Formula {
-            text: name.to_owned(),
-            ops: vec![Op::Symbol(0..name.len())],
-        }
+        Formula { text: name.to_owned(), ops: vec![Op::Symbol(0..name.len())] }
     }
 
     /// The source text.
@@ -240,10 +234,7 @@ struct Stack<T> {
 
 impl<T: Copy> Stack<T> {
     fn new(fallback: T) -> Stack<T> {
-        Stack {
-            values: vec![],
-            fallback,
-        }
+        Stack { values: vec![], fallback }
     }
 
     fn pop(&mut self) -> T {

@@ -58,10 +58,8 @@ struct Parser<'t> {
 /// See [`Formula::parse`].
 pub(super) fn parse(text: &str, names: Names) -> Result<Formula, ParseError> {
     if text.trim().is_empty() {
-        return Err(
-            ParseError::new(0..text.len(), "expected a formula, found nothing")
-                .help("write a number such as `0.35` or an expression such as `l1 + l2/2`"),
-        );
+        return Err(ParseError::new(0..text.len(), "expected a formula, found nothing")
+            .help("write a number such as `0.35` or an expression such as `l1 + l2/2`"));
     }
     let mut parser = Parser {
         text,
@@ -73,10 +71,7 @@ pub(super) fn parse(text: &str, names: Names) -> Result<Formula, ParseError> {
         last: 0..0,
     };
     parser.run()?;
-    Ok(Formula {
-        text: text.to_owned(),
-        ops: parser.ops,
-    })
+    Ok(Formula { text: text.to_owned(), ops: parser.ops })
 }
 
 impl Parser<'_> {
@@ -117,13 +112,11 @@ impl Parser<'_> {
             Token::Sign(b'(') => self.open(Pending::Open, span),
             Token::Sign(b'-') => self.open(Pending::Neg, span),
             Token::Sign(b'+') => {
-                Err(self
-                    .expected("a number, a name or `(`", span)
-                    .help(if self.last.is_empty() {
-                        "leave out the leading `+`"
-                    } else {
-                        "leave out one of the two signs"
-                    }))
+                Err(self.expected("a number, a name or `(`", span).help(if self.last.is_empty() {
+                    "leave out the leading `+`"
+                } else {
+                    "leave out one of the two signs"
+                }))
             }
             Token::Sign(b')') if self.pending.last().is_some_and(|p| p.0.is_parenthesis()) => {
                 Err(ParseError::new(
@@ -196,20 +189,14 @@ impl Parser<'_> {
             None if name == "tan" => Pending::Tan,
             None if called => return Err(unknown_function(name, span)),
             None => {
-                let op = if name == "pi" {
-                    Op::Pi
-                } else {
-                    Op::Symbol(span.clone())
-                };
+                let op = if name == "pi" { Op::Pi } else { Op::Symbol(span.clone()) };
                 self.push(op, span, None);
                 return Ok(false);
             }
         };
         if !called {
-            return Err(
-                ParseError::new(span, format!("expected `(` after the function `{name}`"))
-                    .help(format!("write `{name}(…)`")),
-            );
+            return Err(ParseError::new(span, format!("expected `(` after the function `{name}`"))
+                .help(format!("write `{name}(…)`")));
         }
         let (_, parenthesis) = self.lexer.next()?;
         self.last = parenthesis.clone();
@@ -217,11 +204,7 @@ impl Parser<'_> {
     }
 
     fn push(&mut self, op: Op, span: Range<usize>, integer: Option<i64>) {
-        self.operands.push(Operand {
-            start: self.ops.len(),
-            span,
-            integer,
-        });
+        self.operands.push(Operand { start: self.ops.len(), span, integer });
         self.ops.push(op);
     }
 
@@ -314,10 +297,8 @@ impl Parser<'_> {
             return Ok(());
         };
         let Some(value) = exponent.integer else {
-            return Err(
-                ParseError::new(exponent.span, "expected an integer as the exponent")
-                    .help("write a root as `sqrt(x)`"),
-            );
+            return Err(ParseError::new(exponent.span, "expected an integer as the exponent")
+                .help("write a root as `sqrt(x)`"));
         };
         if value.unsigned_abs() > MAX_EXPONENT.unsigned_abs() {
             return Err(ParseError::new(
@@ -350,10 +331,7 @@ impl Parser<'_> {
 
 /// Tokens are ASCII, but for those of an error in the lexer, which are not quoted here.
 fn shorten(text: &str) -> String {
-    match text
-        .get(..30)
-        .zip(text.get(text.len().saturating_sub(10)..))
-    {
+    match text.get(..30).zip(text.get(text.len().saturating_sub(10)..)) {
         Some((head, tail)) if text.len() > 40 => format!("{head}…{tail}"),
         _ => text.to_owned(),
     }
@@ -364,19 +342,14 @@ fn unknown_function(name: &str, span: Range<usize>) -> ParseError {
     let known = Function::ALL.iter().map(|function| function.name());
     let near = known
         .chain(["tan"])
-        .map(|known| {
-            (
-                strsim::damerau_levenshtein(&name.to_lowercase(), known),
-                known,
-            )
-        })
+        .map(|known| (strsim::damerau_levenshtein(&name.to_lowercase(), known), known))
         .min()
         .filter(|(distance, _)| *distance <= 1);
     let error = ParseError::new(span, format!("`{name}` is no function"));
     match near {
-        Some((_, near)) => error.help(format!(
-            "did you mean `{near}(…)`? For a product write `{name}*(…)`"
-        )),
+        Some((_, near)) => {
+            error.help(format!("did you mean `{near}(…)`? For a product write `{name}*(…)`"))
+        }
         None => error.help(format!(
             "the functions are sin, cos, tan, sqrt, abs, sign and tanh; for a product write \
              `{name}*(…)`"

@@ -76,10 +76,7 @@ fn a_formula_of_a_number_is_the_formula_of_its_text() {
     }
     let third = Rational::new(-1, 3).unwrap();
     assert_eq!(Formula::number(&third).text(), "-1/3");
-    assert_eq!(
-        Formula::number(&third).as_number(),
-        Some(Number::Rational(third))
-    );
+    assert_eq!(Formula::number(&third).as_number(), Some(Number::Rational(third)));
     assert_eq!(Formula::symbol("l1"), Formula::parse("l1").unwrap());
 }
 
@@ -118,18 +115,8 @@ const BROKEN: &[(&str, Range<usize>, &str, &str)] = &[
     ("(a)(b)", 2..4, "operator between `)` and `(`", "`(…)*(…)`"),
     ("(a)b", 2..4, "operator between `)` and `b`", "`(…)*b`"),
     ("a(b)", 0..1, "`a` is no function", "product write `a*(…)`"),
-    (
-        "sine(x)",
-        0..4,
-        "`sine` is no function",
-        "did you mean `sin(…)`",
-    ),
-    (
-        "Cos(x)",
-        0..3,
-        "`Cos` is no function",
-        "did you mean `cos(…)`",
-    ),
+    ("sine(x)", 0..4, "`sine` is no function", "did you mean `sin(…)`"),
+    ("Cos(x)", 0..3, "`Cos` is no function", "did you mean `cos(…)`"),
     ("sin q", 0..3, "`(` after the function `sin`", "`sin(…)`"),
     ("1,5", 1..2, "decimal number has a point", "`1.5`"),
     ("atan2(y, x)", 0..5, "no function", "sin, cos, tan"),

@@ -58,12 +58,7 @@ mod tests {
 
     #[test]
     fn every_printed_decimal_reads_back() {
-        for text in [
-            "0.000123",
-            "-12.5",
-            "98765432109876543210.123456789",
-            "0.0625",
-        ] {
+        for text in ["0.000123", "-12.5", "98765432109876543210.123456789", "0.0625"] {
             assert_eq!(exact_text(&Rational::from_decimal(text).unwrap()), text);
         }
     }

@@ -50,19 +50,11 @@ pub(crate) fn in_blocks<const BLOCK: usize, T: Scalar, const N: usize>(
         copy(&block.1, &mut cosines);
         return (sines, cosines);
     }
-    let results = sines
-        .as_chunks_mut()
-        .0
-        .iter_mut()
-        .zip(cosines.as_chunks_mut().0);
+    let results = sines.as_chunks_mut().0.iter_mut().zip(cosines.as_chunks_mut().0);
     for (angles, (sines, cosines)) in angles.as_chunks::<BLOCK>().0.iter().zip(results) {
         block_out_of_line(angles, sines, cosines, &function);
     }
-    let last = (
-        angles.last_chunk::<BLOCK>(),
-        sines.last_chunk_mut(),
-        cosines.last_chunk_mut(),
-    );
+    let last = (angles.last_chunk::<BLOCK>(), sines.last_chunk_mut(), cosines.last_chunk_mut());
     if let (false, (Some(angles), Some(sines), Some(cosines))) = (N.is_multiple_of(BLOCK), last) {
         block_out_of_line(angles, sines, cosines, &function);
     }

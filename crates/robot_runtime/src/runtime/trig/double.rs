@@ -78,8 +78,5 @@ fn select(k: u64, sine: f64, cosine: f64) -> (f64, f64) {
     let swap = (sine ^ cosine) & (k & 1).wrapping_neg();
     let sine_sign = (k & 2) << 62;
     let cosine_sign = (k.wrapping_add(1) & 2) << 62;
-    (
-        f64::from_bits(sine ^ swap ^ sine_sign),
-        f64::from_bits(cosine ^ swap ^ cosine_sign),
-    )
+    (f64::from_bits(sine ^ swap ^ sine_sign), f64::from_bits(cosine ^ swap ^ cosine_sign))
 }

@@ -49,8 +49,5 @@ fn select(k: u32, sine: f32, cosine: f32) -> (f32, f32) {
     let swap = (sine ^ cosine) & (k & 1).wrapping_neg();
     let sine_sign = (k & 2) << 30;
     let cosine_sign = (k.wrapping_add(1) & 2) << 30;
-    (
-        f32::from_bits(sine ^ swap ^ sine_sign),
-        f32::from_bits(cosine ^ swap ^ cosine_sign),
-    )
+    (f32::from_bits(sine ^ swap ^ sine_sign), f32::from_bits(cosine ^ swap ^ cosine_sign))
 }

@@ -1,0 +1,109 @@
+//! Inverse dynamics, with and without wrenches and friction, and the contact torsors.
+
+use robot_symbolic::Expr;
+
+use super::{Derivation, Function, FunctionKind, Output};
+use crate::economical;
+use crate::newton_euler::{self, Effects, NewtonEuler};
+use crate::vector::Vector;
+
+/// The generalised driving forces Q of equation (3).
+pub(super) fn inverse_dynamics<'g>(
+    derivation: &Derivation<'_, 'g>,
+    kind: FunctionKind,
+) -> Function<'g> {
+    let wrench = matches!(
+        kind,
+        FunctionKind::InverseDynamicsWrench | FunctionKind::InverseDynamicsWrenchFriction
+    );
+    let friction = matches!(
+        kind,
+        FunctionKind::InverseDynamicsFriction | FunctionKind::InverseDynamicsWrenchFriction
+    );
+    let mut doc = vec![
+        "Inverse dynamics: the generalised driving forces Q that bring about the accelerations \
+         `qdd`, equation (3)."
+            .to_owned(),
+    ];
+    doc.push(if friction {
+        "Includes the friction of the joints, equations (4)-(5).".to_owned()
+    } else {
+        "Without friction.".to_owned()
+    });
+    let mut inputs = ["q", "qd", "qdd"].map(|name| derivation.coordinate_input(name)).to_vec();
+    if wrench {
+        inputs.extend(derivation.wrench_inputs());
+    }
+    let tau = Output {
+        name: "tau".to_owned(),
+        doc: "Generalised driving forces".to_owned(),
+        unit: derivation.coordinate_unit("N m", "N"),
+        shape: vec![derivation.mechanism.degrees_of_freedom],
+        values: driving_forces(derivation, wrench, friction),
+    };
+    Function { kind, doc, inputs, outputs: vec![tau] }
+}
+
+/// Q by the economical recursion, friction added to it.
+fn driving_forces<'g>(
+    derivation: &Derivation<'_, 'g>,
+    wrench: bool,
+    friction: bool,
+) -> Vec<Expr<'g>> {
+    let mechanism = &derivation.mechanism;
+    let iterations = |friction| newton_euler::newton_euler(mechanism, Effects { wrench, friction });
+    let Some(mut forces) = economical::inverse_dynamics(mechanism, &derivation.plan, wrench) else {
+        return iterations(friction).driving_forces;
+    };
+    if friction {
+        let NewtonEuler { wrenches, .. } = iterations(false);
+        for (link, contact) in mechanism.links.iter().zip(&wrenches) {
+            let share = newton_euler::friction(
+                &link.friction,
+                link.kind,
+                link.axis,
+                contact.force,
+                link.velocity,
+            );
+            forces[link.coordinate] += share * link.ratio;
+        }
+    }
+    forces
+}
+
+/// F_l and M_l of every joint, equations (26) and (36).
+pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let effects = Effects { wrench: true, friction: false };
+    let NewtonEuler { wrenches, .. } = newton_euler::newton_euler(&derivation.mechanism, effects);
+    let shape = vec![wrenches.len(), 3];
+    let rows = |part: fn(&newton_euler::LinkWrench<'g>) -> Vector<'g>| {
+        wrenches.iter().flat_map(|wrench| part(wrench).0).collect()
+    };
+    let output = |name: &str, doc: &str, unit: &str, values| Output {
+        name: name.to_owned(),
+        doc: doc.to_owned(),
+        unit: unit.to_owned(),
+        shape: shape.clone(),
+        values,
+    };
+    let mut inputs = ["q", "qd", "qdd"].map(|name| derivation.coordinate_input(name)).to_vec();
+    inputs.extend(derivation.wrench_inputs());
+    Function {
+        kind: FunctionKind::LinkWrenches,
+        doc: vec![
+            "The contact torsor of every joint, equations (26) and (36): what each link receives \
+             through its joint, a row per link, in the link's own frame."
+                .to_owned(),
+        ],
+        inputs,
+        outputs: vec![
+            output("force", "Contact forces F_l", "N", rows(|wrench| wrench.force)),
+            output(
+                "moment",
+                "Contact moments M_l about the origins of the links' frames",
+                "N m",
+                rows(|wrench| wrench.moment),
+            ),
+        ],
+    }
+}

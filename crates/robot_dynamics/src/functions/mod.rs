@@ -1,0 +1,219 @@
+//! The dynamic functions that become code: named arrays of expressions over named input arrays.
+//!
+//! All functions of a robot are derived in one graph ([`Derivation`]), so that what depends on
+//! parameters alone is shared among them. Torques come from the economical recursion; whatever
+//! needs the forces between links comes from the paper's iterations.
+
+mod inverse_dynamics;
+
+use robot_symbolic::{Expr, Graph};
+
+use crate::economical::Plan;
+use crate::mechanism::{Mechanism, MechanismOptions};
+use crate::model::{JointKind, Robot};
+
+/// A function of a robot.
+#[derive(Clone, Debug)]
+pub struct Function<'g> {
+    /// Which function it is.
+    pub kind: FunctionKind,
+    /// What it computes, in paragraphs: convention, frames, source.
+    pub doc: Vec<String>,
+    /// The input arrays, in the order of the call.
+    pub inputs: Vec<Input>,
+    /// The output arrays.
+    pub outputs: Vec<Output<'g>>,
+}
+
+/// An input array.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    /// `q`, `qd`, `qdd`, `wrench`, `tau`.
+    pub name: String,
+    /// What it holds.
+    pub doc: String,
+    /// Units of the elements, in words where they differ.
+    pub unit: String,
+    /// The symbol of each element.
+    pub symbols: Vec<String>,
+}
+
+/// An output array.
+#[derive(Clone, Debug)]
+pub struct Output<'g> {
+    /// `tau`, `force`, `mass_matrix`.
+    pub name: String,
+    /// What it holds.
+    pub doc: String,
+    /// Units of the elements, in words where they differ.
+    pub unit: String,
+    /// The lengths of the array's dimensions; a matrix is stored row by row.
+    pub shape: Vec<usize>,
+    /// The elements.
+    pub values: Vec<Expr<'g>>,
+}
+
+/// The functions that can be derived.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum FunctionKind {
+    /// Q from q, q̇, q̈.
+    InverseDynamics,
+    /// Q from q, q̇, q̈ and the tips' wrenches.
+    InverseDynamicsWrench,
+    /// Q with friction from q, q̇, q̈.
+    InverseDynamicsFriction,
+    /// Q with friction from q, q̇, q̈ and the tips' wrenches.
+    InverseDynamicsWrenchFriction,
+    /// F_l and M_l of every joint.
+    LinkWrenches,
+}
+
+impl FunctionKind {
+    /// All functions.
+    pub const ALL: &'static [FunctionKind] = &[
+        FunctionKind::InverseDynamics,
+        FunctionKind::InverseDynamicsWrench,
+        FunctionKind::InverseDynamicsFriction,
+        FunctionKind::InverseDynamicsWrenchFriction,
+        FunctionKind::LinkWrenches,
+    ];
+
+    /// The name in code and on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            FunctionKind::InverseDynamics => "inverse_dynamics",
+            FunctionKind::InverseDynamicsWrench => "inverse_dynamics_wrench",
+            FunctionKind::InverseDynamicsFriction => "inverse_dynamics_friction",
+            FunctionKind::InverseDynamicsWrenchFriction => "inverse_dynamics_wrench_friction",
+            FunctionKind::LinkWrenches => "link_wrenches",
+        }
+    }
+
+    /// The function of that name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<FunctionKind> {
+        FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
+    }
+
+    /// Why the robot has no such function; `None` where it has.
+    #[must_use]
+    pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
+        let needs_tip = matches!(
+            self,
+            FunctionKind::InverseDynamicsWrench | FunctionKind::InverseDynamicsWrenchFriction
+        );
+        let needs_friction = matches!(
+            self,
+            FunctionKind::InverseDynamicsFriction | FunctionKind::InverseDynamicsWrenchFriction
+        );
+        if needs_tip && robot.tips().next().is_none() {
+            return Some("the robot has no tip with a wrench; add [tip] to its file");
+        }
+        if needs_friction && !robot.has_friction() {
+            return Some("no joint has friction; add `friction` to a link of the file");
+        }
+        None
+    }
+
+    /// The functions that a robot has.
+    #[must_use]
+    pub fn of(robot: &Robot) -> Vec<FunctionKind> {
+        FunctionKind::ALL.iter().copied().filter(|kind| kind.missing_in(robot).is_none()).collect()
+    }
+}
+
+/// A robot in symbols, ready to derive functions in one graph.
+#[derive(Debug)]
+pub struct Derivation<'r, 'g> {
+    /// The robot.
+    pub robot: &'r Robot,
+    /// The robot in symbols.
+    pub mechanism: Mechanism<'g>,
+    /// The form of the economical recursion.
+    pub plan: Plan,
+}
+
+impl<'r, 'g> Derivation<'r, 'g> {
+    /// Puts the robot into the symbols of `graph`, constants rounded as code needs them.
+    ///
+    /// Without a plan the recursion takes [`Plan::default_for`].
+    #[must_use]
+    pub fn new(
+        robot: &'r Robot,
+        graph: &'g Graph,
+        options: &MechanismOptions,
+        plan: Option<Plan>,
+    ) -> Derivation<'r, 'g> {
+        let mechanism = Mechanism::new(robot, graph, options);
+        let plan = plan.unwrap_or_else(|| Plan::default_for(robot));
+        Derivation { robot, mechanism, plan }
+    }
+
+    /// Derives a function. What the robot lacks (a tip, friction) is taken for 0: ask
+    /// [`FunctionKind::missing_in`] first.
+    #[must_use]
+    pub fn function(&self, kind: FunctionKind) -> Function<'g> {
+        match kind {
+            FunctionKind::InverseDynamics
+            | FunctionKind::InverseDynamicsWrench
+            | FunctionKind::InverseDynamicsFriction
+            | FunctionKind::InverseDynamicsWrenchFriction => {
+                inverse_dynamics::inverse_dynamics(self, kind)
+            }
+            FunctionKind::LinkWrenches => inverse_dynamics::link_wrenches(self),
+        }
+    }
+
+    /// An input array with an element per coordinate: `q`, `qd`, `qdd` or `tau`.
+    fn coordinate_input(&self, name: &str) -> Input {
+        let (doc, rotation, translation) = match name {
+            "q" => ("Joint positions", "rad", "m"),
+            "qd" => ("Joint velocities", "rad/s", "m/s"),
+            "qdd" => ("Joint accelerations", "rad/s²", "m/s²"),
+            _ => ("Generalised driving forces", "N m", "N"),
+        };
+        let count = self.robot.degrees_of_freedom();
+        Input {
+            name: name.to_owned(),
+            doc: doc.to_owned(),
+            unit: self.coordinate_unit(rotation, translation),
+            symbols: (1..=count).map(|number| format!("{name}{number}")).collect(),
+        }
+    }
+
+    /// The unit of an array over the coordinates, with the translations named where they differ.
+    fn coordinate_unit(&self, rotation: &str, translation: &str) -> String {
+        let kinds = &self.robot.coordinates;
+        let translations: Vec<String> = kinds
+            .iter()
+            .enumerate()
+            .filter(|(_, coordinate)| coordinate.kind == JointKind::Prismatic)
+            .map(|(index, _)| index.to_string())
+            .collect();
+        match translations.len() {
+            0 => rotation.to_owned(),
+            count if count == kinds.len() => translation.to_owned(),
+            _ => format!(
+                "{rotation}; {translation} for the translations {}",
+                translations.join(", ")
+            ),
+        }
+    }
+
+    /// An input array per tip: force, then moment.
+    fn wrench_inputs(&self) -> Vec<Input> {
+        let single = self.robot.tips().count() == 1;
+        let inputs = self.robot.tips().map(|(frame, wrench)| Input {
+            name: if single { "wrench".to_owned() } else { format!("wrench_{}", frame.name) },
+            doc: format!(
+                "Wrench that the frame `{}` exerts on its surroundings, in its axes, the moment about \
+                 its origin: force x y z, moment x y z",
+                frame.name
+            ),
+            unit: "N and N m".to_owned(),
+            symbols: wrench.force.iter().chain(&wrench.moment).cloned().collect(),
+        });
+        inputs.collect()
+    }
+}

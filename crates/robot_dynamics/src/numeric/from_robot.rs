@@ -1,0 +1,150 @@
+//! From the checked robot to numbers: every formula evaluated in floating point at once.
+
+use nalgebra::{Matrix3, Vector3};
+use robot_symbolic::Formula;
+
+use super::error::NumericError;
+use super::friction::{Friction, Sign};
+use super::mechanism::{Frame, Joint, JointKind, Link, Mechanism};
+use super::pose::{Pose, rotation_about};
+use crate::model;
+
+impl Mechanism {
+    /// The robot with its parameters at the values that `value` gives by name.
+    ///
+    /// Frames keep the order of [`model::Robot::frames`].
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Mechanism`] with every fault found; a parameter without a value (NaN) is one
+    /// wherever it is used.
+    pub fn from_robot(
+        robot: &model::Robot,
+        value: &dyn Fn(&str) -> f64,
+    ) -> Result<Self, NumericError> {
+        let at = Evaluation { value };
+        Mechanism::new(
+            at.vector(&robot.gravity),
+            robot.links.iter().map(|link| at.link(link)).collect(),
+            robot.frames.iter().map(|frame| at.frame(frame)).collect(),
+        )
+    }
+
+    /// The robot with its parameters at their nominal values.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::from_robot`]; a parameter without a nominal value has none.
+    pub fn nominal(robot: &model::Robot) -> Result<Self, NumericError> {
+        Mechanism::from_robot(robot, &|name| {
+            let parameter = robot.parameter(name);
+            let value = parameter.and_then(|parameter| parameter.value.as_ref());
+            value.map_or(f64::NAN, robot_symbolic::Rational::to_f64)
+        })
+    }
+}
+
+struct Evaluation<'v> {
+    value: &'v dyn Fn(&str) -> f64,
+}
+
+impl Evaluation<'_> {
+    fn number(&self, formula: &Formula) -> f64 {
+        formula.evaluate(self.value)
+    }
+
+    fn vector(&self, [x, y, z]: &[Formula; 3]) -> Vector3<f64> {
+        Vector3::new(self.number(x), self.number(y), self.number(z))
+    }
+
+    fn pose(&self, placement: &model::Placement) -> Pose {
+        placement.0.iter().fold(Pose::identity(), |pose, step| {
+            let mut next = Pose::identity();
+            match step {
+                model::Move::Translate(by) => next.translation = self.vector(by),
+                model::Move::Rotate(axis, angle) => {
+                    let axis = match axis {
+                        model::Axis::X => Vector3::x(),
+                        model::Axis::Y => Vector3::y(),
+                        model::Axis::Z => Vector3::z(),
+                    };
+                    next.rotation = rotation_about(&axis, self.number(angle));
+                }
+            }
+            pose.then(&next)
+        })
+    }
+
+    fn link(&self, link: &model::Link) -> Link {
+        let joint = &link.joint;
+        let joint = Joint {
+            kind: match joint.kind {
+                model::JointKind::Revolute => JointKind::Revolute,
+                model::JointKind::Prismatic => JointKind::Prismatic,
+            },
+            axis: self.vector(&joint.axis).normalize(),
+            coordinate: joint.coordinate,
+            ratio: self.number(&joint.ratio),
+            offset: self.number(&joint.offset),
+        };
+        let (mass, centre, inertia) = self.bodies(&link.bodies);
+        let drive = &link.drive;
+        let turns = self.number(&drive.gear_ratio);
+        Link {
+            rotor_inertia: self.number(&drive.armature)
+                + turns * turns * self.number(&drive.rotor_inertia),
+            friction: self.friction(&link.friction),
+            ..Link::new(link.parent, self.pose(&link.placement), joint, mass, centre, inertia)
+        }
+    }
+
+    /// Mass, centre of mass and central inertia of rigidly connected bodies.
+    fn bodies(&self, bodies: &[model::Body]) -> (f64, Vector3<f64>, Matrix3<f64>) {
+        let parts: Vec<_> = bodies
+            .iter()
+            .map(|body| {
+                let pose = self.pose(&body.placement);
+                let [xx, yy, zz, xy, xz, yz] = {
+                    let model::Inertia { xx, yy, zz, xy, xz, yz } = &body.inertia;
+                    [xx, yy, zz, xy, xz, yz].map(|entry| self.number(entry))
+                };
+                let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+                let turned = pose.rotation * own * pose.rotation.transpose();
+                (self.number(&body.mass), pose.translation, turned)
+            })
+            .collect();
+        let mass: f64 = parts.iter().map(|part| part.0).sum();
+        let moment: Vector3<f64> = parts.iter().map(|part| part.1 * part.0).sum();
+        let centre = match (parts.as_slice(), mass == 0.0) {
+            ([single], _) => single.1,
+            (_, true) => Vector3::zeros(),
+            (_, false) => moment / mass,
+        };
+        let inertia = parts.iter().map(|(mass, own_centre, inertia)| {
+            let arm = own_centre - centre;
+            inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
+        });
+        (mass, centre, inertia.sum())
+    }
+
+    fn friction(&self, friction: &model::Friction) -> Friction {
+        Friction {
+            viscous: self.number(&friction.viscous),
+            coulomb: self.number(&friction.coulomb),
+            spindle_diameter: self.number(&friction.spindle_diameter),
+            constant: [
+                self.number(&friction.coulomb_positive),
+                self.number(&friction.coulomb_negative),
+            ],
+            offset: self.number(&friction.offset),
+            sign: match &friction.smoothing {
+                Some(width) => Sign::Smooth(self.number(width)),
+                None => Sign::Exact,
+            },
+        }
+    }
+
+    fn frame(&self, frame: &model::Frame) -> Frame {
+        Frame { link: frame.link, placement: self.pose(&frame.placement) }
+    }
+}
