@@ -259,6 +259,8 @@ pub struct Wrench {
     pub force: [String; 3],
     /// Moment, N m.
     pub moment: [String; 3],
+    /// How LaTeX prints the components, force first, where the file says so.
+    pub latex: [Option<String>; 6],
 }
 
 impl Robot {

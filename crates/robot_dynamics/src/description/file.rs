@@ -1,0 +1,178 @@
+//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips and frames.
+
+use robot_symbolic::{Formula, Rational};
+use toml::de::DeValue;
+
+use super::draft::{Draft, DraftLink};
+use super::frames::tables;
+use super::locations::Locations;
+use super::names::Kind;
+use super::placement::zero;
+use super::reader::{Named, Reader};
+use super::table::Table;
+use super::value::quantity;
+use super::{assemble, dh, frames, link, parameters, syntax, tree};
+use crate::diagnostic::{Diagnostic, Span, code};
+use crate::model::Robot;
+
+/// The format that this reader reads.
+const FORMAT: i64 = 1;
+
+/// Reads a file; the robot is of use only where no error is among the diagnostics.
+pub(super) fn read(text: &str) -> (Option<(Robot, Locations)>, Vec<Diagnostic>) {
+    let (tables, found) = syntax::parse(text);
+    if !found.is_empty() {
+        return (None, found);
+    }
+    let mut reader = Reader::new(text);
+    let described = lower(
+        &mut reader,
+        Table::new(tables.get_ref(), 0..0, "a robot file"),
+    );
+    (described, reader.found)
+}
+
+fn lower(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<(Robot, Locations)> {
+    if !format(reader, &mut root) {
+        return None;
+    }
+    let parameters = parameters::read(reader, &mut root);
+    let head = head(reader, &mut root);
+    let mut dh = dh::read(reader, &mut root);
+    let (links, complete) = links(reader, &mut root, &mut dh);
+    let frames = frames::read(reader, &mut root, links.len());
+    root.finish(reader);
+    if let Some(dh) = dh {
+        dh.finish(reader);
+    }
+    let Head {
+        name,
+        description,
+        gravity,
+        gravity_place,
+    } = head?;
+    let mut draft = Draft {
+        name,
+        description,
+        gravity,
+        gravity_place,
+        links,
+        frames,
+    };
+    if !complete {
+        return None;
+    }
+    let order = tree::order(reader, &mut draft.links, &mut draft.frames)?;
+    if draft.links.iter().all(|link| link.joint.kind.is_none()) {
+        let last = draft.links.last().map(|link| link.places.joint.clone());
+        let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves");
+        let diagnostic = diagnostic.at(&last.unwrap_or(draft.name.span), "");
+        reader.report(diagnostic.help("add a `[[link]]` with a revolute or prismatic joint"));
+        return None;
+    }
+    unused(reader);
+    Some(assemble::robot(reader, draft, &order, parameters))
+}
+
+/// Checks `format`; nothing else is read of a file of another format.
+fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
+    let Some(entry) = root.require(reader, "format", "format = 1") else {
+        return true;
+    };
+    let number = match entry.value.get_ref() {
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok(),
+        _ => {
+            reader.wrong_type(entry.value, "the number of the format, `format = 1`");
+            return true;
+        }
+    };
+    if number == Some(FORMAT) {
+        return true;
+    }
+    reader.report(
+        Diagnostic::error(code::FORMAT, "the file is of a format that is not known")
+            .at(
+                &entry.value.span(),
+                format!("only format {FORMAT} is known"),
+            )
+            .help("write `format = 1`, or use a version of this program that knows the format"),
+    );
+    false
+}
+
+struct Head {
+    name: Named,
+    description: Option<String>,
+    gravity: [Formula; 3],
+    gravity_place: Option<Span>,
+}
+
+/// Reads `[robot]`.
+fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Option<Head> {
+    let entry = root.require(reader, "robot", "[robot]")?;
+    let mut table = reader.table(entry.value, "[robot]")?;
+    let name = table
+        .require(reader, "name", "name = \"arm\"")
+        .and_then(|entry| reader.name(entry.value, "a robot", Kind::Identifier));
+    let description = table
+        .get("description")
+        .and_then(|entry| reader.prose(entry.value));
+    let (gravity, gravity_place) = match table.get("gravity") {
+        Some(entry) => {
+            let what = quantity("the acceleration of gravity", 0, 1, -2);
+            (reader.vector(entry.value, what), Some(entry.value.span()))
+        }
+        None => {
+            let down = Rational::new(-981, 100).unwrap_or(Rational::ZERO);
+            ([zero(), zero(), Formula::number(&down)], None)
+        }
+    };
+    table.finish(reader);
+    Some(Head {
+        name: name?,
+        description,
+        gravity,
+        gravity_place,
+    })
+}
+
+/// Reads every `[[link]]`; whether all of them came through.
+fn links(
+    reader: &mut Reader<'_>,
+    root: &mut Table<'_>,
+    dh: &mut Option<dh::Table>,
+) -> (Vec<DraftLink>, bool) {
+    let Some(entry) = root.require(reader, "link", "[[link]]") else {
+        return (Vec::new(), false);
+    };
+    if !matches!(entry.value.get_ref(), DeValue::Array(_)) {
+        reader.wrong_type(entry.value, "a list of links, each headed `[[link]]`");
+        return (Vec::new(), false);
+    }
+    let tables = tables(reader, &entry, "a link");
+    let count = tables.len();
+    let links: Vec<DraftLink> = tables
+        .into_iter()
+        .enumerate()
+        .filter_map(|(index, table)| link::read(reader, table, index, dh))
+        .collect();
+    let complete = links.len() == count && count > 0;
+    (links, complete)
+}
+
+/// Warns of parameters that nothing uses.
+fn unused(reader: &mut Reader<'_>) {
+    let unused: Vec<(String, Span)> = reader
+        .parameters
+        .iter()
+        .filter(|known| !known.used)
+        .map(|known| (known.name.clone(), known.span.clone()))
+        .collect();
+    for (name, span) in unused {
+        reader.report(
+            Diagnostic::warning(code::UNUSED, format!("the parameter `{name}` is not used"))
+                .at(&span, "")
+                .help("take it away, or see whether a figure should be this parameter"),
+        );
+    }
+}

@@ -1,0 +1,79 @@
+//! Where in the file the parts of a robot are.
+
+use crate::diagnostic::Span;
+
+/// Places of a [`crate::model::Robot`]'s parts, index by index; what the file leaves out is `None`
+/// or stands at the place of the table that lacks it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Locations {
+    /// The robot's name.
+    pub name: Span,
+    /// Gravity.
+    pub gravity: Option<Span>,
+    /// One for each of [`crate::model::Robot::parameters`].
+    pub parameters: Vec<ParameterLocation>,
+    /// One for each of [`crate::model::Robot::links`].
+    pub links: Vec<LinkLocation>,
+    /// One for each of [`crate::model::Robot::frames`].
+    pub frames: Vec<FrameLocation>,
+}
+
+/// Places of a parameter.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ParameterLocation {
+    /// The key.
+    pub name: Span,
+    /// The nominal value.
+    pub value: Option<Span>,
+    /// The unit.
+    pub unit: Option<Span>,
+}
+
+/// Places of a moving link.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LinkLocation {
+    /// The name.
+    pub name: Span,
+    /// The parent's name.
+    pub parent: Option<Span>,
+    /// The joint's table.
+    pub joint: Span,
+    /// The joint's axis.
+    pub axis: Option<Span>,
+    /// The joint's limits.
+    pub limits: Option<Span>,
+    /// `origin` or `dh`.
+    pub origin: Option<Span>,
+    /// The friction's table.
+    pub friction: Option<Span>,
+    /// The drive's table.
+    pub drive: Option<Span>,
+    /// One for each of [`crate::model::Link::bodies`].
+    pub bodies: Vec<BodyLocation>,
+}
+
+/// Places of a body.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BodyLocation {
+    /// The name of the link that has the body.
+    pub name: Span,
+    /// The mass.
+    pub mass: Option<Span>,
+    /// The centre of mass.
+    pub center_of_mass: Option<Span>,
+    /// The inertia's table.
+    pub inertia: Option<Span>,
+    /// Whether the file says that the inertia is no body's (`unchecked = true`).
+    pub unchecked: bool,
+}
+
+/// Places of a named frame.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FrameLocation {
+    /// The name, or the table that has none.
+    pub name: Span,
+    /// `origin`.
+    pub origin: Option<Span>,
+    /// The wrench's names.
+    pub wrench: Option<Span>,
+}

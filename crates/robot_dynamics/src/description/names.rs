@@ -1,0 +1,277 @@
+//! The one gate through which every name comes in.
+//!
+//! What passes here goes into generated code, equations and file names; nothing else from a file
+//! does. Identifiers name robots, parameters and wrench components; labels name links, joints and
+//! frames.
+
+use super::reader::{Named, Reader};
+use super::table::Value;
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+
+/// No name is longer.
+const MAX_NAME: usize = 64;
+
+/// Words of the languages that code is generated in; those of several are listed once.
+const KEYWORDS: &[(&str, &str)] = &[
+    (
+        "abstract as async await become box break const continue crate do dyn else enum extern \
+      false final fn for gen if impl in let loop macro match mod move mut override priv pub ref \
+      return self static struct super trait true try type typeof union unsafe unsized use \
+      virtual where while yield Self",
+        "Rust",
+    ),
+    (
+        "auto bool case char constexpr default double float goto inline int long nullptr register \
+      restrict short signed sizeof switch thread_local typedef unsigned void volatile",
+        "C",
+    ),
+    (
+        "and assert class def del elif except finally from global import is lambda nonlocal not or \
+      pass raise with None True False",
+        "Python",
+    ),
+];
+
+/// What equations and code call by themselves.
+const OWN: &[&str] = &[
+    "t",
+    "q",
+    "qd",
+    "qdd",
+    "tau",
+    "wrench",
+    "parameters",
+    "abs",
+    "acos",
+    "asin",
+    "atan",
+    "atan2",
+    "cos",
+    "exp",
+    "log",
+    "pi",
+    "pow",
+    "sign",
+    "sin",
+    "sqrt",
+    "tan",
+    "tanh",
+    "f32",
+    "f64",
+    "core",
+    "std",
+    "alloc",
+];
+
+/// What a name is for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// `[A-Za-z_][A-Za-z0-9_]{0,63}` that no language keeps for itself.
+    Identifier,
+    /// `[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}`, not `base`.
+    Label,
+}
+
+impl Reader<'_> {
+    /// A string of the file as a name; `what` is what it names.
+    pub(super) fn name(&mut self, value: Value<'_>, what: &str, kind: Kind) -> Option<Named> {
+        let text = self.string(value, &format!("the name of {what} in quotes"))?;
+        self.check_name(text, &value.span(), what, kind)
+    }
+
+    /// A key or string of the file as a name.
+    pub(super) fn check_name(
+        &mut self,
+        text: &str,
+        span: &Span,
+        what: &str,
+        kind: Kind,
+    ) -> Option<Named> {
+        let shape = match kind {
+            Kind::Identifier => is_identifier(text),
+            Kind::Label => is_label(text),
+        };
+        if !shape {
+            self.report(misshapen(text, span, what, kind));
+            return None;
+        }
+        let owner = match kind {
+            Kind::Identifier => reserved(text),
+            Kind::Label => (text == "base").then(|| "the frame that everything stands on".into()),
+        };
+        if let Some(owner) = owner {
+            self.report(
+                Diagnostic::error(code::RESERVED, format!("`{text}` cannot name {what}"))
+                    .at(span, format!("this is {owner}"))
+                    .help(format!("choose another name, such as `{text}_1`")),
+            );
+            return None;
+        }
+        Some(Named {
+            name: text.to_owned(),
+            span: span.clone(),
+        })
+    }
+}
+
+fn is_identifier(text: &str) -> bool {
+    let mut bytes = text.bytes();
+    let first = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
+    text.len() <= MAX_NAME
+        && bytes.next().is_some_and(first)
+        && bytes.all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
+        && text.bytes().any(|byte| byte != b'_')
+}
+
+fn is_label(text: &str) -> bool {
+    let mut bytes = text.bytes();
+    let first = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';
+    text.len() <= MAX_NAME
+        && bytes.next().is_some_and(first)
+        && bytes.all(|byte| first(byte) || byte == b'.' || byte == b'-')
+}
+
+fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
+    let label = if text.is_empty() {
+        "empty".to_owned()
+    } else if text.len() > MAX_NAME {
+        format!("{} bytes long; at most {MAX_NAME}", text.len())
+    } else {
+        "not a name".to_owned()
+    };
+    let rule = match kind {
+        Kind::Identifier => {
+            "letters, digits and `_`, the first not a digit, as in `l_5`; a symbol may have any \
+             print name with `latex`"
+        }
+        Kind::Label => "letters, digits, `_`, `-` and `.`, the first not `-` or `.`",
+    };
+    Diagnostic::error(code::NAME, format!("`{}` cannot name {what}", quote(text)))
+        .at(span, label)
+        .because("names go into equations, code and file names")
+        .help(format!("names are {rule}"))
+}
+
+/// Who keeps the name for himself.
+fn reserved(name: &str) -> Option<String> {
+    for (words, language) in KEYWORDS {
+        if words.split_whitespace().any(|word| word == name) {
+            return Some(format!("a word of {language}"));
+        }
+    }
+    if OWN.contains(&name) {
+        return Some("a name of equations and generated code".to_owned());
+    }
+    let numbered = |prefix: &str| {
+        name.strip_prefix(prefix)
+            .is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    let coordinate = ["q", "qd", "qdd", "Q", "tau"].into_iter().any(numbered);
+    coordinate.then(|| "a joint's position, velocity, acceleration or force".to_owned())
+}
+
+/// Names of one kind, each once.
+pub(super) struct Registry {
+    what: &'static str,
+    /// Whether names that differ in case or underscores alone are told apart.
+    exact: bool,
+    names: Vec<Named>,
+    folded: std::collections::BTreeMap<String, usize>,
+}
+
+impl Registry {
+    pub(super) fn new(what: &'static str) -> Registry {
+        Registry {
+            what,
+            exact: false,
+            names: Vec::new(),
+            folded: std::collections::BTreeMap::new(),
+        }
+    }
+
+    /// A registry that lets alike names pass.
+    pub(super) fn exact(what: &'static str) -> Registry {
+        Registry {
+            exact: true,
+            ..Registry::new(what)
+        }
+    }
+
+    /// Adds a name; one that is there already, or differs in case or underscores alone, gives the
+    /// diagnostic.
+    pub(super) fn add(&mut self, named: &Named) -> Option<Diagnostic> {
+        let folded: String = if self.exact {
+            named.name.clone()
+        } else {
+            named.name.replace('_', "").to_lowercase()
+        };
+        let Some(first) = self.folded.get(&folded).and_then(|at| self.names.get(*at)) else {
+            self.folded.insert(folded, self.names.len());
+            self.names.push(named.clone());
+            return None;
+        };
+        let (what, name, other) = (self.what, &named.name, &first.name);
+        let diagnostic = if name == other {
+            Diagnostic::error(
+                code::DUPLICATE,
+                format!("the {what} `{name}` is given twice"),
+            )
+            .at(&named.span, "again here")
+        } else {
+            let message = format!("the {what}s `{other}` and `{name}` are too alike");
+            Diagnostic::error(code::ALIKE, message)
+                .at(&named.span, "differs in case or underscores alone")
+                .because("people, print and some file systems cannot tell them apart")
+        };
+        Some(
+            diagnostic
+                .and_at(&first.span, "first here")
+                .help("give one of them another name"),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers_and_labels_have_their_shapes() {
+        for name in ["l1", "_x", "Jx1", "a_very_long_name_0"] {
+            assert!(is_identifier(name), "{name}");
+        }
+        let long = "x".repeat(65);
+        for name in [
+            "",
+            "_",
+            "__",
+            "1a",
+            "a-b",
+            "é",
+            "a b",
+            "}fn x(){}",
+            "a\u{202e}",
+            &long,
+        ] {
+            assert!(!is_identifier(name), "{name}");
+        }
+        for label in ["1", "ee_link", "wrist_3_link-tool0_fixed_joint", "a.b"] {
+            assert!(is_label(label), "{label}");
+        }
+        for label in ["", ".a", "-a", "a b", "a/b", "../x", "a\n", &long] {
+            assert!(!is_label(label), "{label}");
+        }
+    }
+
+    #[test]
+    fn words_of_code_and_equations_are_reserved() {
+        for name in [
+            "fn", "Self", "lambda", "double", "q1", "qdd12", "Q3", "sin", "t", "pi",
+        ] {
+            assert!(reserved(name).is_some(), "{name}");
+        }
+        for name in ["c1", "s1", "q1x", "g", "Fx6", "qx", "m", "T"] {
+            assert!(reserved(name).is_none(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What every part of a reader shares: the diagnostics, and the parameters that expressions may
+//! name.
+
+use robot_symbolic::{Formula, Graph, Number, Rational};
+
+use super::names::Registry;
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+use crate::unit::Unit;
+
+/// A parameter as expressions see it.
+pub(super) struct Known {
+    pub(super) name: String,
+    pub(super) span: Span,
+    pub(super) value: Option<Rational>,
+    pub(super) unit: Option<Unit>,
+    pub(super) used: bool,
+}
+
+/// A name with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Named {
+    pub(super) name: String,
+    pub(super) span: Span,
+}
+
+/// The state of reading one file.
+pub(super) struct Reader<'a> {
+    pub(super) text: &'a str,
+    pub(super) found: Vec<Diagnostic>,
+    pub(super) parameters: Vec<Known>,
+    /// Parameters and wrench components: what equations and code call by name.
+    pub(super) symbols: Registry,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(text: &'a str) -> Reader<'a> {
+        Reader {
+            text,
+            found: Vec::new(),
+            parameters: Vec::new(),
+            symbols: Registry::new("symbol"),
+        }
+    }
+
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        self.found.push(diagnostic);
+    }
+
+    /// A stand-in for a value that was wrong: no further check has an opinion on it.
+    pub(super) fn unknown() -> Formula {
+        Formula::symbol("_")
+    }
+
+    /// The value of a formula where it has no names, or all of them have nominal values.
+    pub(super) fn known(&self, formula: &Formula) -> Option<f64> {
+        let mut complete = true;
+        let value = formula.evaluate(|name| {
+            let parameter = self.parameters.iter().find(|known| known.name == name);
+            let value = parameter.and_then(|known| known.value.as_ref());
+            complete &= value.is_some();
+            value.map_or(0.0, Rational::to_f64)
+        });
+        complete.then_some(value)
+    }
+
+    /// Whether a formula is the number 0 whatever the parameters are.
+    pub(super) fn is_zero(formula: &Formula) -> bool {
+        matches!(formula.as_number(), Some(Number::Rational(value)) if value.is_zero())
+    }
+
+    /// Marks the parameters that a formula names, and reports the names that are none. `place`
+    /// maps bytes of the formula's text to the file.
+    pub(super) fn resolve(&mut self, formula: &Formula, place: &dyn Fn(Span) -> Span) -> bool {
+        let mut complete = true;
+        for (name, span) in formula.symbols() {
+            match self.parameters.iter_mut().find(|known| known.name == name) {
+                Some(known) => known.used = true,
+                None => {
+                    complete = false;
+                    let diagnostic = self.unknown_symbol(name, &place(span));
+                    self.found.push(diagnostic);
+                }
+            }
+        }
+        complete
+    }
+
+    fn unknown_symbol(&self, name: &str, span: &Span) -> Diagnostic {
+        let diagnostic = Diagnostic::error(
+            code::UNKNOWN_SYMBOL,
+            format!("`{}` is not a parameter of this robot", quote(name)),
+        );
+        let names = self.parameters.iter().map(|known| known.name.as_str());
+        match nearest(name, names) {
+            Some(near) => {
+                let known = self.parameters.iter().find(|known| known.name == near);
+                let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
+                match known {
+                    Some(known) => diagnostic.and_at(&known.span, "defined here"),
+                    None => diagnostic,
+                }
+            }
+            None => diagnostic.at(span, "not in [parameters]"),
+        }
+        .help(format!(
+            "a name in an expression is a parameter: add `{}` to [parameters], or write `pi` or a \
+             function as `sin(…)`",
+            quote(name)
+        ))
+    }
+
+    /// Reports a formula whose value is not finite.
+    pub(super) fn finite(&mut self, formula: &Formula, span: &Span) -> bool {
+        let known = self.known(formula);
+        let undefined = || {
+            let graph = Graph::new();
+            let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
+            expr.as_number()
+                .is_some_and(|value| value.to_f64().is_nan())
+        };
+        if known.map_or_else(|| !undefined(), f64::is_finite) {
+            return true;
+        }
+        let nominal = if formula.is_constant() {
+            ""
+        } else {
+            " at the nominal values of the parameters"
+        };
+        let value = match known {
+            Some(value) if value.is_infinite() => "infinite",
+            _ => "not a number",
+        };
+        self.report(
+            Diagnostic::error(
+                code::NUMBER,
+                format!("the expression has no finite value{nominal}"),
+            )
+            .at(span, format!("this is {value}"))
+            .help("look for a division by zero, a root of a negative number, or an overflow"),
+        );
+        false
+    }
+}
+
+/// The candidate that a misspelt word most likely means.
+pub(super) fn nearest<'n>(
+    word: &str,
+    candidates: impl Iterator<Item = &'n str>,
+) -> Option<&'n str> {
+    let lower = word.to_lowercase();
+    let length = word.chars().count();
+    if length > 64 {
+        return None;
+    }
+    candidates
+        .map(|candidate| {
+            let same = candidate.to_lowercase();
+            let distance = strsim::damerau_levenshtein(&lower, &same);
+            // A beginning of a longer word is as good as one slip.
+            let distance = match same.starts_with(&lower) && length >= 3 {
+                true => distance.min(1),
+                false => distance,
+            };
+            (distance, candidate)
+        })
+        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, candidate)| *distance <= candidate.len().max(length).div_ceil(3).min(3))
+        .map(|(_, candidate)| candidate)
+}

@@ -1,0 +1,173 @@
+//! The links in order: parents before children, else as in the file.
+
+use super::MAX_JOINTS;
+use super::draft::{DraftFrame, DraftLink, Parent};
+use super::names::Registry;
+use super::reader::{Named, Reader, nearest};
+use crate::diagnostic::{Diagnostic, code, quote};
+
+/// Checks names and parents. The links' new order, as indices, where they form a tree.
+pub(super) fn order(
+    reader: &mut Reader<'_>,
+    links: &mut [DraftLink],
+    frames: &mut [DraftFrame],
+) -> Option<Vec<usize>> {
+    names(reader, links, frames);
+    let known: Vec<Named> = links.iter().map(|link| link.name.clone()).collect();
+    let mut complete = true;
+    let parents = links.iter_mut().map(|link| &mut link.parent);
+    for parent in parents.chain(frames.iter_mut().map(|frame| &mut frame.parent)) {
+        complete &= resolve(reader, parent, &known);
+    }
+    if !complete {
+        return None;
+    }
+    let parents: Vec<Option<usize>> = links
+        .iter()
+        .map(|link| match link.parent {
+            Parent::Link(index) => Some(index),
+            Parent::Base | Parent::Name(_) => None,
+        })
+        .collect();
+    let order = sorted(&parents);
+    if order.len() < links.len() {
+        report_cycles(reader, links, &parents, &order);
+        return None;
+    }
+    let moving = links
+        .iter()
+        .filter(|link| link.joint.kind.is_some())
+        .count();
+    if moving > MAX_JOINTS {
+        let message = format!("the robot has {moving} joints; at most {MAX_JOINTS}");
+        let span = order
+            .last()
+            .and_then(|last| links.get(*last))
+            .map(|link| &link.name.span);
+        let diagnostic = Diagnostic::error(code::LIMIT, message);
+        reader.report(diagnostic.at(span.unwrap_or(&(0..0)), "the last of them"));
+        return None;
+    }
+    Some(order)
+}
+
+/// Links and frames share their names; joints have their own.
+fn names(reader: &mut Reader<'_>, links: &[DraftLink], frames: &[DraftFrame]) {
+    let mut registry = Registry::exact("link or frame");
+    let own = links.iter().map(|link| &link.name);
+    for name in own.chain(frames.iter().map(|frame| &frame.name)) {
+        if let Some(diagnostic) = registry.add(name) {
+            reader.report(diagnostic);
+        }
+    }
+    let mut registry = Registry::exact("joint");
+    let explicit = |link: &&DraftLink| link.joint.name != link.name;
+    let (named, unnamed): (Vec<_>, Vec<_>) = links.iter().partition(explicit);
+    for link in named.iter().chain(&unnamed) {
+        if let Some(diagnostic) = registry.add(&link.joint.name) {
+            reader.report(diagnostic);
+        }
+    }
+}
+
+/// Replaces a parent's name by its index.
+fn resolve(reader: &mut Reader<'_>, parent: &mut Parent, known: &[Named]) -> bool {
+    let Parent::Name(name) = parent else {
+        return true;
+    };
+    if let Some(index) = known.iter().position(|known| known.name == name.name) {
+        *parent = Parent::Link(index);
+        return true;
+    }
+    let message = format!("`{}` is not a link of this robot", quote(&name.name));
+    let names = known.iter().map(|known| known.name.as_str());
+    let label = match nearest(&name.name, names.chain(["base"])) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "no link of that name".to_owned(),
+    };
+    reader.report(
+        Diagnostic::error(code::UNKNOWN_LINK, message)
+            .at(&name.span, label)
+            .help("name a link of this file, or \"base\""),
+    );
+    false
+}
+
+/// Takes, again and again, the first link whose parent is taken; those on or behind a cycle are
+/// left out.
+fn sorted(parents: &[Option<usize>]) -> Vec<usize> {
+    let mut order = Vec::new();
+    let mut taken = vec![false; parents.len()];
+    loop {
+        let free = |index: &usize| {
+            let ready = parents.get(*index).copied().flatten();
+            !taken.get(*index).copied().unwrap_or(true)
+                && ready.is_none_or(|parent| taken.get(parent).copied().unwrap_or_default())
+        };
+        let Some(next) = (0..parents.len()).find(free) else {
+            return order;
+        };
+        if let Some(taken) = taken.get_mut(next) {
+            *taken = true;
+        }
+        order.push(next);
+    }
+}
+
+/// One diagnostic for each cycle; links that hang on one are cured with it.
+fn report_cycles(
+    reader: &mut Reader<'_>,
+    links: &[DraftLink],
+    parents: &[Option<usize>],
+    order: &[usize],
+) {
+    let mut seen: Vec<usize> = order.to_vec();
+    for start in 0..links.len() {
+        let mut path: Vec<usize> = Vec::new();
+        let mut next = Some(start);
+        while let Some(index) = next.filter(|index| !seen.contains(index)) {
+            seen.push(index);
+            path.push(index);
+            next = parents.get(index).copied().flatten();
+        }
+        let from = next.and_then(|again| path.iter().position(|index| *index == again));
+        let Some(cycle) = from.and_then(|from| path.get(from..)) else {
+            continue;
+        };
+        let on_cycle: Vec<&DraftLink> =
+            cycle.iter().filter_map(|index| links.get(*index)).collect();
+        let Some((first, others)) = on_cycle.split_first() else {
+            continue;
+        };
+        let names: Vec<String> = on_cycle
+            .iter()
+            .chain([first])
+            .map(|link| format!("`{}`", link.name.name))
+            .collect();
+        let place = |link: &DraftLink| link.places.parent.clone().unwrap_or(link.name.span.clone());
+        let message = format!(
+            "links stand on each other in a circle: {}",
+            names.join(" on ")
+        );
+        let mut diagnostic = Diagnostic::error(code::CYCLE, message)
+            .at(&place(first), "this parent")
+            .because("every link must stand on the base in the end; closed loops are no trees")
+            .help("let one of them stand on \"base\" or on a link outside the circle");
+        for link in others.iter().take(8) {
+            diagnostic = diagnostic.and_at(&place(link), "and this one");
+        }
+        reader.report(diagnostic);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sorted;
+
+    #[test]
+    fn the_file_order_is_kept_where_it_can_be() {
+        assert_eq!(sorted(&[None, Some(0), Some(0), None]), [0, 1, 2, 3]);
+        assert_eq!(sorted(&[None, Some(2), Some(0), Some(1)]), [0, 2, 1, 3]);
+        assert_eq!(sorted(&[Some(1), Some(0), None, Some(0)]), [2]);
+    }
+}

@@ -1,0 +1,290 @@
+//! Values of the file: numbers, expressions, words and lists.
+
+use std::array;
+
+use robot_symbolic::{Formula, Rational};
+use toml::Spanned;
+use toml::de::{DeString, DeValue};
+
+use super::reader::{Reader, nearest};
+use super::strings;
+use super::table::{Table, Value, list};
+use crate::diagnostic::{Diagnostic, Span, code, is_invisible, quote};
+use crate::unit::Dimension;
+
+/// The longest text of a description.
+const MAX_TEXT: usize = 4096;
+
+/// What a value is, as messages say it, and its dimension where that is fixed.
+#[derive(Clone, Copy)]
+pub(super) struct Quantity {
+    pub(super) what: &'static str,
+    pub(super) dimension: Option<Dimension>,
+}
+
+/// A quantity in kg^`mass` m^`length` s^`time`.
+pub(super) const fn quantity(what: &'static str, mass: i8, length: i8, time: i8) -> Quantity {
+    Quantity {
+        what,
+        dimension: Some(Dimension::new(mass, length, time)),
+    }
+}
+
+impl Reader<'_> {
+    pub(super) fn wrong_type(&mut self, value: Value<'_>, expected: &str) {
+        let found = match value.get_ref() {
+            DeValue::String(_) => "a string",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "true or false",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.report(
+            Diagnostic::error(
+                code::WRONG_TYPE,
+                format!("expected {expected}, found {found}"),
+            )
+            .at(&value.span(), format!("this is {found}"))
+            .help(format!("write {expected}")),
+        );
+    }
+
+    pub(super) fn table<'a>(&mut self, value: Value<'a>, what: &'static str) -> Option<Table<'a>> {
+        match value.get_ref() {
+            DeValue::Table(keys) => Some(Table::new(keys, value.span(), what)),
+            _ => {
+                self.wrong_type(value, &format!("{what} as a table `{{ … }}`"));
+                None
+            }
+        }
+    }
+
+    /// The entries of a list; `expected` says what it is a list of.
+    pub(super) fn list<'a>(
+        &mut self,
+        value: Value<'a>,
+        expected: &str,
+    ) -> Option<&'a [Spanned<DeValue<'a>>]> {
+        match value.get_ref() {
+            DeValue::Array(entries) => Some(entries),
+            _ => {
+                self.wrong_type(value, expected);
+                None
+            }
+        }
+    }
+
+    /// A list of exactly `N` entries.
+    pub(super) fn entries<'a, const N: usize>(
+        &mut self,
+        value: Value<'a>,
+        expected: &str,
+    ) -> Option<[Value<'a>; N]> {
+        let entries = self.list(value, expected)?;
+        if entries.len() == N {
+            return entries.iter().collect::<Vec<_>>().try_into().ok();
+        }
+        self.report(
+            Diagnostic::error(
+                code::WRONG_COUNT,
+                format!("expected {expected}, found {} entries", entries.len()),
+            )
+            .at(&value.span(), format!("{N} entries are expected here"))
+            .help(format!("write {expected}")),
+        );
+        None
+    }
+
+    pub(super) fn boolean(&mut self, value: Value<'_>) -> Option<bool> {
+        match value.get_ref() {
+            DeValue::Boolean(value) => Some(*value),
+            _ => {
+                self.wrong_type(value, "`true` or `false`");
+                None
+            }
+        }
+    }
+
+    pub(super) fn string<'a>(
+        &mut self,
+        value: Value<'a>,
+        expected: &str,
+    ) -> Option<&'a DeString<'a>> {
+        match value.get_ref() {
+            DeValue::String(text) => Some(text),
+            _ => {
+                self.wrong_type(value, expected);
+                None
+            }
+        }
+    }
+
+    /// A text for people, without control or invisible characters but for line ends and tabs.
+    pub(super) fn prose(&mut self, value: Value<'_>) -> Option<String> {
+        let text = self.string(value, "a text in quotes")?.as_ref();
+        let bad = |(_, character): &(usize, char)| {
+            (character.is_control() && !matches!(character, '\n' | '\r' | '\t'))
+                || is_invisible(*character)
+        };
+        if let Some((at, character)) = text.char_indices().find(bad) {
+            let range = at..at + character.len_utf8();
+            let span = strings::place(self.text, &value.span(), text, range);
+            self.report(
+                Diagnostic::error(code::TEXT, "the text has a character that cannot be seen")
+                    .at(&span, format!("U+{:04X}", u32::from(character)))
+                    .because("such characters can make a text read differently from what it is")
+                    .help("take it away"),
+            );
+            return None;
+        }
+        if text.len() > MAX_TEXT {
+            let message = format!("the text has {} bytes; at most {MAX_TEXT}", text.len());
+            let start = value.span().start;
+            self.report(
+                Diagnostic::error(code::LIMIT, message)
+                    .at(&(start..start), "this text")
+                    .help("keep long remarks in a document beside the file"),
+            );
+            return None;
+        }
+        Some(text.to_owned())
+    }
+
+    /// One of the words; `what` is what they choose between.
+    pub(super) fn word(
+        &mut self,
+        value: Value<'_>,
+        what: &str,
+        words: &[&'static str],
+    ) -> Option<&'static str> {
+        let text = self.string(value, &format!("{what}, one of {}", list(words)))?;
+        let found = words.iter().copied().find(|word| word == text);
+        if found.is_none() {
+            let label = match nearest(text, words.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("not {what}"),
+            };
+            let message = format!("`{}` is not {what}", quote(text));
+            self.report(
+                Diagnostic::error(code::UNKNOWN_WORD, message)
+                    .at(&value.span(), label)
+                    .help(format!("use one of {}", list(words))),
+            );
+        }
+        found
+    }
+
+    /// A number, exact as it is written.
+    pub(super) fn number(&mut self, value: Value<'_>, expected: &str) -> Option<Rational> {
+        let number = match value.get_ref() {
+            DeValue::Float(float) => Rational::from_decimal(float.as_str()),
+            DeValue::Integer(integer) if integer.radix() == 10 => {
+                Rational::from_decimal(integer.as_str())
+            }
+            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+                .ok()
+                .map(Rational::integer),
+            _ => {
+                self.wrong_type(value, expected);
+                return None;
+            }
+        };
+        let usable = number.filter(|number| {
+            let float = number.to_f64();
+            float.is_finite() && (float != 0.0 || number.is_zero())
+        });
+        if usable.is_none() {
+            let text = self.text.get(value.span()).unwrap_or_default();
+            let (message, help) = match text.trim_start_matches(['+', '-']) {
+                "nan" => ("not a number", "give the figure"),
+                "inf" => ("infinite", "give a finite figure"),
+                _ => (
+                    "beyond the range of numbers",
+                    "magnitudes lie between 5e-324 and 1.7e308, with at most 400 digits",
+                ),
+            };
+            self.report(
+                Diagnostic::error(code::NUMBER, format!("`{}` is {message}", quote(text)))
+                    .at(&value.span(), message)
+                    .help(help),
+            );
+        }
+        usable
+    }
+
+    /// A number or an expression over the parameters for a quantity of that dimension. A wrong one
+    /// is reported, and [`Reader::unknown`] takes its place.
+    pub(super) fn formula(&mut self, value: Value<'_>, quantity: Quantity) -> Formula {
+        let text = match value.get_ref() {
+            DeValue::String(text) => text.as_ref(),
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                let number = self.number(value, quantity.what);
+                return number.map_or_else(Reader::unknown, |number| Formula::number(&number));
+            }
+            _ => {
+                let what = quantity.what;
+                self.wrong_type(
+                    value,
+                    &format!("{what}, a number or an expression in quotes"),
+                );
+                return Reader::unknown();
+            }
+        };
+        let (file, span) = (self.text, value.span());
+        let place = |range: Span| strings::place(file, &span, text, range);
+        match Formula::parse(text) {
+            Ok(formula) => {
+                let whole = place(0..text.len());
+                let usable = self.resolve(&formula, &place)
+                    && self.finite(&formula, &whole)
+                    && self.fits(&formula, quantity, &whole);
+                if usable { formula } else { Reader::unknown() }
+            }
+            Err(error) => {
+                let message = format!("`{}` is not an expression: {}", quote(text), error.message);
+                let mut diagnostic =
+                    Diagnostic::error(code::EXPRESSION, message).at(&place(error.span), "");
+                diagnostic.help = error.help;
+                self.report(diagnostic);
+                Reader::unknown()
+            }
+        }
+    }
+
+    /// Reports a parameter that stands for itself where its unit does not fit. Sums and products
+    /// are not looked into: a number in them may carry any unit.
+    fn fits(&mut self, formula: &Formula, quantity: Quantity, span: &Span) -> bool {
+        let name = formula.text().trim_start_matches(['-', ' ']).trim_end();
+        let Some(expected) = quantity.dimension else {
+            return true;
+        };
+        let known = self.parameters.iter().find(|known| known.name == name);
+        let Some((known, unit)) = known.and_then(|known| Some((known, known.unit.as_ref()?)))
+        else {
+            return true;
+        };
+        if unit.dimension == expected {
+            return true;
+        }
+        let message = format!(
+            "`{name}` is in {}, but {} is in {expected}",
+            unit.text, quantity.what
+        );
+        let diagnostic = Diagnostic::error(code::DIMENSION, message)
+            .at(span, format!("needs a value in {expected}"))
+            .and_at(&known.span, format!("in {}", unit.text))
+            .help("name another parameter, or correct the unit");
+        self.report(diagnostic);
+        false
+    }
+
+    /// Three numbers or expressions.
+    pub(super) fn vector(&mut self, value: Value<'_>, quantity: Quantity) -> [Formula; 3] {
+        let expected = format!("{} as `[x, y, z]`", quantity.what);
+        match self.entries::<3>(value, &expected) {
+            Some(entries) => entries.map(|entry| self.formula(entry, quantity)),
+            None => array::from_fn(|_| Reader::unknown()),
+        }
+    }
+}

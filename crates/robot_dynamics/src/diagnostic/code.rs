@@ -1,0 +1,48 @@
+//! The stable codes of diagnostics.
+
+macro_rules! codes {
+    ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {
+        $($(#[$doc])* #[doc = $title] pub const $name: &str = $code;)*
+
+        /// Every code with its title, in order.
+        pub const TABLE: &[(&str, &str)] = &[$(($code, $title)),*];
+    };
+}
+
+codes! {
+    TOO_LARGE = "R0001", "The file is larger than the limit.";
+    NOT_TEXT = "R0002", "The file is not UTF-8 text.";
+    SYNTAX = "R0003", "The text is not TOML.";
+    UNKNOWN_KEY = "R0101", "A key has no meaning where it stands.";
+    MISSING_KEY = "R0102", "A key that is needed is missing.";
+    WRONG_TYPE = "R0103", "A value has the wrong type.";
+    UNKNOWN_WORD = "R0104", "A word is none of those allowed.";
+    WRONG_COUNT = "R0105", "A list has the wrong number of entries.";
+    CONFLICT = "R0106", "Keys exclude each other or have no effect together.";
+    FORMAT = "R0107", "The file is of a format that is not known.";
+    LIMIT = "R0108", "There are more entries than the limit.";
+    NAME = "R0201", "A name has characters that names have not.";
+    RESERVED = "R0202", "A name means something of itself.";
+    DUPLICATE = "R0203", "A name is given twice.";
+    ALIKE = "R0204", "Two names differ in case or underscores alone.";
+    LATEX = "R0205", "LaTeX of a symbol is outside the grammar for symbols.";
+    TEXT = "R0206", "A text has control or invisible characters.";
+    NUMBER = "R0301", "A value is not a finite number.";
+    EXPRESSION = "R0302", "A text is not an expression.";
+    UNKNOWN_SYMBOL = "R0303", "An expression has a name that is not a parameter.";
+    UNIT = "R0304", "A unit is not known.";
+    UNIT_NOT_SI = "R0305", "A unit is not an SI unit.";
+    DIMENSION = "R0306", "A parameter stands where its unit does not fit.";
+    UNKNOWN_LINK = "R0401", "A parent is none of the links.";
+    CYCLE = "R0402", "Links descend from themselves.";
+    ZERO_AXIS = "R0403", "A joint axis has no direction.";
+    LIMITS = "R0404", "Joint limits are in the wrong order.";
+    MIMIC = "R0405", "A joint cannot follow the joint that it names.";
+    NO_JOINT = "R0406", "Nothing moves.";
+    MASS = "R0501", "A moving link has no mass that a body can have.";
+    INERTIA_SIGN = "R0502", "An inertia tensor has a negative principal moment.";
+    INERTIA_TRIANGLE = "R0503", "Principal moments of inertia break the triangle inequality.";
+    FRICTION = "R0504", "A figure of friction or drive has a sign that it cannot have.";
+    UNUSED = "R0601", "A parameter is not used.";
+    NO_EFFECT = "R0602", "A figure has no effect on the motion.";
+}

@@ -1,0 +1,126 @@
+//! Diagnostics as text for people.
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+use super::{Diagnostic, Label, Severity, Source, Span, quote};
+
+/// More diagnostics than this are counted, not shown.
+const MAX_SHOWN: usize = 40;
+
+/// How diagnostics are rendered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// Text alone.
+    Plain,
+    /// With the colours of a terminal.
+    Terminal,
+}
+
+/// One diagnostic as text, without a newline at the end.
+#[must_use]
+pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let mut group = Group::with_title(
+        level
+            .primary_title(diagnostic.message.as_str())
+            .id(diagnostic.code),
+    );
+    match &diagnostic.primary {
+        Some(primary) => {
+            let mut labels = vec![(primary, AnnotationKind::Primary)];
+            let others = diagnostic.secondary.iter();
+            labels.extend(others.map(|label| (label, AnnotationKind::Context)));
+            for (text, line, labels) in excerpts(source, &labels) {
+                group = group.element(
+                    Snippet::source(text)
+                        .path(quote(&source.name))
+                        .line_start(line)
+                        .annotations(labels.into_iter().map(|(kind, span, text)| {
+                            let text = (!text.is_empty()).then_some(text);
+                            kind.span(span).label(text)
+                        })),
+                );
+            }
+        }
+        None => {
+            group = group.element(annotate_snippets::Origin::path(quote(&source.name)));
+        }
+    }
+    if let Some(why) = &diagnostic.why {
+        group = group.element(Level::NOTE.message(why.as_str()));
+    }
+    if let Some(help) = &diagnostic.help {
+        group = group.element(Level::HELP.message(help.as_str()));
+    }
+    let renderer = match style {
+        Style::Plain => Renderer::plain(),
+        Style::Terminal => Renderer::styled(),
+    };
+    renderer.render(&[group])
+}
+
+pub(super) fn render_all(source: &Source, list: &[Diagnostic], style: Style) -> String {
+    let shown = list.iter().take(MAX_SHOWN);
+    let mut parts: Vec<String> = shown
+        .map(|diagnostic| render(source, diagnostic, style))
+        .collect();
+    let errors = list
+        .iter()
+        .filter(|diagnostic| diagnostic.severity == Severity::Error)
+        .count();
+    let counts = [(errors, "error"), (list.len() - errors, "warning")];
+    let counts: Vec<String> = counts
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{count} {what}{}", if *count == 1 { "" } else { "s" }))
+        .collect();
+    let more = match list.len().saturating_sub(MAX_SHOWN) {
+        0 => String::new(),
+        more => format!(" ({more} more not shown)"),
+    };
+    let name = quote(&source.name);
+    parts.push(format!("{name}: {}{more}\n", counts.join(", ")));
+    parts.join("\n\n")
+}
+
+type Excerpt<'s> = (&'s str, usize, Vec<(AnnotationKind, Span, &'s str)>);
+
+/// The part of the source that the labels need: whole lines, so that columns are right.
+fn excerpts<'s>(source: &'s Source, labels: &[(&'s Label, AnnotationKind)]) -> Vec<Excerpt<'s>> {
+    let text = source.text.as_str();
+    let labels: Vec<_> = labels
+        .iter()
+        .map(|(label, kind)| (*kind, clamp(text, &label.span), label.text.as_str()))
+        .collect();
+    let first = labels.iter().map(|(_, span, _)| span.start).min();
+    let last = labels.iter().map(|(_, span, _)| span.end).max();
+    let (Some(first), Some(last)) = (first, last) else {
+        return Vec::new();
+    };
+    let start = text[..first].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = text[last..]
+        .find('\n')
+        .map_or(text.len(), |newline| last + newline);
+    let line = text[..start].bytes().filter(|byte| *byte == b'\n').count() + 1;
+    let moved = labels
+        .into_iter()
+        .map(|(kind, span, text)| (kind, span.start - start..span.end - start, text));
+    vec![(&text[start..end], line, moved.collect())]
+}
+
+/// The span within the text, at characters' boundaries, and not over the end of its first line by
+/// more than it needs.
+fn clamp(text: &str, span: &Span) -> Span {
+    let floor = |mut byte: usize| {
+        byte = byte.min(text.len());
+        while !text.is_char_boundary(byte) {
+            byte -= 1;
+        }
+        byte
+    };
+    let start = floor(span.start);
+    start..floor(span.end).max(start)
+}
