@@ -158,15 +158,8 @@ impl Unit {
         }
         si += text.get(copied..).unwrap_or_default();
         match foreign {
-            Some(span) => Err(UnitError::NotSi {
-                span,
-                unit: si,
-                factor,
-            }),
-            None => Ok(Unit {
-                text: text.to_owned(),
-                dimension,
-            }),
+            Some(span) => Err(UnitError::NotSi { span, unit: si, factor }),
+            None => Ok(Unit { text: text.to_owned(), dimension }),
         }
     }
 }
@@ -184,11 +177,7 @@ impl Dimension {
 
 /// `base^exponent` for a small exponent.
 fn power(base: &Rational, exponent: i8) -> Option<Rational> {
-    let base = if exponent < 0 {
-        base.recip()?
-    } else {
-        base.clone()
-    };
+    let base = if exponent < 0 { base.recip()? } else { base.clone() };
     let steps = 0..exponent.unsigned_abs();
     Some(steps.fold(Rational::ONE, |product, _| &product * &base))
 }
@@ -214,10 +203,9 @@ impl Factor<'_> {
         }
         let other = OTHERS.iter().find(|(known, ..)| *known == self.name);
         let Some((_, unit, numerator, denominator)) = other else {
-            return Err(self.fault(format!(
-                "`{}` is not a unit",
-                crate::diagnostic::quote(self.name)
-            )));
+            return Err(
+                self.fault(format!("`{}` is not a unit", crate::diagnostic::quote(self.name)))
+            );
         };
         let dimension = si(unit).map_or_else(Dimension::default, |(_, dimension)| *dimension);
         Ok((dimension, Some((unit, *numerator, *denominator))))
@@ -237,10 +225,7 @@ fn factors(text: &str) -> Result<Vec<Factor<'_>>, UnitError> {
             let character = rest.chars().next().unwrap_or(' ');
             if character == '/' && divided.replace(found.len()).is_some() {
                 let message = "a second `/`: write negative exponents, as in `N m rad^-1 s^-1`";
-                return Err(UnitError::Unknown(
-                    position..position + 1,
-                    message.to_owned(),
-                ));
+                return Err(UnitError::Unknown(position..position + 1, message.to_owned()));
             }
             position += character.len_utf8();
             continue;
@@ -255,16 +240,8 @@ fn factors(text: &str) -> Result<Vec<Factor<'_>>, UnitError> {
                 return Err(UnitError::Unknown(span, message.to_owned()));
             }
         };
-        let exponent = if divided.is_some() {
-            -exponent
-        } else {
-            exponent
-        };
-        found.push(Factor {
-            name,
-            span,
-            exponent,
-        });
+        let exponent = if divided.is_some() { -exponent } else { exponent };
+        found.push(Factor { name, span, exponent });
     }
     let after = divided.map_or(1, |at| found.len() - at);
     if found.is_empty() || after != 1 {
@@ -295,10 +272,7 @@ mod tests {
         assert_eq!(dimension("1"), (0, 0, 0));
         assert_eq!(dimension("1/s"), (0, 0, -1));
         assert_eq!(dimension("kg·m"), (1, 1, 0));
-        assert_eq!(
-            Unit::parse("N s/m").unwrap().dimension.to_string(),
-            "kg s^-1"
-        );
+        assert_eq!(Unit::parse("N s/m").unwrap().dimension.to_string(), "kg s^-1");
     }
 
     #[test]
@@ -309,10 +283,7 @@ mod tests {
         };
         let rational = |numerator, denominator| Rational::new(numerator, denominator);
         assert_eq!(not_si("mm"), ("m".to_owned(), rational(1, 1000)));
-        assert_eq!(
-            not_si("g mm^2"),
-            ("kg m^2".to_owned(), rational(1, 1_000_000_000))
-        );
+        assert_eq!(not_si("g mm^2"), ("kg m^2".to_owned(), rational(1, 1_000_000_000)));
         assert_eq!(not_si("kg g").0, "kg kg");
         assert_eq!(not_si("N/mm"), ("N/m".to_owned(), rational(1000, 1)));
         assert_eq!(not_si("deg"), ("rad".to_owned(), None));
@@ -320,9 +291,8 @@ mod tests {
 
     #[test]
     fn nonsense_is_no_unit() {
-        for text in [
-            "", " ", "/", "m/", "furlong", "m^x", "m^99", "m/s/s", "m/s kg", "kg m²", "m^",
-        ] {
+        for text in ["", " ", "/", "m/", "furlong", "m^x", "m^99", "m/s/s", "m/s kg", "kg m²", "m^"]
+        {
             let error = Unit::parse(text).unwrap_err();
             assert!(matches!(error, UnitError::Unknown(..)), "{text}: {error:?}");
         }

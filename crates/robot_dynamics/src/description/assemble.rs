@@ -18,10 +18,7 @@ struct Carried {
 
 impl Carried {
     fn base() -> Carried {
-        Carried {
-            by: None,
-            frame: Placement::default(),
-        }
+        Carried { by: None, frame: Placement::default() }
     }
 }
 
@@ -109,20 +106,12 @@ fn coordinates(
             Some(mimic) => (&mimic.joint, mimic.ratio.clone(), mimic.offset.clone()),
             None => (&link.joint.name, Formula::number(&Rational::ONE), zero()),
         };
-        let found = robot
-            .coordinates
-            .iter()
-            .position(|one| one.joint == leader.name);
+        let found = robot.coordinates.iter().position(|one| one.joint == leader.name);
         if found.is_none() {
             let diagnostic = no_leader(leader, &links);
             reader.report(diagnostic);
         }
-        Some(Motion {
-            kind,
-            coordinate: found.unwrap_or_default(),
-            ratio,
-            offset,
-        })
+        Some(Motion { kind, coordinate: found.unwrap_or_default(), ratio, offset })
     };
     links.iter().map(|link| number(link)).collect()
 }
@@ -130,21 +119,14 @@ fn coordinates(
 fn no_leader(leader: &Named, links: &[&DraftLink]) -> Diagnostic {
     let name = quote(&leader.name);
     let diagnostic = |message: String| Diagnostic::error(code::MIMIC, message);
-    match links
-        .iter()
-        .find(|link| link.joint.name.name == leader.name)
-    {
+    match links.iter().find(|link| link.joint.name.name == leader.name) {
         Some(link) if link.joint.kind.is_none() => {
             diagnostic(format!("the joint `{name}` is fixed and cannot lead"))
                 .at(&leader.span, "a fixed joint")
                 .help("write `type = \"fixed\"` for the joint that follows, too")
         }
         Some(link) => {
-            let first = link
-                .joint
-                .mimic
-                .as_ref()
-                .map(|mimic| quote(&mimic.joint.name));
+            let first = link.joint.mimic.as_ref().map(|mimic| quote(&mimic.joint.name));
             let first = first.unwrap_or_default();
             diagnostic(format!("the joint `{name}` follows another joint itself"))
                 .at(&leader.span, "does not move by itself")
@@ -211,10 +193,7 @@ fn moving(
         drive: link.drive,
     });
     locations.links.push(places);
-    Carried {
-        by: Some(index),
-        frame: link.after,
-    }
+    Carried { by: Some(index), frame: link.after }
 }
 
 /// A fixed link becomes a body of the link that carries it, and a named frame.
@@ -225,10 +204,7 @@ fn fixed(
     link: DraftLink,
     on: Carried,
 ) -> Carried {
-    let own = Carried {
-        by: on.by,
-        frame: on.frame.then(&link.before).then(&link.after),
-    };
+    let own = Carried { by: on.by, frame: on.frame.then(&link.before).then(&link.after) };
     if let Some((mut body, place)) = link.body {
         body.placement = own.frame.clone().then(&body.placement);
         let carrier = own.by.and_then(|by| robot.links.get_mut(by));
@@ -243,10 +219,7 @@ fn fixed(
                     code::NO_EFFECT,
                     format!("the mass of `{}` has no effect", link.name.name),
                 )
-                .at(
-                    &place.mass.or(place.inertia).unwrap_or(place.name),
-                    "fixed to the base",
-                )
+                .at(&place.mass.or(place.inertia).unwrap_or(place.name), "fixed to the base")
                 .help("leave it out, or let the link move"),
             ),
         }
@@ -256,11 +229,7 @@ fn fixed(
         parent: Parent::Base,
         placement: Placement::default(),
         wrench: None,
-        places: FrameLocation {
-            name: link.places.name,
-            origin: link.places.origin,
-            wrench: None,
-        },
+        places: FrameLocation { name: link.places.name, origin: link.places.origin, wrench: None },
     };
     push_frame(robot, locations, frame, own.clone());
     own

@@ -19,15 +19,10 @@ pub(super) fn read(
     name: &Named,
     moving: bool,
 ) -> Option<(Body, BodyLocation)> {
-    let mut place = BodyLocation {
-        name: name.span.clone(),
-        ..BodyLocation::default()
-    };
+    let mut place = BodyLocation { name: name.span.clone(), ..BodyLocation::default() };
     let massless = table.get("massless");
-    let is_massless = massless
-        .as_ref()
-        .and_then(|entry| reader.boolean(entry.value))
-        .unwrap_or_default();
+    let is_massless =
+        massless.as_ref().and_then(|entry| reader.boolean(entry.value)).unwrap_or_default();
     let entry = table.get("mass");
     if let (Some(entry), Some(massless), true) = (&entry, &massless, is_massless) {
         reader.report(
@@ -49,13 +44,10 @@ pub(super) fn read(
     let others = ["center_of_mass", "inertia"].map(|key| table.has(key));
     if !present && !is_massless && (moving || others.contains(&true)) {
         reader.report(
-            Diagnostic::error(
-                code::MISSING_KEY,
-                format!("the link `{}` has no mass", name.name),
-            )
-            .at(&table.span, "`mass` is missing here")
-            .because("a link without mass falls out of the equations in silence")
-            .help("add `mass`, or `massless = true` where it is meant"),
+            Diagnostic::error(code::MISSING_KEY, format!("the link `{}` has no mass", name.name))
+                .at(&table.span, "`mass` is missing here")
+                .because("a link without mass falls out of the equations in silence")
+                .help("add `mass`, or `massless = true` where it is meant"),
         );
     }
     let center = match required(reader, table, "center_of_mass", present, "[0, 0, 0]") {
@@ -92,11 +84,7 @@ fn required<'a>(
     needed: bool,
     example: &str,
 ) -> Option<super::table::Entry<'a>> {
-    if needed {
-        table.require(reader, key, &format!("{key} = {example}"))
-    } else {
-        table.get(key)
-    }
+    if needed { table.require(reader, key, &format!("{key} = {example}")) } else { table.get(key) }
 }
 
 fn not_positive(value: f64, moving: bool) -> Diagnostic {

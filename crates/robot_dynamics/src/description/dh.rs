@@ -37,14 +37,10 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Opti
     table.finish(reader);
     let rows = rows?;
     let values = reader.list(rows.value, "a list of rows `{ a = …, alpha = …, d = … }`")?;
-    let tables = values
-        .iter()
-        .filter_map(|value| reader.table(value, "a DH row"));
+    let tables = values.iter().filter_map(|value| reader.table(value, "a DH row"));
     let tables: Vec<_> = tables.collect();
-    let rows: Vec<LinkRow> = tables
-        .into_iter()
-        .map(|table| link_row(reader, table, convention))
-        .collect();
+    let rows: Vec<LinkRow> =
+        tables.into_iter().map(|table| link_row(reader, table, convention)).collect();
     Some(Table {
         convention,
         place: entry.key,
@@ -66,12 +62,7 @@ fn link_row(
     let place = table.span.clone();
     let row = row(reader, &mut table);
     table.finish(reader);
-    LinkRow {
-        convention,
-        kind,
-        row,
-        place,
-    }
+    LinkRow { convention, kind, row, place }
 }
 
 impl Table {

@@ -75,26 +75,14 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     let coulomb = quantity("the coefficient of dry friction", 0, 0, 0);
     let coulomb = figures.read("coulomb", &mut friction.coulomb, coulomb, NotNegative);
     let diameter = quantity("the spindle diameter", 0, 1, 0);
-    let diameter = figures.read(
-        "spindle_diameter",
-        &mut friction.spindle_diameter,
-        diameter,
-        Positive,
-    );
+    let diameter =
+        figures.read("spindle_diameter", &mut friction.spindle_diameter, diameter, Positive);
     spindle(&mut figures, kind, coulomb, diameter);
     let what = force("the dry friction");
-    let positive = figures.read(
-        "coulomb_positive",
-        &mut friction.coulomb_positive,
-        what,
-        NotNegative,
-    );
-    let negative = figures.read(
-        "coulomb_negative",
-        &mut friction.coulomb_negative,
-        what,
-        NotNegative,
-    );
+    let positive =
+        figures.read("coulomb_positive", &mut friction.coulomb_positive, what, NotNegative);
+    let negative =
+        figures.read("coulomb_negative", &mut friction.coulomb_negative, what, NotNegative);
     let (symmetric, other) = match kind {
         JointKind::Revolute => ("coulomb_torque", "coulomb_force"),
         JointKind::Prismatic => ("coulomb_force", "coulomb_torque"),
@@ -163,12 +151,8 @@ pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind)
     let armature = by_kind("the armature", kind, (1, 2, 0), (1, 0, 0));
     figures.read("armature", &mut drive.armature, armature, Sign::NotNegative);
     let inertia = quantity("the rotor's inertia", 1, 2, 0);
-    let inertia = figures.read(
-        "rotor_inertia",
-        &mut drive.rotor_inertia,
-        inertia,
-        Sign::NotNegative,
-    );
+    let inertia =
+        figures.read("rotor_inertia", &mut drive.rotor_inertia, inertia, Sign::NotNegative);
     let ratio = by_kind("the gear ratio", kind, (0, 0, 0), (0, -1, 0));
     let ratio = figures.read("gear_ratio", &mut drive.gear_ratio, ratio, Sign::NotZero);
     let gyroscopic = figures.table.get("gyroscopic");
@@ -176,12 +160,7 @@ pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind)
         drive.gyroscopic = figures.reader.boolean(entry.value).unwrap_or_default();
     }
     if inertia.is_none() {
-        let lonely = [
-            ratio,
-            gyroscopic
-                .filter(|_| drive.gyroscopic)
-                .map(|entry| entry.key),
-        ];
+        let lonely = [ratio, gyroscopic.filter(|_| drive.gyroscopic).map(|entry| entry.key)];
         for span in lonely.into_iter().flatten() {
             figures.conflict(
                 &span,

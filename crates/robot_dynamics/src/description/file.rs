@@ -25,10 +25,7 @@ pub(super) fn read(text: &str) -> (Option<(Robot, Locations)>, Vec<Diagnostic>) 
         return (None, found);
     }
     let mut reader = Reader::new(text);
-    let described = lower(
-        &mut reader,
-        Table::new(tables.get_ref(), 0..0, "a robot file"),
-    );
+    let described = lower(&mut reader, Table::new(tables.get_ref(), 0..0, "a robot file"));
     (described, reader.found)
 }
 
@@ -45,20 +42,8 @@ fn lower(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<(Robot, Locatio
     if let Some(dh) = dh {
         dh.finish(reader);
     }
-    let Head {
-        name,
-        description,
-        gravity,
-        gravity_place,
-    } = head?;
-    let mut draft = Draft {
-        name,
-        description,
-        gravity,
-        gravity_place,
-        links,
-        frames,
-    };
+    let Head { name, description, gravity, gravity_place } = head?;
+    let mut draft = Draft { name, description, gravity, gravity_place, links, frames };
     if !complete {
         return None;
     }
@@ -91,10 +76,7 @@ fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
     }
     reader.report(
         Diagnostic::error(code::FORMAT, "the file is of a format that is not known")
-            .at(
-                &entry.value.span(),
-                format!("only format {FORMAT} is known"),
-            )
+            .at(&entry.value.span(), format!("only format {FORMAT} is known"))
             .help("write `format = 1`, or use a version of this program that knows the format"),
     );
     false
@@ -114,9 +96,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Option<Head> {
     let name = table
         .require(reader, "name", "name = \"arm\"")
         .and_then(|entry| reader.name(entry.value, "a robot", Kind::Identifier));
-    let description = table
-        .get("description")
-        .and_then(|entry| reader.prose(entry.value));
+    let description = table.get("description").and_then(|entry| reader.prose(entry.value));
     let (gravity, gravity_place) = match table.get("gravity") {
         Some(entry) => {
             let what = quantity("the acceleration of gravity", 0, 1, -2);
@@ -128,12 +108,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Option<Head> {
         }
     };
     table.finish(reader);
-    Some(Head {
-        name: name?,
-        description,
-        gravity,
-        gravity_place,
-    })
+    Some(Head { name: name?, description, gravity, gravity_place })
 }
 
 /// Reads every `[[link]]`; whether all of them came through.

@@ -47,9 +47,7 @@ pub(super) fn tables<'a>(
         reader.report(diagnostic.help("describe one robot in a file"));
         return Vec::new();
     }
-    let tables = values
-        .into_iter()
-        .filter_map(|value| reader.table(value, what));
+    let tables = values.into_iter().filter_map(|value| reader.table(value, what));
     tables.collect()
 }
 
@@ -61,25 +59,18 @@ fn tip(
 ) -> Option<DraftFrame> {
     let name = if alone && !table.has("name") {
         table.get("name");
-        Some(Named {
-            name: "tip".to_owned(),
-            span: table.span.clone(),
-        })
+        Some(Named { name: "tip".to_owned(), span: table.span.clone() })
     } else {
         frame_name(reader, &mut table)
     };
     let last = links.checked_sub(1).map_or(Parent::Base, Parent::Link);
-    let parent = table
-        .get("parent")
-        .map_or(last, |entry| named_parent(reader, &entry));
+    let parent = table.get("parent").map_or(last, |entry| named_parent(reader, &entry));
     let (placement, origin) = origin(reader, &mut table);
     let wrench = table.get("wrench");
     let place = wrench.as_ref().map(|entry| entry.value.span());
     let wrench = match wrench {
         Some(entry) => named_wrench(reader, entry.value),
-        None => name
-            .as_ref()
-            .and_then(|name| plain_wrench(reader, name, alone)),
+        None => name.as_ref().and_then(|name| plain_wrench(reader, name, alone)),
     };
     let span = table.span.clone();
     table.finish(reader);
@@ -88,11 +79,7 @@ fn tip(
         parent,
         placement,
         wrench: Some(wrench?),
-        places: FrameLocation {
-            name: name.span.clone(),
-            origin,
-            wrench: place.or(Some(span)),
-        },
+        places: FrameLocation { name: name.span.clone(), origin, wrench: place.or(Some(span)) },
         name,
     })
 }
@@ -115,11 +102,7 @@ fn frame(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<DraftFrame> {
         parent: parent?,
         placement,
         wrench: None,
-        places: FrameLocation {
-            name: name.span.clone(),
-            origin,
-            wrench: None,
-        },
+        places: FrameLocation { name: name.span.clone(), origin, wrench: None },
         name,
     })
 }
@@ -171,11 +154,7 @@ fn named_wrench(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Wrench> {
 fn wrench(force: [Component; 3], moment: [Component; 3]) -> Wrench {
     let [(fx, a), (fy, b), (fz, c)] = force;
     let [(mx, d), (my, e), (mz, f)] = moment;
-    Wrench {
-        force: [fx, fy, fz],
-        moment: [mx, my, mz],
-        latex: [a, b, c, d, e, f],
-    }
+    Wrench { force: [fx, fy, fz], moment: [mx, my, mz], latex: [a, b, c, d, e, f] }
 }
 
 /// `"Fx6"` or `{ name = "Fx6", latex = "F_x^6" }`.
@@ -184,9 +163,7 @@ fn component(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Component> {
         DeValue::Table(_) => {
             let mut table = reader.table(value, "a component of a wrench")?;
             let name = table.require(reader, "name", "name = \"Fx\"");
-            let latex = table
-                .get("latex")
-                .and_then(|entry| reader.latex(entry.value));
+            let latex = table.get("latex").and_then(|entry| reader.latex(entry.value));
             table.finish(reader);
             (name?.value, latex)
         }
@@ -206,25 +183,15 @@ fn plain_wrench(reader: &mut Reader<'_>, tip: &Named, alone: bool) -> Option<Wre
     let suffix: String = tip
         .name
         .chars()
-        .map(|character| {
-            if character.is_ascii_alphanumeric() {
-                character
-            } else {
-                '_'
-            }
-        })
+        .map(|character| if character.is_ascii_alphanumeric() { character } else { '_' })
         .collect();
     let mut component = |component: &str| {
         let name = match alone {
             true => component.to_owned(),
             false => format!("{component}_{suffix}"),
         };
-        let named = reader.check_name(
-            &name,
-            &tip.span,
-            "a component of a wrench",
-            Kind::Identifier,
-        )?;
+        let named =
+            reader.check_name(&name, &tip.span, "a component of a wrench", Kind::Identifier)?;
         match reader.symbols.add(&named) {
             Some(diagnostic) => {
                 reader.report(diagnostic.help("name the wrench's components with `wrench`"));

@@ -114,12 +114,9 @@ fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
     let origin = reader.word(entry.value, "a point of the link", words) == Some("origin");
     if origin && turned {
         reader.report(
-            Diagnostic::error(
-                code::CONFLICT,
-                "an inertia about the origin is in link axes",
-            )
-            .at(&entry.value.span(), "about the origin of the link's frame")
-            .help("leave out `rpy`, or give the tensor about the centre of mass"),
+            Diagnostic::error(code::CONFLICT, "an inertia about the origin is in link axes")
+                .at(&entry.value.span(), "about the origin of the link's frame")
+                .help("leave out `rpy`, or give the tensor about the centre of mass"),
         );
     }
     origin && !turned
@@ -128,17 +125,11 @@ fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
 /// Steiner: I_c = I_o − m (c·c 1 − c cᵀ).
 fn shift(about_origin: &Inertia, mass: &Formula, [x, y, z]: &[Formula; 3]) -> Option<Inertia> {
     let moment = |own: &Formula, a: &Formula, b: &Formula| {
-        let squares = compute(&[a, b], "(#0)^2 + (#1)^2", |v| {
-            &(v[0] * v[0]) + &(v[1] * v[1])
-        })?;
-        compute(&[own, mass, &squares], "(#0) - (#1)*(#2)", |v| {
-            v[0] - &(v[1] * v[2])
-        })
+        let squares = compute(&[a, b], "(#0)^2 + (#1)^2", |v| &(v[0] * v[0]) + &(v[1] * v[1]))?;
+        compute(&[own, mass, &squares], "(#0) - (#1)*(#2)", |v| v[0] - &(v[1] * v[2]))
     };
     let product = |own: &Formula, a: &Formula, b: &Formula| {
-        compute(&[own, mass, a, b], "(#0) + (#1)*(#2)*(#3)", |v| {
-            v[0] + &(&(v[1] * v[2]) * v[3])
-        })
+        compute(&[own, mass, a, b], "(#0) + (#1)*(#2)*(#3)", |v| v[0] + &(&(v[1] * v[2]) * v[3]))
     };
     Some(Inertia {
         xx: moment(&about_origin.xx, y, z)?,
@@ -158,10 +149,8 @@ fn compute(
     number: impl Fn(&[&Rational]) -> Rational,
 ) -> Option<Formula> {
     let numbers: Vec<_> = operands.iter().map(|operand| operand.as_number()).collect();
-    let rationals: Vec<_> = numbers
-        .iter()
-        .filter_map(|number| number.as_ref()?.as_rational())
-        .collect();
+    let rationals: Vec<_> =
+        numbers.iter().filter_map(|number| number.as_ref()?.as_rational()).collect();
     if rationals.len() == operands.len() {
         return Some(Formula::number(&number(&rationals)));
     }
@@ -219,14 +208,7 @@ fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool)
 }
 
 fn values(reader: &Reader<'_>, inertia: &Inertia) -> Option<[f64; 6]> {
-    let Inertia {
-        xx,
-        yy,
-        zz,
-        xy,
-        xz,
-        yz,
-    } = inertia;
+    let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
     let known = [xx, yy, zz, xy, xz, yz].map(|entry| reader.known(entry));
     let mut values = [0.0; 6];
     for (value, known) in values.iter_mut().zip(known) {
@@ -239,9 +221,7 @@ fn values(reader: &Reader<'_>, inertia: &Inertia) -> Option<[f64; 6]> {
 /// entries are 0.
 pub(super) fn principal_moments(tensor: [f64; 6]) -> Option<[f64; 3]> {
     // Scaled, so that no square overflows.
-    let scale = tensor
-        .iter()
-        .fold(0.0_f64, |scale, entry| scale.max(entry.abs()));
+    let scale = tensor.iter().fold(0.0_f64, |scale, entry| scale.max(entry.abs()));
     if scale == 0.0 {
         return None;
     }

@@ -24,12 +24,9 @@ pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<
         && let Some(help) = elsewhere(word)
     {
         reader.report(
-            Diagnostic::error(
-                code::UNKNOWN_WORD,
-                format!("`{word}` is not a type of joint"),
-            )
-            .at(&entry.value.span(), "")
-            .help(help),
+            Diagnostic::error(code::UNKNOWN_WORD, format!("`{word}` is not a type of joint"))
+                .at(&entry.value.span(), "")
+                .help(help),
         );
         return None;
     }
@@ -89,19 +86,14 @@ pub(super) fn read(
     };
     if row.is_none() {
         let example = "type = \"revolute\"";
-        match table
-            .require(reader, "type", example)
-            .and_then(|entry| kind(reader, &entry))
-        {
+        match table.require(reader, "type", example).and_then(|entry| kind(reader, &entry)) {
             Some(kind) => joint.kind = kind,
             // Nothing can be said of the rest.
             None => return joint,
         }
     }
     if let Some(entry) = table.get("name") {
-        joint.name = reader
-            .name(entry.value, "a joint", Kind::Label)
-            .unwrap_or(joint.name);
+        joint.name = reader.name(entry.value, "a joint", Kind::Label).unwrap_or(joint.name);
     }
     if joint.kind.is_some() {
         moving(reader, &mut table, &mut joint, dh, places);
@@ -156,12 +148,9 @@ fn finish(reader: &mut Reader<'_>, mut table: Table<'_>, kind: Option<JointKind>
     for key in keys {
         if let Some(entry) = table.get(key) {
             reader.report(
-                Diagnostic::error(
-                    code::CONFLICT,
-                    format!("`{key}` has no place here: {reason}"),
-                )
-                .at(&entry.key, "no effect")
-                .help("take it away"),
+                Diagnostic::error(code::CONFLICT, format!("`{key}` has no place here: {reason}"))
+                    .at(&entry.key, "no effect")
+                    .help("take it away"),
             );
         }
     }
@@ -173,10 +162,7 @@ fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
     const EXPECTED: &str = "a joint axis: \"x\", \"-z\" or `[x, y, z]`";
     let vector = match value.get_ref() {
         DeValue::Array(_) => {
-            let what = Quantity {
-                what: "a joint axis",
-                dimension: None,
-            };
+            let what = Quantity { what: "a joint axis", dimension: None };
             reader.vector(value, what)
         }
         DeValue::String(_) => {
@@ -196,10 +182,7 @@ fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
             return array::from_fn(|_| Reader::unknown());
         }
     };
-    if vector
-        .iter()
-        .all(|component| reader.known(component) == Some(0.0))
-    {
+    if vector.iter().all(|component| reader.known(component) == Some(0.0)) {
         reader.report(
             Diagnostic::error(code::ZERO_AXIS, "the joint axis is zero")
                 .at(&value.span(), "this vector has no direction")
@@ -227,14 +210,8 @@ fn limits(reader: &mut Reader<'_>, value: Value<'_>) -> Option<[Rational; 2]> {
 }
 
 fn mimic(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Mimic> {
-    const RATIO: Quantity = Quantity {
-        what: "the ratio",
-        dimension: None,
-    };
-    const OFFSET: Quantity = Quantity {
-        what: "the offset",
-        dimension: None,
-    };
+    const RATIO: Quantity = Quantity { what: "the ratio", dimension: None };
+    const OFFSET: Quantity = Quantity { what: "the offset", dimension: None };
     let mut table = reader.table(value, "a mimic")?;
     let joint = table
         .require(reader, "joint", "joint = \"name of the joint that leads\"")
@@ -256,11 +233,7 @@ fn mimic(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Mimic> {
     let offset = table.get("offset");
     let offset = offset.map_or_else(zero, |entry| reader.formula(entry.value, OFFSET));
     table.finish(reader);
-    Some(Mimic {
-        joint: joint?,
-        ratio,
-        offset,
-    })
+    Some(Mimic { joint: joint?, ratio, offset })
 }
 
 /// The quantity with the dimension for a rotation or a translation.

@@ -146,10 +146,7 @@ fn check(text: &str) -> Result<(), Fault> {
                 if depth > MAX_DEPTH {
                     return Err((here, "too many groups within groups"));
                 }
-                groups.push(Group {
-                    start,
-                    ..Group::default()
-                });
+                groups.push(Group { start, ..Group::default() });
             }
             b'}' if waiting.is_some() || depth == 1 || !group.base => {
                 return Err((here, "a group ends without content, or closes nothing"));
@@ -158,11 +155,7 @@ fn check(text: &str) -> Result<(), Fault> {
                 groups.pop();
             }
             b'_' | b'^' => {
-                let taken = if byte == b'_' {
-                    &mut group.lower
-                } else {
-                    &mut group.upper
-                };
+                let taken = if byte == b'_' { &mut group.lower } else { &mut group.upper };
                 if waiting.is_some() || *taken || !group.base {
                     return Err((here, "a second index, or one that belongs to nothing"));
                 }

@@ -24,14 +24,8 @@ pub(super) fn read(
         .require(reader, "name", &format!("name = \"{}\"", index + 1))
         .and_then(|entry| reader.name(entry.value, "a link", Kind::Label));
     // A stand-in, so that the rest of the link is checked all the same.
-    let named = name.clone().unwrap_or(Named {
-        name: String::new(),
-        span: table.span.clone(),
-    });
-    let mut places = LinkLocation {
-        name: named.span.clone(),
-        ..LinkLocation::default()
-    };
+    let named = name.clone().unwrap_or(Named { name: String::new(), span: table.span.clone() });
+    let mut places = LinkLocation { name: named.span.clone(), ..LinkLocation::default() };
     let parent = parent(reader, &mut table, index, &mut places);
     let own_frame = table.has("origin") || table.has("dh");
     let row = dh.as_mut().filter(|_| !own_frame).map(dh::Table::next_row);
@@ -42,26 +36,12 @@ pub(super) fn read(
         Some(row) => frames_of_row(row.convention, row.row, row.kind, row.place),
         None => of_link(reader, &mut table, joint.kind),
     };
-    let Frames {
-        before,
-        after,
-        place,
-    } = frames;
+    let Frames { before, after, place } = frames;
     places.origin = place;
     let body = body::read(reader, &mut table, &named, joint.kind.is_some());
     let (friction, drive) = on_joint(reader, &mut table, joint.kind, &mut places);
     table.finish(reader);
-    Some(DraftLink {
-        name: name?,
-        parent,
-        joint,
-        before,
-        after,
-        body,
-        friction,
-        drive,
-        places,
-    })
+    Some(DraftLink { name: name?, parent, joint, before, after, body, friction, drive, places })
 }
 
 /// `parent`: a name, `base`, or the link before.
@@ -89,10 +69,7 @@ pub(super) fn named_parent(reader: &mut Reader<'_>, entry: &super::table::Entry<
     if text == "base" {
         return Parent::Base;
     }
-    Parent::Name(Named {
-        name: text.to_string(),
-        span: entry.value.span(),
-    })
+    Parent::Name(Named { name: text.to_string(), span: entry.value.span() })
 }
 
 fn on_joint(

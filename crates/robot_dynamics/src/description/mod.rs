@@ -64,21 +64,16 @@ pub struct Described {
 ///
 /// Everything that is wrong with the file, in the order of the places.
 pub fn read_toml(name: &str, text: &str) -> Result<Described, Diagnostics> {
-    let source = || Source {
-        name: name.to_owned(),
-        text: text.to_owned(),
-    };
+    let source = || Source { name: name.to_owned(), text: text.to_owned() };
     if text.len() > MAX_BYTES {
         return Err(too_large(name, text.len()));
     }
     let (described, list) = file::read(text);
     let found = Diagnostics::new(source(), list);
     match described {
-        Some((robot, locations)) if !found.has_errors() => Ok(Described {
-            robot,
-            locations,
-            warnings: found,
-        }),
+        Some((robot, locations)) if !found.has_errors() => {
+            Ok(Described { robot, locations, warnings: found })
+        }
         _ => Err(found),
     }
 }
@@ -98,10 +93,7 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
         let diagnostic = Diagnostic::error(code::NOT_TEXT, "the file is not UTF-8 text")
             .at(&(valid..valid), "no UTF-8 from here on")
             .help("save the file as UTF-8");
-        let source = Source {
-            name: name.to_owned(),
-            text,
-        };
+        let source = Source { name: name.to_owned(), text };
         Diagnostics::new(source, vec![diagnostic])
     })
 }
@@ -112,9 +104,6 @@ fn too_large(name: &str, bytes: usize) -> Diagnostics {
     let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
         .because("a robot of 64 joints with every figure and a comment takes a tenth of that")
         .help("leave out what does not describe the robot: meshes, logs, trajectories");
-    let source = Source {
-        name: name.to_owned(),
-        text: String::new(),
-    };
+    let source = Source { name: name.to_owned(), text: String::new() };
     Diagnostics::new(source, vec![diagnostic])
 }

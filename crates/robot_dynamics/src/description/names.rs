@@ -107,10 +107,7 @@ impl Reader<'_> {
             );
             return None;
         }
-        Some(Named {
-            name: text.to_owned(),
-            span: span.clone(),
-        })
+        Some(Named { name: text.to_owned(), span: span.clone() })
     }
 }
 
@@ -191,10 +188,7 @@ impl Registry {
 
     /// A registry that lets alike names pass.
     pub(super) fn exact(what: &'static str) -> Registry {
-        Registry {
-            exact: true,
-            ..Registry::new(what)
-        }
+        Registry { exact: true, ..Registry::new(what) }
     }
 
     /// Adds a name; one that is there already, or differs in case or underscores alone, gives the
@@ -212,22 +206,15 @@ impl Registry {
         };
         let (what, name, other) = (self.what, &named.name, &first.name);
         let diagnostic = if name == other {
-            Diagnostic::error(
-                code::DUPLICATE,
-                format!("the {what} `{name}` is given twice"),
-            )
-            .at(&named.span, "again here")
+            Diagnostic::error(code::DUPLICATE, format!("the {what} `{name}` is given twice"))
+                .at(&named.span, "again here")
         } else {
             let message = format!("the {what}s `{other}` and `{name}` are too alike");
             Diagnostic::error(code::ALIKE, message)
                 .at(&named.span, "differs in case or underscores alone")
                 .because("people, print and some file systems cannot tell them apart")
         };
-        Some(
-            diagnostic
-                .and_at(&first.span, "first here")
-                .help("give one of them another name"),
-        )
+        Some(diagnostic.and_at(&first.span, "first here").help("give one of them another name"))
     }
 }
 
@@ -241,18 +228,7 @@ mod tests {
             assert!(is_identifier(name), "{name}");
         }
         let long = "x".repeat(65);
-        for name in [
-            "",
-            "_",
-            "__",
-            "1a",
-            "a-b",
-            "é",
-            "a b",
-            "}fn x(){}",
-            "a\u{202e}",
-            &long,
-        ] {
+        for name in ["", "_", "__", "1a", "a-b", "é", "a b", "}fn x(){}", "a\u{202e}", &long] {
             assert!(!is_identifier(name), "{name}");
         }
         for label in ["1", "ee_link", "wrist_3_link-tool0_fixed_joint", "a.b"] {
@@ -265,9 +241,7 @@ mod tests {
 
     #[test]
     fn words_of_code_and_equations_are_reserved() {
-        for name in [
-            "fn", "Self", "lambda", "double", "q1", "qdd12", "Q3", "sin", "t", "pi",
-        ] {
+        for name in ["fn", "Self", "lambda", "double", "q1", "qdd12", "Q3", "sin", "t", "pi"] {
             assert!(reserved(name).is_some(), "{name}");
         }
         for name in ["c1", "s1", "q1x", "g", "Fx6", "qx", "m", "T"] {

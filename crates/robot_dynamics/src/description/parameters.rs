@@ -60,13 +60,8 @@ pub(super) fn read(
 /// A parameter without its name.
 fn one(reader: &mut Reader<'_>, value: Value<'_>) -> (Parameter, ParameterLocation) {
     let mut place = ParameterLocation::default();
-    let mut parameter = Parameter {
-        name: String::new(),
-        value: None,
-        unit: None,
-        latex: None,
-        doc: None,
-    };
+    let mut parameter =
+        Parameter { name: String::new(), value: None, unit: None, latex: None, doc: None };
     match value.get_ref() {
         DeValue::Integer(_) | DeValue::Float(_) => {
             parameter.value = reader.number(value, "a number");
@@ -82,19 +77,14 @@ fn one(reader: &mut Reader<'_>, value: Value<'_>) -> (Parameter, ParameterLocati
                 parameter.unit = unit(reader, entry.value, parameter.value.as_ref());
                 place.unit = Some(entry.value.span());
             }
-            parameter.latex = table
-                .get("latex")
-                .and_then(|entry| reader.latex(entry.value));
+            parameter.latex = table.get("latex").and_then(|entry| reader.latex(entry.value));
             parameter.doc = table.get("doc").and_then(|entry| reader.prose(entry.value));
             table.finish(reader);
         }
         DeValue::String(_) => {
             nominal(reader, value);
         }
-        _ => reader.wrong_type(
-            value,
-            "a number, or a table `{ value = 0.35, unit = \"m\" }`",
-        ),
+        _ => reader.wrong_type(value, "a number, or a table `{ value = 0.35, unit = \"m\" }`"),
     }
     (parameter, place)
 }
@@ -130,18 +120,13 @@ fn unit(reader: &mut Reader<'_>, value: Value<'_>, nominal: Option<&Rational>) -
                 ))
         }
         Err(UnitError::NotSi { span, unit, factor }) => {
-            let value = nominal
-                .zip(factor.as_ref())
-                .map(|(value, factor)| value * factor);
+            let value = nominal.zip(factor.as_ref()).map(|(value, factor)| value * factor);
             let remedy = match (value, factor) {
                 (Some(value), _) => {
                     format!("write `value = {}, unit = \"{unit}\"`", decimal(&value))
                 }
                 (None, Some(factor)) => {
-                    format!(
-                        "write \"{unit}\" and multiply values by {}",
-                        decimal(&factor)
-                    )
+                    format!("write \"{unit}\" and multiply values by {}", decimal(&factor))
                 }
                 (None, None) => format!("write \"{unit}\" and convert the values"),
             };

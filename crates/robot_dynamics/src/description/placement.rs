@@ -77,12 +77,10 @@ pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement 
     let Some(mut table) = reader.table(value, "an origin") else {
         return Placement::default();
     };
-    let xyz = table.get("xyz").map_or_else(zeros, |entry| {
-        reader.vector(entry.value, quantity("the origin", 0, 1, 0))
-    });
-    let rpy = table
-        .get("rpy")
-        .map_or_else(zeros, |entry| reader.vector(entry.value, RPY));
+    let xyz = table
+        .get("xyz")
+        .map_or_else(zeros, |entry| reader.vector(entry.value, quantity("the origin", 0, 1, 0)));
+    let rpy = table.get("rpy").map_or_else(zeros, |entry| reader.vector(entry.value, RPY));
     table.finish(reader);
     without_rests(Placement::from_xyz_rpy(xyz, rpy))
 }
@@ -145,11 +143,7 @@ pub(super) fn frames_of_row(
         (Convention::Standard, Some(_)) => (Placement::default(), moves),
         _ => (moves, Placement::default()),
     };
-    Frames {
-        before,
-        after,
-        place: Some(place),
-    }
+    Frames { before, after, place: Some(place) }
 }
 
 /// The placement without the moves that move nothing.

@@ -34,12 +34,7 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub(super) fn new(text: &'a str) -> Reader<'a> {
-        Reader {
-            text,
-            found: Vec::new(),
-            parameters: Vec::new(),
-            symbols: Registry::new("symbol"),
-        }
+        Reader { text, found: Vec::new(), parameters: Vec::new(), symbols: Registry::new("symbol") }
     }
 
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
@@ -115,28 +110,21 @@ impl<'a> Reader<'a> {
         let undefined = || {
             let graph = Graph::new();
             let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
-            expr.as_number()
-                .is_some_and(|value| value.to_f64().is_nan())
+            expr.as_number().is_some_and(|value| value.to_f64().is_nan())
         };
         if known.map_or_else(|| !undefined(), f64::is_finite) {
             return true;
         }
-        let nominal = if formula.is_constant() {
-            ""
-        } else {
-            " at the nominal values of the parameters"
-        };
+        let nominal =
+            if formula.is_constant() { "" } else { " at the nominal values of the parameters" };
         let value = match known {
             Some(value) if value.is_infinite() => "infinite",
             _ => "not a number",
         };
         self.report(
-            Diagnostic::error(
-                code::NUMBER,
-                format!("the expression has no finite value{nominal}"),
-            )
-            .at(span, format!("this is {value}"))
-            .help("look for a division by zero, a root of a negative number, or an overflow"),
+            Diagnostic::error(code::NUMBER, format!("the expression has no finite value{nominal}"))
+                .at(span, format!("this is {value}"))
+                .help("look for a division by zero, a root of a negative number, or an overflow"),
         );
         false
     }

@@ -31,11 +31,7 @@ fn offset(raw: &str, decoded: &str, target: usize, onward: bool) -> Option<usize
         done += produced;
         position += consumed;
     }
-    if let Some((0, consumed)) = raw
-        .get(position..)
-        .filter(|_| onward && basic)
-        .and_then(escape)
-    {
+    if let Some((0, consumed)) = raw.get(position..).filter(|_| onward && basic).and_then(escape) {
         position += consumed;
     }
     (done == target && decoded.is_char_boundary(target)).then_some(position)
@@ -43,21 +39,14 @@ fn offset(raw: &str, decoded: &str, target: usize, onward: bool) -> Option<usize
 
 /// Where the text of a raw string begins, and whether it knows escapes.
 fn opening(raw: &str) -> Option<(usize, bool)> {
-    let quote = raw
-        .chars()
-        .next()
-        .filter(|quote| matches!(quote, '"' | '\''))?;
+    let quote = raw.chars().next().filter(|quote| matches!(quote, '"' | '\''))?;
     let basic = quote == '"';
     let triple = quote.to_string().repeat(3);
     if !raw.starts_with(&triple) || raw.len() < 6 {
         return Some((1, basic));
     }
     let rest = raw.get(3..)?;
-    let newline = if rest.starts_with("\r\n") {
-        2
-    } else {
-        usize::from(rest.starts_with('\n'))
-    };
+    let newline = if rest.starts_with("\r\n") { 2 } else { usize::from(rest.starts_with('\n')) };
     Some((3 + newline, basic))
 }
 

@@ -28,21 +28,13 @@ pub(super) struct Table<'a> {
 
 impl<'a> Table<'a> {
     pub(super) fn new(keys: &'a DeTable<'a>, span: Span, what: &'static str) -> Table<'a> {
-        Table {
-            keys,
-            span,
-            what,
-            known: Vec::new(),
-        }
+        Table { keys, span, what, known: Vec::new() }
     }
 
     /// The value of a key, which is known from now on.
     pub(super) fn get(&mut self, key: &'static str) -> Option<Entry<'a>> {
         self.known.push(key);
-        self.keys.get_key_value(key).map(|(key, value)| Entry {
-            key: key.span(),
-            value,
-        })
+        self.keys.get_key_value(key).map(|(key, value)| Entry { key: key.span(), value })
     }
 
     /// Whether the key is there, without making it known.
@@ -83,13 +75,11 @@ impl<'a> Table<'a> {
             };
             let message = format!("`{}` is not a key of {}", quote(name), self.what);
             reader.report(
-                Diagnostic::error(code::UNKNOWN_KEY, message)
-                    .at(&key.span(), label)
-                    .help(format!(
-                        "the keys of {} are {}",
-                        self.what,
-                        list(&self.known)
-                    )),
+                Diagnostic::error(code::UNKNOWN_KEY, message).at(&key.span(), label).help(format!(
+                    "the keys of {} are {}",
+                    self.what,
+                    list(&self.known)
+                )),
             );
         }
     }

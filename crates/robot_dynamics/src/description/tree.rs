@@ -34,16 +34,10 @@ pub(super) fn order(
         report_cycles(reader, links, &parents, &order);
         return None;
     }
-    let moving = links
-        .iter()
-        .filter(|link| link.joint.kind.is_some())
-        .count();
+    let moving = links.iter().filter(|link| link.joint.kind.is_some()).count();
     if moving > MAX_JOINTS {
         let message = format!("the robot has {moving} joints; at most {MAX_JOINTS}");
-        let span = order
-            .last()
-            .and_then(|last| links.get(*last))
-            .map(|link| &link.name.span);
+        let span = order.last().and_then(|last| links.get(*last)).map(|link| &link.name.span);
         let diagnostic = Diagnostic::error(code::LIMIT, message);
         reader.report(diagnostic.at(span.unwrap_or(&(0..0)), "the last of them"));
         return None;
@@ -139,16 +133,10 @@ fn report_cycles(
         let Some((first, others)) = on_cycle.split_first() else {
             continue;
         };
-        let names: Vec<String> = on_cycle
-            .iter()
-            .chain([first])
-            .map(|link| format!("`{}`", link.name.name))
-            .collect();
+        let names: Vec<String> =
+            on_cycle.iter().chain([first]).map(|link| format!("`{}`", link.name.name)).collect();
         let place = |link: &DraftLink| link.places.parent.clone().unwrap_or(link.name.span.clone());
-        let message = format!(
-            "links stand on each other in a circle: {}",
-            names.join(" on ")
-        );
+        let message = format!("links stand on each other in a circle: {}", names.join(" on "));
         let mut diagnostic = Diagnostic::error(code::CYCLE, message)
             .at(&place(first), "this parent")
             .because("every link must stand on the base in the end; closed loops are no trees")

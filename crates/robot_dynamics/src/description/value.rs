@@ -24,10 +24,7 @@ pub(super) struct Quantity {
 
 /// A quantity in kg^`mass` m^`length` s^`time`.
 pub(super) const fn quantity(what: &'static str, mass: i8, length: i8, time: i8) -> Quantity {
-    Quantity {
-        what,
-        dimension: Some(Dimension::new(mass, length, time)),
-    }
+    Quantity { what, dimension: Some(Dimension::new(mass, length, time)) }
 }
 
 impl Reader<'_> {
@@ -41,12 +38,9 @@ impl Reader<'_> {
             DeValue::Table(_) => "a table",
         };
         self.report(
-            Diagnostic::error(
-                code::WRONG_TYPE,
-                format!("expected {expected}, found {found}"),
-            )
-            .at(&value.span(), format!("this is {found}"))
-            .help(format!("write {expected}")),
+            Diagnostic::error(code::WRONG_TYPE, format!("expected {expected}, found {found}"))
+                .at(&value.span(), format!("this is {found}"))
+                .help(format!("write {expected}")),
         );
     }
 
@@ -182,9 +176,9 @@ impl Reader<'_> {
             DeValue::Integer(integer) if integer.radix() == 10 => {
                 Rational::from_decimal(integer.as_str())
             }
-            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
-                .ok()
-                .map(Rational::integer),
+            DeValue::Integer(integer) => {
+                i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(Rational::integer)
+            }
             _ => {
                 self.wrong_type(value, expected);
                 return None;
@@ -224,10 +218,7 @@ impl Reader<'_> {
             }
             _ => {
                 let what = quantity.what;
-                self.wrong_type(
-                    value,
-                    &format!("{what}, a number or an expression in quotes"),
-                );
+                self.wrong_type(value, &format!("{what}, a number or an expression in quotes"));
                 return Reader::unknown();
             }
         };
@@ -267,10 +258,8 @@ impl Reader<'_> {
         if unit.dimension == expected {
             return true;
         }
-        let message = format!(
-            "`{name}` is in {}, but {} is in {expected}",
-            unit.text, quantity.what
-        );
+        let message =
+            format!("`{name}` is in {}, but {} is in {expected}", unit.text, quantity.what);
         let diagnostic = Diagnostic::error(code::DIMENSION, message)
             .at(span, format!("needs a value in {expected}"))
             .and_at(&known.span, format!("in {}", unit.text))

@@ -69,29 +69,20 @@ impl Diagnostic {
     /// A warning without a place as yet.
     #[must_use]
     pub fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
-        Diagnostic {
-            severity: Severity::Warning,
-            ..Diagnostic::error(code, message)
-        }
+        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
     }
 
     /// The offending text.
     #[must_use]
     pub fn at(mut self, span: &Span, text: impl Into<String>) -> Diagnostic {
-        self.primary = Some(Label {
-            span: span.clone(),
-            text: text.into(),
-        });
+        self.primary = Some(Label { span: span.clone(), text: text.into() });
         self
     }
 
     /// Another place that matters.
     #[must_use]
     pub fn and_at(mut self, span: &Span, text: impl Into<String>) -> Diagnostic {
-        self.secondary.push(Label {
-            span: span.clone(),
-            text: text.into(),
-        });
+        self.secondary.push(Label { span: span.clone(), text: text.into() });
         self
     }
 
@@ -184,9 +175,7 @@ impl Diagnostics {
     /// Whether one of them is an error.
     #[must_use]
     pub fn has_errors(&self) -> bool {
-        self.list
-            .iter()
-            .any(|diagnostic| diagnostic.severity == Severity::Error)
+        self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
     /// All of them as text, each with its excerpt of the source, then how many there are.

@@ -23,11 +23,8 @@ pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String 
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let mut group = Group::with_title(
-        level
-            .primary_title(diagnostic.message.as_str())
-            .id(diagnostic.code),
-    );
+    let mut group =
+        Group::with_title(level.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
     match &diagnostic.primary {
         Some(primary) => {
             let mut labels = vec![(primary, AnnotationKind::Primary)];
@@ -35,13 +32,12 @@ pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String 
             labels.extend(others.map(|label| (label, AnnotationKind::Context)));
             for (text, line, labels) in excerpts(source, &labels) {
                 group = group.element(
-                    Snippet::source(text)
-                        .path(quote(&source.name))
-                        .line_start(line)
-                        .annotations(labels.into_iter().map(|(kind, span, text)| {
+                    Snippet::source(text).path(quote(&source.name)).line_start(line).annotations(
+                        labels.into_iter().map(|(kind, span, text)| {
                             let text = (!text.is_empty()).then_some(text);
                             kind.span(span).label(text)
-                        })),
+                        }),
+                    ),
                 );
             }
         }
@@ -64,13 +60,9 @@ pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String 
 
 pub(super) fn render_all(source: &Source, list: &[Diagnostic], style: Style) -> String {
     let shown = list.iter().take(MAX_SHOWN);
-    let mut parts: Vec<String> = shown
-        .map(|diagnostic| render(source, diagnostic, style))
-        .collect();
-    let errors = list
-        .iter()
-        .filter(|diagnostic| diagnostic.severity == Severity::Error)
-        .count();
+    let mut parts: Vec<String> =
+        shown.map(|diagnostic| render(source, diagnostic, style)).collect();
+    let errors = list.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
     let counts = [(errors, "error"), (list.len() - errors, "warning")];
     let counts: Vec<String> = counts
         .iter()
@@ -101,9 +93,7 @@ fn excerpts<'s>(source: &'s Source, labels: &[(&'s Label, AnnotationKind)]) -> V
         return Vec::new();
     };
     let start = text[..first].rfind('\n').map_or(0, |newline| newline + 1);
-    let end = text[last..]
-        .find('\n')
-        .map_or(text.len(), |newline| last + newline);
+    let end = text[last..].find('\n').map_or(text.len(), |newline| last + newline);
     let line = text[..start].bytes().filter(|byte| *byte == b'\n').count() + 1;
     let moved = labels
         .into_iter()

@@ -1,10 +1,7 @@
 use super::*;
 
 fn source(text: &str) -> Source {
-    Source {
-        name: "arm.toml".to_owned(),
-        text: text.to_owned(),
-    }
+    Source { name: "arm.toml".to_owned(), text: text.to_owned() }
 }
 
 fn shown(text: &str, span: Span) -> String {
@@ -32,21 +29,13 @@ fn tabs_line_ends_and_wide_characters_keep_their_columns() {
     assert!(rendered.contains("arm.toml:2:9\n"), "{rendered}");
     let lines: Vec<&str> = rendered.lines().collect();
     let column = |line: &str, text: &str| line.find(text).unwrap();
-    assert_eq!(
-        column(lines[3], "nan"),
-        column(lines[4], "^^^"),
-        "{rendered}"
-    );
+    assert_eq!(column(lines[3], "nan"), column(lines[4], "^^^"), "{rendered}");
     assert!(!rendered.contains('\r'), "{rendered:?}");
 }
 
 #[test]
 fn a_long_line_is_cut_around_the_place() {
-    let text = format!(
-        "a = \"{}\" # {}\n",
-        "x".repeat(500_000),
-        "y".repeat(500_000)
-    );
+    let text = format!("a = \"{}\" # {}\n", "x".repeat(500_000), "y".repeat(500_000));
     let rendered = shown(&text, 250_000..250_003);
     assert!(rendered.len() < 1000, "{}", rendered.len());
     assert!(rendered.contains("arm.toml:1:250001\n"), "{rendered}");
@@ -56,10 +45,7 @@ fn a_long_line_is_cut_around_the_place() {
 #[test]
 fn places_out_of_the_text_are_brought_in() {
     for span in [0..0, 2..2, 3..3, 7..9, 1..900, 900..900] {
-        assert!(
-            shown("aé\n", span.clone()).contains("arm.toml:"),
-            "{span:?}"
-        );
+        assert!(shown("aé\n", span.clone()).contains("arm.toml:"), "{span:?}");
     }
     assert!(shown("", 0..0).contains("arm.toml:1:1"));
 }
@@ -73,11 +59,7 @@ fn diagnostics_come_in_the_order_of_their_places() {
     let order: Vec<_> = found.iter().cloned().collect();
     assert_eq!(order, [whole, at(1), at(2), at(3)]);
     assert!(found.has_errors());
-    assert!(
-        found
-            .to_string()
-            .ends_with("\n\narm.toml: 3 errors, 1 warning\n")
-    );
+    assert!(found.to_string().ends_with("\n\narm.toml: 3 errors, 1 warning\n"));
 }
 
 #[test]
