@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::hash::BuildHasher;
 
-use hashbrown::HashTable;
+use hashbrown::{HashMap, HashTable};
 use indexmap::{IndexMap, IndexSet};
 use rustc_hash::FxBuildHasher;
 
@@ -106,6 +106,27 @@ pub(crate) enum Node {
     Call(Function, Id),
 }
 
+impl Node {
+    pub(crate) fn operands(self) -> impl Iterator<Item = Id> {
+        let (first, second) = match self {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => (None, None),
+            Node::Neg(a) | Node::Call(_, a) => (Some(a), None),
+            Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) => {
+                (Some(a), Some(b))
+            }
+        };
+        first.into_iter().chain(second)
+    }
+}
+
+/// An operation on two constants whose result is remembered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Folding {
+    Add,
+    Sub,
+    Mul,
+}
+
 /// An arena of expressions, each stored once.
 ///
 /// The same sequence of operations gives the same ids, and with them the same order in every
@@ -121,6 +142,8 @@ struct Inner {
     index: HashTable<u32>,
     numbers: IndexSet<Number, FxBuildHasher>,
     symbols: IndexMap<String, Id, FxBuildHasher>,
+    /// Results on constants: a search derives the same ones over and over.
+    folded: HashMap<(Folding, Id, Id), Id, FxBuildHasher>,
 }
 
 /// The number of nodes: a graph is too large to print.
@@ -217,9 +240,9 @@ impl Graph {
         self.inner.borrow().nodes[id.index()]
     }
 
-    /// A copy of the nodes with ids up to and including `last`.
-    pub(crate) fn nodes_up_to(&self, last: usize) -> Vec<Node> {
-        self.inner.borrow().nodes[..=last].to_vec()
+    /// Lends all nodes, in the order of their ids.
+    pub(crate) fn with_nodes<T>(&self, read: impl FnOnce(&[Node]) -> T) -> T {
+        read(&self.inner.borrow().nodes)
     }
 
     /// Interns a constant; the sign of a negative one becomes a `Neg` node.
@@ -232,6 +255,37 @@ impl Graph {
         let value = if value.is_zero() { Number::integer(0) } else { value.clone() };
         let (index, _) = self.inner.borrow_mut().numbers.insert_full(value);
         self.intern(Node::Number(index as u32))
+    }
+
+    /// The result of an operation on two nodes where both are constants.
+    pub(crate) fn fold(&self, operation: Folding, a: Id, b: Id) -> Option<Id> {
+        if !(self.is_number(a) && self.is_number(b)) {
+            return None;
+        }
+        let key = (operation, a, b);
+        let known = self.inner.borrow().folded.get(&key).copied();
+        if known.is_some() {
+            return known;
+        }
+        let (x, y) = (self.as_number(a)?, self.as_number(b)?);
+        let value = match operation {
+            Folding::Add => &x + &y,
+            Folding::Sub => &x - &y,
+            Folding::Mul => &x * &y,
+        };
+        let result = self.intern_number(&value);
+        self.inner.borrow_mut().folded.insert(key, result);
+        Some(result)
+    }
+
+    /// Whether a node is a constant.
+    pub(crate) fn is_number(&self, id: Id) -> bool {
+        let inner = self.inner.borrow();
+        let is_positive = |id: Id| matches!(inner.nodes[id.index()], Node::Number(_));
+        match inner.nodes[id.index()] {
+            Node::Neg(operand) => is_positive(operand),
+            _ => is_positive(id),
+        }
     }
 
     /// The constant that a node is, its sign included.

@@ -1,7 +1,7 @@
 //! Counting what an evaluation costs.
 
 use crate::expr::Expr;
-use crate::graph::{Function, Node, SymbolId};
+use crate::graph::{Function, Id, Node, SymbolId};
 
 /// Operations of a set of expressions, shared ones once. Changes of sign are free.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,47 +31,43 @@ impl Operations {
 #[must_use]
 pub fn operations(roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operations {
     let mut count = Operations::default();
-    let Some(last) = roots.iter().map(|root| root.id().index()).max() else {
-        return count;
-    };
-    let graph = roots[0].graph();
-    let nodes = graph.nodes_up_to(last);
-    let mut varies = vec![false; nodes.len()];
-    let mut needed = vec![false; nodes.len()];
-    for (index, node) in nodes.iter().enumerate() {
-        varies[index] = match *node {
-            Node::Number(_) | Node::Pi => false,
-            Node::Symbol(symbol) => !free(symbol),
-            Node::Neg(a) | Node::Call(_, a) => varies[a.index()],
-            Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) => {
-                varies[a.index()] || varies[b.index()]
-            }
-        };
-    }
-    for root in roots {
-        needed[root.id().index()] = true;
-    }
-    for (index, node) in nodes.iter().enumerate().rev() {
-        if !needed[index] || !varies[index] {
-            continue;
+    let Some(graph) = roots.first().map(|root| root.graph()) else { return count };
+    graph.with_nodes(|nodes| {
+        let roots = || roots.iter().map(|root| root.id());
+        let mut varies = vec![false; nodes.len()];
+        for id in visit(nodes, roots(), |_| true) {
+            varies[id.index()] = match nodes[id.index()] {
+                Node::Symbol(symbol) => !free(symbol),
+                node => node.operands().any(|operand| varies[operand.index()]),
+            };
         }
-        match *node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Neg(_) => {}
-            Node::Mul(..) => count.multiplications += 1,
-            Node::Add(..) | Node::Sub(..) => count.additions += 1,
-            Node::Div(..) => count.divisions += 1,
-            Node::Call(Function::Sin | Function::Cos, _) => count.trigonometric += 1,
-            Node::Call(..) => count.other += 1,
-        }
-        match *node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
-            Node::Neg(a) | Node::Call(_, a) => needed[a.index()] = true,
-            Node::Add(a, b) | Node::Sub(a, b) | Node::Mul(a, b) | Node::Div(a, b) => {
-                (needed[a.index()], needed[b.index()]) = (true, true);
+        for id in visit(nodes, roots(), |id| varies[id.index()]) {
+            match nodes[id.index()] {
+                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Neg(_) => {}
+                Node::Mul(..) => count.multiplications += 1,
+                Node::Add(..) | Node::Sub(..) => count.additions += 1,
+                Node::Div(..) => count.divisions += 1,
+                Node::Call(Function::Sin | Function::Cos, _) => count.trigonometric += 1,
+                Node::Call(..) => count.other += 1,
             }
         }
-    }
+    });
     count
+}
+
+/// The nodes below `roots` for which `enter` holds, operands first.
+fn visit(nodes: &[Node], roots: impl Iterator<Item = Id>, enter: impl Fn(Id) -> bool) -> Vec<Id> {
+    let mut seen = vec![false; nodes.len()];
+    let mut found = vec![];
+    let mut pending: Vec<Id> = roots.collect();
+    while let Some(id) = pending.pop() {
+        if enter(id) && !std::mem::replace(&mut seen[id.index()], true) {
+            found.push(id);
+            pending.extend(nodes[id.index()].operands());
+        }
+    }
+    found.sort_unstable();
+    found
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@
 //! - what was just added is taken off again: `(x + y) − y = x`, `(x − y) + y = x`;
 //! - `x / c = (1/c) x`, `(x y) / y = x`, `√x √x = x`.
 
-use crate::graph::{Function, Graph, Id, Node};
+use crate::graph::{Folding, Function, Graph, Id, Node};
 use crate::number::Number;
 
 impl Graph {
@@ -67,31 +67,42 @@ impl Graph {
 
     /// `a ± b` where constants fold, or both are multiples of one expression.
     fn merge_terms(&self, a: Id, b: Id, subtract: bool) -> Option<Id> {
-        let combine = |a: &Number, b: &Number| if subtract { a - b } else { a + b };
-        match (self.as_number(a), self.as_number(b)) {
-            (Some(x), Some(y)) => return Some(self.intern_number(&combine(&x, &y))),
-            (Some(x), None) if x.is_zero() => return Some(if subtract { self.neg(b) } else { b }),
-            (None, Some(y)) if y.is_zero() => return Some(a),
-            _ => {}
+        let operation = if subtract { Folding::Sub } else { Folding::Add };
+        if let Some(constant) = self.fold(operation, a, b) {
+            return Some(constant);
+        }
+        if self.is_zero(a) {
+            return Some(if subtract { self.neg(b) } else { b });
+        }
+        if self.is_zero(b) {
+            return Some(a);
         }
         let ((p, x), (q, y)) = (self.split_coefficient(a), self.split_coefficient(b));
-        (x == y).then(|| self.mul(self.intern_number(&combine(&p, &q)), x))
+        if x != y {
+            return None;
+        }
+        let one = self.intern_number(&Number::integer(1));
+        let coefficient = self.fold(operation, p.unwrap_or(one), q.unwrap_or(one))?;
+        Some(self.mul(coefficient, x))
     }
 
-    /// `(c, x)` where the expression is `c x`; `c` is 1 for all but products with a constant.
-    fn split_coefficient(&self, id: Id) -> (Number, Id) {
-        if let Node::Mul(a, b) = self.node(id)
-            && let Some(coefficient) = self.as_number(a)
-        {
-            return (coefficient, b);
+    fn is_zero(&self, id: Id) -> bool {
+        matches!(self.node(id), Node::Number(_))
+            && self.as_number(id).is_some_and(|number| number.is_zero())
+    }
+
+    /// `(c, x)` where the expression is `c x` with a constant `c`.
+    fn split_coefficient(&self, id: Id) -> (Option<Id>, Id) {
+        match self.node(id) {
+            Node::Mul(a, b) if self.is_number(a) => (Some(a), b),
+            _ => (None, id),
         }
-        (Number::integer(1), id)
     }
 
     pub(crate) fn neg(&self, a: Id) -> Id {
         match self.node(a) {
             Node::Neg(x) => x,
-            _ if self.as_number(a).is_some_and(|number| number.is_zero()) => a,
+            _ if self.is_zero(a) => a,
             _ => self.intern(Node::Neg(a)),
         }
     }
@@ -103,9 +114,11 @@ impl Graph {
             (_, Node::Neg(y)) => return self.neg(self.mul(a, y)),
             _ => {}
         }
+        if let Some(constant) = self.fold(Folding::Mul, a, b) {
+            return constant;
+        }
         match (self.as_number(a), self.as_number(b)) {
-            (Some(x), Some(y)) => self.intern_number(&(&x * &y)),
-            (Some(x), None) => self.scale(&x, a, b),
+            (Some(x), _) => self.scale(&x, a, b),
             (None, Some(y)) => self.scale(&y, b, a),
             (None, None) => self.mul_expressions(a, b),
         }
@@ -119,12 +132,9 @@ impl Graph {
         if number.is_one() {
             return x;
         }
-        let (inner, y) = self.split_coefficient(x);
-        if y == x {
-            self.intern(Node::Mul(c, x))
-        } else {
-            let product = self.intern_number(&(number * &inner));
-            self.mul(product, y)
+        match self.split_coefficient(x) {
+            (Some(inner), y) => self.mul(self.mul(c, inner), y),
+            (None, _) => self.intern(Node::Mul(c, x)),
         }
     }
 
@@ -136,8 +146,8 @@ impl Graph {
         }
         // (c₁ x) (c₂ y) = (c₁ c₂) (x y)
         let ((p, x), (q, y)) = (self.split_coefficient(a), self.split_coefficient(b));
-        if x != a && y != b {
-            return self.mul(self.intern_number(&(&p * &q)), self.mul(x, y));
+        if let (Some(p), Some(q)) = (p, q) {
+            return self.mul(self.mul(p, q), self.mul(x, y));
         }
         // x (1 / y) and (x / y) y
         for (x, quotient) in [(a, b), (b, a)] {
@@ -145,7 +155,9 @@ impl Graph {
                 if denominator == x {
                     return numerator;
                 }
-                if self.as_number(numerator).is_some_and(|number| number.is_one()) {
+                if self.is_number(numerator)
+                    && self.as_number(numerator).is_some_and(|number| number.is_one())
+                {
                     return self.div(x, denominator);
                 }
             }
@@ -168,7 +180,7 @@ impl Graph {
             (Node::Mul(x, y), _) if x == b => return y,
             _ => {}
         }
-        if self.as_number(a).is_some_and(|number| number.is_zero()) {
+        if self.is_zero(a) {
             return a;
         }
         self.intern(Node::Div(a, b))

@@ -60,23 +60,38 @@ impl<'g> ChainLink<'g> {
     }
 }
 
-/// The mechanism under a plan; `None` where a joint axis is not constant.
-pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Chain<'g>> {
-    let file = frames::file_frames(mechanism)?;
-    let mut inertias: Vec<_> = mechanism.links.iter().map(PseudoInertia::of_link).collect();
-    for (inertia, frame) in inertias.iter_mut().zip(&file) {
-        *inertia = inertia.seen_in(frame.axes, frame.origin);
-    }
-    let displacements = displacements(mechanism, &file);
-    let mut regrouped = inertias.clone();
-    regroup(mechanism, &displacements, &mut regrouped);
+/// What does not depend on a plan: frames at the links' own origins, and the links' inertias there,
+/// as they are and regrouped.
+#[derive(Clone, Debug)]
+pub(crate) struct Base<'g> {
+    file: Vec<WorkingFrame<'g>>,
+    inertias: Vec<PseudoInertia<'g>>,
+    regrouped: Vec<PseudoInertia<'g>>,
+}
 
-    let placed = frames::place(mechanism, &plan.links, &file, &regrouped);
-    for (inertia, (frame, file)) in inertias.iter_mut().zip(placed.iter().zip(&file)) {
+impl<'g> Base<'g> {
+    /// `None` where a joint axis is not constant.
+    pub(crate) fn new(mechanism: &Mechanism<'g>) -> Option<Base<'g>> {
+        let file = frames::file_frames(mechanism)?;
+        let links = mechanism.links.iter().zip(&file);
+        let inertias: Vec<_> = links
+            .map(|(link, frame)| PseudoInertia::of_link(link).seen_in(frame.axes, frame.origin))
+            .collect();
+        let mut regrouped = inertias.clone();
+        regroup(mechanism, &displacements(mechanism, &file), &mut regrouped);
+        Some(Base { file, inertias, regrouped })
+    }
+}
+
+/// The mechanism under a plan.
+pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Plan) -> Chain<'g> {
+    let placed = frames::place(mechanism, &plan.links, &base.file, &base.regrouped);
+    let mut inertias = base.inertias.clone();
+    for (inertia, (frame, file)) in inertias.iter_mut().zip(placed.iter().zip(&base.file)) {
         let back = file.axes.transpose();
         *inertia = inertia.seen_in(back * frame.axes, back * (frame.origin - file.origin));
     }
-    let displacements = self::displacements(mechanism, &placed);
+    let displacements = displacements(mechanism, &placed);
     regroup(mechanism, &displacements, &mut inertias);
     let limits = residual_limits(mechanism, &displacements);
     leave_residuals(mechanism, &plan.links, &displacements, &mut inertias, limits);
@@ -85,7 +100,7 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Chai
     if let Some((link, component)) = plan.unit_length {
         chain.rescale(link, component);
     }
-    Some(chain)
+    chain
 }
 
 type Displacement<'g> = (Matrix<'g>, Vector<'g>);

@@ -22,6 +22,7 @@ use robot_symbolic::Expr;
 
 use crate::mechanism::Mechanism;
 use crate::vector::Vector;
+use chain::Base;
 use inward::TipWrench;
 pub use plan::Plan;
 
@@ -35,10 +36,21 @@ pub fn inverse_dynamics<'g>(
     plan: &Plan,
     wrench: bool,
 ) -> Option<Vec<Expr<'g>>> {
-    let chain = chain::prepare(mechanism, plan)?;
+    let base = Base::new(mechanism)?;
+    Some(inverse_dynamics_from(mechanism, &base, plan, wrench))
+}
+
+/// The same from what does not depend on the plan.
+fn inverse_dynamics_from<'g>(
+    mechanism: &Mechanism<'g>,
+    base: &Base<'g>,
+    plan: &Plan,
+    wrench: bool,
+) -> Vec<Expr<'g>> {
+    let chain = chain::prepare(mechanism, base, plan);
     let states = outward::outward(&chain, &plan.links);
     let tips = if wrench { tip_wrenches(mechanism, &chain) } else { vec![] };
-    Some(inward::inward(&chain, &plan.links, &states, &tips))
+    inward::inward(&chain, &plan.links, &states, &tips)
 }
 
 /// The tips' wrenches in working frames.

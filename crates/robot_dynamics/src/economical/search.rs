@@ -6,6 +6,7 @@
 
 use robot_symbolic::{Expr, Graph, SymbolId, operations, walk};
 
+use super::chain::Base;
 use super::plan::{Entry, LinkPlan, Origin, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::model::Robot;
@@ -35,7 +36,8 @@ pub struct Found {
 pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, options);
-    let mut search = Search::new(&mechanism);
+    let base = Base::new(&mechanism)?;
+    let mut search = Search::new(&mechanism, &base);
     let links = mechanism.links.len();
     let starts = [
         LinkPlan::BASIC,
@@ -46,9 +48,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
     let mut best: Option<(usize, Plan)> = None;
     for start in &starts {
         let start = Plan::uniform(links, start);
-        let Some(cost) = search.cost(&start) else {
-            continue;
-        };
+        let cost = search.cost(&start);
         let found = search.descend(start, cost);
         if best.as_ref().is_none_or(|(cost, _)| found.0 < *cost) {
             best = Some(found);
@@ -60,6 +60,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
 
 struct Search<'m, 'g> {
     mechanism: &'m Mechanism<'g>,
+    base: &'m Base<'g>,
     /// Symbols that are inputs: all others are parameters.
     inputs: Vec<SymbolId>,
     states: Vec<Vec<f64>>,
@@ -68,7 +69,7 @@ struct Search<'m, 'g> {
 }
 
 impl<'m, 'g> Search<'m, 'g> {
-    fn new(mechanism: &'m Mechanism<'g>) -> Search<'m, 'g> {
+    fn new(mechanism: &'m Mechanism<'g>, base: &'m Base<'g>) -> Search<'m, 'g> {
         let graph = mechanism.graph;
         let effects = Effects { wrench: false, friction: false };
         let reference = newton_euler::newton_euler(mechanism, effects).driving_forces;
@@ -81,23 +82,27 @@ impl<'m, 'g> Search<'m, 'g> {
         let states: Vec<Vec<f64>> =
             (0..4).map(|state| test_state(state, graph.symbol_count())).collect();
         let reference = states.iter().map(|state| evaluate(&reference, state)).collect();
-        Search { mechanism, inputs, states, reference, tried: 0 }
+        Search { mechanism, base, inputs, states, reference, tried: 0 }
     }
 
-    fn torques(&mut self, plan: &Plan) -> Option<Vec<Expr<'g>>> {
+    fn torques(&mut self, plan: &Plan) -> Vec<Expr<'g>> {
         self.tried += 1;
-        super::inverse_dynamics(self.mechanism, plan, false)
+        super::inverse_dynamics_from(self.mechanism, self.base, plan, false)
     }
 
-    fn cost(&mut self, plan: &Plan) -> Option<usize> {
-        let torques = self.torques(plan)?;
-        Some(operations(&torques, |symbol| !self.inputs.contains(&symbol)).flops())
+    fn cost(&mut self, plan: &Plan) -> usize {
+        let torques = self.torques(plan);
+        self.count(&torques)
+    }
+
+    fn count(&self, torques: &[Expr<'g>]) -> usize {
+        operations(torques, |symbol| !self.inputs.contains(&symbol)).flops()
     }
 
     /// The cost where it is below a bound and the torques are right.
     fn better(&mut self, plan: &Plan, bound: usize) -> Option<usize> {
-        let torques = self.torques(plan)?;
-        let cost = operations(&torques, |symbol| !self.inputs.contains(&symbol)).flops();
+        let torques = self.torques(plan);
+        let cost = self.count(&torques);
         (cost < bound && self.is_accurate(&torques)).then_some(cost)
     }
 
