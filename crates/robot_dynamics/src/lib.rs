@@ -12,5 +12,6 @@ pub mod model;
 pub mod newton_euler;
 pub mod numeric;
 pub mod quantity;
+pub mod random;
 pub mod unit;
 pub mod vector;
