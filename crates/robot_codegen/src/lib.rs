@@ -1,1 +1,25 @@
 //! Straight-line programs from expressions, and the source code they become.
+//!
+//! A [`ModuleSpec`] names expressions over parameters and inputs; [`Module::compile`] turns it into
+//! straight-line [`Program`]s, the [`interpreter`] runs them and a [`backend`] prints them.
+
+pub mod backend;
+pub mod counts;
+mod error;
+pub mod interpreter;
+mod lower;
+pub mod module;
+pub mod passes;
+pub mod program;
+pub mod spec;
+mod stage;
+mod trigonometry;
+
+pub use counts::{Counts, FunctionCounts, PassCounts};
+pub use error::{Error, Errors};
+pub use interpreter::{Interpreter, OutputValues};
+pub use module::Module;
+pub use passes::Options;
+pub use program::Program;
+pub use spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
+pub use trigonometry::Trigonometry;

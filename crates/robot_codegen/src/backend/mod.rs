@@ -1,0 +1,3 @@
+//! Printers of compiled modules.
+
+pub mod rust;

@@ -1,0 +1,339 @@
+//! The methods of a function of the module.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{ToTokens, quote};
+use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
+
+use super::batch;
+use super::body::Body;
+use super::doc;
+use super::items::{derived, operations_text};
+use super::namer::{Namer, identifier};
+use super::number::Number;
+use super::outputs;
+use super::parts::{self, Frame};
+use super::scope::{Scope, used_inputs};
+use super::syntax;
+use super::variables::Variables;
+use crate::module::Function;
+use crate::program::{Operation, Program, Source};
+
+/// Functions of more operations than this are not offered for inlining into other crates.
+const INLINE_LIMIT: usize = 2000;
+
+/// The names of a function's methods.
+struct Names {
+    plain: Ident,
+    sc: Ident,
+    angles: Ident,
+}
+
+impl Names {
+    fn new(namer: &mut Namer, plain: &Ident) -> Names {
+        Names {
+            plain: plain.clone(),
+            sc: derived(namer, plain, "sc"),
+            angles: derived(namer, plain, "angles"),
+        }
+    }
+}
+
+/// All items of one function.
+pub(super) fn items(scope: &mut Scope<'_>, function: &Function) -> Vec<Item> {
+    let plain = scope.methods.name(&function.name);
+    let with_generic = scope.options.generic || scope.options.batch.is_some();
+    let mut items = vec![];
+    items.extend(outputs::type_item(scope, function, with_generic));
+    let number = scope.number.clone();
+    let mut methods = Methods::new(scope, function, &number, &plain).all();
+    if with_generic {
+        let generic = derived(&mut scope.methods, &plain, "generic");
+        methods.extend(Methods::new(scope, function, &number.generic(), &generic).all());
+        if let Some(lanes) = scope.options.batch {
+            methods.extend(batch::method(scope, function, &plain, &generic, lanes));
+        }
+    }
+    items.push(syntax::impl_model(methods));
+    if !scope.has_parameters() {
+        items.push(free_function(scope, function, &plain));
+    }
+    items
+}
+
+/// Prints the methods of a function in one number type.
+struct Methods<'s, 'a> {
+    scope: &'s mut Scope<'a>,
+    function: &'s Function,
+    number: &'s Number,
+    names: Names,
+}
+
+/// The statements of a program, its results, and the functions of its parts.
+struct Run {
+    statements: Vec<Stmt>,
+    results: Vec<Expr>,
+    parts: Vec<ImplItem>,
+}
+
+impl<'s, 'a> Methods<'s, 'a> {
+    fn new(
+        scope: &'s mut Scope<'a>,
+        function: &'s Function,
+        number: &'s Number,
+        plain: &Ident,
+    ) -> Methods<'s, 'a> {
+        let names = Names::new(&mut scope.methods, plain);
+        Methods {
+            scope,
+            function,
+            number,
+            names,
+        }
+    }
+
+    fn all(&mut self) -> Vec<ImplItem> {
+        if self.function.angles.results().is_empty() {
+            return self.arithmetic();
+        }
+        let mut methods = vec![self.whole()];
+        if !self.has_plain_angles() {
+            methods.extend(self.angles());
+        }
+        methods.extend(self.arithmetic_of_angles());
+        methods
+    }
+
+    /// Whether every angle is a plain entry of an input.
+    fn has_plain_angles(&self) -> bool {
+        let operations = self.function.angles.operations();
+        operations
+            .iter()
+            .all(|operation| matches!(operation, Operation::Load(Source::Input(_))))
+    }
+
+    /// From the inputs: the angles, their sines and cosines, and the arithmetic.
+    fn whole(&mut self) -> ImplItem {
+        let function = self.function;
+        let mut variables = Variables::new(self.scope, function);
+        let in_core = used_inputs(function, &function.core);
+        let in_angles = used_inputs(function, &function.angles);
+        let used: Vec<bool> = in_core
+            .iter()
+            .zip(&in_angles)
+            .map(|(a, b)| *a || *b)
+            .collect();
+        let mut statements = variables.ignore(&used);
+        let angles: Expr = if self.has_plain_angles() {
+            statements.extend(variables.take_entries(function, &function.angles));
+            let name = self.names.plain.clone();
+            let array = syntax::array(self.run(&function.angles, &mut variables, &name).results);
+            parse_quote!(&#array)
+        } else {
+            let (method, arguments) = (&self.names.angles, variables.chosen(&in_angles));
+            parse_quote!(&self.#method(#(#arguments),*))
+        };
+        let circular = self.number.circular_array();
+        let (s, c) = (&variables.sines, &variables.cosines);
+        statements.push(parse_quote!(let (#s, #c) = #circular(#angles);));
+        let (method, arguments) = (&self.names.sc, variables.chosen(&in_core));
+        let value = parse_quote!(self.#method(&#s, &#c, #(#arguments),*));
+        let parameters = self.input_parameters(&variables, &vec![true; used.len()]);
+        let docs = self.doc();
+        self.method(&self.names.plain, &docs, &parameters, statements, value)
+    }
+
+    /// The angles where they are more than entries of inputs.
+    fn angles(&mut self) -> Vec<ImplItem> {
+        let (function, name) = (self.function, self.names.angles.clone());
+        let mut variables = Variables::new(self.scope, function);
+        let used = used_inputs(function, &function.angles);
+        let mut statements = variables.take_entries(function, &function.angles);
+        let run = self.run(&function.angles, &mut variables, &name);
+        statements.extend(run.statements);
+        let text = format!(
+            "The angles whose sines and cosines `{}` takes, in rad.",
+            self.names.sc
+        );
+        let docs = doc::attributes(&[text]);
+        let parameters = self.input_parameters(&variables, &used);
+        let returned = syntax::array_type(&self.number.ty(), run.results.len());
+        let (generics, clause) = (self.number.generics(), self.number.where_clause());
+        let signature = parse_quote! {
+            #(#docs)*
+            #[inline]
+            #[must_use]
+            pub fn #name #generics (&self, #(#parameters),*) -> #returned #clause {}
+        };
+        let method = syntax::with_body(signature, statements, syntax::array(run.results));
+        [method].into_iter().chain(run.parts).collect()
+    }
+
+    /// The arithmetic of a function without angles.
+    fn arithmetic(&mut self) -> Vec<ImplItem> {
+        let function = self.function;
+        let variables = Variables::new(self.scope, function);
+        let used = used_inputs(function, &function.core);
+        let parameters = self.input_parameters(&variables, &vec![true; used.len()]);
+        let (name, docs) = (self.names.plain.clone(), self.doc());
+        let statements = variables.ignore(&used);
+        self.core(variables, &name, &docs, &parameters, statements)
+    }
+
+    /// The arithmetic, with sines and cosines given.
+    fn arithmetic_of_angles(&mut self) -> Vec<ImplItem> {
+        let function = self.function;
+        let variables = Variables::new(self.scope, function);
+        let used = used_inputs(function, &function.core);
+        let array = syntax::array_type(&self.number.ty(), function.angles.results().len());
+        let (s, c) = (&variables.sines, &variables.cosines);
+        let mut parameters = vec![quote!(#s: &#array), quote!(#c: &#array)];
+        parameters.extend(self.input_parameters(&variables, &used));
+        let (name, docs) = (self.names.sc.clone(), self.sc_doc());
+        let statements = variables.take_angles(&function.core).to_vec();
+        self.core(variables, &name, &docs, &parameters, statements)
+    }
+
+    fn core(
+        &mut self,
+        mut variables: Variables,
+        name: &Ident,
+        docs: &[String],
+        parameters: &[TokenStream],
+        mut statements: Vec<Stmt>,
+    ) -> Vec<ImplItem> {
+        let function = self.function;
+        statements.extend(variables.take_entries(function, &function.core));
+        let run = self.run(&function.core, &mut variables, name);
+        statements.extend(run.statements);
+        let value = outputs::value(self.scope, function, run.results);
+        let method = self.method(name, docs, parameters, statements, value);
+        [method].into_iter().chain(run.parts).collect()
+    }
+
+    fn run(&mut self, program: &Program, variables: &mut Variables, name: &Ident) -> Run {
+        let mut namer = std::mem::take(&mut variables.namer);
+        let (number, fields) = (self.number, self.scope.fields.clone());
+        let source_name = |source: Source| variables.name(source);
+        let load = |source: Source| match source {
+            Source::Field(index) => number.field(&fields[index as usize]),
+            _ => source_name(source)
+                .as_ref()
+                .map_or_else(syntax::nothing, syntax::variable),
+        };
+        let limits = &self.scope.options.limits;
+        let body = Body::new(program, limits, number, &load, &mut namer);
+        let frame = Frame {
+            number,
+            name,
+            is_method: true,
+            is_const: false,
+            source_name: &source_name,
+        };
+        let results = body.results();
+        let (statements, parts) = parts::statements(self.scope, &body, &frame);
+        Run {
+            statements,
+            results,
+            parts,
+        }
+    }
+
+    fn method(
+        &self,
+        name: &Ident,
+        docs: &[String],
+        parameters: &[TokenStream],
+        statements: Vec<Stmt>,
+        value: Expr,
+    ) -> ImplItem {
+        let docs = doc::attributes(docs);
+        let (generics, clause) = (self.number.generics(), self.number.where_clause());
+        let short = self.function.core.operations().len() <= INLINE_LIMIT;
+        let inline = short.then(|| quote!(#[inline]));
+        let returned = outputs::returned(self.scope, self.function, self.number);
+        let signature = parse_quote! {
+            #(#docs)*
+            #inline
+            #[must_use]
+            pub fn #name #generics (&self, #(#parameters),*) -> #returned #clause {}
+        };
+        syntax::with_body(signature, statements, value)
+    }
+
+    fn input_parameters(&self, variables: &Variables, include: &[bool]) -> Vec<TokenStream> {
+        let ty = self.number.ty();
+        let inputs = variables
+            .inputs
+            .iter()
+            .zip(&self.function.inputs)
+            .zip(include);
+        let included = inputs.filter(|(_, include)| **include);
+        let parameters = included.map(|((name, input), _)| {
+            let array = syntax::array_type(&ty, input.symbols.len());
+            quote!(#name: &#array)
+        });
+        parameters.collect()
+    }
+
+    fn doc(&self) -> Vec<String> {
+        let function = self.function;
+        let mut lines = doc::paragraphs(&function.doc, &function.name);
+        lines.push(String::new());
+        for input in &function.inputs {
+            let meaning = doc::array(&input.doc, &input.name, &input.unit, &[]);
+            lines.push(format!("- `{}`: {meaning}", identifier(&input.name)));
+        }
+        if let [output] = function.outputs.as_slice() {
+            let meaning = doc::array(&output.doc, &output.name, &output.unit, &output.shape);
+            lines.extend([String::new(), format!("Returns {meaning}")]);
+        }
+        let counts = self.scope.module.counts(function);
+        lines.extend([String::new(), format!("{}.", operations_text(&counts.call))]);
+        lines
+    }
+
+    fn sc_doc(&mut self) -> Vec<String> {
+        let angles = self.angle_texts().join(", ");
+        let name = &self.names.plain;
+        vec![
+            format!("`{name}` with the sines `s` and cosines `c` of its angles given."),
+            String::new(),
+            format!("The angles: {angles}."),
+        ]
+    }
+
+    /// The angles as code, where each is one expression.
+    fn angle_texts(&mut self) -> Vec<String> {
+        let function = self.function;
+        let mut variables = Variables::new(self.scope, function);
+        let name = self.names.angles.clone();
+        let run = self.run(&function.angles, &mut variables, &name);
+        if run.statements.is_empty() {
+            let texts = run
+                .results
+                .iter()
+                .map(|angle| format!("`{}`", angle.to_token_stream()));
+            texts.collect()
+        } else {
+            vec![format!("those of `{name}`")]
+        }
+    }
+}
+
+/// The same function outside of the model, for modules without parameters.
+fn free_function(scope: &Scope<'_>, function: &Function, name: &Ident) -> Item {
+    let ty = scope.number.ty();
+    let inputs = Variables::new(scope, function).inputs;
+    let lengths = function.inputs.iter().map(|input| input.symbols.len());
+    let types = lengths.map(|length| syntax::array_type(&ty, length));
+    let returned = outputs::returned(scope, function, &scope.number);
+    let docs = doc::attributes(&[format!("[`Model::{name}`] of the one model there is.")]);
+    parse_quote! {
+        #(#docs)*
+        #[inline]
+        #[must_use]
+        pub fn #name(#(#inputs: &#types),*) -> #returned {
+            Model.#name(#(#inputs),*)
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! The types of a module: constants, `Parameters`, `Model` and its constructor.
+
+use proc_macro2::{Ident, Literal};
+use quote::{format_ident, quote};
+use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
+
+use super::body::Body;
+use super::doc;
+use super::namer::Namer;
+use super::options::{ConstantValue, Scalar};
+use super::parts::{self, Frame};
+use super::scope::Scope;
+use super::syntax;
+use crate::counts::Counts;
+use crate::program::{Operation, Program, Source};
+use crate::spec::ParameterSpec;
+
+/// The caller's constants.
+pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
+    let items = scope.options.constants.iter().zip(&scope.constants);
+    let items = items.map(|(item, name)| {
+        let docs = doc::attributes(&doc::paragraphs(
+            std::slice::from_ref(&item.doc),
+            &item.name,
+        ));
+        match &item.value {
+            ConstantValue::Size(size) => {
+                let size = Literal::usize_unsuffixed(*size);
+                parse_quote!(#(#docs)* pub const #name: usize = #size;)
+            }
+            ConstantValue::Text(text) => parse_quote!(#(#docs)* pub const #name: &str = #text;),
+            ConstantValue::Number(number) => {
+                let number = syntax::float(*number);
+                parse_quote!(#(#docs)* pub const #name: f64 = #number;)
+            }
+            ConstantValue::Texts(texts) => {
+                let length = Literal::usize_unsuffixed(texts.len());
+                parse_quote!(#(#docs)* pub const #name: [&str; #length] = [#(#texts),*];)
+            }
+            ConstantValue::Numbers(numbers) => {
+                let length = Literal::usize_unsuffixed(numbers.len());
+                let numbers = numbers.iter().map(|number| syntax::float(*number));
+                parse_quote!(#(#docs)* pub const #name: [f64; #length] = [#(#numbers),*];)
+            }
+        }
+    });
+    items.collect()
+}
+
+/// `pub struct Parameters` where the module has any.
+pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
+    if !scope.has_parameters() {
+        return vec![];
+    }
+    let specs = &scope.module.parameters;
+    let fields = specs.iter().zip(&scope.parameters).map(|(spec, name)| {
+        let docs = doc::attributes(&[parameter_doc(spec)]);
+        quote!(#(#docs)* pub #name: f64)
+    });
+    let title = doc::sanitise_line(&scope.module.name);
+    let docs = doc::attributes(&[format!("The parameters of {title}.")]);
+    let mut items = vec![parse_quote! {
+        #(#docs)*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Parameters { #(#fields),* }
+    }];
+    let nominal: Option<Vec<f64>> = specs.iter().map(|spec| spec.nominal).collect();
+    if let Some(values) = nominal {
+        let names = &scope.parameters;
+        let values = values.into_iter().map(syntax::float);
+        items.push(parse_quote! {
+            impl Parameters {
+                /// The nominal values.
+                pub const NOMINAL: Parameters = Parameters { #(#names: #values),* };
+            }
+        });
+        items.push(parse_quote! {
+            impl ::core::default::Default for Parameters {
+                fn default() -> Self { Self::NOMINAL }
+            }
+        });
+    }
+    items
+}
+
+/// `mass of link 1, in kg; nominally 12.`
+fn parameter_doc(spec: &ParameterSpec) -> String {
+    let mut line = doc::array(&spec.doc, &spec.name, &spec.unit, &[]);
+    if let Some(value) = spec.nominal {
+        line.pop();
+        line.push_str(&format!("; nominally {value:?}."));
+    }
+    line
+}
+
+/// `pub struct Model` and its constructor.
+pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
+    let title = doc::sanitise_line(&scope.module.name);
+    if !scope.has_parameters() {
+        let docs = doc::attributes(&[format!("The model {title}: its figures are in the code.")]);
+        return vec![
+            parse_quote!(#(#docs)* #[derive(Clone, Copy, Debug, Default, PartialEq)] pub struct Model;),
+            parse_quote!(impl Model {
+                /// The model: there is one only.
+                pub const NOMINAL: Model = Model;
+            }),
+        ];
+    }
+    let docs = doc::attributes(&[format!(
+        "The model {title}: what depends on its parameters alone, computed once."
+    )]);
+    let (fields, ty) = (&scope.fields, scope.options.scalar.ty());
+    vec![
+        parse_quote! {
+            #(#docs)*
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct Model { #(#fields: #ty),* }
+        },
+        constructor(scope),
+    ]
+}
+
+fn constructor(scope: &mut Scope<'_>) -> Item {
+    let program = &scope.module.constructor;
+    let mut namer = scope.variables();
+    let parameters = namer.name("parameters");
+    let specs = scope.module.parameters.iter();
+    let locals: Vec<Ident> = specs.map(|spec| namer.name(&spec.name)).collect();
+    let source_name = |source: Source| match source {
+        Source::Parameter(index) => locals.get(index as usize).cloned(),
+        _ => None,
+    };
+    let load = |source: Source| {
+        let name = source_name(source);
+        name.as_ref().map_or_else(syntax::nothing, syntax::variable)
+    };
+    let number = scope.constructor_number.clone();
+    let body = Body::new(program, &scope.options.limits, &number, &load, &mut namer);
+    let (is_const, name) = (is_const(program), format_ident!("new"));
+    let frame = Frame {
+        number: &number,
+        name: &name,
+        is_method: false,
+        is_const,
+        source_name: &source_name,
+    };
+    let mut statements = vec![take_parameters(scope, program, &parameters, &locals)];
+    let (calls, part_items) = parts::statements(scope, &body, &frame);
+    statements.extend(calls);
+    let values = body.results().into_iter().map(|value| stored(scope, value));
+    let fields = &scope.fields;
+    let value = parse_quote!(Model { #(#fields: #values),* });
+    let docs = doc::attributes(&constructor_doc(scope));
+    let constness = is_const.then(|| quote!(const));
+    let signature = parse_quote! {
+        #(#docs)*
+        #[must_use]
+        pub #constness fn new(#parameters: &Parameters) -> Model {}
+    };
+    let mut items: Vec<ImplItem> = nominal_model(scope, is_const).into_iter().collect();
+    items.push(syntax::with_body(signature, statements, value));
+    items.extend(part_items);
+    syntax::impl_model(items)
+}
+
+/// A field as it is stored: `as` binds tighter than what a value may hold.
+fn stored(scope: &Scope<'_>, value: Expr) -> Expr {
+    match scope.options.scalar {
+        Scalar::F64 => value,
+        Scalar::F32 => Expr::Cast(syn::ExprCast {
+            attrs: vec![],
+            expr: Box::new(value),
+            as_token: syn::token::As::default(),
+            ty: Box::new(scope.options.scalar.ty()),
+        }),
+    }
+}
+
+/// `let Parameters { g, l1, .. } = *parameters;` with the parameters that the program loads.
+fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &[Ident]) -> Stmt {
+    let loaded: Vec<usize> = program
+        .sources()
+        .into_iter()
+        .filter_map(|source| match source {
+            Source::Parameter(index) => Some(index as usize),
+            _ => None,
+        })
+        .collect();
+    let rest = (loaded.len() < locals.len()).then(|| quote!(..));
+    let fields = loaded.iter().map(|index| {
+        let (field, local) = (&scope.parameters[*index], &locals[*index]);
+        if field == local {
+            quote!(#field)
+        } else {
+            quote!(#field: #local)
+        }
+    });
+    parse_quote!(let Parameters { #(#fields,)* #rest } = *#from;)
+}
+
+/// Arithmetic is `const`; the functions of the runtime are not.
+fn is_const(program: &Program) -> bool {
+    let called =
+        |operation: &Operation| matches!(operation, Operation::Call(..) | Operation::MulAdd(..));
+    !program.operations().iter().any(called)
+}
+
+fn constructor_doc(scope: &Scope<'_>) -> Vec<String> {
+    let counts = Counts::of(&scope.module.constructor);
+    vec![
+        "Computes what depends on the parameters alone.".to_owned(),
+        String::new(),
+        format!("{}.", operations_text(&counts)),
+    ]
+}
+
+/// `Model::NOMINAL` where the constructor is `const` and all nominal values are known.
+fn nominal_model(scope: &Scope<'_>, is_const: bool) -> Option<ImplItem> {
+    let mut specs = scope.module.parameters.iter();
+    let known = specs.all(|spec| spec.nominal.is_some());
+    (is_const && known).then(|| {
+        parse_quote! {
+            /// The model with the nominal parameters.
+            pub const NOMINAL: Model = Model::new(&Parameters::NOMINAL);
+        }
+    })
+}
+
+/// `12 multiplications, 8 additions, 1 division`
+pub(super) fn operations_text(counts: &Counts) -> String {
+    let kinds = [
+        (counts.mul, "multiplication"),
+        (counts.add, "addition"),
+        (counts.div, "division"),
+        (counts.sqrt, "square root"),
+        (counts.other, "other function"),
+        (counts.sin, "sine"),
+        (counts.cos, "cosine"),
+    ];
+    let texts: Vec<String> = kinds
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, kind)| format!("{count} {kind}{}", if count == 1 { "" } else { "s" }))
+        .collect();
+    if texts.is_empty() {
+        "No operations".to_owned()
+    } else {
+        texts.join(", ")
+    }
+}
+
+/// A name that a namer in use already gave, with something added.
+pub(super) fn derived(namer: &mut Namer, base: &Ident, suffix: &str) -> Ident {
+    namer.name(&format_ident!("{base}_{suffix}").to_string())
+}

@@ -1,0 +1,133 @@
+//! Rust.
+//!
+//! [`generate`] gives a syntax tree, which prints as text ([`RustModule::to_text`]) or as tokens.
+//! The code uses `core` and the runtime alone, allocates nothing, cannot panic and has no
+//! conditionals: arrays are taken apart by patterns, every value is a `let`, and the only calls are
+//! those of the runtime's scalar functions.
+
+mod batch;
+mod body;
+mod doc;
+mod function;
+mod items;
+mod namer;
+mod number;
+mod options;
+mod outputs;
+mod parts;
+mod scope;
+mod syntax;
+mod variables;
+
+use proc_macro2::TokenStream;
+use quote::ToTokens;
+use syn::{Item, parse_quote};
+
+pub use self::options::{ConstantItem, ConstantValue, RustOptions, Scalar, Wrapping};
+use self::scope::Scope;
+use crate::error::Errors;
+use crate::module::Module;
+
+/// The lints that generated code cannot keep, each for a reason: names come from robot files, and
+/// straight-line arithmetic is neither short nor sparing with digits.
+const ALLOWED_LINTS: [&str; 16] = [
+    // Not every function of a module is used by everyone.
+    "dead_code",
+    "non_snake_case",
+    "non_camel_case_types",
+    // The text may be included in a private module.
+    "unreachable_pub",
+    "clippy::approx_constant",
+    "clippy::doc_markdown",
+    "clippy::excessive_precision",
+    "clippy::large_types_passed_by_value",
+    "clippy::many_single_char_names",
+    "clippy::similar_names",
+    "clippy::suboptimal_flops",
+    "clippy::too_many_arguments",
+    "clippy::too_many_lines",
+    "clippy::type_complexity",
+    "clippy::unreadable_literal",
+    "clippy::unused_self",
+];
+
+/// The lints that a file of [`Wrapping::Items`] should allow.
+#[must_use]
+pub fn allowed_lints() -> &'static [&'static str] {
+    &ALLOWED_LINTS
+}
+
+/// The Rust code of a module.
+#[derive(Clone)]
+pub struct RustModule {
+    header: Vec<String>,
+    file: syn::File,
+}
+
+impl RustModule {
+    /// The text, with the header as comment.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let mut text = String::new();
+        for line in &self.header {
+            text.push_str(format!("// {}", doc::comment_line(line)).trim_end());
+            text.push('\n');
+        }
+        if !text.is_empty() {
+            text.push('\n');
+        }
+        text.push_str(&prettyplease::unparse(&self.file));
+        text
+    }
+
+    /// The tokens, for macros; comments are not among them, documentation is.
+    #[must_use]
+    pub fn to_tokens(&self) -> TokenStream {
+        self.file.to_token_stream()
+    }
+}
+
+/// Prints a module as Rust.
+///
+/// # Errors
+///
+/// A runtime path that is no path; constants beyond the range of `f32` where that is asked for.
+pub fn generate(module: &Module, options: &RustOptions) -> Result<RustModule, Errors> {
+    let mut scope = Scope::new(module, options)?;
+    let mut items = items::constants(&mut scope);
+    items.extend(items::parameters(&scope));
+    items.extend(items::model(&mut scope));
+    for function in &module.functions {
+        items.extend(function::items(&mut scope, function));
+    }
+    Ok(RustModule {
+        header: options.header.clone(),
+        file: syn::File {
+            shebang: None,
+            frontmatter: None,
+            attrs: vec![],
+            items: wrap(module, options.wrapping, items),
+        },
+    })
+}
+
+fn wrap(module: &Module, wrapping: Wrapping, items: Vec<Item>) -> Vec<Item> {
+    match wrapping {
+        Wrapping::Items => items,
+        Wrapping::Module => {
+            let name = namer::Namer::default().name(&module.name);
+            let docs = doc::attributes(&doc::paragraphs(&module.doc, &module.name));
+            let lints = ALLOWED_LINTS.iter();
+            let lints = lints.filter_map(|lint| syn::parse_str::<syn::Path>(lint).ok());
+            let mut wrapped: syn::ItemMod = parse_quote! {
+                #(#docs)*
+                #[allow(#(#lints),*)]
+                pub mod #name {}
+            };
+            if let Some((_, content)) = &mut wrapped.content {
+                *content = items;
+            }
+            vec![Item::Mod(wrapped)]
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The number type of generated code, and what of the runtime it calls.
+
+use proc_macro2::Ident;
+use syn::{Expr, Type, parse_quote};
+
+use super::options::Scalar;
+use super::syntax;
+use crate::trigonometry::Trigonometry;
+
+/// The number type that one function computes with.
+#[derive(Clone)]
+pub(super) struct Number {
+    kind: Kind,
+    /// The type in which the model stores its fields.
+    stored: Scalar,
+    runtime: syn::Path,
+    trigonometry: Trigonometry,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Scalar(Scalar),
+    /// The type parameter `T`.
+    Generic,
+}
+
+impl Number {
+    pub(super) fn scalar(
+        scalar: Scalar,
+        runtime: &syn::Path,
+        trigonometry: Trigonometry,
+    ) -> Number {
+        Number {
+            kind: Kind::Scalar(scalar),
+            stored: scalar,
+            runtime: runtime.clone(),
+            trigonometry,
+        }
+    }
+
+    /// The same for any scalar of the runtime.
+    pub(super) fn generic(&self) -> Number {
+        Number {
+            kind: Kind::Generic,
+            ..self.clone()
+        }
+    }
+
+    pub(super) fn is_generic(&self) -> bool {
+        self.kind == Kind::Generic
+    }
+
+    pub(super) fn runtime(&self) -> &syn::Path {
+        &self.runtime
+    }
+
+    /// The type.
+    pub(super) fn ty(&self) -> Type {
+        match self.kind {
+            Kind::Scalar(scalar) => scalar.ty(),
+            Kind::Generic => parse_quote!(T),
+        }
+    }
+
+    /// The generic parameters of a function that computes with it.
+    pub(super) fn generics(&self) -> syn::Generics {
+        let runtime = &self.runtime;
+        match self.kind {
+            Kind::Scalar(_) => syn::Generics::default(),
+            Kind::Generic => parse_quote!(<T: #runtime::Scalar>),
+        }
+    }
+
+    /// What the type must fulfil beyond being a scalar.
+    pub(super) fn where_clause(&self) -> Option<syn::WhereClause> {
+        let runtime = &self.runtime;
+        (self.is_generic() && self.trigonometry == Trigonometry::Standard)
+            .then(|| parse_quote!(where #runtime::StdTrig: #runtime::Trig<T>))
+    }
+
+    pub(super) fn constant(&self, value: f64) -> Expr {
+        match self.kind {
+            Kind::Scalar(Scalar::F64) => syntax::float(value),
+            Kind::Scalar(Scalar::F32) => syntax::single_float(value as f32),
+            Kind::Generic => {
+                let value = syntax::float(value);
+                parse_quote!(T::from_f64(#value))
+            }
+        }
+    }
+
+    /// A field of the model as an operand.
+    pub(super) fn field(&self, field: &Ident) -> Expr {
+        match (self.kind, self.stored) {
+            (Kind::Scalar(_), _) => parse_quote!(self.#field),
+            (Kind::Generic, Scalar::F64) => parse_quote!(T::from_f64(self.#field)),
+            (Kind::Generic, Scalar::F32) => parse_quote!(T::from_f64(f64::from(self.#field))),
+        }
+    }
+
+    /// A method of the runtime's scalars, by its path: method syntax would prefer the methods that
+    /// `f64` itself has with the standard library.
+    pub(super) fn method(&self, name: &str) -> Expr {
+        let runtime = &self.runtime;
+        let name = Ident::new(name, proc_macro2::Span::call_site());
+        parse_quote!(#runtime::Scalar::#name)
+    }
+
+    /// `sin_cos` of one angle by the chosen trigonometry.
+    pub(super) fn circular(&self, name: &str) -> Expr {
+        let (runtime, ty) = (&self.runtime, self.ty());
+        let name = Ident::new(name, proc_macro2::Span::call_site());
+        match self.trigonometry {
+            Trigonometry::Standard => {
+                parse_quote!(<#runtime::StdTrig as #runtime::Trig<#ty>>::#name)
+            }
+            Trigonometry::Polynomial => {
+                parse_quote!(<#runtime::PolyTrig as #runtime::Trig<#ty>>::#name)
+            }
+        }
+    }
+
+    /// The function from an array of angles to the arrays of their sines and cosines.
+    pub(super) fn circular_array(&self) -> Expr {
+        let runtime = &self.runtime;
+        match self.trigonometry {
+            Trigonometry::Standard => parse_quote!(#runtime::std_sin_cos_array),
+            Trigonometry::Polynomial => parse_quote!(#runtime::sin_cos_array),
+        }
+    }
+}

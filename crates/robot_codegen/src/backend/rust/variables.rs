@@ -1,0 +1,140 @@
+//! The variables of a method: what its loads read, and the patterns that take arrays apart.
+
+use proc_macro2::Ident;
+use syn::{Pat, Stmt, parse_quote};
+
+use super::namer::Namer;
+use super::scope::{Scope, used_inputs};
+use super::syntax;
+use crate::module::Function;
+use crate::program::{Operation, Program, Source};
+
+/// The variables of a method.
+pub(super) struct Variables {
+    /// The namer of the rest.
+    pub(super) namer: Namer,
+    /// The arrays of the inputs.
+    pub(super) inputs: Vec<Ident>,
+    /// The entries of the inputs, all in one list.
+    entries: Vec<Ident>,
+    /// The array of sines.
+    pub(super) sines: Ident,
+    sine: Vec<Ident>,
+    /// The array of cosines.
+    pub(super) cosines: Ident,
+    cosine: Vec<Ident>,
+}
+
+impl Variables {
+    pub(super) fn new(scope: &Scope<'_>, function: &Function) -> Variables {
+        let mut namer = scope.variables();
+        let inputs = function.inputs.iter();
+        let inputs = inputs.map(|input| namer.name(&input.name)).collect();
+        let (sines, cosines) = (namer.name("s"), namer.name("c"));
+        let symbols = symbols(function);
+        let entries = symbols.iter().map(|symbol| namer.name(symbol)).collect();
+        let angles = angle_names(function);
+        let mut prefixed = |prefix: &str| {
+            let names = angles.iter();
+            names
+                .map(|angle| namer.name(&format!("{prefix}{angle}")))
+                .collect()
+        };
+        let (sine, cosine) = (prefixed("s"), prefixed("c"));
+        Variables {
+            namer,
+            inputs,
+            entries,
+            sines,
+            sine,
+            cosines,
+            cosine,
+        }
+    }
+
+    /// The variable that a load reads, where it is one.
+    pub(super) fn name(&self, source: Source) -> Option<Ident> {
+        let (names, index) = match source {
+            Source::Input(index) => (&self.entries, index),
+            Source::Sin(index) => (&self.sine, index),
+            Source::Cos(index) => (&self.cosine, index),
+            Source::Field(_) | Source::Parameter(_) => return None,
+        };
+        names.get(index as usize).cloned()
+    }
+
+    /// The variables of those inputs that are chosen.
+    pub(super) fn chosen(&self, choice: &[bool]) -> Vec<&Ident> {
+        let inputs = self.inputs.iter().zip(choice);
+        inputs
+            .filter(|(_, chosen)| **chosen)
+            .map(|(input, _)| input)
+            .collect()
+    }
+
+    /// `let [q1, _, q3] = *q;` for each input of which the program loads entries.
+    pub(super) fn take_entries(&self, function: &Function, program: &Program) -> Vec<Stmt> {
+        let sources = program.sources();
+        let mut entries = self.entries.iter().zip(0..);
+        let mut statements = vec![];
+        let used = used_inputs(function, program);
+        for ((input, array), used) in function.inputs.iter().zip(&self.inputs).zip(used) {
+            let entries = entries.by_ref().take(input.symbols.len());
+            let patterns: Vec<Pat> = entries
+                .map(|(name, index)| pattern(name, &sources, Source::Input(index)))
+                .collect();
+            if used {
+                statements.push(take(array, patterns));
+            }
+        }
+        statements
+    }
+
+    /// `let [sq1, _] = *s;` and the same for the cosines.
+    pub(super) fn take_angles(&self, program: &Program) -> [Stmt; 2] {
+        let sources = program.sources();
+        let sines = self.sine.iter().zip(0..);
+        let sines = sines.map(|(name, index)| pattern(name, &sources, Source::Sin(index)));
+        let cosines = self.cosine.iter().zip(0..);
+        let cosines = cosines.map(|(name, index)| pattern(name, &sources, Source::Cos(index)));
+        [
+            take(&self.sines, sines.collect()),
+            take(&self.cosines, cosines.collect()),
+        ]
+    }
+
+    /// Takes inputs that are not used apart into nothing, so that they are no unused variables.
+    pub(super) fn ignore(&self, used: &[bool]) -> Vec<Stmt> {
+        let unused: Vec<bool> = used.iter().map(|used| !used).collect();
+        let inputs = self.chosen(&unused).into_iter();
+        inputs
+            .map(|input| parse_quote!(let [..] = *#input;))
+            .collect()
+    }
+}
+
+/// A name where the source is loaded, `_` where it is not.
+fn pattern(name: &Ident, loaded: &[Source], source: Source) -> Pat {
+    syntax::optional_binding(loaded.binary_search(&source).is_ok().then_some(name))
+}
+
+fn take(array: &Ident, patterns: Vec<Pat>) -> Stmt {
+    syntax::binding_statement(syntax::array_pattern(patterns), parse_quote!(*#array))
+}
+
+/// The symbols of all inputs.
+pub(super) fn symbols(function: &Function) -> Vec<&String> {
+    let inputs = function.inputs.iter();
+    inputs.flat_map(|input| &input.symbols).collect()
+}
+
+/// The symbol of each angle that is a plain entry of an input; the number of the others.
+fn angle_names(function: &Function) -> Vec<String> {
+    let symbols = symbols(function);
+    let results = function.angles.results().iter().enumerate();
+    let names = results.map(|(index, value)| match function.angles.operation(*value) {
+        Operation::Load(Source::Input(input)) => symbols[input as usize].clone(),
+        _ => format!("{}", index + 1),
+    });
+    names.collect()
+}

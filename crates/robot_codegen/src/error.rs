@@ -1,0 +1,194 @@
+//! What can be wrong with a specification, a call or a generation.
+
+use std::fmt;
+
+/// One thing that is wrong. The text names the place, the reason and, where there is one, the remedy.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An output uses a symbol that is neither a parameter nor an entry of an input.
+    #[error(
+        "output `{output}` of function `{function}` uses the symbol `{symbol}`, which is neither a \
+         parameter of the module nor an entry of an input of the function"
+    )]
+    UnknownSymbol {
+        /// The function.
+        function: String,
+        /// The first output that uses the symbol.
+        output: String,
+        /// The symbol.
+        symbol: String,
+    },
+    /// Two things of one kind have one name.
+    #[error("{place}: the {kind} `{name}` is declared twice; give one of them another name")]
+    Duplicate {
+        /// Where: the module or one of its functions.
+        place: String,
+        /// What: parameter, function, input, symbol, output.
+        kind: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// The number of values is not what the shape asks for, or the shape has more than two axes.
+    #[error(
+        "output `{output}` of function `{function}` has the shape {shape:?} but {values} values; \
+         a shape is [], [n] or [rows, columns]"
+    )]
+    Shape {
+        /// The function.
+        function: String,
+        /// The output.
+        output: String,
+        /// The stated shape.
+        shape: Vec<usize>,
+        /// The number of values.
+        values: usize,
+    },
+    /// A function without outputs.
+    #[error("function `{function}` has no outputs; a function computes at least one")]
+    NoOutputs {
+        /// The function.
+        function: String,
+    },
+    /// Expressions of two graphs.
+    #[error(
+        "output `{output}` of function `{function}` belongs to another graph than the module's \
+         first output; build all expressions of a module in one graph"
+    )]
+    ForeignGraph {
+        /// The function.
+        function: String,
+        /// The output.
+        output: String,
+    },
+    /// A constant that is no finite number: a division by zero, or beyond the range of `f64`.
+    #[error(
+        "output `{output}` of function `{function}` contains a constant that is no finite number \
+         (a division by zero, a root of a negative number, or a value beyond the range of f64)"
+    )]
+    NotFinite {
+        /// The function.
+        function: String,
+        /// The first output with such a constant.
+        output: String,
+    },
+    /// A nominal value that is no finite number.
+    #[error("the nominal value of the parameter `{parameter}` is no finite number")]
+    NominalNotFinite {
+        /// The parameter.
+        parameter: String,
+    },
+    /// A call of a function that the module has not.
+    #[error("the module `{module}` has no function `{function}`; it has {known}")]
+    UnknownFunction {
+        /// The module.
+        module: String,
+        /// The name asked for.
+        function: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A parameter that was given but is not the module's.
+    #[error("the module `{module}` has no parameter `{parameter}`; it has {known}")]
+    UnknownParameter {
+        /// The module.
+        module: String,
+        /// The name given.
+        parameter: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A parameter that has no nominal value and was not given.
+    #[error("the parameter `{parameter}` has no nominal value: give it one")]
+    MissingParameter {
+        /// The parameter.
+        parameter: String,
+    },
+    /// An input that a call needs and was not given.
+    #[error("function `{function}` needs the input `{input}`, an array of {length}")]
+    MissingInput {
+        /// The function.
+        function: String,
+        /// The input.
+        input: String,
+        /// The number of its entries.
+        length: usize,
+    },
+    /// An input that a call gives and the function has not.
+    #[error("function `{function}` has no input `{input}`; it has {known}")]
+    UnknownInput {
+        /// The function.
+        function: String,
+        /// The name given.
+        input: String,
+        /// The names there are.
+        known: String,
+    },
+    /// An input of the wrong length.
+    #[error("input `{input}` of function `{function}` has {expected} entries, not {found}")]
+    InputLength {
+        /// The function.
+        function: String,
+        /// The input.
+        input: String,
+        /// The number of entries that the function takes.
+        expected: usize,
+        /// The number given.
+        found: usize,
+    },
+    /// An option of a backend that is no Rust path.
+    #[error("the runtime path `{path}` is no path of Rust, such as `::robot_runtime`")]
+    RuntimePath {
+        /// The text given.
+        path: String,
+    },
+    /// A constant that the scalar type cannot hold.
+    #[error("the constant {value} of {place} is beyond the range of f32; generate f64")]
+    BeyondSinglePrecision {
+        /// The constant.
+        value: String,
+        /// The function or the constructor.
+        place: String,
+    },
+}
+
+/// All that was found wrong; never empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Errors(Vec<Error>);
+
+impl Errors {
+    /// `Ok(value)` where nothing is wrong.
+    pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
+        if errors.is_empty() {
+            Ok(value)
+        } else {
+            Err(Errors(errors))
+        }
+    }
+
+    /// The errors, in the order in which they were found.
+    #[must_use]
+    pub fn as_slice(&self) -> &[Error] {
+        &self.0
+    }
+}
+
+impl From<Error> for Errors {
+    fn from(error: Error) -> Errors {
+        Errors(vec![error])
+    }
+}
+
+impl fmt::Display for Errors {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, error) in self.0.iter().enumerate() {
+            if index > 0 {
+                formatter.write_str("\n")?;
+            }
+            write!(formatter, "{error}")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Errors {}

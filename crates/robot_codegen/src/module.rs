@@ -1,0 +1,152 @@
+//! A compiled module: what a backend prints and the interpreter runs.
+
+use crate::counts::{Counts, FunctionCounts, PassCounts};
+use crate::error::Errors;
+use crate::lower;
+use crate::passes::{self, Options};
+use crate::program::{Program, Source};
+use crate::spec::{InputSpec, ModuleSpec, ParameterSpec};
+use crate::stage;
+
+/// A compiled module.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Module {
+    /// The name.
+    pub name: String,
+    /// Documentation, a paragraph or line each.
+    pub doc: Vec<String>,
+    /// The parameters; [`Source::Parameter`] counts through them.
+    pub parameters: Vec<ParameterSpec>,
+    /// Computes from the parameters, once, whatever depends on them alone. Its results are the
+    /// fields of the model; [`Source::Field`] counts through them.
+    pub constructor: Program,
+    /// The functions.
+    pub functions: Vec<Function>,
+}
+
+/// A compiled function.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// The name.
+    pub name: String,
+    /// Documentation, a paragraph or line each.
+    pub doc: Vec<String>,
+    /// The inputs; [`Source::Input`] counts through their entries, input after input.
+    pub inputs: Vec<InputSpec>,
+    /// The outputs; the results of `core` are their entries, output after output.
+    pub outputs: Vec<Output>,
+    /// The arguments of all sines and cosines: first plain entries of inputs, in their order, then
+    /// other expressions. Loads inputs and fields.
+    pub angles: Program,
+    /// The arithmetic. Loads inputs, fields, and sines and cosines of the angles by their index.
+    pub core: Program,
+    /// The operations of `core`, in calls alone, after each pass.
+    pub passes: Vec<PassCounts>,
+}
+
+/// An output of a compiled function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// The name.
+    pub name: String,
+    /// Its meaning.
+    pub doc: String,
+    /// Its unit.
+    pub unit: String,
+    /// `[]` for a scalar, `[n]` for a vector, `[rows, columns]` for a matrix.
+    pub shape: Vec<usize>,
+}
+
+impl Output {
+    /// The number of entries.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.shape.iter().product()
+    }
+
+    /// Whether the output has no entries.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+impl Module {
+    /// Compiles a specification: checks it, lowers the expressions, runs the passes and moves what
+    /// depends on parameters alone into the constructor.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the specification.
+    pub fn compile(spec: &ModuleSpec<'_>, options: &Options) -> Result<Module, Errors> {
+        let lowered = lower::lower(spec)?;
+        let mut functions = vec![];
+        for (function, lowered) in spec.functions.iter().zip(lowered) {
+            let (core, report) = passes::run(&lowered.core, options);
+            functions.push(Function {
+                name: function.name.clone(),
+                doc: function.doc.clone(),
+                inputs: function.inputs.clone(),
+                outputs: function
+                    .outputs
+                    .iter()
+                    .map(|output| Output {
+                        name: output.name.clone(),
+                        doc: output.doc.clone(),
+                        unit: output.unit.clone(),
+                        shape: output.shape.clone(),
+                    })
+                    .collect(),
+                angles: passes::tidy(&lowered.angles),
+                core,
+                passes: report,
+            });
+        }
+        let programs = functions.iter_mut().flat_map(|function| {
+            let Function { angles, core, .. } = function;
+            [angles, core]
+        });
+        let constructor = stage::hoist_parameters(programs);
+        for function in &mut functions {
+            function.core = passes::finish(&function.core, options);
+        }
+        Ok(Module {
+            name: spec.name.clone(),
+            doc: spec.doc.clone(),
+            parameters: spec.parameters.clone(),
+            constructor: passes::tidy(&constructor),
+            functions,
+        })
+    }
+
+    /// The function of a name.
+    #[must_use]
+    pub fn function(&self, name: &str) -> Option<&Function> {
+        self.functions.iter().find(|function| function.name == name)
+    }
+
+    /// The parameter that a field of the model is a plain copy of.
+    #[must_use]
+    pub fn field_parameter(&self, field: usize) -> Option<&ParameterSpec> {
+        use crate::program::Operation;
+        match self
+            .constructor
+            .operation(*self.constructor.results().get(field)?)
+        {
+            Operation::Load(Source::Parameter(index)) => self.parameters.get(index as usize),
+            _ => None,
+        }
+    }
+
+    /// What one call of a function costs, and what of the constructor it needs.
+    #[must_use]
+    pub fn counts(&self, function: &Function) -> FunctionCounts {
+        FunctionCounts::new(&self.constructor, function)
+    }
+
+    /// What the constructor of the whole module costs.
+    #[must_use]
+    pub fn constructor_counts(&self) -> Counts {
+        Counts::of(&self.constructor)
+    }
+}

@@ -1,0 +1,248 @@
+//! How a program is laid out as text: which values have names, in what blocks.
+//!
+//! A backend prints each named value as a statement and every other value inside the one expression
+//! that uses it. rustc overflows its stack on a few thousand `let`s in one block, so statements stand
+//! in blocks out of which only those values leave that are used later; very long programs are cut
+//! into functions in the same way.
+
+use super::{Operation, Program, Value};
+
+/// Limits of the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Operations in one expression, at most; 1 names every value.
+    pub expression: usize,
+    /// Statements in one block, at most.
+    pub block: usize,
+    /// Statements in one function, at most, before the program is cut into several.
+    pub function: usize,
+    /// Statements in each of those several, at most.
+    pub part: usize,
+}
+
+impl Default for Limits {
+    /// Expressions of 6 operations, blocks of 256 statements, functions of 8,000 or of 1,024 each.
+    fn default() -> Limits {
+        Limits {
+            expression: 6,
+            block: 256,
+            function: 8000,
+            part: 1024,
+        }
+    }
+}
+
+/// Statements that stand together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The named values that the block computes, in order.
+    pub statements: Vec<Value>,
+    /// Those of them that later blocks or the results use.
+    pub leaving: Vec<Value>,
+    /// The named values of earlier blocks that the block uses.
+    pub entering: Vec<Value>,
+}
+
+/// Blocks that stand in one function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// The blocks in order. A single block needs no nesting.
+    pub blocks: Vec<Block>,
+    /// Those values of the part that later parts or the results use.
+    pub leaving: Vec<Value>,
+    /// The named values of earlier parts that the part uses.
+    pub entering: Vec<Value>,
+}
+
+/// The layout of a program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// The parts in order; one but for very long programs. A program without statements has none.
+    pub parts: Vec<Part>,
+    named: Vec<bool>,
+}
+
+impl Layout {
+    /// Lays out a program.
+    #[must_use]
+    pub fn new(program: &Program, limits: &Limits) -> Layout {
+        let named = name_values(program, limits.expression.max(1));
+        let statements: Vec<Value> = program
+            .values()
+            .map(|(value, _)| value)
+            .filter(|value| named[value.index()])
+            .collect();
+        let last_use = last_uses(program, &named);
+        let part = if statements.len() > limits.function {
+            limits.part
+        } else {
+            limits.function
+        };
+        let groups = |statements: &[Value], limit: usize| {
+            let cuts = cut(statements, &last_use, limit.max(1));
+            make_blocks(program, &named, statements, &cuts, &last_use)
+        };
+        let parts = groups(&statements, part).into_iter().map(|part| Part {
+            blocks: groups(&part.statements, limits.block),
+            leaving: part.leaving,
+            entering: part.entering,
+        });
+        Layout {
+            parts: parts.collect(),
+            named,
+        }
+    }
+
+    /// Whether a value is a statement of its own; others print inside the expression that uses them.
+    #[must_use]
+    pub fn is_named(&self, value: Value) -> bool {
+        self.named[value.index()]
+    }
+
+    /// The number of statements.
+    #[must_use]
+    pub fn statements(&self) -> usize {
+        let blocks = self.parts.iter().flat_map(|part| &part.blocks);
+        blocks.map(|block| block.statements.len()).sum()
+    }
+}
+
+/// Values used once stay inside their user's expression while that has room; results that nothing
+/// else uses print where they leave.
+fn name_values(program: &Program, limit: usize) -> Vec<bool> {
+    let uses = program.uses();
+    let mut named = vec![false; uses.len()];
+    // The operations that print with a value, itself included, when it is not named.
+    let mut size = vec![0_usize; uses.len()];
+    for (value, operation) in program.values() {
+        if operation.is_leaf() {
+            continue;
+        }
+        // Too many: name the largest operands until the rest fits.
+        let mut operands: Vec<Value> = operation.operands().collect();
+        operands.sort_by_key(|operand| std::cmp::Reverse(size[operand.index()]));
+        let mut total = 1 + operands.iter().map(|a| size[a.index()]).sum::<usize>();
+        for operand in operands {
+            if total <= limit {
+                break;
+            }
+            let index = operand.index();
+            named[index] |= size[index] > 0;
+            total -= std::mem::take(&mut size[index]);
+        }
+        let index = value.index();
+        size[index] = total;
+        if uses[index] > 1 && !is_signed_leaf(program, operation) {
+            named[index] = true;
+            size[index] = 0;
+        }
+    }
+    named
+}
+
+/// −x of an operand costs no statement.
+fn is_signed_leaf(program: &Program, operation: Operation) -> bool {
+    matches!(operation, Operation::Neg(a) if program.operation(a).is_leaf())
+}
+
+/// For each named value, the last named value whose statement uses it; itself where nothing does,
+/// and `usize::MAX` where the results use it.
+fn last_uses(program: &Program, named: &[bool]) -> Vec<usize> {
+    let mut last: Vec<usize> = (0..named.len()).collect();
+    for value in program.results() {
+        last[value.index()] = usize::MAX;
+    }
+    // From the end, so that a value printed inside its user is used where its user is.
+    for (value, operation) in program.values().rev() {
+        let index = value.index();
+        let place = if named[index] { index } else { last[index] };
+        for operand in operation.operands() {
+            let slot = &mut last[operand.index()];
+            *slot = (*slot).max(place);
+        }
+    }
+    last
+}
+
+/// Where blocks end, as positions in `statements`: of the later half of each block, the place over
+/// which the fewest values live.
+fn cut(statements: &[Value], last_use: &[usize], limit: usize) -> Vec<usize> {
+    let live = live_after(statements, last_use);
+    let mut cuts = vec![];
+    let mut start = 0;
+    while statements.len() - start > limit {
+        let candidates = start + limit.div_ceil(2)..=start + limit;
+        let end = candidates
+            .min_by_key(|end| (live[*end - 1], std::cmp::Reverse(*end)))
+            .unwrap_or(start + limit);
+        cuts.push(end);
+        start = end;
+    }
+    cuts.push(statements.len());
+    cuts
+}
+
+/// For each statement, the number of named values that are used after it.
+fn live_after(statements: &[Value], last_use: &[usize]) -> Vec<usize> {
+    let mut dying = vec![0_usize; last_use.len()];
+    let mut live = 0;
+    let mut result = Vec::with_capacity(statements.len());
+    for value in statements {
+        let last = last_use[value.index()];
+        if last > value.index() {
+            live += 1;
+            if last != usize::MAX {
+                dying[last] += 1;
+            }
+        }
+        live -= dying[value.index()];
+        result.push(live);
+    }
+    result
+}
+
+fn make_blocks(
+    program: &Program,
+    named: &[bool],
+    statements: &[Value],
+    cuts: &[usize],
+    last_use: &[usize],
+) -> Vec<Block> {
+    let mut blocks = vec![];
+    let mut start = 0;
+    for end in cuts {
+        let inside = &statements[start..*end];
+        start = *end;
+        let Some((first, last)) = inside.first().zip(inside.last()) else {
+            continue;
+        };
+        let leaves = |value: &&Value| last_use[value.index()] > last.index();
+        let mut entering: Vec<Value> = inside
+            .iter()
+            .flat_map(|value| named_operands(program, named, *value))
+            .filter(|value| value < first)
+            .collect();
+        entering.sort_unstable();
+        entering.dedup();
+        blocks.push(Block {
+            statements: inside.to_vec(),
+            leaving: inside.iter().filter(leaves).copied().collect(),
+            entering,
+        });
+    }
+    blocks
+}
+
+/// The named values in the expression of a statement.
+fn named_operands(program: &Program, named: &[bool], statement: Value) -> Vec<Value> {
+    let mut found = vec![];
+    let mut pending: Vec<Value> = program.operation(statement).operands().collect();
+    while let Some(value) = pending.pop() {
+        if named[value.index()] {
+            found.push(value);
+        } else {
+            pending.extend(program.operation(value).operands());
+        }
+    }
+    found
+}

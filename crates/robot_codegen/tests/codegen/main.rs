@@ -1,0 +1,8 @@
+//! Tests of the whole: from expressions to programs, numbers and compiled code.
+
+// Helpers of tests fail as tests do.
+#![allow(clippy::unwrap_used)]
+
+mod compiled;
+mod golden;
+mod support;
