@@ -1,0 +1,89 @@
+//! What several tests share: robots, states, and values of expressions at them.
+#![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
+
+use robot_dynamics::description::read_toml;
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric;
+use robot_symbolic::{Expr, walk};
+
+/// The robot files of the project, by name.
+pub fn robot_files() -> Vec<(String, String)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/robots");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .map(|path| {
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+            (name, std::fs::read_to_string(&path).unwrap())
+        })
+        .collect();
+    files.sort();
+    assert!(files.len() >= 9, "robot files are missing: {}", files.len());
+    files
+}
+
+/// A robot file of the project.
+pub fn robot(name: &str) -> Robot {
+    let (_, text) = robot_files().into_iter().find(|(file, _)| file == name).unwrap();
+    read(name, &text)
+}
+
+/// The robot of a text.
+pub fn read(name: &str, text: &str) -> Robot {
+    match read_toml(name, text) {
+        Ok(described) => described.robot,
+        Err(diagnostics) => panic!("{diagnostics}"),
+    }
+}
+
+/// Nominal parameter values by name.
+pub fn nominal(robot: &Robot, name: &str) -> f64 {
+    robot.parameter(name).and_then(|parameter| parameter.value.as_ref()).unwrap().to_f64()
+}
+
+/// Values of expressions at a state; a wrench per tip, parameters at their nominal values.
+pub fn evaluate(robot: &Robot, roots: &[Expr<'_>], state: &numeric::random::State) -> Vec<f64> {
+    let graph = roots[0].graph();
+    walk::evaluate(roots, |symbol| {
+        let name = graph.symbol_name(symbol);
+        value_of(robot, &name, state).unwrap_or_else(|| panic!("no value for {name}"))
+    })
+}
+
+fn value_of(robot: &Robot, name: &str, state: &numeric::random::State) -> Option<f64> {
+    let coordinate = |prefix: &str, values: &[f64]| {
+        let number: usize = name.strip_prefix(prefix)?.parse().ok()?;
+        values.get(number - 1).copied()
+    };
+    for (prefix, values) in [("qdd", &state.qdd), ("qd", &state.qd), ("q", &state.q)] {
+        if let Some(value) = coordinate(prefix, values) {
+            return Some(value);
+        }
+    }
+    for (index, frame) in robot.frames.iter().enumerate() {
+        let Some(wrench) = &frame.wrench else { continue };
+        let applied = &state.wrenches[index];
+        for k in 0..3 {
+            if wrench.force[k] == name {
+                return Some(applied.force[k]);
+            }
+            if wrench.moment[k] == name {
+                return Some(applied.moment[k]);
+            }
+        }
+    }
+    robot.parameter(name).map(|_| nominal(robot, name))
+}
+
+/// The largest magnitude among values.
+pub fn magnitude<'v>(values: impl IntoIterator<Item = &'v f64>) -> f64 {
+    values.into_iter().fold(0.0, |size, value| value.abs().max(size))
+}
+
+/// The largest difference of two arrays; infinite where one is NaN.
+pub fn largest_difference(values: &[f64], reference: &[f64]) -> f64 {
+    assert_eq!(values.len(), reference.len());
+    let differences = values.iter().zip(reference).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |worst: f64, d| if d.is_nan() { f64::INFINITY } else { worst.max(d) })
+}

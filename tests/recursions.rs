@@ -1,0 +1,176 @@
+//! The two recursions on symbols against the numeric solver, which shares nothing with them: for
+//! every robot file and for random robots, serial and branched.
+
+mod common;
+
+use common::{evaluate, largest_difference, magnitude, robot_files};
+use robot_dynamics::economical::{
+    self, Plan,
+    plan::{Entry, LinkPlan, Origin, Turn},
+};
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
+use robot_dynamics::model::Robot;
+use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::numeric::{self, Loads, random::Recipe};
+use robot_dynamics::quantity::Kind;
+use robot_dynamics::random;
+use robot_symbolic::{Expr, Graph};
+
+const STATES: usize = 50;
+const TOLERANCE: f64 = 1e-12;
+
+/// What the numeric solver says about a state.
+struct Reference {
+    state: numeric::random::State,
+    torques: Vec<f64>,
+    torques_with_loads: Vec<f64>,
+    link_wrenches: Vec<f64>,
+}
+
+fn references(robot: &Robot, random: &mut numeric::random::Random) -> Vec<Reference> {
+    let solver = numeric::Mechanism::nominal(robot).unwrap();
+    let reference = |_| {
+        let mut state = random.state(&solver);
+        for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
+            if frame.wrench.is_none() {
+                *wrench = numeric::Wrench::zero();
+            }
+        }
+        let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
+        let loads = Loads { wrenches: state.wrenches.clone(), friction: true };
+        let links = solver.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
+        let torsor = |link: &numeric::LinkDynamics| {
+            [link.contact_force, link.contact_moment].map(|vector| [vector.x, vector.y, vector.z])
+        };
+        Reference {
+            torques: solver.inverse_dynamics(q, qd, qdd).unwrap().iter().copied().collect(),
+            torques_with_loads: {
+                let torques = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
+                torques.iter().copied().collect()
+            },
+            link_wrenches: links.iter().flat_map(torsor).flatten().collect(),
+            state,
+        }
+    };
+    (0..STATES).map(reference).collect()
+}
+
+/// Every option of the economical recursion forced on and off, in a few combinations.
+fn plans(robot: &Robot) -> Vec<(String, Plan)> {
+    let links = robot.links.len();
+    let uniform = |name: &str, link: LinkPlan| (name.to_owned(), Plan::uniform(links, &link));
+    let basic = LinkPlan::BASIC;
+    let mut plans = vec![
+        ("default".to_owned(), Plan::default_for(robot)),
+        uniform("basic", basic.clone()),
+        uniform("angle sums", LinkPlan { angle_sum: true, ..basic.clone() }),
+        uniform("column", LinkPlan { column: true, ..basic.clone() }),
+        uniform(
+            "sums and column",
+            LinkPlan { angle_sum: true, column: true, turn: Turn::File, ..basic.clone() },
+        ),
+        uniform("products", LinkPlan { moment: [true; 3], ..basic.clone() }),
+        uniform("first moment", LinkPlan { turn: Turn::FirstMoment, ..basic.clone() }),
+    ];
+    for origin in [
+        Origin::File,
+        Origin::PreviousNormal,
+        Origin::ZeroXz,
+        Origin::ZeroYz,
+        Origin::MassCentre,
+        Origin::Parent,
+    ] {
+        plans.push(uniform(&format!("{origin:?}"), LinkPlan { origin, ..basic.clone() }));
+    }
+    for (kind, entry) in (0..3).flat_map(|kind| Entry::ALL.map(|entry| (kind, entry))) {
+        let mut link = basic.clone();
+        link.residual[kind] = Some(entry);
+        plans.push(uniform(&format!("residual {kind} {entry:?}"), link));
+    }
+    for link in 0..links {
+        let plan = Plan { unit_length: Some((link, link % 3)), ..plans[0].1.clone() };
+        plans.push((format!("unit of link {link}"), plan));
+    }
+    plans
+}
+
+fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
+    let mut random = numeric::random::Random::new(seed);
+    let references = references(robot, &mut random);
+    let graph = Graph::new();
+    let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::ROUNDED);
+    let loaded = newton_euler(&mechanism, Effects { wrench: true, friction: true });
+    let plain = newton_euler(&mechanism, Effects { wrench: false, friction: false });
+    let torsors: Vec<Expr<'_>> = loaded
+        .wrenches
+        .iter()
+        .flat_map(|torsor| [torsor.force.0, torsor.moment.0].concat())
+        .collect();
+    let mut worst = 0.0_f64;
+    let mut hold = |what: &str, roots: &[Expr<'_>], expected: fn(&Reference) -> &Vec<f64>| {
+        // Where a torque passes through zero nothing is exact in its own measure: the robot's
+        // largest one over the states is the measure.
+        let size = magnitude(references.iter().flat_map(expected));
+        for reference in &references {
+            let values = evaluate(robot, roots, &reference.state);
+            let error = largest_difference(&values, expected(reference)) / size;
+            assert!(error <= TOLERANCE, "{name}, seed {seed}: {what} is off by {error:e}");
+            worst = worst.max(error);
+        }
+    };
+    hold("the paper's Q", &plain.driving_forces, |reference| &reference.torques);
+    hold("the paper's Q with loads", &loaded.driving_forces, |r| &r.torques_with_loads);
+    hold("F_l and M_l", &torsors, |reference| &reference.link_wrenches);
+    for (plan_name, plan) in plans(robot) {
+        let torques = economical::inverse_dynamics(&mechanism, &plan, false).unwrap();
+        hold(&format!("the plan `{plan_name}`"), &torques, |reference| &reference.torques);
+    }
+    worst
+}
+
+#[test]
+fn every_robot_file_agrees_with_the_numeric_solver() {
+    for (name, text) in robot_files() {
+        let worst = check(&common::read(&name, &text), 7, &name);
+        println!("{name}: worst error {worst:.1e} of the largest torque");
+    }
+}
+
+#[test]
+fn random_serial_robots_agree_with_the_numeric_solver() {
+    let mut worst = 0.0_f64;
+    for seed in 0..64 {
+        let joints = 1 + seed as usize % 8;
+        let mut random = numeric::random::Random::new(seed);
+        let robot = random::robot(&mut random, &Recipe::serial(joints));
+        worst = worst.max(check(&robot, seed, "serial robot"));
+    }
+    println!("64 serial robots: worst error {worst:.1e} of the largest torque");
+}
+
+#[test]
+fn random_trees_agree_with_the_numeric_solver() {
+    let mut worst = 0.0_f64;
+    for seed in 1000..1040 {
+        let joints = 2 + seed as usize % 11;
+        let mut random = numeric::random::Random::new(seed);
+        let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
+        let robot = random::robot(&mut random, &recipe);
+        worst = worst.max(check(&robot, seed, "tree"));
+    }
+    println!("40 trees: worst error {worst:.1e} of the largest torque");
+}
+
+#[test]
+fn quantities_carry_the_papers_names() {
+    let robot = common::robot("trttr1");
+    let graph = Graph::new();
+    let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
+    let solution = newton_euler(&mechanism, Effects { wrench: true, friction: false });
+    let names = |kind| -> Vec<String> {
+        solution.quantities(kind).iter().map(|quantity| quantity.symbol.to_string()).collect()
+    };
+    assert_eq!(names(Kind::DrivingForce), ["Q1", "Q2", "Q3", "Q4", "Q5"]);
+    assert_eq!(names(Kind::LinkForce)[..4], ["F_l1.x", "F_l1.y", "F_l1.z", "F_l2.x"]);
+    assert_eq!(names(Kind::MassCentreAcceleration).len(), 15);
+}
