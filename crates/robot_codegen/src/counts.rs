@@ -38,10 +38,7 @@ impl Counts {
     #[must_use]
     pub fn of(program: &Program) -> Counts {
         let temporaries = Layout::new(program, &Limits::default()).statements();
-        Counts {
-            temporaries,
-            ..Counts::of_operations(program, |_| true)
-        }
+        Counts { temporaries, ..Counts::of_operations(program, |_| true) }
     }
 
     /// The operations that are left for the call when a constructor does the rest.
@@ -113,36 +110,22 @@ impl FunctionCounts {
         call.other += angles.other;
         call.neg += angles.neg;
         let sources = function.core.sources();
-        call.sin += sources
-            .iter()
-            .filter(|source| matches!(source, Source::Sin(_)))
-            .count();
-        call.cos += sources
-            .iter()
-            .filter(|source| matches!(source, Source::Cos(_)))
-            .count();
+        call.sin += sources.iter().filter(|source| matches!(source, Source::Sin(_))).count();
+        call.cos += sources.iter().filter(|source| matches!(source, Source::Cos(_))).count();
         let needed = needed_fields(constructor, function);
         let mut constructor_counts = Counts::of_operations(constructor, |v| needed[v.index()]);
         constructor_counts.temporaries = constructor
             .values()
             .filter(|(value, operation)| needed[value.index()] && !operation.is_leaf())
             .count();
-        FunctionCounts {
-            call,
-            constructor: constructor_counts,
-        }
+        FunctionCounts { call, constructor: constructor_counts }
     }
 }
 
 /// For each value of the constructor, whether the function needs it.
 fn needed_fields(constructor: &Program, function: &Function) -> Vec<bool> {
     let mut needed = vec![false; constructor.operations().len()];
-    for source in function
-        .core
-        .sources()
-        .into_iter()
-        .chain(function.angles.sources())
-    {
+    for source in function.core.sources().into_iter().chain(function.angles.sources()) {
         if let Source::Field(field) = source {
             needed[constructor.results()[field as usize].index()] = true;
         }

@@ -159,11 +159,7 @@ pub struct Errors(Vec<Error>);
 impl Errors {
     /// `Ok(value)` where nothing is wrong.
     pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
-        if errors.is_empty() {
-            Ok(value)
-        } else {
-            Err(Errors(errors))
-        }
+        if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }
 
     /// The errors, in the order in which they were found.

@@ -42,11 +42,7 @@ impl<'m> Interpreter<'m> {
         let given_values: FxHashMap<&str, f64> = given.iter().copied().collect();
         let mut errors = vec![];
         for (name, _) in given {
-            if module
-                .parameters
-                .iter()
-                .all(|parameter| parameter.name != *name)
-            {
+            if module.parameters.iter().all(|parameter| parameter.name != *name) {
                 errors.push(Error::UnknownParameter {
                     module: module.name.clone(),
                     parameter: (*name).to_owned(),
@@ -59,9 +55,7 @@ impl<'m> Interpreter<'m> {
             let value = given_values.get(parameter.name.as_str()).copied();
             match value.or(parameter.nominal) {
                 Some(value) => values.push(value),
-                None => errors.push(Error::MissingParameter {
-                    parameter: parameter.name.clone(),
-                }),
+                None => errors.push(Error::MissingParameter { parameter: parameter.name.clone() }),
             }
         }
         let values = Errors::check(errors, values)?;
@@ -70,20 +64,13 @@ impl<'m> Interpreter<'m> {
             _ => f64::NAN,
         };
         let fields = evaluate(&module.constructor, Trigonometry::Standard, load);
-        Ok(Interpreter {
-            module,
-            fields,
-            trigonometry: Trigonometry::Standard,
-        })
+        Ok(Interpreter { module, fields, trigonometry: Trigonometry::Standard })
     }
 
     /// The same with sines and cosines at calls from elsewhere than the standard library.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Interpreter<'m> {
-        Interpreter {
-            trigonometry,
-            ..self
-        }
+        Interpreter { trigonometry, ..self }
     }
 
     /// Calls a function; inputs by name.
@@ -158,11 +145,7 @@ fn gather_inputs(function: &Function, given: &[(&str, &[f64])]) -> Result<Vec<f6
                 expected,
                 found: entries.len(),
             }),
-            None => errors.push(Error::MissingInput {
-                function,
-                input: name,
-                length: expected,
-            }),
+            None => errors.push(Error::MissingInput { function, input: name, length: expected }),
         }
     }
     Errors::check(errors, values)
@@ -170,11 +153,7 @@ fn gather_inputs(function: &Function, given: &[(&str, &[f64])]) -> Result<Vec<f6
 
 fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {
     let quoted: Vec<_> = names.map(|name| format!("`{name}`")).collect();
-    if quoted.is_empty() {
-        "none".to_owned()
-    } else {
-        quoted.join(", ")
-    }
+    if quoted.is_empty() { "none".to_owned() } else { quoted.join(", ") }
 }
 
 fn sin_cos(trigonometry: Trigonometry, angle: f64) -> (f64, f64) {

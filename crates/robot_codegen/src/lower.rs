@@ -19,26 +19,17 @@ pub(crate) fn lower(spec: &ModuleSpec<'_>) -> Result<Vec<Lowered>, Errors> {
     let mut errors = vec![];
     check_module(spec, &mut errors);
     // Expressions of several graphs cannot be looked at together at all.
-    if errors
-        .iter()
-        .any(|error| matches!(error, Error::ForeignGraph { .. }))
-    {
+    if errors.iter().any(|error| matches!(error, Error::ForeignGraph { .. })) {
         return Errors::check(errors, vec![]);
     }
     let functions = spec.functions.iter();
-    let lowered = functions
-        .map(|function| lower_function(spec, function, &mut errors))
-        .collect();
+    let lowered = functions.map(|function| lower_function(spec, function, &mut errors)).collect();
     Errors::check(errors, lowered)
 }
 
 fn check_module(spec: &ModuleSpec<'_>, errors: &mut Vec<Error>) {
     let module = format!("module `{}`", spec.name);
-    let parameters = || {
-        spec.parameters
-            .iter()
-            .map(|parameter| parameter.name.as_str())
-    };
+    let parameters = || spec.parameters.iter().map(|parameter| parameter.name.as_str());
     check_names(&module, "parameter", parameters(), errors);
     let functions = spec.functions.iter().map(|function| function.name.as_str());
     check_names(&module, "function", functions, errors);
@@ -49,26 +40,17 @@ fn check_module(spec: &ModuleSpec<'_>, errors: &mut Vec<Error>) {
         }
     }
     let mut values = spec.functions.iter().flat_map(|function| &function.outputs);
-    let graph = values
-        .find_map(|output| output.values.first())
-        .map(|value| value.graph());
+    let graph = values.find_map(|output| output.values.first()).map(|value| value.graph());
     for function in &spec.functions {
         let place = format!("function `{}`", function.name);
         let inputs = || function.inputs.iter();
-        check_names(
-            &place,
-            "input",
-            inputs().map(|input| input.name.as_str()),
-            errors,
-        );
+        check_names(&place, "input", inputs().map(|input| input.name.as_str()), errors);
         let symbols = inputs().flat_map(|input| input.symbols.iter().map(String::as_str));
         check_names(&place, "symbol", symbols.chain(parameters()), errors);
         let outputs = function.outputs.iter().map(|output| output.name.as_str());
         check_names(&place, "output", outputs, errors);
         if function.outputs.is_empty() {
-            errors.push(Error::NoOutputs {
-                function: function.name.clone(),
-            });
+            errors.push(Error::NoOutputs { function: function.name.clone() });
         }
         for output in &function.outputs {
             let (function, name) = (function.name.clone(), output.name.clone());
@@ -84,10 +66,7 @@ fn check_module(spec: &ModuleSpec<'_>, errors: &mut Vec<Error>) {
             let foreign =
                 |value: &Expr<'_>| graph.is_some_and(|graph| !std::ptr::eq(graph, value.graph()));
             if output.values.iter().any(foreign) {
-                errors.push(Error::ForeignGraph {
-                    function,
-                    output: name,
-                });
+                errors.push(Error::ForeignGraph { function, output: name });
             }
         }
     }
@@ -102,11 +81,7 @@ fn check_names<'a>(
     let (mut seen, mut reported) = (FxHashSet::default(), FxHashSet::default());
     for name in names {
         if !seen.insert(name) && reported.insert(name) {
-            errors.push(Error::Duplicate {
-                place: place.to_owned(),
-                kind,
-                name: name.to_owned(),
-            });
+            errors.push(Error::Duplicate { place: place.to_owned(), kind, name: name.to_owned() });
         }
     }
 }
@@ -127,11 +102,8 @@ fn lower_function(
     function: &FunctionSpec<'_>,
     errors: &mut Vec<Error>,
 ) -> Lowered {
-    let roots: Vec<Expr<'_>> = function
-        .outputs
-        .iter()
-        .flat_map(|o| o.values.iter().copied())
-        .collect();
+    let roots: Vec<Expr<'_>> =
+        function.outputs.iter().flat_map(|o| o.values.iter().copied()).collect();
     let mut lowering = Lowering::new(spec, function, &roots);
     lowering.classify();
     let angles = lowering.angles();
@@ -160,10 +132,7 @@ fn lower_function(
 /// The name of the first output that contains a node.
 fn output_with(function: &FunctionSpec<'_>, id: Id) -> String {
     let contains = |values: &[Expr<'_>]| reachable(values).iter().any(|expr| expr.id() == id);
-    let output = function
-        .outputs
-        .iter()
-        .find(|output| contains(&output.values));
+    let output = function.outputs.iter().find(|output| contains(&output.values));
     output.map_or_else(String::new, |output| output.name.clone())
 }
 
@@ -265,15 +234,9 @@ impl<'g> Lowering<'g> {
     }
 
     fn angles(&self) -> Vec<Expr<'g>> {
-        let mut angles: Vec<_> = self
-            .nodes
-            .iter()
-            .filter_map(|expr| self.angle(*expr))
-            .collect();
+        let mut angles: Vec<_> = self.nodes.iter().filter_map(|expr| self.angle(*expr)).collect();
         angles.sort_by_key(|(_, argument)| {
-            let input = argument
-                .as_symbol()
-                .and_then(|symbol| self.sources.get(&symbol));
+            let input = argument.as_symbol().and_then(|symbol| self.sources.get(&symbol));
             (input.is_none(), input.copied(), argument.id())
         });
         angles.dedup_by_key(|(_, argument)| argument.id());

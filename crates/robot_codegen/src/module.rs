@@ -129,10 +129,7 @@ impl Module {
     #[must_use]
     pub fn field_parameter(&self, field: usize) -> Option<&ParameterSpec> {
         use crate::program::Operation;
-        match self
-            .constructor
-            .operation(*self.constructor.results().get(field)?)
-        {
+        match self.constructor.operation(*self.constructor.results().get(field)?) {
             Operation::Load(Source::Parameter(index)) => self.parameters.get(index as usize),
             _ => None,
         }

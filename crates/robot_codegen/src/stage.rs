@@ -41,18 +41,14 @@ impl Constructor {
                 }
                 Stage::Call => {
                     let operation = operation.map(|a| {
-                        *late
-                            .entry(a)
-                            .or_insert_with(|| self.load(&mut builder, early[&a]))
+                        *late.entry(a).or_insert_with(|| self.load(&mut builder, early[&a]))
                     });
                     late.insert(value, builder.apply(operation));
                 }
             }
         }
         let results = program.results().iter().map(|value| {
-            *late
-                .entry(*value)
-                .or_insert_with(|| self.load(&mut builder, early[value]))
+            *late.entry(*value).or_insert_with(|| self.load(&mut builder, early[value]))
         });
         let results = results.collect();
         builder.finish(results)

@@ -14,10 +14,7 @@ pub struct Options {}
 pub(crate) fn run(program: &Program, _: &Options) -> (Program, Vec<PassCounts>) {
     let mut report = vec![];
     let program = dead_code::run(program);
-    report.push(PassCounts {
-        pass: "lowered",
-        counts: Counts::of_calls(&program),
-    });
+    report.push(PassCounts { pass: "lowered", counts: Counts::of_calls(&program) });
     (program, report)
 }
 

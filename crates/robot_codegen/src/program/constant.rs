@@ -8,11 +8,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use robot_symbolic::{Function, Number, Rational};
 
 /// π/2 in three parts, each the nearest `f64` to what the ones before leave.
-const HALF_PI: [f64; 3] = [
-    std::f64::consts::FRAC_PI_2,
-    6.123_233_995_736_766e-17,
-    -1.497_384_904_859_183_3e-33,
-];
+const HALF_PI: [f64; 3] =
+    [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_183_3e-33];
 
 /// Angles beyond this are not reduced exactly; no robot file has one.
 const LARGEST_ANGLE: f64 = 1e9;
@@ -26,26 +23,18 @@ pub(crate) struct DoubleDouble {
 
 impl DoubleDouble {
     pub(crate) const ZERO: DoubleDouble = DoubleDouble::exact(0.0);
-    pub(crate) const PI: DoubleDouble = DoubleDouble {
-        high: 2.0 * HALF_PI[0],
-        low: 2.0 * HALF_PI[1],
-    };
+    pub(crate) const PI: DoubleDouble =
+        DoubleDouble { high: 2.0 * HALF_PI[0], low: 2.0 * HALF_PI[1] };
 
     const fn exact(value: f64) -> DoubleDouble {
-        DoubleDouble {
-            high: value,
-            low: 0.0,
-        }
+        DoubleDouble { high: value, low: 0.0 }
     }
 
     /// `high + low` where `|high| ≥ |low|`.
     fn fast(high: f64, low: f64) -> DoubleDouble {
         let sum = high + low;
         if sum.is_finite() {
-            DoubleDouble {
-                high: sum,
-                low: low - (sum - high),
-            }
+            DoubleDouble { high: sum, low: low - (sum - high) }
         } else {
             DoubleDouble::exact(sum)
         }
@@ -61,10 +50,7 @@ impl DoubleDouble {
     fn product(a: f64, b: f64) -> DoubleDouble {
         let product = a * b;
         if product.is_finite() {
-            DoubleDouble {
-                high: product,
-                low: a.mul_add(b, -product),
-            }
+            DoubleDouble { high: product, low: a.mul_add(b, -product) }
         } else {
             DoubleDouble::exact(product)
         }
@@ -111,9 +97,8 @@ impl DoubleDouble {
             return DoubleDouble::exact(f64::NAN);
         }
         let turns = (self.high / HALF_PI[0]).round();
-        let angle = HALF_PI.iter().fold(self, |rest, part| {
-            rest - DoubleDouble::product(turns, *part)
-        });
+        let angle =
+            HALF_PI.iter().fold(self, |rest, part| rest - DoubleDouble::product(turns, *part));
         let quarters = (turns as i64 + quarters).rem_euclid(4);
         let value = angle.series(quarters % 2 == 0, -1.0);
         if quarters >= 2 { -value } else { value }
@@ -155,10 +140,8 @@ impl DoubleDouble {
 impl Add for DoubleDouble {
     type Output = DoubleDouble;
     fn add(self, other: DoubleDouble) -> DoubleDouble {
-        let (high, low) = (
-            DoubleDouble::sum(self.high, other.high),
-            DoubleDouble::sum(self.low, other.low),
-        );
+        let (high, low) =
+            (DoubleDouble::sum(self.high, other.high), DoubleDouble::sum(self.low, other.low));
         let partial = DoubleDouble::fast(high.high, high.low + low.high);
         DoubleDouble::fast(partial.high, partial.low + low.low)
     }
@@ -174,10 +157,7 @@ impl Sub for DoubleDouble {
 impl Neg for DoubleDouble {
     type Output = DoubleDouble;
     fn neg(self) -> DoubleDouble {
-        DoubleDouble {
-            high: -self.high,
-            low: -self.low,
-        }
+        DoubleDouble { high: -self.high, low: -self.low }
     }
 }
 
@@ -226,31 +206,13 @@ mod tests {
     #[test]
     fn values_have_thirty_digits() {
         let two = decimal("2");
-        assert_close(
-            two.apply(Function::Sqrt),
-            "1.414213562373095048801688724209698078570",
-        );
-        assert_close(
-            DoubleDouble::PI,
-            "3.141592653589793238462643383279502884197",
-        );
-        assert_close(
-            decimal("1") / decimal("3"),
-            "0.3333333333333333333333333333333333333333",
-        );
+        assert_close(two.apply(Function::Sqrt), "1.414213562373095048801688724209698078570");
+        assert_close(DoubleDouble::PI, "3.141592653589793238462643383279502884197");
+        assert_close(decimal("1") / decimal("3"), "0.3333333333333333333333333333333333333333");
         let one = decimal("1");
-        assert_close(
-            one.apply(Function::Sin),
-            "0.8414709848078965066525023216302989996226",
-        );
-        assert_close(
-            one.apply(Function::Cos),
-            "0.5403023058681397174009366074429766037323",
-        );
-        assert_close(
-            one.apply(Function::Tanh),
-            "0.7615941559557648881194582826047935904128",
-        );
+        assert_close(one.apply(Function::Sin), "0.8414709848078965066525023216302989996226");
+        assert_close(one.apply(Function::Cos), "0.5403023058681397174009366074429766037323");
+        assert_close(one.apply(Function::Tanh), "0.7615941559557648881194582826047935904128");
     }
 
     #[test]

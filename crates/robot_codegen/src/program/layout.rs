@@ -23,12 +23,7 @@ pub struct Limits {
 impl Default for Limits {
     /// Expressions of 6 operations, blocks of 256 statements, functions of 8,000 or of 1,024 each.
     fn default() -> Limits {
-        Limits {
-            expression: 6,
-            block: 256,
-            function: 8000,
-            part: 1024,
-        }
+        Limits { expression: 6, block: 256, function: 8000, part: 1024 }
     }
 }
 
@@ -67,17 +62,10 @@ impl Layout {
     #[must_use]
     pub fn new(program: &Program, limits: &Limits) -> Layout {
         let named = name_values(program, limits.expression.max(1));
-        let statements: Vec<Value> = program
-            .values()
-            .map(|(value, _)| value)
-            .filter(|value| named[value.index()])
-            .collect();
+        let statements: Vec<Value> =
+            program.values().map(|(value, _)| value).filter(|value| named[value.index()]).collect();
         let last_use = last_uses(program, &named);
-        let part = if statements.len() > limits.function {
-            limits.part
-        } else {
-            limits.function
-        };
+        let part = if statements.len() > limits.function { limits.part } else { limits.function };
         let groups = |statements: &[Value], limit: usize| {
             let cuts = cut(statements, &last_use, limit.max(1));
             make_blocks(program, &named, statements, &cuts, &last_use)
@@ -87,10 +75,7 @@ impl Layout {
             leaving: part.leaving,
             entering: part.entering,
         });
-        Layout {
-            parts: parts.collect(),
-            named,
-        }
+        Layout { parts: parts.collect(), named }
     }
 
     /// Whether a value is a statement of its own; others print inside the expression that uses them.

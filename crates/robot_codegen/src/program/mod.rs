@@ -143,10 +143,7 @@ impl Program {
             operation.operands().all(|operand| operand.index() < index)
         }));
         debug_assert!(results.iter().all(|value| value.index() < operations.len()));
-        Program {
-            operations,
-            results,
-        }
+        Program { operations, results }
     }
 
     /// The operations, operands before results.
@@ -206,13 +203,10 @@ impl Program {
     /// Where the program reads, in the order of sources, each once.
     #[must_use]
     pub fn sources(&self) -> Vec<Source> {
-        let loads = self
-            .operations
-            .iter()
-            .filter_map(|operation| match operation {
-                Operation::Load(source) => Some(*source),
-                _ => None,
-            });
+        let loads = self.operations.iter().filter_map(|operation| match operation {
+            Operation::Load(source) => Some(*source),
+            _ => None,
+        });
         let mut sources: Vec<_> = loads.collect();
         sources.sort_unstable();
         sources.dedup();

@@ -29,9 +29,7 @@ fn main_text(states: &[[f64; 2 * ENTRIES]]) -> String {
 }
 
 fn states(random: &mut Random) -> Vec<[f64; 2 * ENTRIES]> {
-    (0..STATES)
-        .map(|_| std::array::from_fn(|_| random.real()))
-        .collect()
+    (0..STATES).map(|_| std::array::from_fn(|_| random.real())).collect()
 }
 
 /// The bits that the interpreter gives.
@@ -53,9 +51,7 @@ fn compiled_code_gives_the_bits_of_the_interpreter() {
         let spec = support::random::module(&graph, &mut random, 400);
         let module = Module::compile(&spec, &Options::default()).unwrap();
         let states = states(&mut random);
-        let code = generate(&module, &RustOptions::default())
-            .unwrap()
-            .to_text();
+        let code = generate(&module, &RustOptions::default()).unwrap().to_text();
         let text = format!("#![deny(warnings)]\n{code}\n{}", main_text(&states));
         let printed = support::rustc::output_of(&format!("bits-{seed}"), &text, &["-O"]);
         let bits: Vec<u64> = printed.lines().map(|line| line.parse().unwrap()).collect();
@@ -68,11 +64,7 @@ fn compiled_code_gives_the_bits_of_the_interpreter() {
             "seed {seed}: {:?}",
             wrong.map(|at| { (f64::from_bits(bits[at]), f64::from_bits(expected[at])) })
         );
-        assert!(
-            expected
-                .iter()
-                .all(|bits| f64::from_bits(*bits).is_finite())
-        );
+        assert!(expected.iter().all(|bits| f64::from_bits(*bits).is_finite()));
     }
 }
 
@@ -83,16 +75,10 @@ fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
     let spec = support::random::module(&graph, &mut random, 30_000);
     let module = Module::compile(&spec, &Options::default()).unwrap();
     // A name for each operation: the most statements that the program can have.
-    let limits = Limits {
-        expression: 1,
-        ..Limits::default()
-    };
+    let limits = Limits { expression: 1, ..Limits::default() };
     assert!(Layout::new(&module.functions[0].core, &limits).statements() > 20_000);
     let states = states(&mut random);
-    let options = RustOptions {
-        limits,
-        ..RustOptions::default()
-    };
+    let options = RustOptions { limits, ..RustOptions::default() };
     let code = generate(&module, &options).unwrap().to_text();
     let text = format!("#![deny(warnings)]\n{code}\n{}", main_text(&states[..1]));
     let start = std::time::Instant::now();
@@ -117,10 +103,6 @@ fn nothing_generated_is_unused() {
         let code = generate(&module, &options).unwrap().to_text();
         let text =
             format!("//! Code.\n#![deny(warnings, unused, missing_docs)]\n#![no_std]\n{code}");
-        support::rustc::compile(
-            &format!("unused-{generic}"),
-            &text,
-            &["--crate-type", "lib"],
-        );
+        support::rustc::compile(&format!("unused-{generic}"), &text, &["--crate-type", "lib"]);
     }
 }

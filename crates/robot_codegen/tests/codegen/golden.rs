@@ -42,26 +42,18 @@ fn options() -> RustOptions {
 #[test]
 fn the_planar_arm_is_generated_as_committed() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codegen/goldens/planar_arm.rs");
-    let text = generate(&compiled(&Graph::new()), &options())
-        .unwrap()
-        .to_text();
+    let text = generate(&compiled(&Graph::new()), &options()).unwrap().to_text();
     if std::env::var_os("UPDATE_GOLDENS").is_some() {
         std::fs::write(&path, &text).unwrap();
     }
     let committed = std::fs::read_to_string(&path).unwrap();
-    assert_eq!(
-        text,
-        committed.replace("\r\n", "\n"),
-        "UPDATE_GOLDENS=1 writes it anew"
-    );
+    assert_eq!(text, committed.replace("\r\n", "\n"), "UPDATE_GOLDENS=1 writes it anew");
 }
 
 /// States far from each other.
 fn states() -> Vec<[[f64; 2]; 3]> {
     let mut random = support::random::Random(3);
-    (0..21)
-        .map(|_| std::array::from_fn(|_| std::array::from_fn(|_| random.real())))
-        .collect()
+    (0..21).map(|_| std::array::from_fn(|_| std::array::from_fn(|_| random.real()))).collect()
 }
 
 #[test]
@@ -112,19 +104,11 @@ fn batches_of_any_length_compute_what_calls_compute() {
 #[test]
 fn it_computes_the_closed_form() {
     let parameters = planar_arm::Parameters::NOMINAL;
-    let (l1, l2, m1, m2, g) = (
-        parameters.l1,
-        parameters.l2,
-        parameters.m1,
-        parameters.m2,
-        parameters.g,
-    );
+    let (l1, l2, m1, m2, g) =
+        (parameters.l1, parameters.l2, parameters.m1, parameters.m2, parameters.g);
     // Straight out and at rest, gravity alone: the moments of the two weights.
     let tau = planar_arm::Model::NOMINAL.inverse_dynamics(&[0.0; 2], &[0.0; 2], &[0.0; 2]);
     let expected = [m1 * g * l1 + m2 * g * (l1 + l2), m2 * g * l2];
     assert!((tau[0] - expected[0]).abs() < 1e-14 && (tau[1] - expected[1]).abs() < 1e-14);
-    assert_eq!(
-        (planar_arm::DOF, planar_arm::COORDINATES),
-        (2, ["q1", "q2"])
-    );
+    assert_eq!((planar_arm::DOF, planar_arm::COORDINATES), (2, ["q1", "q2"]));
 }

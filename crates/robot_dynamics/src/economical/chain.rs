@@ -243,7 +243,7 @@ fn assemble<'g>(
             axis: rotation.axis(),
             rotation,
             translation,
-            inertia: inertias[index],
+            inertia: inertias[index].clean(),
             reflected_inertia: link.reflected_inertia,
         }
     });

@@ -6,6 +6,9 @@ use super::plan::Entry;
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
 
+/// What rounding leaves of a moment that vanishes, in units of the largest.
+const ROUNDING: f64 = 1e-14;
+
 /// The distribution of mass of a body in some frame: the 4 × 4 pseudo-inertia
 /// P = \[\[Σ, h\], \[hᵀ, m\]\] by its blocks.
 #[derive(Clone, Copy, Debug)]
@@ -117,6 +120,26 @@ impl<'g> PseudoInertia<'g> {
             Entry::Yz => (s[1][2], s[2][1]) = (zero, zero),
             Entry::XxYy => s[1][1] = s[0][0],
         }
+    }
+
+    /// Rounded moments next to 0, against the largest of their kind, are 0: they come from turning
+    /// by an angle that makes them vanish.
+    pub(crate) fn clean(mut self) -> PseudoInertia<'g> {
+        let zero = self.mass.graph().zero();
+        let clean = |entries: &mut dyn Iterator<Item = &mut Expr<'g>>| {
+            let mut entries: Vec<_> = entries.collect();
+            let size = |entry: &Expr<'g>| entry.as_number().map_or(0.0, |n| n.to_f64().abs());
+            let largest = entries.iter().map(|entry| size(entry)).fold(0.0, f64::max);
+            for entry in &mut entries {
+                let rounded = entry.as_number().is_some_and(|n| n.as_rational().is_none());
+                if rounded && size(entry) < ROUNDING * largest {
+                    **entry = zero;
+                }
+            }
+        };
+        clean(&mut self.first.0.iter_mut());
+        clean(&mut self.second.0.iter_mut().flatten());
+        self
     }
 
     /// The upper triangle copied to the lower, so that both are one expression.

@@ -27,9 +27,7 @@ pub(super) fn method(
     let slices = Slices::new(&mut variables, function);
     let all = slices.inputs.iter().chain(&slices.outputs);
     let lengths: Vec<Expr> = all.map(|slice| parse_quote!(#slice.len())).collect();
-    let shortest = lengths
-        .into_iter()
-        .reduce(|a, b| parse_quote!(#a.min(#b)))?;
+    let shortest = lengths.into_iter().reduce(|a, b| parse_quote!(#a.min(#b)))?;
     let name = derived(&mut scope.methods, plain, "batch");
     let (runtime, scalar) = (scope.number.runtime(), scope.number.ty());
     let lanes = Literal::usize_unsuffixed(lanes.max(1));
@@ -74,30 +72,20 @@ impl Slices {
         }
         let outputs = function.outputs.iter();
         Slices {
-            outputs: outputs
-                .map(|output| variables.namer.name(&output.name))
-                .collect(),
+            outputs: outputs.map(|output| variables.namer.name(&output.name)).collect(),
             inputs: variables.inputs.clone(),
         }
     }
 
     fn parameters(&self, function: &Function, scalar: &syn::Type) -> Vec<TokenStream> {
-        let inputs = self
-            .inputs
-            .iter()
-            .zip(&function.inputs)
-            .map(|(name, input)| {
-                let state = syntax::array_type(scalar, input.symbols.len());
-                quote!(#name: &[#state])
-            });
-        let outputs = self
-            .outputs
-            .iter()
-            .zip(&function.outputs)
-            .map(|(name, output)| {
-                let state = syntax::shaped_type(scalar, &output.shape);
-                quote!(#name: &mut [#state])
-            });
+        let inputs = self.inputs.iter().zip(&function.inputs).map(|(name, input)| {
+            let state = syntax::array_type(scalar, input.symbols.len());
+            quote!(#name: &[#state])
+        });
+        let outputs = self.outputs.iter().zip(&function.outputs).map(|(name, output)| {
+            let state = syntax::shaped_type(scalar, &output.shape);
+            quote!(#name: &mut [#state])
+        });
         inputs.chain(outputs).collect()
     }
 
@@ -131,11 +119,8 @@ impl Slices {
         let fields = outputs::fields(function);
         let outputs = function.outputs.iter().zip(fields).zip(&self.outputs);
         let stores = outputs.flat_map(|((output, field), slice)| {
-            let value = if is_struct {
-                parse_quote!(#result.#field)
-            } else {
-                parse_quote!(#result)
-            };
+            let value =
+                if is_struct { parse_quote!(#result.#field) } else { parse_quote!(#result) };
             store(output, slice, &value, runtime, count)
         });
         stores.collect()
@@ -160,13 +145,9 @@ fn store(
             let rows = 0..*rows;
             let row = |row: usize| -> Stmt {
                 let only = |name: TokenStream| {
-                    let names = rows.clone().map(|other| {
-                        if other == row {
-                            name.clone()
-                        } else {
-                            quote!(_)
-                        }
-                    });
+                    let names = rows
+                        .clone()
+                        .map(|other| if other == row { name.clone() } else { quote!(_) });
                     quote!([#(#names),*])
                 };
                 let (from_row, to_row) = (only(quote!(row)), only(quote!(to)));

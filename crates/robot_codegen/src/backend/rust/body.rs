@@ -47,22 +47,12 @@ impl<'a> Body<'a> {
             })
         });
         let names = names.collect();
-        Body {
-            program,
-            layout,
-            number,
-            load,
-            names,
-        }
+        Body { program, layout, number, load, names }
     }
 
     /// The results as expressions, to stand after the statements.
     pub(super) fn results(&self) -> Vec<Expr> {
-        self.program
-            .results()
-            .iter()
-            .map(|value| self.operand(*value))
-            .collect()
+        self.program.results().iter().map(|value| self.operand(*value)).collect()
     }
 
     /// Whether the program is so long that it is cut into functions.
@@ -72,11 +62,7 @@ impl<'a> Body<'a> {
 
     /// The statements of a program that is not cut.
     pub(super) fn statements(&self) -> Vec<Stmt> {
-        self.layout
-            .parts
-            .iter()
-            .flat_map(|part| self.part_statements(part))
-            .collect()
+        self.layout.parts.iter().flat_map(|part| self.part_statements(part)).collect()
     }
 
     /// The parts of a program that is cut. `source_name` names the variable that a load reads, for
@@ -103,11 +89,7 @@ impl<'a> Body<'a> {
             if let Operation::Load(source) = operation {
                 sources.push(source);
             }
-            pending.extend(
-                operation
-                    .operands()
-                    .filter(|value| !self.layout.is_named(*value)),
-            );
+            pending.extend(operation.operands().filter(|value| !self.layout.is_named(*value)));
         }
         sources.sort_unstable();
         sources.dedup();
@@ -138,10 +120,7 @@ impl<'a> Body<'a> {
     }
 
     fn names_of(&self, values: &[Value]) -> Vec<Ident> {
-        values
-            .iter()
-            .filter_map(|value| self.names[value.index()].clone())
-            .collect()
+        values.iter().filter_map(|value| self.names[value.index()].clone()).collect()
     }
 
     /// A value as an operand: its name where it has one.

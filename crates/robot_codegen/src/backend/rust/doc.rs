@@ -5,11 +5,7 @@ use syn::{Attribute, parse_quote};
 /// Documentation attributes, one for each line.
 pub(super) fn attributes(lines: &[String]) -> Vec<Attribute> {
     let lines = lines.iter().map(|line| {
-        let line = if line.is_empty() {
-            line.clone()
-        } else {
-            format!(" {line}")
-        };
+        let line = if line.is_empty() { line.clone() } else { format!(" {line}") };
         parse_quote!(#[doc = #line])
     });
     lines.collect()
@@ -70,13 +66,7 @@ pub(super) fn array(meaning: &str, name: &str, unit: &str, shape: &[usize]) -> S
 /// Text in a `//` comment: one line.
 pub(super) fn comment_line(text: &str) -> String {
     let visible = text.chars().filter(|character| !is_invisible(*character));
-    let one_line = visible.map(|c| {
-        if c.is_control() || c.is_whitespace() {
-            ' '
-        } else {
-            c
-        }
-    });
+    let one_line = visible.map(|c| if c.is_control() || c.is_whitespace() { ' ' } else { c });
     one_line.collect::<String>().trim_end().to_owned()
 }
 
@@ -99,14 +89,8 @@ mod tests {
 
     #[test]
     fn nothing_but_text_is_left() {
-        assert_eq!(
-            sanitise("a\r\n    ```\n\tb\u{202e}c"),
-            ["a", "\\`\\`\\`", "bc"]
-        );
-        assert_eq!(
-            sanitise_line("see [x](y) */ <script>"),
-            "see \\[x\\](y) \\*/ \\<script\\>"
-        );
+        assert_eq!(sanitise("a\r\n    ```\n\tb\u{202e}c"), ["a", "\\`\\`\\`", "bc"]);
+        assert_eq!(sanitise_line("see [x](y) */ <script>"), "see \\[x\\](y) \\*/ \\<script\\>");
         assert_eq!(comment_line("x\n}fn y(){}\u{2028}"), "x }fn y(){}");
     }
 }

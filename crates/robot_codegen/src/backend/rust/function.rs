@@ -83,12 +83,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         plain: &Ident,
     ) -> Methods<'s, 'a> {
         let names = Names::new(&mut scope.methods, plain);
-        Methods {
-            scope,
-            function,
-            number,
-            names,
-        }
+        Methods { scope, function, number, names }
     }
 
     fn all(&mut self) -> Vec<ImplItem> {
@@ -106,9 +101,7 @@ impl<'s, 'a> Methods<'s, 'a> {
     /// Whether every angle is a plain entry of an input.
     fn has_plain_angles(&self) -> bool {
         let operations = self.function.angles.operations();
-        operations
-            .iter()
-            .all(|operation| matches!(operation, Operation::Load(Source::Input(_))))
+        operations.iter().all(|operation| matches!(operation, Operation::Load(Source::Input(_))))
     }
 
     /// From the inputs: the angles, their sines and cosines, and the arithmetic.
@@ -117,11 +110,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let mut variables = Variables::new(self.scope, function);
         let in_core = used_inputs(function, &function.core);
         let in_angles = used_inputs(function, &function.angles);
-        let used: Vec<bool> = in_core
-            .iter()
-            .zip(&in_angles)
-            .map(|(a, b)| *a || *b)
-            .collect();
+        let used: Vec<bool> = in_core.iter().zip(&in_angles).map(|(a, b)| *a || *b).collect();
         let mut statements = variables.ignore(&used);
         let angles: Expr = if self.has_plain_angles() {
             statements.extend(variables.take_entries(function, &function.angles));
@@ -150,10 +139,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let mut statements = variables.take_entries(function, &function.angles);
         let run = self.run(&function.angles, &mut variables, &name);
         statements.extend(run.statements);
-        let text = format!(
-            "The angles whose sines and cosines `{}` takes, in rad.",
-            self.names.sc
-        );
+        let text = format!("The angles whose sines and cosines `{}` takes, in rad.", self.names.sc);
         let docs = doc::attributes(&[text]);
         let parameters = self.input_parameters(&variables, &used);
         let returned = syntax::array_type(&self.number.ty(), run.results.len());
@@ -216,26 +202,15 @@ impl<'s, 'a> Methods<'s, 'a> {
         let source_name = |source: Source| variables.name(source);
         let load = |source: Source| match source {
             Source::Field(index) => number.field(&fields[index as usize]),
-            _ => source_name(source)
-                .as_ref()
-                .map_or_else(syntax::nothing, syntax::variable),
+            _ => source_name(source).as_ref().map_or_else(syntax::nothing, syntax::variable),
         };
         let limits = &self.scope.options.limits;
         let body = Body::new(program, limits, number, &load, &mut namer);
-        let frame = Frame {
-            number,
-            name,
-            is_method: true,
-            is_const: false,
-            source_name: &source_name,
-        };
+        let frame =
+            Frame { number, name, is_method: true, is_const: false, source_name: &source_name };
         let results = body.results();
         let (statements, parts) = parts::statements(self.scope, &body, &frame);
-        Run {
-            statements,
-            results,
-            parts,
-        }
+        Run { statements, results, parts }
     }
 
     fn method(
@@ -262,11 +237,7 @@ impl<'s, 'a> Methods<'s, 'a> {
 
     fn input_parameters(&self, variables: &Variables, include: &[bool]) -> Vec<TokenStream> {
         let ty = self.number.ty();
-        let inputs = variables
-            .inputs
-            .iter()
-            .zip(&self.function.inputs)
-            .zip(include);
+        let inputs = variables.inputs.iter().zip(&self.function.inputs).zip(include);
         let included = inputs.filter(|(_, include)| **include);
         let parameters = included.map(|((name, input), _)| {
             let array = syntax::array_type(&ty, input.symbols.len());
@@ -309,10 +280,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let name = self.names.angles.clone();
         let run = self.run(&function.angles, &mut variables, &name);
         if run.statements.is_empty() {
-            let texts = run
-                .results
-                .iter()
-                .map(|angle| format!("`{}`", angle.to_token_stream()));
+            let texts = run.results.iter().map(|angle| format!("`{}`", angle.to_token_stream()));
             texts.collect()
         } else {
             vec![format!("those of `{name}`")]

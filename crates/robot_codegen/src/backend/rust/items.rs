@@ -19,10 +19,7 @@ use crate::spec::ParameterSpec;
 pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
     let items = scope.options.constants.iter().zip(&scope.constants);
     let items = items.map(|(item, name)| {
-        let docs = doc::attributes(&doc::paragraphs(
-            std::slice::from_ref(&item.doc),
-            &item.name,
-        ));
+        let docs = doc::attributes(&doc::paragraphs(std::slice::from_ref(&item.doc), &item.name));
         match &item.value {
             ConstantValue::Size(size) => {
                 let size = Literal::usize_unsuffixed(*size);
@@ -189,11 +186,7 @@ fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &
     let rest = (loaded.len() < locals.len()).then(|| quote!(..));
     let fields = loaded.iter().map(|index| {
         let (field, local) = (&scope.parameters[*index], &locals[*index]);
-        if field == local {
-            quote!(#field)
-        } else {
-            quote!(#field: #local)
-        }
+        if field == local { quote!(#field) } else { quote!(#field: #local) }
     });
     parse_quote!(let Parameters { #(#fields,)* #rest } = *#from;)
 }
@@ -242,11 +235,7 @@ pub(super) fn operations_text(counts: &Counts) -> String {
         .filter(|(count, _)| *count > 0)
         .map(|(count, kind)| format!("{count} {kind}{}", if count == 1 { "" } else { "s" }))
         .collect();
-    if texts.is_empty() {
-        "No operations".to_owned()
-    } else {
-        texts.join(", ")
-    }
+    if texts.is_empty() { "No operations".to_owned() } else { texts.join(", ") }
 }
 
 /// A name that a namer in use already gave, with something added.

@@ -72,9 +72,7 @@ pub(super) struct Namer {
 impl Namer {
     /// A namer whose scope already has some names.
     pub(super) fn with(names: &[&str]) -> Namer {
-        Namer {
-            taken: names.iter().map(|name| (*name).to_owned()).collect(),
-        }
+        Namer { taken: names.iter().map(|name| (*name).to_owned()).collect() }
     }
 
     /// An identifier as near to `text` as can be.

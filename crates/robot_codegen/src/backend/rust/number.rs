@@ -40,10 +40,7 @@ impl Number {
 
     /// The same for any scalar of the runtime.
     pub(super) fn generic(&self) -> Number {
-        Number {
-            kind: Kind::Generic,
-            ..self.clone()
-        }
+        Number { kind: Kind::Generic, ..self.clone() }
     }
 
     pub(super) fn is_generic(&self) -> bool {

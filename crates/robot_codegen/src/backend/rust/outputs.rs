@@ -17,21 +17,14 @@ pub(super) fn type_item(scope: &Scope<'_>, function: &Function, generic: bool) -
     let title = doc::sanitise_line(&function.name);
     let docs = doc::attributes(&[format!("The outputs of {title}.")]);
     let stored = scope.number.ty();
-    let (parameters, ty): (Option<TokenStream>, Type) = if generic {
-        (Some(quote!(<T = #stored>)), parse_quote!(T))
-    } else {
-        (None, stored)
-    };
-    let fields = function
-        .outputs
-        .iter()
-        .zip(fields(function))
-        .map(|(output, name)| {
-            let text = doc::array(&output.doc, &output.name, &output.unit, &output.shape);
-            let docs = doc::attributes(&[text]);
-            let ty = syntax::shaped_type(&ty, &output.shape);
-            quote!(#(#docs)* pub #name: #ty)
-        });
+    let (parameters, ty): (Option<TokenStream>, Type) =
+        if generic { (Some(quote!(<T = #stored>)), parse_quote!(T)) } else { (None, stored) };
+    let fields = function.outputs.iter().zip(fields(function)).map(|(output, name)| {
+        let text = doc::array(&output.doc, &output.name, &output.unit, &output.shape);
+        let docs = doc::attributes(&[text]);
+        let ty = syntax::shaped_type(&ty, &output.shape);
+        quote!(#(#docs)* pub #name: #ty)
+    });
     Some(parse_quote! {
         #(#docs)*
         #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,10 +51,7 @@ pub(super) fn returned(scope: &Scope<'_>, function: &Function, number: &Number) 
 /// The results of a program as the value that its function returns.
 pub(super) fn value(scope: &Scope<'_>, function: &Function, results: Vec<Expr>) -> Expr {
     let mut results = results.into_iter();
-    let mut values = function
-        .outputs
-        .iter()
-        .map(|output| shape(output, &mut results));
+    let mut values = function.outputs.iter().map(|output| shape(output, &mut results));
     match scope.output_type(function) {
         None => values.next().unwrap_or_else(|| syntax::tuple(vec![])),
         Some(name) => {

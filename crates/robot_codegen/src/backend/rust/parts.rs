@@ -42,11 +42,7 @@ pub(super) fn statements(
     for (index, part) in body.parts(frame.source_name).into_iter().enumerate() {
         let name = format_ident!("{}_part{}", frame.name, index + 1);
         let method = scope.methods.name(&name.to_string());
-        let callee = if frame.is_method {
-            quote!(self.#method)
-        } else {
-            quote!(Model::#method)
-        };
+        let callee = if frame.is_method { quote!(self.#method) } else { quote!(Model::#method) };
         let taken = Literal::usize_unsuffixed(part.entering.len());
         let given = Literal::usize_unsuffixed(part.leaving.len());
         let pattern = |names: &[Ident]| syntax::array_pattern(names.iter().map(syntax::binding));
@@ -63,11 +59,7 @@ pub(super) fn statements(
         let take = syntax::binding_statement(pattern(&part.entering), parse_quote!(*#live));
         let mut statements = vec![take];
         statements.extend(part.statements);
-        items.push(syntax::with_body(
-            signature,
-            statements,
-            values(&part.leaving),
-        ));
+        items.push(syntax::with_body(signature, statements, values(&part.leaving)));
     }
     (calls, items)
 }

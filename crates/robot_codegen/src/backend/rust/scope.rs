@@ -33,27 +33,22 @@ pub(super) struct Scope<'a> {
 
 impl<'a> Scope<'a> {
     pub(super) fn new(module: &'a Module, options: &'a RustOptions) -> Result<Scope<'a>, Errors> {
-        let runtime: syn::Path =
-            syn::parse_str(&options.runtime).map_err(|_| Error::RuntimePath {
-                path: options.runtime.clone(),
-            })?;
+        let runtime: syn::Path = syn::parse_str(&options.runtime)
+            .map_err(|_| Error::RuntimePath { path: options.runtime.clone() })?;
         if options.scalar == Scalar::F32 {
             check_single_precision(module)?;
         }
         let mut values = Namer::with(&["Model", "Parameters", "T"]);
         let constants = options.constants.iter();
-        let constants = constants
-            .map(|item| values.name(&item.name.to_uppercase()))
-            .collect();
+        let constants = constants.map(|item| values.name(&item.name.to_uppercase())).collect();
         let output_type = |function: &Function| {
             (function.outputs.len() > 1).then(|| values.name(&type_name(&function.name)))
         };
         let output_types = module.functions.iter().map(output_type).collect();
         let mut parameter_namer = Namer::default();
         let parameters = module.parameters.iter();
-        let parameters = parameters
-            .map(|parameter| parameter_namer.name(&parameter.name))
-            .collect();
+        let parameters =
+            parameters.map(|parameter| parameter_namer.name(&parameter.name)).collect();
         let number = Number::scalar(options.scalar, &runtime, options.trigonometry);
         Ok(Scope {
             module,
@@ -93,11 +88,7 @@ fn field_names(module: &Module) -> Vec<Ident> {
     let fields = 0..module.constructor.results().len();
     // Copies first, so that none of them has to give way to a number.
     let copies: Vec<Option<Ident>> = fields
-        .map(|field| {
-            module
-                .field_parameter(field)
-                .map(|parameter| namer.name(&parameter.name))
-        })
+        .map(|field| module.field_parameter(field).map(|parameter| namer.name(&parameter.name)))
         .collect();
     let mut count = 0;
     let name = |copy: Option<Ident>| {

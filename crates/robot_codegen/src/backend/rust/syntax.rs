@@ -25,11 +25,7 @@ pub(super) fn negative(operand: Expr) -> Expr {
 }
 
 pub(super) fn variable(name: &Ident) -> Expr {
-    Expr::Path(syn::ExprPath {
-        attrs: vec![],
-        qself: None,
-        path: name.clone().into(),
-    })
+    Expr::Path(syn::ExprPath { attrs: vec![], qself: None, path: name.clone().into() })
 }
 
 pub(super) fn call(function: Expr, arguments: impl IntoIterator<Item = Expr>) -> Expr {
@@ -68,10 +64,7 @@ pub(super) fn block(statements: Vec<Stmt>, value: Expr) -> Expr {
     Expr::Block(syn::ExprBlock {
         attrs: vec![],
         label: None,
-        block: syn::Block {
-            brace_token: token::Brace::default(),
-            stmts,
-        },
+        block: syn::Block { brace_token: token::Brace::default(), stmts },
     })
 }
 
@@ -181,11 +174,7 @@ fn literal(is_negative: bool, digits: &str) -> Expr {
         attrs: vec![],
         lit: syn::Lit::Float(syn::LitFloat::new(digits, Span::call_site())),
     });
-    if is_negative {
-        negative(literal)
-    } else {
-        literal
-    }
+    if is_negative { negative(literal) } else { literal }
 }
 
 #[cfg(test)]
@@ -195,19 +184,8 @@ mod tests {
 
     #[test]
     fn literals_read_back_as_the_same_number() {
-        let values = [
-            0.0,
-            1.0,
-            0.1,
-            1e300,
-            5e-324,
-            f64::MAX,
-            1e15,
-            1e16,
-            1e-5,
-            123_456_789.125,
-            2.5e-7,
-        ];
+        let values =
+            [0.0, 1.0, 0.1, 1e300, 5e-324, f64::MAX, 1e15, 1e16, 1e-5, 123_456_789.125, 2.5e-7];
         for value in values.into_iter().flat_map(|value| [value, -value]) {
             let text = float(value).to_token_stream().to_string().replace(' ', "");
             assert_eq!(text.parse::<f64>().unwrap(), value, "{text}");

@@ -36,20 +36,10 @@ impl Variables {
         let angles = angle_names(function);
         let mut prefixed = |prefix: &str| {
             let names = angles.iter();
-            names
-                .map(|angle| namer.name(&format!("{prefix}{angle}")))
-                .collect()
+            names.map(|angle| namer.name(&format!("{prefix}{angle}"))).collect()
         };
         let (sine, cosine) = (prefixed("s"), prefixed("c"));
-        Variables {
-            namer,
-            inputs,
-            entries,
-            sines,
-            sine,
-            cosines,
-            cosine,
-        }
+        Variables { namer, inputs, entries, sines, sine, cosines, cosine }
     }
 
     /// The variable that a load reads, where it is one.
@@ -66,10 +56,7 @@ impl Variables {
     /// The variables of those inputs that are chosen.
     pub(super) fn chosen(&self, choice: &[bool]) -> Vec<&Ident> {
         let inputs = self.inputs.iter().zip(choice);
-        inputs
-            .filter(|(_, chosen)| **chosen)
-            .map(|(input, _)| input)
-            .collect()
+        inputs.filter(|(_, chosen)| **chosen).map(|(input, _)| input).collect()
     }
 
     /// `let [q1, _, q3] = *q;` for each input of which the program loads entries.
@@ -97,19 +84,14 @@ impl Variables {
         let sines = sines.map(|(name, index)| pattern(name, &sources, Source::Sin(index)));
         let cosines = self.cosine.iter().zip(0..);
         let cosines = cosines.map(|(name, index)| pattern(name, &sources, Source::Cos(index)));
-        [
-            take(&self.sines, sines.collect()),
-            take(&self.cosines, cosines.collect()),
-        ]
+        [take(&self.sines, sines.collect()), take(&self.cosines, cosines.collect())]
     }
 
     /// Takes inputs that are not used apart into nothing, so that they are no unused variables.
     pub(super) fn ignore(&self, used: &[bool]) -> Vec<Stmt> {
         let unused: Vec<bool> = used.iter().map(|used| !used).collect();
         let inputs = self.chosen(&unused).into_iter();
-        inputs
-            .map(|input| parse_quote!(let [..] = *#input;))
-            .collect()
+        inputs.map(|input| parse_quote!(let [..] = *#input;)).collect()
     }
 }
 

@@ -9,13 +9,7 @@ use robot_symbolic::{Expr, Graph};
 /// A planar arm of two links with point masses at their ends, in closed form.
 pub(crate) fn planar_arm(graph: &Graph) -> ModuleSpec<'_> {
     let symbol = |name: &str| graph.symbol(name);
-    let (m1, m2, l1, l2, g) = (
-        symbol("m1"),
-        symbol("m2"),
-        symbol("l1"),
-        symbol("l2"),
-        symbol("g"),
-    );
+    let (m1, m2, l1, l2, g) = (symbol("m1"), symbol("m2"), symbol("l1"), symbol("l2"), symbol("g"));
     let (q1, q2, qd1, qd2) = (symbol("q1"), symbol("q2"), symbol("qd1"), symbol("qd2"));
     let (a1, a2) = (symbol("qdd1"), symbol("qdd2"));
     let h = m2 * l1 * l2;
@@ -49,11 +43,7 @@ pub(crate) fn planar_arm(graph: &Graph) -> ModuleSpec<'_> {
             FunctionSpec {
                 name: "inverse_dynamics".into(),
                 doc: vec!["Joint torques of a motion.".into()],
-                inputs: vec![
-                    joints("q", "rad"),
-                    joints("qd", "rad/s"),
-                    joints("qdd", "rad/s^2"),
-                ],
+                inputs: vec![joints("q", "rad"), joints("qd", "rad/s"), joints("qdd", "rad/s^2")],
                 outputs: vec![vector("tau", "N m", vec![tau1, tau2])],
             },
             FunctionSpec {
@@ -65,10 +55,7 @@ pub(crate) fn planar_arm(graph: &Graph) -> ModuleSpec<'_> {
                         shape: vec![2, 2],
                         ..vector("m", "kg m^2", vec![m11, m12, m12, m22])
                     },
-                    OutputSpec {
-                        shape: vec![],
-                        ..vector("trace", "kg m^2", vec![m11 + m22])
-                    },
+                    OutputSpec { shape: vec![], ..vector("trace", "kg m^2", vec![m11 + m22]) },
                 ],
             },
         ],

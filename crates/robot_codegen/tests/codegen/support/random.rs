@@ -36,15 +36,9 @@ pub(crate) fn module<'g>(
     operations: usize,
 ) -> ModuleSpec<'g> {
     let names = |prefix: &str, count: usize| -> Vec<String> {
-        (1..=count)
-            .map(|index| format!("{prefix}{index}"))
-            .collect()
+        (1..=count).map(|index| format!("{prefix}{index}")).collect()
     };
-    let (parameters, q, v) = (
-        names("p", PARAMETERS),
-        names("q", ENTRIES),
-        names("v", ENTRIES),
-    );
+    let (parameters, q, v) = (names("p", PARAMETERS), names("q", ENTRIES), names("v", ENTRIES));
     let symbols = parameters.iter().chain(&q).chain(&v);
     let mut pool: Vec<Expr<'g>> = symbols.map(|name| graph.symbol(name)).collect();
     for _ in 0..operations {
@@ -74,23 +68,14 @@ pub(crate) fn module<'g>(
 }
 
 fn input(name: &str, symbols: Vec<String>) -> InputSpec {
-    InputSpec {
-        name: name.into(),
-        doc: String::new(),
-        unit: String::new(),
-        symbols,
-    }
+    InputSpec { name: name.into(), doc: String::new(), unit: String::new(), symbols }
 }
 
 /// An operation on values of the pool, rather the latest, that keeps sizes near 1.
 fn operation<'g>(graph: &'g Graph, random: &mut Random, pool: &[Expr<'g>]) -> Expr<'g> {
     let pick = |random: &mut Random| {
         let recent = pool.len().min(30);
-        let start = if random.below(4) == 0 {
-            0
-        } else {
-            pool.len() - recent
-        };
+        let start = if random.below(4) == 0 { 0 } else { pool.len() - recent };
         pool[start + random.below(pool.len() - start)]
     };
     let (a, b) = (pick(random), pick(random));
@@ -107,30 +92,13 @@ fn operation<'g>(graph: &'g Graph, random: &mut Random, pool: &[Expr<'g>]) -> Ex
             0 => a.sign() + bounded(b),
             1 => a.abs() - bounded(b).abs(),
             2 => a.tanh(),
-            _ => {
-                graph
-                    .number(Rational::new(random.below(9) as i64, 7).unwrap())
-                    .cos()
-                    * b
-            }
+            _ => graph.number(Rational::new(random.below(9) as i64, 7).unwrap()).cos() * b,
         },
         _ => {
             let angle = graph.symbol(&format!("q{}", 1 + random.below(ENTRIES)));
-            let angle = if random.below(3) == 0 {
-                angle * 2 + graph.symbol("p1")
-            } else {
-                angle
-            };
-            let angle = if random.below(6) == 0 {
-                bounded(a)
-            } else {
-                angle
-            };
-            if random.below(2) == 0 {
-                angle.sin() * a
-            } else {
-                angle.cos() + b
-            }
+            let angle = if random.below(3) == 0 { angle * 2 + graph.symbol("p1") } else { angle };
+            let angle = if random.below(6) == 0 { bounded(a) } else { angle };
+            if random.below(2) == 0 { angle.sin() * a } else { angle.cos() + b }
         }
     }
 }

@@ -51,11 +51,7 @@ pub(crate) fn compile(test: &str, text: &str, flags: &[&str]) -> PathBuf {
     let (source, program) = (folder.join("main.rs"), folder.join("program"));
     std::fs::write(&source, text).unwrap();
     let runtime = format!("robot_runtime={}", runtime().display());
-    run(rustc()
-        .args(flags)
-        .args(["--extern", &runtime, "-o"])
-        .arg(&program)
-        .arg(&source));
+    run(rustc().args(flags).args(["--extern", &runtime, "-o"]).arg(&program).arg(&source));
     program
 }
 
