@@ -4,6 +4,7 @@
 //! straight-line [`Program`]s, the [`interpreter`] runs them and a [`backend`] prints them.
 
 pub mod backend;
+mod cost;
 pub mod counts;
 mod error;
 pub mod interpreter;
@@ -15,11 +16,12 @@ pub mod spec;
 mod stage;
 mod trigonometry;
 
+pub use cost::Cost;
 pub use counts::{Counts, FunctionCounts, PassCounts};
 pub use error::{Error, Errors};
 pub use interpreter::{Interpreter, OutputValues};
 pub use module::Module;
-pub use passes::Options;
+pub use passes::{Fused, Options, Schedule};
 pub use program::Program;
 pub use spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
 pub use trigonometry::Trigonometry;

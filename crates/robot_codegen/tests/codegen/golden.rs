@@ -47,7 +47,12 @@ fn the_planar_arm_is_generated_as_committed() {
         std::fs::write(&path, &text).unwrap();
     }
     let committed = std::fs::read_to_string(&path).unwrap();
-    assert_eq!(text, committed.replace("\r\n", "\n"), "UPDATE_GOLDENS=1 writes it anew");
+    let committed = committed.replace("\r\n", "\n");
+    let pairs = committed.lines().zip(text.lines());
+    for (number, (committed, now)) in pairs.enumerate() {
+        assert_eq!(committed, now, "line {}; UPDATE_GOLDENS=1 writes it anew", number + 1);
+    }
+    assert_eq!(committed.len(), text.len());
 }
 
 /// States far from each other.

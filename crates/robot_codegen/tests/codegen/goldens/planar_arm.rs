@@ -71,13 +71,13 @@ pub mod planar_arm {
         #[must_use]
         pub const fn new(parameters: &Parameters) -> Model {
             let Parameters { m1, m2, l1, l2, g } = *parameters;
-            let t1 = l2 * (m2 * l2);
-            let t2 = m1 + m2;
+            let t1 = l2 * (l2 * m2);
+            let t2 = m2 + m1;
             Model {
-                k1: l2 * (m2 * l1),
-                k2: t1,
+                k1: l2 * (m2 * g),
+                k2: l2 * (m2 * l1),
                 k3: t1 + l1 * (l1 * t2),
-                k4: l2 * (m2 * g),
+                k4: t1,
                 k5: l1 * (g * t2),
             }
         }
@@ -91,7 +91,7 @@ pub mod planar_arm {
         ///
         /// Returns tau, in N m.
         ///
-        /// 13 multiplications, 13 additions, 1 sine, 3 cosines.
+        /// 12 multiplications, 13 additions, 1 sine, 3 cosines.
         #[inline]
         #[must_use]
         pub fn inverse_dynamics(
@@ -128,14 +128,14 @@ pub mod planar_arm {
             let [cq1, cq2, c3] = *c;
             let [qd1, qd2] = *qd;
             let [qdd1, qdd2] = *qdd;
-            let t1 = cq2 * self.k1;
-            let t2 = t1 + self.k2;
-            let t3 = c3 * self.k4;
-            let t4 = qdd1 * (t1 * 2.0 + self.k3) + qdd2 * t2;
-            let t5 = self.k1 * sq2;
-            let t6 = t4 - t5 * (2.0 * (qd1 * qd2) + qd2 * qd2);
-            let t7 = qdd1 * t2 + qdd2 * self.k2 + qd1 * (qd1 * t5);
-            [t3 + (t6 + cq1 * self.k5), t3 + t7]
+            let t1 = self.k2 * sq2;
+            let t2 = cq2 * self.k2;
+            let t3 = c3 * self.k1;
+            let t4 = t2 + self.k4;
+            let t5 = qdd2 * t4 + (t3 + qdd1 * (t2 * 2.0 + self.k3));
+            let t6 = t5 - t1 * (qd2 * (qd2 + 2.0 * qd1));
+            let t7 = qdd2 * self.k4 + (t3 + qdd1 * t4);
+            [cq1 * self.k5 + t6, t1 * (qd1 * qd1) + t7]
         }
         /// Joint torques of a motion.
         ///
@@ -145,7 +145,7 @@ pub mod planar_arm {
         ///
         /// Returns tau, in N m.
         ///
-        /// 13 multiplications, 13 additions, 1 sine, 3 cosines.
+        /// 12 multiplications, 13 additions, 1 sine, 3 cosines.
         #[inline]
         #[must_use]
         pub fn inverse_dynamics_generic<T: ::robot_runtime::Scalar>(
@@ -185,14 +185,15 @@ pub mod planar_arm {
             let [cq1, cq2, c3] = *c;
             let [qd1, qd2] = *qd;
             let [qdd1, qdd2] = *qdd;
-            let t1 = cq2 * T::from_f64(self.k1);
-            let t2 = t1 + T::from_f64(self.k2);
-            let t3 = c3 * T::from_f64(self.k4);
-            let t4 = qdd1 * (t1 * T::from_f64(2.0) + T::from_f64(self.k3)) + qdd2 * t2;
-            let t5 = T::from_f64(self.k1) * sq2;
-            let t6 = t4 - t5 * (T::from_f64(2.0) * (qd1 * qd2) + qd2 * qd2);
-            let t7 = qdd1 * t2 + qdd2 * T::from_f64(self.k2) + qd1 * (qd1 * t5);
-            [t3 + (t6 + cq1 * T::from_f64(self.k5)), t3 + t7]
+            let t1 = T::from_f64(self.k2) * sq2;
+            let t2 = cq2 * T::from_f64(self.k2);
+            let t3 = c3 * T::from_f64(self.k1);
+            let t4 = t2 + T::from_f64(self.k4);
+            let t5 = qdd2 * t4
+                + (t3 + qdd1 * (t2 * T::from_f64(2.0) + T::from_f64(self.k3)));
+            let t6 = t5 - t1 * (qd2 * (qd2 + T::from_f64(2.0) * qd1));
+            let t7 = qdd2 * T::from_f64(self.k4) + (t3 + qdd1 * t4);
+            [cq1 * T::from_f64(self.k5) + t6, t1 * (qd1 * qd1) + t7]
         }
         /// `inverse_dynamics` of many states, 8 at a time: entry i of each slice belongs to state i.
         ///
@@ -265,12 +266,12 @@ pub mod planar_arm {
         pub fn mass_matrix_sc(&self, s: &[f64; 1], c: &[f64; 1]) -> MassMatrix {
             let [_] = *s;
             let [cq2] = *c;
-            let t1 = cq2 * self.k1;
-            let t2 = t1 + self.k2;
-            let t3 = t1 * 2.0 + self.k3;
+            let t1 = cq2 * self.k2;
+            let t2 = t1 * 2.0 + self.k3;
+            let t3 = t1 + self.k4;
             MassMatrix {
-                m: [[t3, t2], [t2, self.k2]],
-                trace: self.k2 + t3,
+                m: [[t2, t3], [t3, self.k4]],
+                trace: self.k4 + t2,
             }
         }
         /// mass_matrix.
@@ -300,12 +301,12 @@ pub mod planar_arm {
         ) -> MassMatrix<T> {
             let [_] = *s;
             let [cq2] = *c;
-            let t1 = cq2 * T::from_f64(self.k1);
-            let t2 = t1 + T::from_f64(self.k2);
-            let t3 = t1 * T::from_f64(2.0) + T::from_f64(self.k3);
+            let t1 = cq2 * T::from_f64(self.k2);
+            let t2 = t1 * T::from_f64(2.0) + T::from_f64(self.k3);
+            let t3 = t1 + T::from_f64(self.k4);
             MassMatrix {
-                m: [[t3, t2], [t2, T::from_f64(self.k2)]],
-                trace: T::from_f64(self.k2) + t3,
+                m: [[t2, t3], [t3, T::from_f64(self.k4)]],
+                trace: T::from_f64(self.k4) + t2,
             }
         }
         /// `mass_matrix` of many states, 8 at a time: entry i of each slice belongs to state i.

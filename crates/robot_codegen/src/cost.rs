@@ -1,0 +1,31 @@
+//! What the passes minimise.
+
+use crate::counts::Counts;
+use crate::passes::{fusing, product_last};
+use crate::program::Program;
+
+/// A measure of programs: a pass whose result measures more is not taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Cost {
+    /// Multiplications, additions and divisions at a call.
+    #[default]
+    Operations,
+    /// Instructions at a call on a target with fused multiply-add: the operations, each product
+    /// that fuses with a sum not counted.
+    Instructions,
+}
+
+impl Cost {
+    /// The cost of a call of a program that loads parameters.
+    #[must_use]
+    pub fn of(self, program: &Program) -> usize {
+        let weigh = |counts: Counts| counts.operations() + counts.sqrt + counts.other;
+        match self {
+            Cost::Operations => weigh(Counts::of_calls(program)),
+            Cost::Instructions => {
+                let counts = Counts::of_calls(&fusing::run(&product_last::run(program)));
+                weigh(counts) - counts.fused
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Factoring: a b + a c becomes a (b + c) where that saves operations.
+
+use rustc_hash::FxHashMap;
+
+use super::nary::{Id, Nary, Node, Term};
+use crate::program::Program;
+
+/// Takes common factors out of sums, the one that saves most first.
+///
+/// What depends on parameters alone costs nothing at a call: x p + x r becomes x (p + r) with the
+/// sum in the constructor. Reassociates.
+#[must_use]
+pub fn run(program: &Program) -> Program {
+    let mut view = Nary::new(program);
+    let mut uses = view.uses();
+    let mut pending: Vec<Id> = (0..view.len() as Id).rev().collect();
+    while let Some(id) = pending.pop() {
+        while uses[id as usize] > 0
+            && let Some(factoring) = best(&view, id, &uses)
+        {
+            let inner = factoring.apply(&mut view, id);
+            uses.resize(view.len(), 1);
+            pending.push(inner);
+        }
+    }
+    view.program()
+}
+
+/// A factor and the terms of the sum that have it.
+struct Factoring {
+    factor: Id,
+    terms: Vec<usize>,
+}
+
+/// The factoring of a sum that saves most operations; of several, the one of the earliest node.
+fn best(view: &Nary, sum: Id, uses: &[u32]) -> Option<Factoring> {
+    let Node::Sum(terms) = view.node(sum) else {
+        return None;
+    };
+    let mut candidates: FxHashMap<Id, Vec<usize>> = FxHashMap::default();
+    let mut order: Vec<Id> = vec![];
+    for (place, term) in terms.iter().enumerate() {
+        for factor in factors(view, term.node, uses) {
+            let places = candidates.entry(factor).or_default();
+            if places.is_empty() {
+                order.push(factor);
+            }
+            if places.last() != Some(&place) {
+                places.push(place);
+            }
+        }
+    }
+    let mut best: Option<(usize, Factoring)> = None;
+    for factor in order {
+        let places = candidates.remove(&factor).unwrap_or_default();
+        if places.len() < 2 {
+            continue;
+        }
+        let saving = saving(view, terms, factor, &places, uses);
+        let better = best.as_ref().is_none_or(|(most, known)| {
+            saving > *most || (saving == *most && factor < known.factor)
+        });
+        if saving > 0 && better {
+            best = Some((saving, Factoring { factor, terms: places }));
+        }
+    }
+    best.map(|(_, factoring)| factoring)
+}
+
+/// The factors of a term that nothing else needs; else the term is its own only factor.
+fn factors(view: &Nary, node: Id, uses: &[u32]) -> Vec<Id> {
+    match view.node(node) {
+        Node::Product(factors) if uses[node as usize] == 1 => factors.clone(),
+        _ => vec![node],
+    }
+}
+
+/// The factors but one.
+fn without(mut factors: Vec<Id>, factor: Id) -> Vec<Id> {
+    if let Some(place) = factors.iter().position(|known| *known == factor) {
+        factors.remove(place);
+    }
+    factors
+}
+
+fn saving(view: &Nary, terms: &[Term], factor: Id, places: &[usize], uses: &[u32]) -> usize {
+    let is_early = |factors: &[Id]| factors.iter().all(|factor| view.is_early(*factor));
+    let all: Vec<Vec<Id>> = terms.iter().map(|term| factors(view, term.node, uses)).collect();
+    let rests = places.iter().map(|place| without(all[*place].clone(), factor));
+    let rests: Vec<Vec<Id>> = rests.collect();
+    let inner_early = rests.iter().filter(|rest| is_early(rest)).count();
+    let inner = operations(rests.len(), inner_early);
+    // The factor times the inner sum, which is early where all of it is.
+    let whole_early = inner_early == rests.len();
+    let product = operations(2, usize::from(view.is_early(factor)) + usize::from(whole_early));
+    let outside: Vec<usize> = (0..terms.len()).filter(|place| !places.contains(place)).collect();
+    let outer_early = outside.iter().filter(|place| is_early(&all[**place])).count();
+    let product_early = usize::from(view.is_early(factor) && whole_early);
+    let outer = operations(outside.len() + 1, outer_early + product_early);
+    let before_early = all.iter().filter(|factors| is_early(factors)).count();
+    let before_sum = operations(terms.len(), before_early);
+    let multiplications = |factors: &Vec<Id>| {
+        let early = factors.iter().filter(|factor| view.is_early(**factor)).count();
+        operations(factors.len(), early)
+    };
+    let before_products: usize = places.iter().map(|place| multiplications(&all[*place])).sum();
+    let after_products: usize = rests.iter().map(multiplications).sum();
+    let (before, after) = (before_sum + before_products, inner + product + outer + after_products);
+    before.saturating_sub(after)
+}
+
+/// The operations at a call that join so many operands, of which those known early are joined in
+/// the constructor.
+fn operations(operands: usize, early: usize) -> usize {
+    if operands == early { 0 } else { operands - early - 1 + usize::from(early > 0) }
+}
+
+impl Factoring {
+    /// Rewrites the sum; gives the new sum that is multiplied by the factor.
+    fn apply(&self, view: &mut Nary, sum: Id) -> Id {
+        let Node::Sum(terms) = view.node(sum).clone() else {
+            return sum;
+        };
+        let inner: Vec<Term> = self
+            .terms
+            .iter()
+            .map(|place| {
+                let term = terms[*place];
+                let rest = match view.node(term.node) {
+                    Node::Product(factors) if term.node != self.factor => {
+                        without(factors.clone(), self.factor)
+                    }
+                    _ => vec![],
+                };
+                let node = match rest.as_slice() {
+                    [] => view.constant(1.0),
+                    [single] => *single,
+                    _ => view.push(Node::Product(rest)),
+                };
+                Term { node, negative: term.negative }
+            })
+            .collect();
+        let inner = view.push(Node::Sum(inner));
+        let product = Node::Product(vec![self.factor, inner]);
+        let places = terms.iter().enumerate();
+        let mut outer: Vec<Term> = places
+            .filter(|(place, _)| !self.terms.contains(place))
+            .map(|(_, term)| *term)
+            .collect();
+        if outer.is_empty() {
+            view.replace(sum, product);
+        } else {
+            outer.push(Term::positive(view.push(product)));
+            view.replace(sum, Node::Sum(outer));
+        }
+        inner
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counts::Counts;
+    use crate::passes::testing::assert_same_values;
+    use crate::program::{Builder, Source};
+
+    #[test]
+    fn values_stay() {
+        assert_same_values("factoring", run);
+    }
+
+    #[test]
+    fn common_factors_leave_sums() {
+        let mut b = Builder::new();
+        let [x, y, z, w] = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
+        let [xy, xz, yw] = [b.mul(x, y), b.mul(x, z), b.mul(y, w)];
+        let (sum, rest) = (b.add(xy, xz), b.mul(xz, w));
+        let sum = b.sub(sum, yw);
+        // x y + x z − y w with x z needed again: y (x − w) + x z.
+        let factored = Counts::of(&run(&b.finish(vec![sum, rest])));
+        assert_eq!((factored.mul, factored.add), (3, 2));
+    }
+
+    #[test]
+    fn sums_of_parameters_go_to_the_constructor() {
+        let mut b = Builder::new();
+        let x = b.load(Source::Input(0));
+        let [p, r] = [0, 1].map(|index| b.load(Source::Parameter(index)));
+        let (px, rx) = (b.mul(p, x), b.mul(r, x));
+        let sum = b.add(px, rx);
+        let counts = Counts::of_calls(&run(&b.finish(vec![sum])));
+        assert_eq!((counts.mul, counts.add), (1, 0));
+    }
+}

@@ -1,0 +1,258 @@
+//! Pair reuse: two terms or factors that stand together in several sums or products are joined
+//! once.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rustc_hash::FxHashMap;
+
+use super::nary::{Id, Nary, Node, Term};
+use crate::program::Program;
+
+/// Longer sums and products are left alone: their pairs are too many.
+const LONGEST: usize = 64;
+
+/// Joins pairs, the one that stands together most often first.
+///
+/// Terms pair up to a common sign. What depends on parameters alone is joined in any case, for it
+/// costs nothing at a call. Reassociates.
+#[must_use]
+pub fn run(program: &Program) -> Program {
+    let mut view = Nary::new(program);
+    for kind in [Kind::Product, Kind::Sum] {
+        Rows::new(&mut view, kind).reduce(&mut view);
+    }
+    view.program()
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Sum,
+    Product,
+}
+
+impl Kind {
+    fn node(self, terms: Vec<Term>) -> Node {
+        match self {
+            Kind::Sum => Node::Sum(terms),
+            Kind::Product => Node::Product(terms.into_iter().map(|term| term.node).collect()),
+        }
+    }
+}
+
+/// Two nodes, the smaller first, and whether their signs differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+struct Pair(Id, Id, bool);
+
+impl Pair {
+    fn new(a: Term, b: Term) -> Pair {
+        Pair(a.node.min(b.node), a.node.max(b.node), a.negative != b.negative)
+    }
+
+    /// The pair as terms, the first positive.
+    fn terms(self) -> [Term; 2] {
+        [Term::positive(self.0), Term { node: self.1, negative: self.2 }]
+    }
+}
+
+/// The sums or products of a view.
+struct Rows {
+    kind: Kind,
+    rows: Vec<(Id, Vec<Term>)>,
+    counts: FxHashMap<Pair, u32>,
+    /// The rows in which a pair stood when it was counted; it may have left them since.
+    places: FxHashMap<Pair, Vec<usize>>,
+    heap: BinaryHeap<(u32, Reverse<Pair>)>,
+}
+
+impl Rows {
+    fn new(view: &mut Nary, kind: Kind) -> Rows {
+        let uses = view.uses();
+        let mut rows = Rows {
+            kind,
+            rows: vec![],
+            counts: FxHashMap::default(),
+            places: FxHashMap::default(),
+            heap: BinaryHeap::new(),
+        };
+        let mut early: FxHashMap<Vec<Term>, Id> = FxHashMap::default();
+        for id in 0..uses.len() as Id {
+            if uses[id as usize] == 0 || view.is_early(id) {
+                continue;
+            }
+            let terms = match (view.node(id), kind) {
+                (Node::Sum(terms), Kind::Sum) => terms.clone(),
+                (Node::Product(factors), Kind::Product) => {
+                    factors.iter().copied().map(Term::positive).collect()
+                }
+                _ => continue,
+            };
+            let terms = join_early(view, kind, terms, &mut early);
+            if terms.len() <= LONGEST {
+                rows.add(id, terms);
+            } else {
+                view.replace(id, kind.node(terms));
+            }
+        }
+        rows
+    }
+
+    fn add(&mut self, id: Id, terms: Vec<Term>) {
+        let row = self.rows.len();
+        for (place, a) in terms.iter().enumerate() {
+            for b in &terms[place + 1..] {
+                self.count(Pair::new(*a, *b), row);
+            }
+        }
+        self.rows.push((id, terms));
+    }
+
+    fn count(&mut self, pair: Pair, row: usize) {
+        let count = self.counts.entry(pair).or_default();
+        *count += 1;
+        let count = *count;
+        self.places.entry(pair).or_default().push(row);
+        if count > 1 {
+            self.heap.push((count, Reverse(pair)));
+        }
+    }
+
+    fn reduce(mut self, view: &mut Nary) {
+        while let Some((count, Reverse(pair))) = self.heap.pop() {
+            let now = self.counts.get(&pair).copied().unwrap_or(0);
+            if now == count {
+                self.join(pair, view);
+            } else if now > 1 {
+                // It was counted higher before some of its rows changed.
+                self.heap.push((now, Reverse(pair)));
+            }
+        }
+        for (id, terms) in self.rows {
+            view.replace(id, self.kind.node(terms));
+        }
+    }
+
+    /// Puts one node in the place of a pair wherever it stands.
+    fn join(&mut self, pair: Pair, view: &mut Nary) {
+        let mut rows = self.places.remove(&pair).unwrap_or_default();
+        rows.sort_unstable();
+        rows.dedup();
+        let places: usize = rows.iter().map(|row| self.occurrences(*row, pair)).sum();
+        self.counts.remove(&pair);
+        // Squares may overlap: x³ has three pairs (x, x) but room for one.
+        if places < 2 {
+            return;
+        }
+        let joined = view.push(self.kind.node(pair.terms().to_vec()));
+        for row in rows {
+            for _ in 0..self.occurrences(row, pair) {
+                self.join_in(row, pair, joined);
+            }
+        }
+    }
+
+    /// How often a pair stands in a row, without overlap.
+    fn occurrences(&self, row: usize, pair: Pair) -> usize {
+        let terms = &self.rows[row].1;
+        let count = |node: Id| terms.iter().filter(|term| term.node == node).count();
+        if pair.0 == pair.1 {
+            return count(pair.0) / 2;
+        }
+        if self.kind == Kind::Product {
+            return count(pair.0).min(count(pair.1));
+        }
+        let term = |node: Id| terms.iter().find(|term| term.node == node);
+        let both = term(pair.0).zip(term(pair.1));
+        usize::from(both.is_some_and(|(a, b)| Pair::new(*a, *b) == pair))
+    }
+
+    fn join_in(&mut self, row: usize, pair: Pair, joined: Id) {
+        let mut terms = std::mem::take(&mut self.rows[row].1);
+        let take = |terms: &mut Vec<Term>, node: Id| {
+            let place = terms.iter().position(|term| term.node == node)?;
+            Some(terms.remove(place))
+        };
+        let (first, second) = (take(&mut terms, pair.0), take(&mut terms, pair.1));
+        for gone in first.into_iter().chain(second) {
+            for other in &terms {
+                if let Some(count) = self.counts.get_mut(&Pair::new(gone, *other)) {
+                    *count = count.saturating_sub(1);
+                }
+            }
+        }
+        let negative = first.is_some_and(|first| first.negative);
+        let new = Term { node: joined, negative };
+        for other in &terms {
+            self.count(Pair::new(new, *other), row);
+        }
+        terms.push(new);
+        self.rows[row].1 = terms;
+    }
+}
+
+/// Joins the terms that are known before the call into one, the same for the same terms.
+fn join_early(
+    view: &mut Nary,
+    kind: Kind,
+    terms: Vec<Term>,
+    known: &mut FxHashMap<Vec<Term>, Id>,
+) -> Vec<Term> {
+    let (mut early, mut late): (Vec<Term>, Vec<Term>) =
+        terms.into_iter().partition(|term| view.is_early(term.node));
+    if early.len() < 2 || late.is_empty() {
+        early.extend(late);
+        return early;
+    }
+    early.sort_unstable();
+    let negative = early[0].negative;
+    let flip = |term: &Term| Term { negative: term.negative != negative, ..*term };
+    let key: Vec<Term> = early.iter().map(flip).collect();
+    let node = match known.get(&key) {
+        Some(node) => *node,
+        None => {
+            let node = view.push(kind.node(key.clone()));
+            known.insert(key, node);
+            node
+        }
+    };
+    late.insert(0, Term { node, negative });
+    late
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counts::Counts;
+    use crate::passes::testing::assert_same_values;
+    use crate::program::{Builder, Source, Value};
+
+    #[test]
+    fn values_stay() {
+        assert_same_values("pair reuse", run);
+    }
+
+    fn inputs(builder: &mut Builder) -> [Value; 5] {
+        [0, 1, 2, 3, 4].map(|index| builder.load(Source::Input(index)))
+    }
+
+    #[test]
+    fn common_pairs_of_sums_are_added_once() {
+        let mut b = Builder::new();
+        let [u, v, x, y, z] = inputs(&mut b);
+        // u + v + x, y − u − v, and v + z + u
+        let (ux, uy) = (b.add(u, x), b.sub(y, u));
+        let vz = b.add(v, z);
+        let results = vec![b.add(ux, v), b.sub(uy, v), b.add(vz, u)];
+        assert_eq!(Counts::of(&run(&b.finish(results))).add, 4);
+    }
+
+    #[test]
+    fn squares_in_high_powers_are_shared() {
+        let mut b = Builder::new();
+        let [x, y, z, ..] = inputs(&mut b);
+        let cube = [x, x].into_iter().fold(x, |power, x| b.mul(power, x));
+        let other = [z, x, x].into_iter().fold(y, |product, x| b.mul(product, x));
+        // x² once, then x² x, and (x² y) z
+        assert_eq!(Counts::of(&run(&b.finish(vec![cube, other]))).mul, 4);
+    }
+}

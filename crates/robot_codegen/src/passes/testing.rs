@@ -1,0 +1,136 @@
+//! Random programs for the tests of passes.
+
+use robot_symbolic::Function;
+
+use crate::program::{Builder, Operation, Program, Source, Value};
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+pub(super) struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, limit: usize) -> usize {
+        (self.bits() % limit as u64) as usize
+    }
+
+    /// Between 1/4 and 7/4, or the negative of such a number.
+    fn real(&mut self) -> f64 {
+        let size = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64 * 1.5 + 0.25;
+        if self.below(2) == 0 { size } else { -size }
+    }
+}
+
+const SEEDS: u64 = 200;
+
+/// A program with loads of parameters and inputs, many sums and products, and some of the rest.
+pub(super) fn random_program(seed: u64) -> Program {
+    let mut random = Random(seed);
+    let mut builder = Builder::new();
+    let mut pool: Vec<Value> = (0..4).map(|index| builder.load(Source::Parameter(index))).collect();
+    pool.extend((0..4).map(|index| builder.load(Source::Input(index))));
+    pool.extend([Source::Sin(0), Source::Cos(0)].map(|source| builder.load(source)));
+    for constant in [2.0, 0.5, 1.0, -3.0] {
+        pool.push(builder.constant(constant));
+    }
+    for _ in 0..20 + random.below(60) {
+        let [a, b, c] = [0; 3].map(|_| pool[random.below(pool.len())]);
+        let value = match random.below(20) {
+            0..=5 => builder.add(a, b),
+            6..=8 => builder.sub(a, b),
+            9..=15 => builder.mul(a, b),
+            16 => builder.neg(a),
+            17 => builder.push(Operation::MulAdd(a, b, c)),
+            18 => builder.div(a, b),
+            _ => builder.call(Function::Abs, a),
+        };
+        pool.push(value);
+    }
+    let results = (0..1 + random.below(5)).map(|_| pool[pool.len() - 1 - random.below(12)]);
+    builder.finish(results.collect())
+}
+
+/// The value of each result, and a bound of how far rounding can move it, in units of 2⁻⁵³.
+fn values_with_bounds(program: &Program, load: impl Fn(Source) -> f64) -> Vec<(f64, f64)> {
+    let mut values: Vec<(f64, f64)> = vec![];
+    for operation in program.operations() {
+        let at = |value: Value| values[value.index()];
+        let (value, bound) = match *operation {
+            Operation::Constant(constant) => (constant.get(), 0.0),
+            Operation::Load(source) => (load(source), 0.0),
+            Operation::Add(a, b) => (at(a).0 + at(b).0, at(a).1 + at(b).1),
+            Operation::Sub(a, b) => (at(a).0 - at(b).0, at(a).1 + at(b).1),
+            Operation::Mul(a, b) => {
+                (at(a).0 * at(b).0, at(a).1 * at(b).0.abs() + at(a).0.abs() * at(b).1)
+            }
+            Operation::MulAdd(a, b, c) => {
+                let product = at(a).1 * at(b).0.abs() + at(a).0.abs() * at(b).1;
+                (at(a).0 * at(b).0 + at(c).0, product + (at(a).0 * at(b).0).abs() + at(c).1)
+            }
+            Operation::Div(a, b) => {
+                let value = at(a).0 / at(b).0;
+                (value, (at(a).1 + value.abs() * at(b).1) / at(b).0.abs())
+            }
+            Operation::Neg(a) => (-at(a).0, at(a).1),
+            Operation::Call(function, a) => (function.apply(at(a).0), at(a).1),
+        };
+        values.push((value, bound + value.abs()));
+    }
+    program.results().iter().map(|value| values[value.index()]).collect()
+}
+
+/// Both programs at random loads, as pairs of values with the bound of the first.
+fn compare(program: &Program, other: &Program, seed: u64) -> Vec<(f64, f64, f64)> {
+    let mut random = Random(seed ^ 0x5eed);
+    let table: Vec<f64> = (0..16).map(|_| random.real()).collect();
+    let load = |source: Source| match source {
+        Source::Parameter(index) => table[index as usize],
+        Source::Input(index) => table[4 + index as usize],
+        Source::Sin(_) => table[8],
+        Source::Cos(_) => table[9],
+        Source::Field(index) => table[10 + index as usize],
+    };
+    let expected = values_with_bounds(program, load);
+    let found = values_with_bounds(other, load);
+    assert_eq!(expected.len(), found.len());
+    let pairs = expected.into_iter().zip(found);
+    pairs.map(|((a, bound), (b, other))| (a, b, bound.max(other))).collect()
+}
+
+/// A pass that may reassociate: the values stay up to rounding.
+pub(super) fn assert_same_values(name: &str, pass: impl Fn(&Program) -> Program) {
+    let mut finite = 0;
+    for seed in 0..SEEDS {
+        let program = random_program(seed);
+        for (expected, found, bound) in compare(&program, &pass(&program), seed) {
+            // Quotients by values that cancelled to nothing compare nothing.
+            if !bound.is_finite() || bound > 1e9 {
+                continue;
+            }
+            finite += 1;
+            let error = (expected - found).abs();
+            assert!(
+                error <= 1e-15 * bound,
+                "{name}, seed {seed}: {expected} became {found}, bound {bound:e}\n{program:?}"
+            );
+        }
+    }
+    assert!(finite > 2 * SEEDS, "{finite} results compared");
+}
+
+/// A pass that does not reassociate: the bits stay.
+pub(super) fn assert_same_bits(name: &str, pass: impl Fn(&Program) -> Program) {
+    for seed in 0..SEEDS {
+        let program = random_program(seed);
+        for (expected, found, _) in compare(&program, &pass(&program), seed) {
+            let same = expected == found || !expected.is_finite();
+            assert!(same, "{name}, seed {seed}: {expected:e} became {found:e}\n{program:?}");
+        }
+    }
+}
