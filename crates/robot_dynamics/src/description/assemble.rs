@@ -125,13 +125,20 @@ fn no_leader(leader: &Named, links: &[&DraftLink]) -> Diagnostic {
                 .at(&leader.span, "a fixed joint")
                 .help("write `type = \"fixed\"` for the joint that follows, too")
         }
-        Some(link) => {
-            let first = link.joint.mimic.as_ref().map(|mimic| quote(&mimic.joint.name));
-            let first = first.unwrap_or_default();
-            diagnostic(format!("the joint `{name}` follows another joint itself"))
-                .at(&leader.span, "does not move by itself")
-                .help(format!("follow `{first}`, with the product of the ratios"))
-        }
+        Some(link) => match &link.joint.mimic {
+            Some(mimic) if mimic.joint == *leader => {
+                diagnostic(format!("the joint `{name}` follows itself"))
+                    .at(&leader.span, "its own name")
+                    .help("name the joint that leads, or take `mimic` away")
+            }
+            first => {
+                let first = first.as_ref().map(|mimic| quote(&mimic.joint.name));
+                let first = first.unwrap_or_default();
+                diagnostic(format!("the joint `{name}` follows another joint itself"))
+                    .at(&leader.span, "does not move by itself")
+                    .help(format!("follow `{first}`, with the product of the ratios"))
+            }
+        },
         None => {
             let names = links
                 .iter()

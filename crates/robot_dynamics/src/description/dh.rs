@@ -88,8 +88,9 @@ impl Table {
             return;
         }
         let (rows, links) = (self.count, self.taken);
-        let message =
-            format!("the DH table has {rows} rows for {links} links without a frame of their own");
+        let message = format!(
+            "the DH table has {rows} rows, and the links without a frame of their own are {links}"
+        );
         reader.report(
             Diagnostic::error(code::WRONG_COUNT, message)
                 .at(&self.place, "this table")

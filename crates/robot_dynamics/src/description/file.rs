@@ -42,21 +42,26 @@ fn lower(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<(Robot, Locatio
     if let Some(dh) = dh {
         dh.finish(reader);
     }
-    let Head { name, description, gravity, gravity_place } = head?;
-    let mut draft = Draft { name, description, gravity, gravity_place, links, frames };
+    // Without its name a link cannot be a parent: complaints of that would be one too many.
     if !complete {
         return None;
     }
+    let Head { name, description, gravity, gravity_place } = head;
+    let mut draft = Draft { name, description, gravity, gravity_place, links, frames };
     let order = tree::order(reader, &mut draft.links, &mut draft.frames)?;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {
         let last = draft.links.last().map(|link| link.places.joint.clone());
         let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves");
-        let diagnostic = diagnostic.at(&last.unwrap_or(draft.name.span), "");
+        let diagnostic = diagnostic.at(&last.unwrap_or_default(), "");
         reader.report(diagnostic.help("add a `[[link]]` with a revolute or prismatic joint"));
+    }
+    let described = assemble::robot(reader, draft, &order, parameters);
+    // What an error kept from being read may use parameters.
+    if reader.failed() {
         return None;
     }
     unused(reader);
-    Some(assemble::robot(reader, draft, &order, parameters))
+    Some(described)
 }
 
 /// Checks `format`; nothing else is read of a file of another format.
@@ -90,25 +95,30 @@ struct Head {
 }
 
 /// Reads `[robot]`.
-fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Option<Head> {
-    let entry = root.require(reader, "robot", "[robot]")?;
-    let mut table = reader.table(entry.value, "[robot]")?;
-    let name = table
-        .require(reader, "name", "name = \"arm\"")
-        .and_then(|entry| reader.name(entry.value, "a robot", Kind::Identifier));
-    let description = table.get("description").and_then(|entry| reader.prose(entry.value));
-    let (gravity, gravity_place) = match table.get("gravity") {
-        Some(entry) => {
-            let what = quantity("the acceleration of gravity", 0, 1, -2);
-            (reader.vector(entry.value, what), Some(entry.value.span()))
-        }
-        None => {
-            let down = Rational::new(-981, 100).unwrap_or(Rational::ZERO);
-            ([zero(), zero(), Formula::number(&down)], None)
-        }
+fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
+    let down = Rational::new(-981, 100).unwrap_or(Rational::ZERO);
+    let mut head = Head {
+        name: Named { name: String::new(), span: 0..0 },
+        description: None,
+        gravity: [zero(), zero(), Formula::number(&down)],
+        gravity_place: None,
     };
+    let entry = root.require(reader, "robot", "[robot]");
+    let Some(mut table) = entry.and_then(|entry| reader.table(entry.value, "[robot]")) else {
+        return head;
+    };
+    let name = table.require(reader, "name", "name = \"arm\"");
+    let name = name.and_then(|entry| reader.name(entry.value, "a robot", Kind::Identifier));
+    head.name = name.unwrap_or(head.name);
+    let description = table.get("description");
+    head.description = description.and_then(|entry| reader.prose(entry.value));
+    if let Some(entry) = table.get("gravity") {
+        let what = quantity("the acceleration of gravity", 0, 1, -2);
+        head.gravity = reader.vector(entry.value, what);
+        head.gravity_place = Some(entry.value.span());
+    }
     table.finish(reader);
-    Some(Head { name: name?, description, gravity, gravity_place })
+    head
 }
 
 /// Reads every `[[link]]`; whether all of them came through.

@@ -67,7 +67,10 @@ pub(super) fn read(
     table.finish(reader);
     if shifted {
         match shift(&tensor.inertia, mass, center) {
-            Some(inertia) => tensor.inertia = inertia,
+            Some(inertia) => {
+                tensor.inertia = inertia;
+                finite(reader, &tensor.inertia, &span);
+            }
             None => reader.report(
                 Diagnostic::error(code::LIMIT, "the expressions are too large to be shifted")
                     .at(&span, "about the origin of the link's frame")
@@ -85,7 +88,8 @@ pub(super) fn read(
 fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, unchecked: bool) -> Inertia {
     let mut entry = |key: &'static str, needed: bool| {
         let entry = if needed && !unchecked {
-            table.require(reader, key, &format!("{key} = …"))
+            let help = format!("add `{key} = …`, or `unchecked = true` where it never acts");
+            table.require_with(reader, key, &help)
         } else {
             table.get(key)
         };
@@ -141,6 +145,24 @@ fn shift(about_origin: &Inertia, mass: &Formula, [x, y, z]: &[Formula; 3]) -> Op
     })
 }
 
+/// Reports an entry that the shift has carried beyond the range of numbers.
+fn finite(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span) {
+    let known = entries_of(inertia).map(|entry| reader.known(entry));
+    if known.iter().flatten().all(|value| value.is_finite()) {
+        return;
+    }
+    reader.report(
+        Diagnostic::error(code::NUMBER, "the tensor about the centre of mass is not finite")
+            .at(span, "about the origin of the link's frame")
+            .help("see whether mass, centre of mass and inertia are in kg, m and kg m^2"),
+    );
+}
+
+fn entries_of(inertia: &Inertia) -> [&Formula; 6] {
+    let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
+    [xx, yy, zz, xy, xz, yz]
+}
+
 /// A formula of formulas: a number where all of them are, else `pattern` with each `#i` replaced
 /// by the text of the i-th; `None` where the text grows beyond what a formula may be.
 fn compute(
@@ -194,7 +216,8 @@ fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool)
             "no body has this inertia: one principal moment exceeds the sum of the others",
         )
         .because(format!(
-            "x² + y² ≤ (x² + z²) + (y² + z²); {} % of the largest is allowed for rounding",
+            "x² + y² ≤ (y² + z²) + (z² + x²) for every part of a body; {} % of the largest moment \
+             is allowed for rounding",
             TOLERANCE * 100.0
         ))
         .help(
@@ -208,8 +231,7 @@ fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool)
 }
 
 fn values(reader: &Reader<'_>, inertia: &Inertia) -> Option<[f64; 6]> {
-    let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
-    let known = [xx, yy, zz, xy, xz, yz].map(|entry| reader.known(entry));
+    let known = entries_of(inertia).map(|entry| reader.known(entry));
     let mut values = [0.0; 6];
     for (value, known) in values.iter_mut().zip(known) {
         *value = known.filter(|known| known.is_finite())?;

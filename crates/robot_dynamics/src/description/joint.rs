@@ -66,7 +66,8 @@ pub(super) fn read(
     places: &mut LinkLocation,
 ) -> DraftJoint {
     let mut joint = DraftJoint {
-        kind: row.unwrap_or_default(),
+        // Where the type is wrong, the stand-in lets the rest of the link be checked.
+        kind: row.unwrap_or(Some(JointKind::Revolute)),
         name: link.clone(),
         axis: [zero(), zero(), Formula::number(&Rational::ONE)],
         limits: None,

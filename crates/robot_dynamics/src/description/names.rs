@@ -159,12 +159,14 @@ fn reserved(name: &str) -> Option<String> {
     if OWN.contains(&name) {
         return Some("a name of equations and generated code".to_owned());
     }
-    let numbered = |prefix: &str| {
-        name.strip_prefix(prefix)
-            .is_some_and(|rest| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit()))
-    };
-    let coordinate = ["q", "qd", "qdd", "Q", "tau"].into_iter().any(numbered);
-    coordinate.then(|| "a joint's position, velocity, acceleration or force".to_owned())
+    is_coordinate(name).then(|| "a joint's position, velocity, acceleration or force".to_owned())
+}
+
+/// `q1`, `qd1`, `qdd1`, `Q1`, `tau1` and so on: what equations call the motion of a joint.
+pub(super) fn is_coordinate(name: &str) -> bool {
+    let digits = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
+    let prefixes = ["q", "qd", "qdd", "Q", "tau"];
+    prefixes.iter().any(|prefix| name.strip_prefix(prefix).is_some_and(digits))
 }
 
 /// Names of one kind, each once.

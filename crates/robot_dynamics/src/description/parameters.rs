@@ -112,12 +112,10 @@ fn unit(reader: &mut Reader<'_>, value: Value<'_>, nominal: Option<&Rational>) -
     let diagnostic = match Unit::parse(text) {
         Ok(unit) => return Some(unit),
         Err(UnitError::Unknown(range, message)) => {
-            Diagnostic::error(code::UNIT, format!("this is not a unit: {message}"))
-                .at(&place(range), "")
-                .help(format!(
-                    "units are products of powers of {}, such as \"kg m^2\" or \"N s/m\"",
-                    known_units().join(", ")
-                ))
+            Diagnostic::error(code::UNIT, message).at(&place(range), "").help(format!(
+                "units are products of powers of {}, such as \"kg m^2\" or \"N s/m\"",
+                known_units().join(", ")
+            ))
         }
         Err(UnitError::NotSi { span, unit, factor }) => {
             let value = nominal.zip(factor.as_ref()).map(|(value, factor)| value * factor);

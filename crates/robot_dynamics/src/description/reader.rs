@@ -3,8 +3,8 @@
 
 use robot_symbolic::{Formula, Graph, Number, Rational};
 
-use super::names::Registry;
-use crate::diagnostic::{Diagnostic, Span, code, quote};
+use super::names::{Registry, is_coordinate};
+use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
 
 /// A parameter as expressions see it.
@@ -35,6 +35,11 @@ pub(super) struct Reader<'a> {
 impl<'a> Reader<'a> {
     pub(super) fn new(text: &'a str) -> Reader<'a> {
         Reader { text, found: Vec::new(), parameters: Vec::new(), symbols: Registry::new("symbol") }
+    }
+
+    /// Whether an error has been reported.
+    pub(super) fn failed(&self) -> bool {
+        self.found.iter().any(|found| found.severity == Severity::Error)
     }
 
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
@@ -85,6 +90,12 @@ impl<'a> Reader<'a> {
             code::UNKNOWN_SYMBOL,
             format!("`{}` is not a parameter of this robot", quote(name)),
         );
+        if is_coordinate(name) {
+            return diagnostic
+                .at(span, "a name of a joint's motion")
+                .because("the figures of a robot do not depend on its motion")
+                .help("put what moves into a joint");
+        }
         let names = self.parameters.iter().map(|known| known.name.as_str());
         match nearest(name, names) {
             Some(near) => {
@@ -152,6 +163,9 @@ pub(super) fn nearest<'n>(
             (distance, candidate)
         })
         .min_by_key(|(distance, _)| *distance)
-        .filter(|(distance, candidate)| *distance <= candidate.len().max(length).div_ceil(3).min(3))
+        .filter(|(distance, candidate)| {
+            let longest = candidate.len().max(length);
+            *distance == 0 || (longest > 1 && *distance <= longest.div_ceil(3).min(3))
+        })
         .map(|(_, candidate)| candidate)
 }

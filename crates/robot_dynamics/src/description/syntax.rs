@@ -8,38 +8,65 @@ use crate::diagnostic::{Diagnostic, Span, code};
 /// Parses the text; the tables are of use only where no diagnostic is found.
 pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     let (table, errors) = DeTable::parse_recoverable(text);
-    let found = errors
-        .iter()
-        .map(|error| {
-            let end = text.len()..text.len();
-            let span = error.span().unwrap_or(end);
-            let (message, help) = words(text, error.message(), &span);
-            let mut diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
-            diagnostic.help = help.map(str::to_owned);
-            diagnostic
-        })
-        .collect();
+    let mut found = Vec::new();
+    // The keys of a table whose header is wrong are wrong with it.
+    let mut header: Option<Span> = None;
+    for error in &errors {
+        let span = error.span().unwrap_or(text.len()..text.len());
+        let duplicate = error.message() == "duplicate key";
+        if duplicate && header.as_ref().is_some_and(|table| table.contains(&span.start)) {
+            continue;
+        }
+        if duplicate && line_of(text, span.start).starts_with('[') {
+            header = Some(span.start..next_header(text, span.end));
+        }
+        let (message, help) = words(text, error.message(), &span);
+        let mut diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
+        diagnostic.help = help.map(str::to_owned);
+        found.push(diagnostic);
+    }
     (table, found)
+}
+
+/// The text from the start of the line that has the byte.
+fn line_of(text: &str, byte: usize) -> &str {
+    let before = text.get(..byte).unwrap_or_default();
+    let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    text.get(start..).unwrap_or_default()
+}
+
+/// The start of the first line after the byte that begins with `[`.
+fn next_header(text: &str, byte: usize) -> usize {
+    let rest = text.get(byte..).unwrap_or_default();
+    rest.find("\n[").map_or(text.len(), |at| byte + at + 1)
 }
 
 /// What the parser says, and what to do in the cases that occur most.
 fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
     let rest = text.get(span.start..).unwrap_or_default();
-    let help = if message.starts_with("unexpected key or value") && rest.starts_with(',') {
+    let starts = |start: &str| message.starts_with(start);
+    let help = if starts("unexpected key or value") && rest.starts_with(',') {
         Some("a decimal number has a point: write `0.5` for `0,5`")
-    } else if message.starts_with("duplicate key") {
-        Some("keep one of them; several links are `[[link]]`, each with two brackets")
-    } else if message.starts_with("string values must be quoted") {
+    } else if starts("unexpected key or value") {
+        Some("write one `key = value` in a line")
+    } else if starts("duplicate key") && line_of(text, span.start).starts_with('[') {
+        Some("several links are `[[link]]`, each with two brackets; other tables stand once")
+    } else if starts("duplicate key") {
+        Some("the key stands in this table already: keep one of them")
+    } else if starts("string values must be quoted") {
         Some("put names and expressions in quotes: \"l1/2\"")
-    } else if message.starts_with("missing escaped value") {
-        Some(
-            "in a basic string a backslash is written `\\\\`; a literal string '…' takes it as it is",
-        )
-    } else if message.contains("recursion") {
+    } else if starts("missing escaped value") {
+        Some("write a backslash as `\\\\`, or the text in single quotes, which take it as it is")
+    } else if starts("invalid basic string") || starts("invalid literal string") {
+        Some("close the string with the quote that opens it, in the same line")
+    } else if starts("invalid float") || starts("invalid integer") {
+        Some("a number is written like `12`, `-0.35` or `1.5e-3`")
+    } else if message.contains("recurs") {
         Some("a robot file needs no more than four levels")
     } else {
         None
     };
+    let message = message.strip_suffix(", expected nothing").unwrap_or(message);
     let message = match message {
         "recursion limit" => "the file is nested too deep".to_owned(),
         _ => format!("this is not TOML: {message}"),

@@ -49,12 +49,22 @@ impl<'a> Table<'a> {
         key: &'static str,
         example: &str,
     ) -> Option<Entry<'a>> {
+        self.require_with(reader, key, &format!("add `{example}`"))
+    }
+
+    /// The value of a key that must be there, with what to do where it is not.
+    pub(super) fn require_with(
+        &mut self,
+        reader: &mut Reader<'_>,
+        key: &'static str,
+        help: &str,
+    ) -> Option<Entry<'a>> {
         let entry = self.get(key);
         if entry.is_none() {
             reader.report(
                 Diagnostic::error(code::MISSING_KEY, format!("{} has no `{key}`", self.what))
                     .at(&self.span, format!("`{key}` is missing here"))
-                    .help(format!("add `{example}`")),
+                    .help(help),
             );
         }
         entry

@@ -1,5 +1,7 @@
 //! The links in order: parents before children, else as in the file.
 
+use std::collections::BTreeSet;
+
 use super::MAX_JOINTS;
 use super::draft::{DraftFrame, DraftLink, Parent};
 use super::names::Registry;
@@ -39,7 +41,8 @@ pub(super) fn order(
         let message = format!("the robot has {moving} joints; at most {MAX_JOINTS}");
         let span = order.last().and_then(|last| links.get(*last)).map(|link| &link.name.span);
         let diagnostic = Diagnostic::error(code::LIMIT, message);
-        reader.report(diagnostic.at(span.unwrap_or(&(0..0)), "the last of them"));
+        let diagnostic = diagnostic.at(span.unwrap_or(&(0..0)), "the last of them");
+        reader.report(diagnostic.help("describe one arm in a file"));
         return None;
     }
     Some(order)
@@ -56,7 +59,10 @@ fn names(reader: &mut Reader<'_>, links: &[DraftLink], frames: &[DraftFrame]) {
     }
     let mut registry = Registry::exact("joint");
     let explicit = |link: &&DraftLink| link.joint.name != link.name;
-    let (named, unnamed): (Vec<_>, Vec<_>) = links.iter().partition(explicit);
+    let (named, mut unnamed): (Vec<_>, Vec<_>) = links.iter().partition(explicit);
+    // That two links have one name is said already.
+    let mut seen = BTreeSet::new();
+    unnamed.retain(|link| seen.insert(&link.name.name));
     for link in named.iter().chain(&unnamed) {
         if let Some(diagnostic) = registry.add(&link.joint.name) {
             reader.report(diagnostic);

@@ -233,7 +233,10 @@ impl Reader<'_> {
                 if usable { formula } else { Reader::unknown() }
             }
             Err(error) => {
-                let message = format!("`{}` is not an expression: {}", quote(text), error.message);
+                let message = match text.trim() {
+                    "" => "an empty text is not an expression".to_owned(),
+                    _ => format!("`{}` is not an expression: {}", quote(text), error.message),
+                };
                 let mut diagnostic =
                     Diagnostic::error(code::EXPRESSION, message).at(&place(error.span), "");
                 diagnostic.help = error.help;

@@ -94,6 +94,7 @@ fn excerpts<'s>(source: &'s Source, labels: &[(&'s Label, AnnotationKind)]) -> V
     };
     let start = text[..first].rfind('\n').map_or(0, |newline| newline + 1);
     let end = text[last..].find('\n').map_or(text.len(), |newline| last + newline);
+    let end = end - usize::from(text[last..end].ends_with('\r'));
     let line = text[..start].bytes().filter(|byte| *byte == b'\n').count() + 1;
     let moved = labels
         .into_iter()

@@ -1,0 +1,72 @@
+//! Broken robot files and the messages that they must give (tests/broken).
+//!
+//! `UPDATE_SNAPSHOTS=1` writes the messages anew; read the difference before it is kept.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+
+use robot_dynamics::description::read_toml;
+use robot_dynamics::diagnostic::code;
+
+fn folder() -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/broken"))
+}
+
+/// The stems of the folder's files of that kind.
+fn stems(extension: &str) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder()).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    paths
+        .filter(|path| path.extension().is_some_and(|found| found == extension))
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect()
+}
+
+/// What is said of a file: its errors, or the warnings of one that gives a robot all the same.
+fn message(stem: &str) -> String {
+    let name = format!("{stem}.toml");
+    let text = fs::read_to_string(folder().join(&name)).unwrap();
+    match read_toml(&name, &text) {
+        Ok(described) => described.warnings.to_string(),
+        Err(found) => found.to_string(),
+    }
+}
+
+#[test]
+fn broken_files_give_their_messages() {
+    let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
+    let files = stems("toml");
+    assert!(files.len() >= 45, "{}", files.len());
+    let mut wrong = Vec::new();
+    for stem in &files {
+        let found = message(stem);
+        assert!(found.contains(&format!("{stem}.toml: ")), "{stem} is not broken: {found}");
+        let path = folder().join(format!("{stem}.txt"));
+        let expected = fs::read_to_string(&path).unwrap_or_default();
+        if found == expected {
+            continue;
+        }
+        if update {
+            fs::write(path, found).unwrap();
+        } else {
+            wrong.push(format!("{stem}: expected\n{expected}\nfound\n{found}"));
+        }
+    }
+    let stale: Vec<_> = stems("txt").difference(&files).cloned().collect();
+    assert!(stale.is_empty(), "messages without a file: {stale:?}");
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_code_has_a_broken_file() {
+    // These two concern the bytes of the file; see `hostile`.
+    let mut missing = BTreeSet::from_iter(code::TABLE.iter().map(|(code, _)| *code));
+    missing.remove(code::TOO_LARGE);
+    missing.remove(code::NOT_TEXT);
+    for stem in stems("txt") {
+        let text = fs::read_to_string(folder().join(format!("{stem}.txt"))).unwrap();
+        missing.retain(|code| !text.contains(&format!("[{code}]")));
+    }
+    assert!(missing.is_empty(), "{missing:?}");
+}
