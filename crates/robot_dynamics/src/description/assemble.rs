@@ -5,7 +5,7 @@ use robot_symbolic::{Formula, Rational};
 use super::draft::{Draft, DraftFrame, DraftLink, Parent};
 use super::locations::{FrameLocation, Locations, ParameterLocation};
 use super::placement::{without_rests, zero};
-use super::reader::{Named, Reader, nearest};
+use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};
 use crate::model::{Coordinate, Frame, Joint, JointKind, Link, Parameter, Placement, Robot};
 
@@ -108,7 +108,7 @@ fn coordinates(
         };
         let found = robot.coordinates.iter().position(|one| one.joint == leader.name);
         if found.is_none() {
-            let diagnostic = no_leader(leader, &links);
+            let diagnostic = no_leader(reader, leader, &links);
             reader.report(diagnostic);
         }
         Some(Motion { kind, coordinate: found.unwrap_or_default(), ratio, offset })
@@ -116,7 +116,7 @@ fn coordinates(
     links.iter().map(|link| number(link)).collect()
 }
 
-fn no_leader(leader: &Named, links: &[&DraftLink]) -> Diagnostic {
+fn no_leader(reader: &Reader<'_>, leader: &Named, links: &[&DraftLink]) -> Diagnostic {
     let name = quote(&leader.name);
     let diagnostic = |message: String| Diagnostic::error(code::MIMIC, message);
     match links.iter().find(|link| link.joint.name.name == leader.name) {
@@ -144,7 +144,7 @@ fn no_leader(leader: &Named, links: &[&DraftLink]) -> Diagnostic {
                 .iter()
                 .filter(|link| link.joint.kind.is_some() && link.joint.mimic.is_none())
                 .map(|link| link.joint.name.name.as_str());
-            let label = match nearest(&leader.name, names) {
+            let label = match reader.nearest(&leader.name, names) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "no joint of that name".to_owned(),
             };

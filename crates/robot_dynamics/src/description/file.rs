@@ -148,7 +148,7 @@ fn links(
 /// Warns of parameters that nothing uses.
 fn unused(reader: &mut Reader<'_>) {
     let unused: Vec<(String, Span)> = reader
-        .parameters
+        .parameters()
         .iter()
         .filter(|known| !known.used)
         .map(|known| (known.name.clone(), known.span.clone()))

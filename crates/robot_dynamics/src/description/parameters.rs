@@ -44,7 +44,7 @@ pub(super) fn read(
         }
         parameter.name.clone_from(&named.name);
         place.name = named.span.clone();
-        reader.parameters.push(Known {
+        reader.define(Known {
             name: named.name,
             span: named.span,
             value: parameter.value.clone(),

@@ -1,11 +1,16 @@
 //! What every part of a reader shares: the diagnostics, and the parameters that expressions may
 //! name.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use robot_symbolic::{Formula, Graph, Number, Rational};
 
 use super::names::{Registry, is_coordinate};
 use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
+
+/// After so many errors nobody looks for misspelt words any more.
+const ENOUGH: usize = 100;
 
 /// A parameter as expressions see it.
 pub(super) struct Known {
@@ -27,14 +32,51 @@ pub(super) struct Named {
 pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
     pub(super) found: Vec<Diagnostic>,
-    pub(super) parameters: Vec<Known>,
+    parameters: Vec<Known>,
+    by_name: BTreeMap<String, usize>,
     /// Parameters and wrench components: what equations and code call by name.
     pub(super) symbols: Registry,
 }
 
 impl<'a> Reader<'a> {
     pub(super) fn new(text: &'a str) -> Reader<'a> {
-        Reader { text, found: Vec::new(), parameters: Vec::new(), symbols: Registry::new("symbol") }
+        Reader {
+            text,
+            found: Vec::new(),
+            parameters: Vec::new(),
+            by_name: BTreeMap::new(),
+            symbols: Registry::new("symbol"),
+        }
+    }
+
+    /// Makes a parameter known to the expressions that follow.
+    pub(super) fn define(&mut self, parameter: Known) {
+        let index = self.parameters.len();
+        self.by_name.entry(parameter.name.clone()).or_insert(index);
+        self.parameters.push(parameter);
+    }
+
+    /// The parameter of that name.
+    pub(super) fn parameter(&self, name: &str) -> Option<&Known> {
+        self.parameters.get(*self.by_name.get(name)?)
+    }
+
+    /// The parameters in the file's order.
+    pub(super) fn parameters(&self) -> &[Known] {
+        &self.parameters
+    }
+
+    /// The candidate that a misspelt word most likely means; none after so many errors that this
+    /// one will hardly be read.
+    pub(super) fn nearest<'n>(
+        &self,
+        word: &str,
+        candidates: impl Iterator<Item = &'n str>,
+    ) -> Option<&'n str> {
+        if self.found.len() > ENOUGH {
+            return None;
+        }
+        nearest(word, candidates)
     }
 
     /// Whether an error has been reported.
@@ -55,8 +97,7 @@ impl<'a> Reader<'a> {
     pub(super) fn known(&self, formula: &Formula) -> Option<f64> {
         let mut complete = true;
         let value = formula.evaluate(|name| {
-            let parameter = self.parameters.iter().find(|known| known.name == name);
-            let value = parameter.and_then(|known| known.value.as_ref());
+            let value = self.parameter(name).and_then(|known| known.value.as_ref());
             complete &= value.is_some();
             value.map_or(0.0, Rational::to_f64)
         });
@@ -71,18 +112,18 @@ impl<'a> Reader<'a> {
     /// Marks the parameters that a formula names, and reports the names that are none. `place`
     /// maps bytes of the formula's text to the file.
     pub(super) fn resolve(&mut self, formula: &Formula, place: &dyn Fn(Span) -> Span) -> bool {
-        let mut complete = true;
+        let mut unknown = BTreeSet::new();
         for (name, span) in formula.symbols() {
-            match self.parameters.iter_mut().find(|known| known.name == name) {
-                Some(known) => known.used = true,
-                None => {
-                    complete = false;
-                    let diagnostic = self.unknown_symbol(name, &place(span));
-                    self.found.push(diagnostic);
+            if let Some(index) = self.by_name.get(name) {
+                if let Some(known) = self.parameters.get_mut(*index) {
+                    known.used = true;
                 }
+            } else if unknown.insert(name) && unknown.len() <= ENOUGH {
+                let diagnostic = self.unknown_symbol(name, &place(span));
+                self.found.push(diagnostic);
             }
         }
-        complete
+        unknown.is_empty()
     }
 
     fn unknown_symbol(&self, name: &str, span: &Span) -> Diagnostic {
@@ -97,9 +138,9 @@ impl<'a> Reader<'a> {
                 .help("put what moves into a joint");
         }
         let names = self.parameters.iter().map(|known| known.name.as_str());
-        match nearest(name, names) {
+        match self.nearest(name, names) {
             Some(near) => {
-                let known = self.parameters.iter().find(|known| known.name == near);
+                let known = self.parameter(near);
                 let diagnostic = diagnostic.at(span, format!("did you mean `{near}`?"));
                 match known {
                     Some(known) => diagnostic.and_at(&known.span, "defined here"),
@@ -141,11 +182,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The candidate that a misspelt word most likely means.
-pub(super) fn nearest<'n>(
-    word: &str,
-    candidates: impl Iterator<Item = &'n str>,
-) -> Option<&'n str> {
+fn nearest<'n>(word: &str, candidates: impl Iterator<Item = &'n str>) -> Option<&'n str> {
     let lower = word.to_lowercase();
     let length = word.chars().count();
     if length > 64 {

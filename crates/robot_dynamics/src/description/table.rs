@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::reader::{Reader, nearest};
+use super::reader::Reader;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 
 /// A value of the file with its place.
@@ -78,7 +78,7 @@ impl<'a> Table<'a> {
                 continue;
             }
             let absent = |known: &&str| !self.keys.contains_key(*known);
-            let near = nearest(name, self.known.iter().copied().filter(absent));
+            let near = reader.nearest(name, self.known.iter().copied().filter(absent));
             let label = match near {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "not a key that is known here".to_owned(),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::MAX_JOINTS;
 use super::draft::{DraftFrame, DraftLink, Parent};
 use super::names::Registry;
-use super::reader::{Named, Reader, nearest};
+use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};
 
 /// Checks names and parents. The links' new order, as indices, where they form a tree.
@@ -81,7 +81,7 @@ fn resolve(reader: &mut Reader<'_>, parent: &mut Parent, known: &[Named]) -> boo
     }
     let message = format!("`{}` is not a link of this robot", quote(&name.name));
     let names = known.iter().map(|known| known.name.as_str());
-    let label = match nearest(&name.name, names.chain(["base"])) {
+    let label = match reader.nearest(&name.name, names.chain(["base"])) {
         Some(near) => format!("did you mean `{near}`?"),
         None => "no link of that name".to_owned(),
     };

@@ -6,7 +6,7 @@ use robot_symbolic::{Formula, Rational};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
-use super::reader::{Reader, nearest};
+use super::reader::Reader;
 use super::strings;
 use super::table::{Table, Value, list};
 use crate::diagnostic::{Diagnostic, Span, code, is_invisible, quote};
@@ -155,7 +155,7 @@ impl Reader<'_> {
         let text = self.string(value, &format!("{what}, one of {}", list(words)))?;
         let found = words.iter().copied().find(|word| word == text);
         if found.is_none() {
-            let label = match nearest(text, words.iter().copied()) {
+            let label = match self.nearest(text, words.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => format!("not {what}"),
             };
@@ -253,7 +253,7 @@ impl Reader<'_> {
         let Some(expected) = quantity.dimension else {
             return true;
         };
-        let known = self.parameters.iter().find(|known| known.name == name);
+        let known = self.parameter(name);
         let Some((known, unit)) = known.and_then(|known| Some((known, known.unit.as_ref()?)))
         else {
             return true;

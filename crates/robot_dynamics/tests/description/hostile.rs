@@ -110,6 +110,25 @@ fn huge_counts_end_in_a_message() {
 }
 
 #[test]
+fn a_great_many_misspelt_names_end_in_a_message() {
+    let parameters: String = (0..4096).map(|i| format!("parameter_{i} = 1\n")).collect();
+    let unknown: Vec<_> = (0..40_000).map(|i| format!("paramter_{i}")).collect();
+    let text = format!("[parameters]\n{parameters}{LINK}mass = \"{}\"\n", unknown.join("+"));
+    let found = codes(&arm(&text));
+    assert!(found.iter().filter(|code| **code == code::UNKNOWN_SYMBOL).count() >= 40);
+    let link = |i: usize| {
+        let parent = format!("a_name_of_many_many_letters_that_is_not_quite_right_number_{i}");
+        let joint = "joint = { type = \"revolute\", axis = \"z\" }\nmassless = true";
+        format!(
+            "[[link]]\nname = \"{}\"\nparent = \"{parent}\"\n{joint}\n",
+            parent.replace("quite", "quiet")
+        )
+    };
+    let text: String = (0..500).map(link).collect();
+    assert_eq!(codes(&arm(&text)), [code::UNKNOWN_LINK; 500]);
+}
+
+#[test]
 fn figures_at_the_end_of_the_range_are_judged() {
     let inertia =
         "inertia = { xx = 1e308, yy = 1e308, zz = 1e308, xy = 1e308, about = \"origin\" }";
