@@ -1,1 +1,52 @@
-//! The driver from robot file to source code, and the builder for build scripts.
+//! From a robot file to Rust: the driver that joins the reader, the derivation and the backend, and
+//! the builder that a `build.rs` calls.
+//!
+//! The common case is one line in `build.rs`
+//!
+//! ```no_run
+//! fn main() -> Result<(), robot_build::Errors> {
+//!     robot_build::compile("robots/trttr1.toml")
+//! }
+//! ```
+//!
+//! and one in the crate, which thereby has a module `trttr1`:
+//!
+//! ```ignore
+//! include!(concat!(env!("OUT_DIR"), "/trttr1.rs"));
+//! ```
+//!
+//! The module bears the robot's name in lower case. Generated code calls the crate `robot_runtime`,
+//! which must be a dependency (with its feature `std` unless [`Builder::trigonometry`] says
+//! otherwise). Building again is cheap: the file is written only where it changes, and Cargo runs the
+//! build script again only where a robot file has changed. [`Builder`] has the options.
+//!
+//! The driver itself is pure: [`generate`] takes a text and gives a text. It touches no file, no
+//! environment and no terminal, so that the builder, the macro `include_robot!` and the command
+//! `robot-symbolic` give the same code.
+
+mod builder;
+mod cargo;
+pub mod check;
+mod conventions;
+mod error;
+mod files;
+mod generate;
+mod options;
+pub mod package;
+mod paths;
+mod programs;
+mod specification;
+
+pub use builder::{Builder, compile};
+pub use conventions::CONVENTIONS;
+pub use error::{Error, Errors};
+pub use files::{File, Staleness, staleness, write_if_changed};
+pub use generate::{Generated, generate};
+pub use options::{DEFAULT_FUNCTIONS, Options};
+pub use paths::RobotFile;
+pub use programs::{Programs, programs, read};
+pub use robot_codegen::Trigonometry;
+pub use robot_codegen::backend::rust::Scalar;
+pub use robot_dynamics::diagnostic::Source;
+pub use robot_dynamics::economical::Plan;
+pub use robot_dynamics::functions::FunctionKind;

@@ -1,1 +1,40 @@
-//! include_robot!: a robot file becomes a module at compile time.
+//! `include_robot!`: a robot file becomes a module at compile time.
+
+mod arguments;
+mod expand;
+
+use proc_macro::TokenStream;
+
+/// Generates the module of a robot file where the macro stands.
+///
+/// ```ignore
+/// robot_macros::include_robot!("robots/trttr1.toml");
+///
+/// let model = trttr1::Model::NOMINAL;
+/// ```
+///
+/// The path is relative to the package's `Cargo.toml`. The module bears the robot's name in lower
+/// case and is the same that `robot_build` generates in a build script. The crate `robot_runtime`
+/// must be a dependency. A change of the file builds again; what is wrong with it is a compile error
+/// with the file's own diagnostics.
+///
+/// Options follow the path:
+///
+/// ```ignore
+/// include_robot!(
+///     "robots/trttr1.toml",
+///     functions = ["inverse_dynamics", "link_wrenches"], // all that the robot has without this
+///     snap = 1e-8,                  // rad; constant angles this near to π/2 · n become that
+///     scalar = "f32",               // "f64" without this
+///     trigonometry = "polynomial",  // "standard" without this
+///     runtime = "::robot_runtime",
+///     allow_outside = true,         // the file may lie outside of the package
+/// );
+/// ```
+///
+/// The whole code passes through the editor's analysis: for robots of many joints a build script
+/// suits better.
+#[proc_macro]
+pub fn include_robot(input: TokenStream) -> TokenStream {
+    expand::include_robot(input.into()).into()
+}

@@ -14,7 +14,8 @@ pub(super) fn attributes(lines: &[String]) -> Vec<Attribute> {
 /// Lines of text that nobody controls, as Markdown that means nothing but the text: no line breaks
 /// other than those between lines, no code fences or indented blocks (which would be compiled as
 /// examples), no links, no HTML, no characters that change the direction of text.
-pub(super) fn sanitise(text: &str) -> Vec<String> {
+#[must_use]
+pub fn sanitise(text: &str) -> Vec<String> {
     text.lines().map(sanitise_line).collect()
 }
 

@@ -23,6 +23,8 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{Item, parse_quote};
 
+pub use self::doc::sanitise as markdown;
+pub use self::namer::identifier;
 pub use self::options::{ConstantItem, ConstantValue, RustOptions, Scalar, Wrapping};
 use self::scope::Scope;
 use crate::error::Errors;

@@ -89,7 +89,8 @@ impl Namer {
 }
 
 /// ASCII letters, digits and underscores of the text; a keyword gets an underscore.
-pub(super) fn identifier(text: &str) -> String {
+#[must_use]
+pub fn identifier(text: &str) -> String {
     let mut name = String::new();
     for character in text.chars().take(64) {
         match character {

@@ -1,0 +1,214 @@
+//! The builder that a `build.rs` calls.
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use robot_codegen::Trigonometry;
+use robot_codegen::backend::rust::Scalar;
+use robot_dynamics::economical::Plan;
+
+use crate::cargo::{self, Directives};
+use crate::error::{Error, Errors};
+use crate::files::write_if_changed;
+use crate::generate::{Generated, generate};
+use crate::options::{Options, functions_named};
+use crate::paths::RobotFile;
+
+/// The name of the index of several robots.
+const INDEX: &str = "robots";
+
+/// Generates the module of one robot file into `OUT_DIR`, with the options of [`Builder::new`].
+///
+/// # Errors
+///
+/// Everything that is wrong with the file.
+pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
+    Builder::new().compile(&[path])
+}
+
+/// Generates modules from robot files in a build script.
+///
+/// ```no_run
+/// fn main() -> Result<(), robot_build::Errors> {
+///     robot_build::Builder::new()
+///         .functions(["inverse_dynamics", "link_wrenches"])
+///         .snap(1e-8)
+///         .compile(&["robots/left.toml", "robots/right.toml"])
+/// }
+/// ```
+///
+/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case.
+/// Several robots have an index `robots.rs` beside them, which includes them all. Paths are relative
+/// to the package. Cargo is told to run the build script again where a robot file changes; with that,
+/// it no longer watches the other files of the package, as it does where a build script tells nothing.
+#[derive(Clone, Debug, Default)]
+#[must_use]
+pub struct Builder {
+    options: Options,
+    functions: Option<Vec<String>>,
+    out_dir: Option<PathBuf>,
+    package_dir: Option<PathBuf>,
+    allow_outside: bool,
+    silent: bool,
+}
+
+impl Builder {
+    /// All functions that a robot has, in `f64`, into `OUT_DIR`.
+    pub fn new() -> Builder {
+        Builder::default()
+    }
+
+    /// The functions to generate, by name; without this all that the robot has.
+    pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
+        self.functions = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// The number type of the functions; `f64` without this.
+    pub fn scalar(mut self, scalar: Scalar) -> Builder {
+        self.options.scalar = scalar;
+        self
+    }
+
+    /// Where sines and cosines come from; the standard library without this.
+    pub fn trigonometry(mut self, trigonometry: Trigonometry) -> Builder {
+        self.options.trigonometry = trigonometry;
+        self
+    }
+
+    /// Constant angles within `radians` of a multiple of π/2 become that multiple; 10⁻⁹ without
+    /// this.
+    pub fn snap(mut self, radians: f64) -> Builder {
+        self.options.snap = radians;
+        self
+    }
+
+    /// The path of the runtime in generated code; `::robot_runtime` without this.
+    pub fn runtime(mut self, path: impl Into<String>) -> Builder {
+        self.options.runtime = path.into();
+        self
+    }
+
+    /// The form of the economical recursion.
+    pub fn plan(mut self, plan: Plan) -> Builder {
+        self.options.plan = Some(plan);
+        self
+    }
+
+    /// The folder for the code; `OUT_DIR` without this. For those who commit generated code.
+    pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
+        self.out_dir = Some(folder.into());
+        self
+    }
+
+    /// The folder to which paths are relative; that of the package without this.
+    pub fn package_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
+        self.package_dir = Some(folder.into());
+        self
+    }
+
+    /// Whether robot files may lie outside of the package.
+    pub fn allow_outside(mut self, allow: bool) -> Builder {
+        self.allow_outside = allow;
+        self
+    }
+
+    /// Whether Cargo is told, on standard output, of the files that were read and of warnings; it
+    /// is, without this.
+    pub fn emit_directives(mut self, emit: bool) -> Builder {
+        self.silent = !emit;
+        self
+    }
+
+    /// Generates the modules of robot files.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with any of the files or with the options. A `main` that returns it
+    /// shows the robot files' own errors.
+    pub fn compile(&self, paths: &[impl AsRef<Path>]) -> Result<(), Errors> {
+        let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
+        let mut directives = Directives::default();
+        let result = self.run(&paths, &mut directives);
+        if !self.silent {
+            let mut output = std::io::stdout().lock();
+            // Nobody is listening where this fails.
+            let _ = output.write_all(directives.text().as_bytes());
+        }
+        result
+    }
+
+    fn run(&self, paths: &[&Path], directives: &mut Directives) -> Result<(), Errors> {
+        if paths.is_empty() {
+            return Err(Errors::from(Error::NoRobots));
+        }
+        let package = self.package_dir.clone().map_or_else(cargo::package_dir, Ok)?;
+        let out_dir = self.out_dir.clone().map_or_else(cargo::out_dir, |folder| {
+            // A relative folder is the package's, as the robot files are.
+            Ok(package.join(folder))
+        })?;
+        let mut options = self.options.clone();
+        if let Some(names) = &self.functions {
+            options.functions = Some(functions_named(names)?);
+        }
+        let (mut modules, mut errors) = (vec![], vec![]);
+        for path in paths {
+            match self.module(path, &package, &options, directives) {
+                Ok(module) => modules.push((path.display().to_string(), module)),
+                Err(found) => Errors::extend(&mut errors, found),
+            }
+        }
+        check_names(&modules, &mut errors);
+        Errors::check(errors, ())?;
+        write(&modules, &out_dir)
+    }
+
+    fn module(
+        &self,
+        path: &Path,
+        package: &Path,
+        options: &Options,
+        directives: &mut Directives,
+    ) -> Result<Generated, Errors> {
+        let file = RobotFile::in_package(path, package, self.allow_outside)?;
+        directives.rerun_if_changed(path);
+        let generated = generate(&file.source, options)?;
+        directives.warnings(&generated.warnings);
+        Ok(generated)
+    }
+}
+
+fn check_names(modules: &[(String, Generated)], errors: &mut Vec<Error>) {
+    let mut known: BTreeMap<&str, &str> = BTreeMap::new();
+    if modules.len() > 1 {
+        known.insert(INDEX, "the index of all robots");
+    }
+    for (path, module) in modules {
+        if let Some(first) = known.insert(&module.module_name, path) {
+            errors.push(Error::SameModule {
+                module: module.module_name.clone(),
+                first: first.to_owned(),
+                second: path.clone(),
+            });
+        }
+    }
+}
+
+fn write(modules: &[(String, Generated)], out_dir: &Path) -> Result<(), Errors> {
+    for (_, module) in modules {
+        write_if_changed(&out_dir.join(format!("{}.rs", module.module_name)), &module.code)?;
+    }
+    if modules.len() > 1 {
+        let version = env!("CARGO_PKG_VERSION");
+        let mut index = format!("// @generated by robot_build {version}. Do not edit.\n\n");
+        for (_, module) in modules {
+            index.push_str(&format!("include!(\"{}.rs\");\n", module.module_name));
+        }
+        write_if_changed(&out_dir.join(format!("{INDEX}.rs")), &index)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,171 @@
+//! What can go wrong on the way from a robot file to code.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use robot_dynamics::diagnostic::{Diagnostics, quote};
+use robot_dynamics::functions::FunctionKind;
+
+/// One thing that is wrong; the text names the place, the reason and the remedy.
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Everything that is wrong with a robot file.
+    #[error("{0}")]
+    Robot(Box<Diagnostics>),
+    /// A chosen function that the robot lacks.
+    #[error("{robot} has no function `{function}`: {why}")]
+    MissingFunction {
+        /// The function.
+        function: &'static str,
+        /// The robot.
+        robot: String,
+        /// What the robot lacks, and the remedy.
+        why: &'static str,
+    },
+    /// A name that is no function's.
+    #[error("there is no function `{}`; there are {}", quote(function), known_functions())]
+    UnknownFunction {
+        /// The name.
+        function: String,
+    },
+    /// An empty list of functions.
+    #[error("no functions are chosen; name some, or leave the choice out for all that there are")]
+    NoFunctions,
+    /// A tolerance that is no angle.
+    #[error("the snapping tolerance {snap} is no angle in radians between 0 and 0.1")]
+    Snap {
+        /// The tolerance as text.
+        snap: String,
+    },
+    /// What the code generator refuses.
+    #[error("{name}: {error}")]
+    Code {
+        /// The robot file.
+        name: String,
+        /// What is wrong.
+        error: robot_codegen::Error,
+    },
+    /// A file that cannot be read or written.
+    #[error("cannot {action} {}: {reason}", path.display())]
+    File {
+        /// What was tried.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system says, and the remedy where there is one.
+        reason: String,
+    },
+    /// A robot file outside of the package.
+    #[error(
+        "{} lies outside of the package {}; a build reads what belongs to the package: move the file \
+         there, or allow it with `allow_outside(true)`",
+        path.display(), package.display()
+    )]
+    Outside {
+        /// The file, symbolic links followed.
+        path: PathBuf,
+        /// The folder of the package.
+        package: PathBuf,
+    },
+    /// A variable of Cargo's that is not there.
+    #[error("the environment variable {variable} is not set: {remedy}")]
+    NotUnderCargo {
+        /// The variable.
+        variable: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// No robot file at all.
+    #[error("no robot file is given; name one or more")]
+    NoRobots,
+    /// Two files whose modules would have one name.
+    #[error("{first} and {second} both give the module `{module}`; rename one of the robots")]
+    SameModule {
+        /// The module.
+        module: String,
+        /// The first file.
+        first: String,
+        /// The second.
+        second: String,
+    },
+}
+
+fn known_functions() -> String {
+    let names = FunctionKind::ALL.iter().map(|kind| format!("`{}`", kind.name()));
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// The text of [`fmt::Display`]: a `main` that returns an error shows this.
+impl fmt::Debug for Error {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{self}")
+    }
+}
+
+/// All that is wrong; never empty.
+///
+/// Both `Display` and `Debug` give the text for people, so that a `build.rs` whose `main` returns it
+/// shows the robot file's own errors.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Errors(Vec<Error>);
+
+impl Errors {
+    /// `Ok(value)` where there are no errors.
+    pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
+        if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
+    }
+
+    /// What is wrong with code made of the file `name`.
+    pub(crate) fn of_code(name: &str, errors: &robot_codegen::Errors) -> Errors {
+        let errors = errors.as_slice().iter();
+        Errors(
+            errors
+                .map(|error| Error::Code { name: name.to_owned(), error: error.clone() })
+                .collect(),
+        )
+    }
+
+    /// The errors in the order in which they were found.
+    #[must_use]
+    pub fn as_slice(&self) -> &[Error] {
+        &self.0
+    }
+
+    pub(crate) fn extend(into: &mut Vec<Error>, errors: Errors) {
+        into.extend(errors.0);
+    }
+}
+
+impl From<Error> for Errors {
+    fn from(error: Error) -> Errors {
+        Errors(vec![error])
+    }
+}
+
+impl From<Diagnostics> for Errors {
+    fn from(diagnostics: Diagnostics) -> Errors {
+        Errors::from(Error::Robot(Box::new(diagnostics)))
+    }
+}
+
+impl fmt::Display for Errors {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, error) in self.0.iter().enumerate() {
+            if index > 0 {
+                formatter.write_str("\n")?;
+            }
+            write!(formatter, "{error}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The text for people, on a line of its own.
+impl fmt::Debug for Errors {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "\n{self}")
+    }
+}
+
+impl std::error::Error for Errors {}

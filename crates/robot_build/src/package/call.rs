@@ -1,0 +1,64 @@
+//! Calls of generated functions as Rust text, for tests and examples.
+
+use robot_codegen::backend::rust::{self, Scalar};
+
+use super::Parts;
+use crate::check::CheckValue;
+use crate::options::Options;
+
+/// The model at the stated parameters.
+pub(super) fn model_expression(parts: &Parts<'_>) -> String {
+    let parameters = &parts.programs.module.parameters;
+    if parameters.is_empty() {
+        return "Model::NOMINAL".to_owned();
+    }
+    if parameters.iter().all(|parameter| parameter.nominal.is_some()) {
+        return "Model::new(&Parameters::NOMINAL)".to_owned();
+    }
+    let stated = parts.checks.first().map_or(&[][..], |check| check.parameters.as_slice());
+    let fields = parameters.iter().map(|parameter| {
+        let stated = stated.iter().find(|(name, _)| *name == parameter.name);
+        let value = parameter.nominal.or(stated.map(|(_, value)| *value)).unwrap_or(1.0);
+        format!("{}: {value:?}", rust::identifier(&parameter.name))
+    });
+    format!("Model::new(&Parameters {{ {} }})", fields.collect::<Vec<_>>().join(", "))
+}
+
+/// The call of a function at its check state.
+pub(super) fn call(model: &str, check: &CheckValue) -> String {
+    let inputs: Vec<String> =
+        check.inputs.iter().map(|(_, entries)| format!("&{entries:?}")).collect();
+    format!("{model}.{}({})", rust::identifier(&check.function), inputs.join(", "))
+}
+
+/// A test of a function against its check value.
+pub(super) fn test(parts: &Parts<'_>, check: &CheckValue) -> String {
+    let name = rust::identifier(&check.function);
+    let model = model_expression(parts);
+    let mut text = format!(
+        "\n#[test]\nfn {name}_gives_its_check_value() {{\n    let model = {model};\n    let result = {};\n",
+        call("model", check)
+    );
+    for output in &check.outputs {
+        let field = match check.outputs.len() {
+            1 => String::new(),
+            _ => format!(".{}", rust::identifier(&output.name)),
+        };
+        let found = match output.shape.len() {
+            0 => format!("&[result{field}]"),
+            1 => format!("&result{field}"),
+            _ => format!("result{field}.as_flattened()"),
+        };
+        text.push_str(&format!("    assert_close({found}, &{:?});\n", output.values));
+    }
+    text.push_str("}\n");
+    text
+}
+
+/// How far a result may be from a check value, as a fraction of the largest entry.
+pub(super) fn tolerance(options: &Options) -> f64 {
+    match options.scalar {
+        Scalar::F64 => 1e-12,
+        Scalar::F32 => 1e-4,
+    }
+}

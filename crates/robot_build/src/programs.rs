@@ -1,0 +1,60 @@
+//! From the text of a robot file to straight-line programs.
+
+use robot_codegen::Module;
+use robot_dynamics::description::{self, Described};
+use robot_dynamics::diagnostic::{Diagnostics, Source};
+use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::mechanism::Snap;
+use robot_dynamics::model::Robot;
+use robot_symbolic::Graph;
+
+use crate::error::{Error, Errors};
+use crate::options::Options;
+use crate::specification;
+
+/// The largest angle by which snapping may change a rotation, rad.
+const MAX_SNAP: f64 = 0.1;
+
+/// A robot and the programs of its functions.
+#[derive(Clone, Debug)]
+pub struct Programs {
+    /// The robot.
+    pub robot: Robot,
+    /// What looks like a slip in the file.
+    pub warnings: Diagnostics,
+    /// The constant angles that were taken for multiples of π/2.
+    pub snapped: Vec<Snap>,
+    /// The functions, as [`Options::functions`] has them.
+    pub functions: Vec<FunctionKind>,
+    /// The programs: what the interpreter runs and the backends print.
+    pub module: Module,
+}
+
+/// Reads a robot file in the format that its name says: TOML.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file.
+pub fn read(source: &Source) -> Result<Described, Errors> {
+    Ok(description::read_toml(&source.name, &source.text)?)
+}
+
+/// Derives the functions of a robot and compiles them to straight-line programs.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file or the options.
+pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
+    if !(0.0..=MAX_SNAP).contains(&options.snap) {
+        return Err(Errors::from(Error::Snap { snap: options.snap.to_string() }));
+    }
+    let Described { robot, warnings, .. } = read(source)?;
+    let functions = options.functions_of(&robot)?;
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &options.mechanism(), options.plan.clone());
+    let specification = specification::module(&derivation, &functions);
+    let module = Module::compile(&specification, &robot_codegen::Options::default())
+        .map_err(|errors| Errors::of_code(&source.name, &errors))?;
+    let snapped = derivation.mechanism.snapped.clone();
+    Ok(Programs { robot, warnings, snapped, functions, module })
+}

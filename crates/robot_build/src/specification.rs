@@ -1,0 +1,63 @@
+//! A robot's functions as the code generator takes them.
+
+use robot_codegen::spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
+use robot_dynamics::functions::{Derivation, Function, FunctionKind, Input, Output};
+use robot_dynamics::model::{Parameter, Robot};
+
+use crate::conventions::CONVENTIONS;
+
+/// The module of a robot.
+pub(crate) fn module<'g>(
+    derivation: &Derivation<'_, 'g>,
+    functions: &[FunctionKind],
+) -> ModuleSpec<'g> {
+    let robot = derivation.robot;
+    ModuleSpec {
+        name: robot.name.to_lowercase(),
+        doc: module_doc(robot),
+        parameters: robot.parameters.iter().map(parameter).collect(),
+        functions: functions.iter().map(|kind| function(derivation.function(*kind))).collect(),
+    }
+}
+
+/// The robot, what the file says about it, and the conventions.
+fn module_doc(robot: &Robot) -> Vec<String> {
+    let mut lines = vec![format!("Dynamics of the robot {}.", robot.name), String::new()];
+    if let Some(description) = &robot.description {
+        lines.extend([description.clone(), String::new()]);
+    }
+    for line in CONVENTIONS {
+        lines.extend([line.to_owned(), String::new()]);
+    }
+    lines.pop();
+    lines
+}
+
+fn parameter(parameter: &Parameter) -> ParameterSpec {
+    ParameterSpec {
+        name: parameter.name.clone(),
+        doc: parameter.doc.clone().unwrap_or_default(),
+        unit: parameter.unit.as_ref().map(|unit| unit.text.clone()).unwrap_or_default(),
+        nominal: parameter.value.as_ref().map(robot_symbolic::Rational::to_f64),
+    }
+}
+
+fn function(function: Function<'_>) -> FunctionSpec<'_> {
+    let Function { kind, doc, inputs, outputs } = function;
+    FunctionSpec {
+        name: kind.name().to_owned(),
+        doc,
+        inputs: inputs.into_iter().map(input).collect(),
+        outputs: outputs.into_iter().map(output).collect(),
+    }
+}
+
+fn input(input: Input) -> InputSpec {
+    let Input { name, doc, unit, symbols } = input;
+    InputSpec { name, doc, unit, symbols }
+}
+
+fn output(output: Output<'_>) -> OutputSpec<'_> {
+    let Output { name, doc, unit, shape, values } = output;
+    OutputSpec { name, doc, unit, shape, values }
+}

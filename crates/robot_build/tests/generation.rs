@@ -1,0 +1,88 @@
+//! The driver on the robot files of this project.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+
+use robot_build::{Options, RobotFile, Source, Trigonometry, generate, package, programs};
+
+fn robot_files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    assert!(paths.len() >= 9);
+    paths
+}
+
+fn source(name: &str) -> Source {
+    let paths = robot_files();
+    let path = paths.iter().find(|path| path.ends_with(name)).unwrap();
+    RobotFile::read(path).unwrap().source
+}
+
+#[test]
+fn every_robot_is_generated_the_same_twice() {
+    for path in robot_files() {
+        let source = RobotFile::read(&path).unwrap().source;
+        let [first, second] = [0, 1].map(|_| generate(&source, &Options::default()).unwrap());
+        assert_eq!(first.code, second.code);
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        assert_eq!(first.module_name, stem);
+        assert!(first.code.contains(&format!("pub mod {stem} {{")));
+        assert_eq!(first.files_read, [source.name]);
+        let costs = first.counts.iter().map(|(name, counts)| (name.as_str(), counts.call.mul));
+        assert!(costs.clone().any(|(name, mul)| name == "inverse_dynamics" && mul > 0));
+        assert!(costs.clone().any(|(name, _)| name == "link_wrenches"));
+    }
+}
+
+#[test]
+fn the_code_does_not_say_where_the_file_lies() {
+    let here = source("trttr1.toml");
+    let there = Source { name: "/some/where\\trttr1.toml".to_owned(), text: here.text.clone() };
+    let code = |source| generate(source, &Options::default()).unwrap().code;
+    assert_eq!(code(&here), code(&there));
+    assert!(!code(&here).contains(env!("CARGO_MANIFEST_DIR")));
+}
+
+#[test]
+fn parameters_are_documented() {
+    let code = generate(&source("trttr1.toml"), &Options::default()).unwrap().code;
+    for line in ["/// mass of element 5, in kg; nominally 3.2.", "pub M5: f64"] {
+        assert!(code.contains(line), "{line}");
+    }
+}
+
+#[test]
+fn only_the_chosen_functions_are_generated() {
+    let functions = Some(vec![robot_build::FunctionKind::LinkWrenches]);
+    let options = Options { functions, ..Options::default() };
+    let programs = programs(&source("trttr1.toml"), &options).unwrap();
+    let names: Vec<_> = programs.module.functions.iter().map(|one| one.name.as_str()).collect();
+    assert_eq!(names, ["link_wrenches"]);
+}
+
+#[test]
+fn hostile_text_stays_text() {
+    let hostile = "*/ ]] ``` \\n}fn evil() {} <script> /// #![doc] \"";
+    let text = source("planar_2r.toml").text;
+    let line = text.lines().find(|line| line.starts_with("description")).unwrap();
+    let text =
+        text.replace(line, &format!("description = '''{hostile}\n```\nfn evil2() {{}}\n'''"));
+    let hostile_source = Source { name: "x.toml".to_owned(), text };
+    let code = generate(&hostile_source, &Options::default()).unwrap().code;
+    for line in code.lines().filter(|line| line.contains("evil")) {
+        assert!(line.trim_start().starts_with("///"), "{line}");
+    }
+    let options = Options { trigonometry: Trigonometry::Polynomial, ..Options::default() };
+    for file in package::package(&hostile_source, &options).unwrap() {
+        let fences = file.text.lines().filter(|line| line.trim_start().starts_with("```"));
+        assert_eq!(fences.count() % 2, 0, "{}", file.path);
+        for line in file.text.lines().filter(|line| line.contains("evil")) {
+            assert_eq!(file.path, "README.md", "{line}");
+            assert!(!line.contains("```"), "{line}");
+        }
+    }
+}

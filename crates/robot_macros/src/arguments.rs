@@ -1,0 +1,135 @@
+//! The arguments of `include_robot!`.
+
+use robot_build::{FunctionKind, Options, Scalar, Trigonometry};
+use syn::parse::{Parse, ParseStream};
+use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
+
+/// The keys, for messages.
+const KEYS: &str = "functions, snap, scalar, trigonometry, runtime, allow_outside";
+
+/// `"path", key = value, …`
+pub(crate) struct Arguments {
+    pub(crate) path: LitStr,
+    pub(crate) options: Options,
+    pub(crate) allow_outside: bool,
+}
+
+impl Parse for Arguments {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Arguments> {
+        let path = input.parse().map_err(|error| {
+            syn::Error::new(error.span(), "expected the path of a robot file as a string literal")
+        })?;
+        let mut arguments = Arguments { path, options: Options::default(), allow_outside: false };
+        let mut errors: Option<syn::Error> = None;
+        let mut seen: Vec<Ident> = vec![];
+        while !input.is_empty() {
+            input.parse::<Token![,]>()?;
+            if input.is_empty() {
+                break;
+            }
+            let key: Ident = input.parse()?;
+            input.parse::<Token![=]>()?;
+            let value: Expr = input.parse()?;
+            let result = if seen.contains(&key) {
+                Err(syn::Error::new(key.span(), format!("`{key}` is given twice")))
+            } else {
+                arguments.set(&key, &value)
+            };
+            if let Err(error) = result {
+                match &mut errors {
+                    Some(errors) => errors.combine(error),
+                    None => errors = Some(error),
+                }
+            }
+            seen.push(key);
+        }
+        errors.map_or(Ok(arguments), Err)
+    }
+}
+
+impl Arguments {
+    fn set(&mut self, key: &Ident, value: &Expr) -> syn::Result<()> {
+        match key.to_string().as_str() {
+            "functions" => self.options.functions = Some(functions(value)?),
+            "snap" => self.options.snap = number(value)?,
+            "scalar" => {
+                let known = [("f64", Scalar::F64), ("f32", Scalar::F32)];
+                self.options.scalar = one_of(value, &known)?;
+            }
+            "trigonometry" => {
+                let known = [
+                    ("standard", Trigonometry::Standard),
+                    ("polynomial", Trigonometry::Polynomial),
+                ];
+                self.options.trigonometry = one_of(value, &known)?;
+            }
+            "runtime" => self.options.runtime = text(value)?.value(),
+            "allow_outside" => self.allow_outside = boolean(value)?,
+            _ => {
+                let message = format!("there is no option `{key}`; there are {KEYS}");
+                return Err(syn::Error::new(key.span(), message));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn functions(value: &Expr) -> syn::Result<Vec<FunctionKind>> {
+    let Expr::Array(array) = value else {
+        return Err(syn::Error::new_spanned(
+            value,
+            "expected functions, [\"inverse_dynamics\", …]",
+        ));
+    };
+    if array.elems.is_empty() {
+        return Err(syn::Error::new_spanned(value, "no functions are chosen"));
+    }
+    let known: Vec<(&str, FunctionKind)> =
+        FunctionKind::ALL.iter().map(|kind| (kind.name(), *kind)).collect();
+    array.elems.iter().map(|element| one_of(element, &known)).collect()
+}
+
+fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {
+    let literal = text(value)?;
+    let found = known.iter().find(|(name, _)| *name == literal.value());
+    found.map(|(_, value)| *value).ok_or_else(|| {
+        let names: Vec<String> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        syn::Error::new(literal.span(), format!("expected one of {}", names.join(", ")))
+    })
+}
+
+fn text(value: &Expr) -> syn::Result<&LitStr> {
+    match literal(value) {
+        Some(Lit::Str(literal)) => Ok(literal),
+        _ => Err(syn::Error::new_spanned(value, "expected a string literal")),
+    }
+}
+
+fn boolean(value: &Expr) -> syn::Result<bool> {
+    match literal(value) {
+        Some(Lit::Bool(literal)) => Ok(literal.value),
+        _ => Err(syn::Error::new_spanned(value, "expected true or false")),
+    }
+}
+
+fn number(value: &Expr) -> syn::Result<f64> {
+    let (sign, operand) = match value {
+        Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => (-1.0, unary.expr.as_ref()),
+        _ => (1.0, value),
+    };
+    let digits = match literal(operand) {
+        Some(Lit::Float(literal)) => literal.base10_parse::<f64>().ok(),
+        Some(Lit::Int(literal)) => literal.base10_parse::<f64>().ok(),
+        _ => None,
+    };
+    digits
+        .map(|digits| sign * digits)
+        .ok_or_else(|| syn::Error::new_spanned(value, "expected a number"))
+}
+
+fn literal(value: &Expr) -> Option<&Lit> {
+    match value {
+        Expr::Lit(ExprLit { lit, .. }) => Some(lit),
+        _ => None,
+    }
+}
