@@ -4,7 +4,7 @@
 //! ([`Locations`]), or into everything that is wrong with it ([`Diagnostics`]). No value is ever
 //! replaced or repaired in silence.
 //!
-//! The way through: [`read_toml`] parses the text, `file` lowers its tables to a [`draft`] whose
+//! The way through: [`read_toml`] parses the text, `file` lowers its tables to a draft whose
 //! names are unresolved, `tree` puts the links in order, `assemble` merges fixed links and builds
 //! the robot.
 

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
 
 /// After so many errors nobody looks for misspelt words any more.
-const ENOUGH: usize = 100;
+const ENOUGH: usize = 40;
 
 /// A parameter as expressions see it.
 pub(super) struct Known {

@@ -218,3 +218,16 @@ fn locations_point_at_the_text() {
     assert_eq!(shown(&locations.frames[0].name), "\"hand\"");
     assert_eq!(shown(locations.frames[0].origin.as_ref().unwrap()), "{ xyz = [0, 0, 3] }");
 }
+
+#[test]
+fn the_examples_of_the_reference_are_right() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/robot-file.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    let examples: Vec<_> =
+        page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    assert_eq!(examples.len(), 3);
+    for example in examples {
+        let described = read(example);
+        assert!(described.warnings.is_empty(), "{}", described.warnings);
+    }
+}
