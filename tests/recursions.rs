@@ -5,7 +5,7 @@ mod common;
 
 use common::{evaluate, largest_difference, magnitude, robot_files};
 use robot_dynamics::economical::{
-    self, Plan,
+    Plan, Recursion,
     plan::{Entry, LinkPlan, Origin, Turn},
 };
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -122,7 +122,7 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
     hold("the paper's Q with loads", &loaded.driving_forces, |r| &r.torques_with_loads);
     hold("F_l and M_l", &torsors, |reference| &reference.link_wrenches);
     for (plan_name, plan) in plans(robot) {
-        let torques = economical::inverse_dynamics(&mechanism, &plan, false).unwrap();
+        let torques = Recursion::new(&mechanism, &plan).unwrap().inverse_dynamics(false);
         hold(&format!("the plan `{plan_name}`"), &torques, |reference| &reference.torques);
     }
     worst

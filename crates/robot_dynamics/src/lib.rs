@@ -7,6 +7,7 @@ pub mod description;
 pub mod diagnostic;
 pub mod economical;
 pub mod functions;
+pub mod matrix;
 pub mod mechanism;
 pub mod model;
 pub mod newton_euler;

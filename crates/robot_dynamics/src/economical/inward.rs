@@ -50,14 +50,15 @@ pub(crate) fn inward<'g>(
         };
         torques[link.coordinate] += torque * link.ratio;
 
-        let turned = state.group_turn.forward(moments[index]);
-        let sum = across[state.group] + turned;
-        across[state.group] = Vector([sum.0[0], sum.0[1], chain.graph.zero()]);
+        let posture = &state.posture;
+        let turned = posture.group_turn.forward(moments[index]);
+        let sum = across[posture.group] + turned;
+        across[posture.group] = Vector([sum.0[0], sum.0[1], chain.graph.zero()]);
         let Some(parent) = link.parent else { continue };
-        let handed = link.rotation.forward(state.turn.forward(forces[index]));
+        let handed = link.rotation.forward(posture.turn.forward(forces[index]));
         forces[parent] = forces[parent] + handed;
-        moments[parent] = moments[parent] + state.origin.cross(handed);
-        if state.group == index {
+        moments[parent] = moments[parent] + posture.origin.cross(handed);
+        if posture.group == index {
             let Vector([x, y, _]) = across[index];
             let about_axis = moments[index].0[2];
             moments[parent] = moments[parent] + link.rotation.forward(Vector([x, y, about_axis]));

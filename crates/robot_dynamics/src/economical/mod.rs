@@ -10,51 +10,91 @@
 //! and Patel 1991 (the tensor U), with further options of this project's own, named in [`plan`].
 
 mod chain;
+mod composite;
 mod frames;
+mod gravity;
 mod inertia;
 mod inward;
+mod mass_matrix;
 mod outward;
 pub mod plan;
+mod posture;
 mod rotation;
 pub mod search;
+mod spatial;
 
 use robot_symbolic::Expr;
 
+use crate::matrix::SymmetricMatrix;
 use crate::mechanism::Mechanism;
 use crate::vector::Vector;
-use chain::Base;
+use chain::{Base, Chain};
 use inward::TipWrench;
+use plan::LinkPlan;
 pub use plan::Plan;
 
-/// The generalised driving forces Q by the economical recursion, with the tips' wrenches where
-/// `wrench` asks for them; friction is not part of it.
-///
-/// `None` where a joint axis depends on parameters, for which working frames cannot be chosen.
-#[must_use]
-pub fn inverse_dynamics<'g>(
-    mechanism: &Mechanism<'g>,
-    plan: &Plan,
-    wrench: bool,
-) -> Option<Vec<Expr<'g>>> {
-    let base = Base::new(mechanism)?;
-    Some(inverse_dynamics_from(mechanism, &base, plan, wrench))
+/// The economical recursion of a mechanism under a plan: its links in working frames, with
+/// regrouped inertias.
+#[derive(Clone, Debug)]
+pub struct Recursion<'g> {
+    chain: Chain<'g>,
+    plans: Vec<LinkPlan>,
+    tips: Vec<TipWrench<'g>>,
 }
 
-/// The same from what does not depend on the plan.
-fn inverse_dynamics_from<'g>(
-    mechanism: &Mechanism<'g>,
-    base: &Base<'g>,
-    plan: &Plan,
-    wrench: bool,
-) -> Vec<Expr<'g>> {
-    let chain = chain::prepare(mechanism, base, plan);
-    let states = outward::outward(&chain, &plan.links);
-    let tips = if wrench { tip_wrenches(mechanism, &chain) } else { vec![] };
-    inward::inward(&chain, &plan.links, &states, &tips)
+impl<'g> Recursion<'g> {
+    /// `None` where a joint axis depends on parameters, for which working frames cannot be chosen.
+    #[must_use]
+    pub fn new(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Recursion<'g>> {
+        Some(Recursion::from_base(mechanism, &Base::new(mechanism)?, plan))
+    }
+
+    /// The same from what does not depend on the plan.
+    fn from_base(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Plan) -> Recursion<'g> {
+        let chain = chain::prepare(mechanism, base, plan);
+        let tips = tip_wrenches(mechanism, &chain);
+        Recursion { chain, plans: plan.links.clone(), tips }
+    }
+
+    /// The generalised driving forces Q, with the tips' wrenches where `wrench` asks for them;
+    /// friction is not part of them.
+    #[must_use]
+    pub fn inverse_dynamics(&self, wrench: bool) -> Vec<Expr<'g>> {
+        self.torques(&self.chain, wrench)
+    }
+
+    /// C(q, q̇) q̇ + g(q): the driving forces at rest accelerations, with the tips' wrenches where
+    /// `wrench` asks for them.
+    #[must_use]
+    pub fn bias(&self, wrench: bool) -> Vec<Expr<'g>> {
+        let mut chain = self.chain.clone();
+        for link in &mut chain.links {
+            link.motion[2] = chain.graph.zero();
+        }
+        self.torques(&chain, wrench)
+    }
+
+    fn torques(&self, chain: &Chain<'g>, wrench: bool) -> Vec<Expr<'g>> {
+        let states = outward::outward(chain, &self.plans);
+        let tips = if wrench { &self.tips[..] } else { &[] };
+        inward::inward(chain, &self.plans, &states, tips)
+    }
+
+    /// g(q): the driving forces that hold the mechanism at rest.
+    #[must_use]
+    pub fn gravity(&self) -> Vec<Expr<'g>> {
+        gravity::gravity(&self.chain, &self.plans)
+    }
+
+    /// M(q), drives included.
+    #[must_use]
+    pub fn mass_matrix(&self) -> SymmetricMatrix<'g> {
+        mass_matrix::mass_matrix(&self.chain, &self.plans)
+    }
 }
 
 /// The tips' wrenches in working frames.
-fn tip_wrenches<'g>(mechanism: &Mechanism<'g>, chain: &chain::Chain<'g>) -> Vec<TipWrench<'g>> {
+fn tip_wrenches<'g>(mechanism: &Mechanism<'g>, chain: &Chain<'g>) -> Vec<TipWrench<'g>> {
     let tips = mechanism.frames.iter().filter_map(|frame| {
         let (link, (force, moment)) = (frame.link?, frame.wrench?);
         let working = &chain.frames[link];

@@ -4,10 +4,9 @@
 //! point fixed to the link at r from its origin is a + U r, U = \[ε\]× + \[ω\]×². All in the link's
 //! working frame, z along its joint axis.
 
-use robot_symbolic::Expr;
-
 use super::chain::{Chain, ChainLink};
 use super::plan::LinkPlan;
+use super::posture::{Posture, postures};
 use super::rotation::Plane;
 use crate::vector::{Matrix, Vector};
 
@@ -24,13 +23,7 @@ struct Group<'g> {
 /// The state of a link after the outward recursion.
 #[derive(Clone, Debug)]
 pub(crate) struct LinkState<'g> {
-    /// The first link of the parallel group, and the turn about z from the group's frame.
-    pub(crate) group: usize,
-    pub(crate) group_turn: Plane<'g>,
-    /// The joint's own turn about z, constant offset included.
-    pub(crate) turn: Plane<'g>,
-    /// The origin in the parent's working frame.
-    pub(crate) origin: Vector<'g>,
+    pub(crate) posture: Posture<'g>,
     pub(crate) angular_velocity: Vector<'g>,
     pub(crate) angular_acceleration: Vector<'g>,
     /// U.
@@ -41,36 +34,16 @@ pub(crate) struct LinkState<'g> {
 
 /// Runs over the links from the base.
 pub(crate) fn outward<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<LinkState<'g>> {
+    let postures = postures(chain, |index| plans[index].angle_sum);
     let mut states: Vec<LinkState<'g>> = Vec::with_capacity(chain.links.len());
     let mut groups: Vec<Group<'g>> = vec![];
-    let mut angles: Vec<(Expr<'g>, Expr<'g>)> = vec![];
-    for (index, link) in chain.links.iter().enumerate() {
-        let (sine, cosine) = joint_angle(link);
-        let turn = Plane::z(sine, cosine);
+    for (index, (link, posture)) in chain.links.iter().zip(postures).enumerate() {
         let parent = link.parent.map(|parent| &states[parent]);
-        let joined = parent.filter(|_| plans[index].angle_sum && link.is_parallel());
-        let (group, angle) = match (joined, link.parent) {
-            (Some(state), Some(parent)) => {
-                let (s, c) = angles[parent];
-                (state.group, (s * cosine + c * sine, c * cosine - s * sine))
-            }
-            _ => (index, (sine, cosine)),
-        };
-        let group_turn = Plane::z(angle.0, angle.1);
-        angles.push(angle);
+        let Posture { group, group_turn, turn, origin } = posture;
         groups.push(if group == index { Group::new(chain, link, parent) } else { groups[group] });
-
-        let origin = match link.is_revolute() {
-            true => link.translation,
-            false => link.translation + link.axis * link.motion[0],
-        };
-        let (angular_velocity, angular_acceleration, tensor) = rates(
-            &groups[index],
-            link,
-            group_turn,
-            parent.filter(|_| group != index),
-            &plans[index],
-        );
+        let before = parent.filter(|_| group != index);
+        let (angular_velocity, angular_acceleration, tensor) =
+            rates(&groups[index], link, group_turn, before, &plans[index]);
         let carried = match parent {
             Some(parent) => parent.acceleration + parent.tensor * origin,
             None => -chain.gravity,
@@ -84,10 +57,7 @@ pub(crate) fn outward<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<LinkStat
             acceleration = acceleration + Vector([y * twice, -(x * twice), rate]);
         }
         states.push(LinkState {
-            group,
-            group_turn,
-            turn,
-            origin,
+            posture,
             angular_velocity,
             angular_acceleration,
             tensor,
@@ -95,39 +65,6 @@ pub(crate) fn outward<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<LinkStat
         });
     }
     states
-}
-
-/// Sine and cosine of the joint's turn about z, the constant turn before it included.
-fn joint_angle<'g>(link: &ChainLink<'g>) -> (Expr<'g>, Expr<'g>) {
-    let (sine, cosine) = link.rotation.turn;
-    if !link.is_revolute() {
-        return (sine, cosine);
-    }
-    let graph = sine.graph();
-    let position = link.motion[0];
-    let constant = |expr: Expr<'g>| expr.as_number();
-    match (constant(sine), constant(cosine)) {
-        (Some(s), Some(c)) => {
-            let quarter = match (s.to_f64(), c.to_f64()) {
-                (0.0, 1.0) => Some(0),
-                (1.0, 0.0) => Some(1),
-                (0.0, -1.0) => Some(2),
-                (-1.0, 0.0) => Some(3),
-                _ => None,
-            };
-            let offset = match quarter {
-                Some(quarters) => graph.pi() * quarters / 2,
-                None => graph.number(robot_symbolic::Number::Real(s.to_f64().atan2(c.to_f64()))),
-            };
-            let angle = position + offset;
-            (angle.sin(), angle.cos())
-        }
-        // The constant turn depends on parameters: addition formulas.
-        _ => {
-            let (s, c) = (position.sin(), position.cos());
-            (s * cosine + c * sine, c * cosine - s * sine)
-        }
-    }
 }
 
 impl<'g> Group<'g> {

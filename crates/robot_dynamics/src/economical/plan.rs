@@ -33,6 +33,22 @@ pub struct LinkPlan {
     /// \[m, z\] What of the link's mass, first moment and second moment along its joint axis stays
     /// with it, so that an entry of the parent's inertia vanishes; in that order.
     pub residual: [Option<Entry>; 3],
+    /// Whether composite inertias use the home axes of the parallel group, as `angle_sum` has it
+    /// for motions.
+    pub composite_sum: bool,
+    /// Where this link's wrench for a unit acceleration of its joint meets the motions of the
+    /// joints farther inward: a place on the way to the base; `None` for each joint's own.
+    pub meeting: Option<Place>,
+}
+
+/// Axes about the origin of a link's working frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The link.
+    pub link: usize,
+    /// The axes of the working frame; otherwise those before the joints of the link's parallel
+    /// group turn it.
+    pub turned: bool,
 }
 
 /// Where a working frame's origin lies on its joint axis.
@@ -101,6 +117,8 @@ impl LinkPlan {
         column: false,
         moment: [false; 3],
         residual: [None; 3],
+        composite_sum: false,
+        meeting: None,
     };
 }
 

@@ -38,6 +38,27 @@ impl<'g> Plane<'g> {
         vector
     }
 
+    /// A symmetric tensor in turned components to unturned ones: R S Rᵀ, with five products in the
+    /// plane.
+    pub(crate) fn forward_symmetric(&self, Matrix(s): Matrix<'g>) -> Matrix<'g> {
+        let (i, j) = self.axes;
+        let k = 3 - i - j;
+        let (sine, cosine) = (self.sine, self.cosine);
+        let u = cosine * (s[i][i] - s[j][j]) - sine * (s[i][j] * 2);
+        let first = s[j][j] + cosine * u;
+        // The trace does not change.
+        let second = (s[i][i] + s[j][j]) - first;
+        let mixed = s[i][j] + sine * u;
+        let (a, b) = (s[i][k], s[j][k]);
+        let out = (cosine * a - sine * b, sine * a + cosine * b);
+        let mut turned = s;
+        (turned[i][i], turned[j][j]) = (first, second);
+        (turned[i][j], turned[j][i]) = (mixed, mixed);
+        (turned[i][k], turned[k][i]) = (out.0, out.0);
+        (turned[j][k], turned[k][j]) = (out.1, out.1);
+        Matrix(turned)
+    }
+
     /// Unturned components to turned ones: Rᵀ v.
     pub(crate) fn back(&self, mut vector: Vector<'g>) -> Vector<'g> {
         let (i, j) = self.axes;
@@ -109,6 +130,16 @@ impl<'g> ConstantRotation<'g> {
         match &self.before {
             Before::Planes(planes) => planes.iter().rev().fold(vector, |v, plane| plane.forward(v)),
             Before::Full(matrix) => **matrix * vector,
+        }
+    }
+
+    /// A symmetric tensor in components before the last turn to parent components.
+    pub(crate) fn forward_symmetric(&self, tensor: Matrix<'g>) -> Matrix<'g> {
+        match &self.before {
+            Before::Planes(planes) => {
+                planes.iter().rev().fold(tensor, |t, plane| plane.forward_symmetric(t))
+            }
+            Before::Full(matrix) => **matrix * tensor * matrix.transpose(),
         }
     }
 

@@ -6,10 +6,11 @@
 
 use robot_symbolic::{Expr, Graph, SymbolId, operations, walk};
 
+use super::Recursion;
 use super::chain::Base;
-use super::plan::{Entry, LinkPlan, Origin, Plan, Turn};
+use super::plan::{Entry, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
-use crate::model::Robot;
+use crate::model::{Parameter, Robot};
 use crate::newton_euler::{self, Effects};
 
 /// A plan must reproduce the torques to this fraction of the largest.
@@ -28,6 +29,34 @@ pub struct Found {
     pub tried: usize,
 }
 
+/// What a search counts and checks of a candidate.
+#[derive(Clone, Debug)]
+pub struct Objective<'g> {
+    /// The expressions whose operations count.
+    pub counted: Vec<Expr<'g>>,
+    /// The expressions that must have the right values.
+    pub checked: Vec<Expr<'g>>,
+}
+
+impl<'g> Objective<'g> {
+    /// Expressions that are both counted and checked.
+    #[must_use]
+    pub fn of(roots: Vec<Expr<'g>>) -> Objective<'g> {
+        Objective { checked: roots.clone(), counted: roots }
+    }
+}
+
+type ObjectiveOf<'m, 'g> = &'m dyn Fn(&Recursion<'g>) -> Objective<'g>;
+
+/// Which options a search tries, besides those of frames and inertias.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scope {
+    /// Those of the recursion over motions and forces.
+    pub motions: bool,
+    /// Those of composite inertias.
+    pub composites: bool,
+}
+
 /// Searches the plan with the fewest multiplications and additions for inverse dynamics.
 ///
 /// The robot's parameters are free: what depends on them alone costs nothing. `None` where the
@@ -37,89 +66,130 @@ pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, options);
     let base = Base::new(&mechanism)?;
-    let mut search = Search::new(&mechanism, &base);
-    let links = mechanism.links.len();
-    let starts = [
-        LinkPlan::BASIC,
-        LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC },
-        LinkPlan { angle_sum: true, column: true, moment: [true; 3], ..LinkPlan::BASIC },
-        LinkPlan { origin: Origin::PreviousNormal, angle_sum: true, ..LinkPlan::BASIC },
-    ];
-    let mut best: Option<(usize, Plan)> = None;
-    for start in &starts {
-        let start = Plan::uniform(links, start);
-        let cost = search.cost(&start);
-        let found = search.descend(start, cost);
-        if best.as_ref().is_none_or(|(cost, _)| found.0 < *cost) {
-            best = Some(found);
-        }
-    }
-    let (operations, plan) = best?;
-    Some(Found { plan, operations, tried: search.tried })
+    let effects = Effects { wrench: false, friction: false };
+    let reference = newton_euler::newton_euler(&mechanism, effects).driving_forces;
+    let torques: ObjectiveOf<'_, '_> =
+        &|recursion| Objective::of(recursion.inverse_dynamics(false));
+    let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
+    Some(search.run(Scope { motions: true, composites: false }))
 }
+
+/// Searches the plan with the fewest multiplications and additions for any functions.
+///
+/// Candidates are held against the values under the plan that keeps the file's frames. `None` where
+/// the economical recursion does not apply (a joint axis that depends on parameters).
+#[must_use]
+pub fn search_for(
+    robot: &Robot,
+    options: &MechanismOptions,
+    scope: Scope,
+    objective: &dyn for<'m, 'g> Fn(&'m Mechanism<'g>, &Recursion<'g>) -> Objective<'g>,
+) -> Option<Found> {
+    let graph = Graph::new();
+    let mechanism = Mechanism::new(robot, &graph, options);
+    let base = Base::new(&mechanism)?;
+    let file = Plan::uniform(mechanism.links.len(), &FILE);
+    let of_mechanism: ObjectiveOf<'_, '_> = &|recursion| objective(&mechanism, recursion);
+    let reference = of_mechanism(&Recursion::from_base(&mechanism, &base, &file)).checked;
+    let mut search = Search::new(robot, &mechanism, &base, of_mechanism, &reference);
+    Some(search.run(scope))
+}
+
+/// The frames of the file.
+const FILE: LinkPlan = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC };
 
 struct Search<'m, 'g> {
     mechanism: &'m Mechanism<'g>,
     base: &'m Base<'g>,
-    /// Symbols that are inputs: all others are parameters.
-    inputs: Vec<SymbolId>,
+    objective: ObjectiveOf<'m, 'g>,
+    /// The robot's parameters: all other symbols are inputs.
+    parameters: Vec<SymbolId>,
     states: Vec<Vec<f64>>,
     reference: Vec<Vec<f64>>,
     tried: usize,
 }
 
 impl<'m, 'g> Search<'m, 'g> {
-    fn new(mechanism: &'m Mechanism<'g>, base: &'m Base<'g>) -> Search<'m, 'g> {
+    fn new(
+        robot: &Robot,
+        mechanism: &'m Mechanism<'g>,
+        base: &'m Base<'g>,
+        objective: ObjectiveOf<'m, 'g>,
+        reference: &[Expr<'g>],
+    ) -> Search<'m, 'g> {
         let graph = mechanism.graph;
-        let effects = Effects { wrench: false, friction: false };
-        let reference = newton_euler::newton_euler(mechanism, effects).driving_forces;
-        let motions = ["q", "qd", "qdd"];
-        let symbols = motions.iter().flat_map(|prefix| {
-            (1..=mechanism.degrees_of_freedom)
-                .filter_map(move |number| graph.symbol(&format!("{prefix}{number}")).as_symbol())
-        });
-        let inputs = symbols.collect();
+        let symbol =
+            |parameter: &Parameter| graph.find_symbol(&parameter.name).and_then(Expr::as_symbol);
+        let parameters = robot.parameters.iter().filter_map(symbol).collect();
         let states: Vec<Vec<f64>> =
             (0..4).map(|state| test_state(state, graph.symbol_count())).collect();
-        let reference = states.iter().map(|state| evaluate(&reference, state)).collect();
-        Search { mechanism, base, inputs, states, reference, tried: 0 }
+        let reference = states.iter().map(|state| evaluate(reference, state)).collect();
+        Search { mechanism, base, objective, parameters, states, reference, tried: 0 }
     }
 
-    fn torques(&mut self, plan: &Plan) -> Vec<Expr<'g>> {
+    /// The best of the descents from a few plans.
+    fn run(&mut self, scope: Scope) -> Found {
+        let starts = [
+            FILE,
+            LinkPlan { angle_sum: true, column: true, moment: [true; 3], ..LinkPlan::BASIC },
+            LinkPlan {
+                origin: Origin::PreviousNormal,
+                angle_sum: true,
+                composite_sum: true,
+                ..LinkPlan::BASIC
+            },
+        ];
+        let links = self.mechanism.links.len();
+        let start = |link: &LinkPlan| Plan::uniform(links, link);
+        let basic = start(&LinkPlan::BASIC);
+        let cost = self.cost(&basic);
+        let mut best = self.descend(scope, basic, cost);
+        for start in starts.iter().map(start) {
+            let cost = self.cost(&start);
+            let found = self.descend(scope, start, cost);
+            if found.0 < best.0 {
+                best = found;
+            }
+        }
+        let (operations, plan) = best;
+        Found { plan, operations, tried: self.tried }
+    }
+
+    fn candidate(&mut self, plan: &Plan) -> Objective<'g> {
         self.tried += 1;
-        super::inverse_dynamics_from(self.mechanism, self.base, plan, false)
+        (self.objective)(&Recursion::from_base(self.mechanism, self.base, plan))
     }
 
     fn cost(&mut self, plan: &Plan) -> usize {
-        let torques = self.torques(plan);
-        self.count(&torques)
+        let candidate = self.candidate(plan);
+        self.count(&candidate.counted)
     }
 
-    fn count(&self, torques: &[Expr<'g>]) -> usize {
-        operations(torques, |symbol| !self.inputs.contains(&symbol)).flops()
+    fn count(&self, roots: &[Expr<'g>]) -> usize {
+        operations(roots, |symbol| self.parameters.contains(&symbol)).flops()
     }
 
-    /// The cost where it is below a bound and the torques are right.
+    /// The cost where it is below a bound and the values are right.
     fn better(&mut self, plan: &Plan, bound: usize) -> Option<usize> {
-        let torques = self.torques(plan);
-        let cost = self.count(&torques);
-        (cost < bound && self.is_accurate(&torques)).then_some(cost)
+        let candidate = self.candidate(plan);
+        let cost = self.count(&candidate.counted);
+        (cost < bound && self.is_accurate(&candidate.checked)).then_some(cost)
     }
 
-    fn is_accurate(&self, torques: &[Expr<'g>]) -> bool {
+    fn is_accurate(&self, roots: &[Expr<'g>]) -> bool {
         self.states.iter().zip(&self.reference).all(|(state, reference)| {
-            let size = reference.iter().fold(0.0_f64, |size, torque| size.max(torque.abs()));
-            let values = evaluate(torques, state);
+            let size = reference.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+            let values = evaluate(roots, state);
             // A comparison with NaN is false: such a plan is refused.
             values.iter().zip(reference).all(|(a, b)| (a - b).abs() <= TOLERANCE * size)
         })
     }
 
-    fn descend(&mut self, mut plan: Plan, mut cost: usize) -> (usize, Plan) {
+    fn descend(&mut self, scope: Scope, mut plan: Plan, mut cost: usize) -> (usize, Plan) {
         for _ in 0..MAX_SWEEPS {
             let before = cost;
             for link in (0..plan.links.len()).rev() {
-                for alternative in alternatives(&plan.links[link]) {
+                for alternative in self.alternatives(scope, &plan.links[link], link) {
                     self.try_link(&mut plan, &mut cost, link, &alternative);
                 }
             }
@@ -129,6 +199,27 @@ impl<'m, 'g> Search<'m, 'g> {
             }
         }
         (cost, plan)
+    }
+
+    /// The changes of one option, or of two that go together, of a link.
+    fn alternatives(&self, scope: Scope, current: &LinkPlan, link: usize) -> Vec<Change> {
+        let mut changes = frame_changes(current);
+        if scope.motions {
+            changes.extend(motion_changes());
+        }
+        if scope.composites {
+            changes.push(Box::new(|plan| plan.composite_sum ^= true));
+            changes.push(Box::new(|plan| plan.meeting = None));
+            let mut inward = Some(link);
+            while let Some(link) = inward {
+                for turned in [false, true] {
+                    let place = Some(Place { link, turned });
+                    changes.push(Box::new(move |plan| plan.meeting = place));
+                }
+                inward = self.mechanism.links[link].parent;
+            }
+        }
+        changes
     }
 
     fn try_link(&mut self, plan: &mut Plan, cost: &mut usize, link: usize, change: &Change) {
@@ -155,8 +246,8 @@ impl<'m, 'g> Search<'m, 'g> {
 
 type Change = Box<dyn Fn(&mut LinkPlan)>;
 
-/// The changes of one option, or of two that go together, of a link.
-fn alternatives(current: &LinkPlan) -> Vec<Change> {
+/// Changes of working frames and of what stays with a link.
+fn frame_changes(current: &LinkPlan) -> Vec<Change> {
     let mut changes: Vec<Change> = vec![];
     let origins = [
         Origin::File,
@@ -174,20 +265,27 @@ fn alternatives(current: &LinkPlan) -> Vec<Change> {
             }));
         }
     }
-    changes.push(Box::new(|plan| plan.angle_sum ^= true));
-    changes.push(Box::new(|plan| plan.column ^= true));
-    for k in 0..3 {
-        changes.push(Box::new(move |plan| plan.moment[k] ^= true));
-    }
-    changes.push(Box::new(|plan| {
-        plan.angle_sum ^= true;
-        plan.column ^= true;
-    }));
     for kind in 0..3 {
         changes.push(Box::new(move |plan| plan.residual[kind] = None));
         for entry in Entry::ALL {
             changes.push(Box::new(move |plan| plan.residual[kind] = Some(entry)));
         }
+    }
+    changes
+}
+
+/// Changes of the recursion over motions and forces.
+fn motion_changes() -> Vec<Change> {
+    let mut changes: Vec<Change> = vec![
+        Box::new(|plan| plan.angle_sum ^= true),
+        Box::new(|plan| plan.column ^= true),
+        Box::new(|plan| {
+            plan.angle_sum ^= true;
+            plan.column ^= true;
+        }),
+    ];
+    for k in 0..3 {
+        changes.push(Box::new(move |plan| plan.moment[k] ^= true));
     }
     changes
 }

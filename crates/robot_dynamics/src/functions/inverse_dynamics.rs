@@ -3,7 +3,6 @@
 use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output};
-use crate::economical;
 use crate::newton_euler::{self, Effects, NewtonEuler};
 use crate::vector::Vector;
 
@@ -30,18 +29,30 @@ pub(super) fn inverse_dynamics<'g>(
     } else {
         "Without friction.".to_owned()
     });
-    let mut inputs = ["q", "qd", "qdd"].map(|name| derivation.coordinate_input(name)).to_vec();
+    let mut inputs = derivation.coordinate_inputs(["q", "qd", "qdd"]);
     if wrench {
         inputs.extend(derivation.wrench_inputs());
     }
-    let tau = Output {
-        name: "tau".to_owned(),
-        doc: "Generalised driving forces".to_owned(),
-        unit: derivation.coordinate_unit("N m", "N"),
-        shape: vec![derivation.mechanism.degrees_of_freedom],
-        values: driving_forces(derivation, wrench, friction),
-    };
+    let tau = derivation.torque_output(driving_forces(derivation, wrench, friction));
     Function { kind, doc, inputs, outputs: vec![tau] }
+}
+
+/// C(q, q̇) q̇ + g(q).
+pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let torques = match &derivation.recursion {
+        Some(recursion) => recursion.bias(false),
+        None => derivation.paper_torques(false, &["qdd"]),
+    };
+    Function {
+        kind: FunctionKind::Bias,
+        doc: vec![
+            "The driving forces at zero accelerations, C(q, q̇) q̇ + g(q): what gravity, Coriolis and \
+             centrifugal effects ask for. Without wrenches and friction."
+                .to_owned(),
+        ],
+        inputs: derivation.coordinate_inputs(["q", "qd"]),
+        outputs: vec![derivation.torque_output(torques)],
+    }
 }
 
 /// Q by the economical recursion, friction added to it.
@@ -52,9 +63,10 @@ fn driving_forces<'g>(
 ) -> Vec<Expr<'g>> {
     let mechanism = &derivation.mechanism;
     let iterations = |friction| newton_euler::newton_euler(mechanism, Effects { wrench, friction });
-    let Some(mut forces) = economical::inverse_dynamics(mechanism, &derivation.plan, wrench) else {
+    let Some(recursion) = &derivation.recursion else {
         return iterations(friction).driving_forces;
     };
+    let mut forces = recursion.inverse_dynamics(wrench);
     if friction {
         let NewtonEuler { wrenches, .. } = iterations(false);
         for (link, contact) in mechanism.links.iter().zip(&wrenches) {
@@ -86,7 +98,7 @@ pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g>
         shape: shape.clone(),
         values,
     };
-    let mut inputs = ["q", "qd", "qdd"].map(|name| derivation.coordinate_input(name)).to_vec();
+    let mut inputs = derivation.coordinate_inputs(["q", "qd", "qdd"]);
     inputs.extend(derivation.wrench_inputs());
     Function {
         kind: FunctionKind::LinkWrenches,

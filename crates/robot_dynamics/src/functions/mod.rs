@@ -4,13 +4,16 @@
 //! parameters alone is shared among them. Torques come from the economical recursion; whatever
 //! needs the forces between links comes from the paper's iterations.
 
+mod gravity;
 mod inverse_dynamics;
+mod mass_matrix;
 
-use robot_symbolic::{Expr, Graph};
+use robot_symbolic::{Expr, Graph, walk};
 
-use crate::economical::Plan;
+use crate::economical::{Plan, Recursion};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::model::{JointKind, Robot};
+use crate::newton_euler::{self, Effects};
 
 /// A function of a robot.
 #[derive(Clone, Debug)]
@@ -66,6 +69,12 @@ pub enum FunctionKind {
     InverseDynamicsWrenchFriction,
     /// F_l and M_l of every joint.
     LinkWrenches,
+    /// M from q.
+    MassMatrix,
+    /// C q̇ + g from q, q̇.
+    Bias,
+    /// g from q.
+    Gravity,
 }
 
 impl FunctionKind {
@@ -76,6 +85,9 @@ impl FunctionKind {
         FunctionKind::InverseDynamicsFriction,
         FunctionKind::InverseDynamicsWrenchFriction,
         FunctionKind::LinkWrenches,
+        FunctionKind::MassMatrix,
+        FunctionKind::Bias,
+        FunctionKind::Gravity,
     ];
 
     /// The name in code and on the command line.
@@ -87,6 +99,9 @@ impl FunctionKind {
             FunctionKind::InverseDynamicsFriction => "inverse_dynamics_friction",
             FunctionKind::InverseDynamicsWrenchFriction => "inverse_dynamics_wrench_friction",
             FunctionKind::LinkWrenches => "link_wrenches",
+            FunctionKind::MassMatrix => "mass_matrix",
+            FunctionKind::Bias => "bias",
+            FunctionKind::Gravity => "gravity",
         }
     }
 
@@ -130,8 +145,9 @@ pub struct Derivation<'r, 'g> {
     pub robot: &'r Robot,
     /// The robot in symbols.
     pub mechanism: Mechanism<'g>,
-    /// The form of the economical recursion.
-    pub plan: Plan,
+    /// The economical recursion; `None` where a joint axis depends on parameters, for which it
+    /// cannot be set up: functions then come from the paper's iterations.
+    pub recursion: Option<Recursion<'g>>,
 }
 
 impl<'r, 'g> Derivation<'r, 'g> {
@@ -147,7 +163,16 @@ impl<'r, 'g> Derivation<'r, 'g> {
     ) -> Derivation<'r, 'g> {
         let mechanism = Mechanism::new(robot, graph, options);
         let plan = plan.unwrap_or_else(|| Plan::default_for(robot));
-        Derivation { robot, mechanism, plan }
+        let recursion = Recursion::new(&mechanism, &plan);
+        Derivation { robot, mechanism, recursion }
+    }
+
+    /// The same robot in the same graph under another plan.
+    #[must_use]
+    pub fn with_plan(&self, plan: &Plan) -> Derivation<'r, 'g> {
+        let mechanism = self.mechanism.clone();
+        let recursion = Recursion::new(&mechanism, plan);
+        Derivation { robot: self.robot, mechanism, recursion }
     }
 
     /// Derives a function. What the robot lacks (a tip, friction) is taken for 0: ask
@@ -162,7 +187,45 @@ impl<'r, 'g> Derivation<'r, 'g> {
                 inverse_dynamics::inverse_dynamics(self, kind)
             }
             FunctionKind::LinkWrenches => inverse_dynamics::link_wrenches(self),
+            FunctionKind::MassMatrix => mass_matrix::mass_matrix(self),
+            FunctionKind::Bias => inverse_dynamics::bias(self),
+            FunctionKind::Gravity => gravity::gravity(self),
         }
+    }
+
+    /// The inputs of those names, each with an element per coordinate.
+    fn coordinate_inputs<const N: usize>(&self, names: [&str; N]) -> Vec<Input> {
+        names.map(|name| self.coordinate_input(name)).to_vec()
+    }
+
+    /// The generalised driving forces as an output.
+    fn torque_output(&self, values: Vec<Expr<'g>>) -> Output<'g> {
+        Output {
+            name: "tau".to_owned(),
+            doc: "Generalised driving forces".to_owned(),
+            unit: self.coordinate_unit("N m", "N"),
+            shape: vec![values.len()],
+            values,
+        }
+    }
+
+    /// The paper's driving forces at other values of velocities and accelerations, by the symbol's
+    /// prefix: what stands in where the economical recursion cannot be set up.
+    fn paper_torques(&self, wrench: bool, zero: &[&str]) -> Vec<Expr<'g>> {
+        let effects = Effects { wrench, friction: false };
+        let torques = newton_euler::newton_euler(&self.mechanism, effects).driving_forces;
+        let graph = self.mechanism.graph;
+        let names: Vec<String> = zero
+            .iter()
+            .flat_map(|prefix| {
+                (1..=self.mechanism.degrees_of_freedom)
+                    .map(move |number| format!("{prefix}{number}"))
+            })
+            .collect();
+        walk::rebuild(&torques, graph, |name| {
+            let is_zero = names.iter().any(|zero| zero == name);
+            if is_zero { graph.zero() } else { graph.symbol(name) }
+        })
     }
 
     /// An input array with an element per coordinate: `q`, `qd`, `qdd` or `tau`.
@@ -197,6 +260,20 @@ impl<'r, 'g> Derivation<'r, 'g> {
             _ => format!(
                 "{rotation}; {translation} for the translations {}",
                 translations.join(", ")
+            ),
+        }
+    }
+
+    /// The unit of a matrix over the coordinates, with the mixed and the translations' entries named
+    /// where they differ.
+    fn matrix_unit(&self, rotation: &str, mixed: &str, translation: &str) -> String {
+        let count = |kind| self.robot.coordinates.iter().filter(|c| c.kind == kind).count();
+        match (count(JointKind::Revolute), count(JointKind::Prismatic)) {
+            (_, 0) => rotation.to_owned(),
+            (0, _) => translation.to_owned(),
+            _ => format!(
+                "{rotation} between rotations, {translation} between translations, {mixed} between a \
+                 rotation and a translation"
             ),
         }
     }

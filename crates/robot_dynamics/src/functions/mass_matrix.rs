@@ -1,0 +1,48 @@
+//! The mass matrix.
+
+use robot_symbolic::walk;
+
+use super::{Derivation, Function, FunctionKind, Output};
+use crate::matrix::SymmetricMatrix;
+
+/// M(q).
+pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let matrix = matrix(derivation);
+    let order = matrix.order();
+    let output = Output {
+        name: "mass_matrix".to_owned(),
+        doc: "The mass matrix, row by row, both triangles".to_owned(),
+        unit: derivation.matrix_unit("kg m²", "kg m", "kg"),
+        shape: vec![order, order],
+        values: matrix.rows(),
+    };
+    Function {
+        kind: FunctionKind::MassMatrix,
+        doc: vec![
+            "The mass matrix M(q), the drives' reflected inertias included: symmetric, positive \
+             definite; the driving forces for the accelerations `qdd` are M q̈ + C q̇ + g and the \
+             kinetic energy is ½ q̇ᵀ M q̇."
+                .to_owned(),
+        ],
+        inputs: derivation.coordinate_inputs(["q"]),
+        outputs: vec![output],
+    }
+}
+
+/// M by composite inertias, or as ∂Q/∂q̈.
+fn matrix<'g>(derivation: &Derivation<'_, 'g>) -> SymmetricMatrix<'g> {
+    if let Some(recursion) = &derivation.recursion {
+        return recursion.mass_matrix();
+    }
+    let graph = derivation.mechanism.graph;
+    let order = derivation.mechanism.degrees_of_freedom;
+    let torques = derivation.paper_torques(false, &[]);
+    let mut matrix = SymmetricMatrix::zero(graph, order);
+    for column in 0..order {
+        let slopes = walk::derivatives(&torques, graph.symbol(&format!("qdd{}", column + 1)));
+        for (row, slope) in slopes.into_iter().enumerate().skip(column) {
+            matrix.set(row, column, slope);
+        }
+    }
+    matrix
+}

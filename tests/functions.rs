@@ -1,0 +1,155 @@
+//! Every dynamic function against the numeric solver: for every robot file, for random chains and
+//! trees, under plans drawn at random.
+
+mod common;
+
+use common::{evaluate, largest_difference, magnitude, robot_files};
+use nalgebra::DMatrix;
+use robot_dynamics::economical::{
+    Plan,
+    plan::{Entry, LinkPlan, Origin, Place, Turn},
+};
+use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric::{
+    self,
+    random::{Random, Recipe, State},
+};
+use robot_dynamics::random;
+use robot_symbolic::{Expr, Graph};
+
+const STATES: usize = 12;
+const TOLERANCE: f64 = 1e-11;
+
+/// The functions that are held against the solver here; those with loads are in `recursions.rs`.
+const KINDS: [FunctionKind; 3] =
+    [FunctionKind::MassMatrix, FunctionKind::Bias, FunctionKind::Gravity];
+
+/// What the solver says a function yields.
+fn expected(solver: &numeric::Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
+    let (q, qd) = (&state.q, &state.qd);
+    match kind {
+        FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
+        FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
+        FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
+        other => panic!("nothing to hold `{}` against", other.name()),
+    }
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
+    matrix.transpose().as_slice().to_vec()
+}
+
+fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
+    let outputs = derivation.function(kind).outputs;
+    for output in &outputs {
+        assert_eq!(output.values.len(), output.shape.iter().product::<usize>(), "{}", output.name);
+    }
+    outputs.into_iter().flat_map(|output| output.values).collect()
+}
+
+/// A plan with every option drawn at random.
+fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
+    let mut link = |index: usize| LinkPlan {
+        origin: [
+            Origin::File,
+            Origin::NextNormal,
+            Origin::PreviousNormal,
+            Origin::ZeroXz,
+            Origin::ZeroYz,
+            Origin::MassCentre,
+            Origin::Parent,
+        ][random.index(7)],
+        turn: [Turn::File, Turn::NextNormal, Turn::FirstMoment][random.index(3)],
+        angle_sum: random.once_in(2),
+        column: random.once_in(2),
+        moment: [0; 3].map(|_| random.once_in(2)),
+        residual: [0; 3].map(|_| random.once_in(3).then(|| Entry::ALL[random.index(8)])),
+        composite_sum: random.once_in(2),
+        meeting: random
+            .once_in(2)
+            .then(|| Place { link: random.index(index + 1), turned: random.once_in(2) }),
+    };
+    let links: Vec<LinkPlan> = (0..robot.links.len()).map(&mut link).collect();
+    let unit_length = random.once_in(2).then(|| (random.index(links.len()), random.index(3)));
+    Plan { links, unit_length }
+}
+
+/// The worst error of each function, relative to its largest value over the states.
+fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64; KINDS.len()]) {
+    let mut random = Random::new(seed);
+    let solver = numeric::Mechanism::nominal(robot).unwrap();
+    let states: Vec<State> = (0..STATES).map(|_| random.state(&solver)).collect();
+    let graph = Graph::new();
+    let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
+    let drawn: Vec<Plan> = (0..3).map(|_| random_plan(&mut random, robot)).collect();
+    let mut derivations = vec![derivation];
+    derivations.extend(drawn.iter().map(|plan| derivations[0].with_plan(plan)).collect::<Vec<_>>());
+    for (kind, worst) in KINDS.iter().zip(worst) {
+        let expected: Vec<_> = states.iter().map(|state| expected(&solver, *kind, state)).collect();
+        let size = magnitude(expected.iter().flatten()).max(1e-3);
+        for (number, derivation) in derivations.iter().enumerate() {
+            let roots = values(derivation, *kind);
+            for (state, expected) in states.iter().zip(&expected) {
+                let found = evaluate(robot, &roots, state);
+                let error = largest_difference(&found, expected) / size;
+                let function = kind.name();
+                assert!(
+                    error <= TOLERANCE,
+                    "{name}, seed {seed}, plan {number}: {function} is off by {error:e}\n{drawn:?}"
+                );
+                *worst = worst.max(error);
+            }
+        }
+    }
+}
+
+fn report(what: &str, worst: [f64; KINDS.len()]) {
+    for (kind, worst) in KINDS.iter().zip(worst) {
+        println!("{what}, {}: worst error {worst:.1e} of the largest value", kind.name());
+    }
+}
+
+#[test]
+fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
+    for (name, text) in robot_files() {
+        let mut worst = [0.0; KINDS.len()];
+        check(&common::read(&name, &text), 3, &name, &mut worst);
+        report(&name, worst);
+    }
+}
+
+#[test]
+fn functions_of_random_chains_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 0..64 {
+        let recipe = Recipe::serial(1 + seed as usize % 8);
+        let robot = random::robot(&mut Random::new(seed), &recipe);
+        check(&robot, seed, "chain", &mut worst);
+    }
+    report("chains", worst);
+}
+
+#[test]
+fn functions_of_random_trees_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 1000..1040 {
+        let joints = 2 + seed as usize % 9;
+        let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
+        let robot = random::robot(&mut Random::new(seed), &recipe);
+        check(&robot, seed, "tree", &mut worst);
+    }
+    report("trees", worst);
+}
+
+#[test]
+fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 2000..2012 {
+        let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
+        let robot = random::robot(&mut Random::new(seed), &recipe);
+        check(&random::parametrised(&robot), seed, "parameters", &mut worst);
+    }
+    report("parameters", worst);
+}
