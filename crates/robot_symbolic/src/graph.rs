@@ -9,6 +9,7 @@ use rustc_hash::FxBuildHasher;
 
 use crate::expr::Expr;
 use crate::number::Number;
+use crate::polynomial::AtomTable;
 use crate::rational::Rational;
 
 /// The identity of a node in its [`Graph`]. Operands always have smaller ids than their node, so
@@ -134,6 +135,7 @@ pub(crate) enum Folding {
 #[derive(Default)]
 pub struct Graph {
     inner: RefCell<Inner>,
+    atoms: RefCell<AtomTable>,
 }
 
 #[derive(Default)]
@@ -234,6 +236,10 @@ impl Graph {
     #[must_use]
     pub fn expr(&self, id: Id) -> Expr<'_> {
         Expr::new(self, id)
+    }
+
+    pub(crate) fn atoms(&self) -> &RefCell<AtomTable> {
+        &self.atoms
     }
 
     pub(crate) fn node(&self, id: Id) -> Node {

@@ -18,7 +18,10 @@ mod graph;
 mod number;
 mod operations;
 mod operators;
+pub mod polynomial;
 pub mod print;
+#[cfg(test)]
+mod random;
 mod rational;
 pub mod rules;
 mod trigonometry;
@@ -29,4 +32,5 @@ pub use formula::{Formula, ParseError};
 pub use graph::{Function, Graph, Id, SymbolId};
 pub use number::Number;
 pub use operations::{Operations, operations};
+pub use polynomial::{AngleSums, Monomial, Polynomial, PolynomialError, PolynomialOptions};
 pub use rational::Rational;

@@ -80,6 +80,20 @@ impl Number {
         }
     }
 
+    #[inline]
+    fn integers(
+        &self,
+        other: &Number,
+        operation: impl Fn(i64, i64) -> Option<i64>,
+    ) -> Option<Number> {
+        match (self, other) {
+            (Number::Rational(a), Number::Rational(b)) => {
+                a.integers(b, operation).map(Number::Rational)
+            }
+            _ => None,
+        }
+    }
+
     fn combine(
         &self,
         other: &Number,
@@ -98,7 +112,11 @@ impl Number {
 
 impl std::ops::Add for &Number {
     type Output = Number;
+    #[inline]
     fn add(self, other: &Number) -> Number {
+        if let Some(sum) = self.integers(other, i64::checked_add) {
+            return sum;
+        }
         self.combine(other, |a, b| a + b, |a, b| a + b)
     }
 }
@@ -112,7 +130,11 @@ impl std::ops::Sub for &Number {
 
 impl std::ops::Mul for &Number {
     type Output = Number;
+    #[inline]
     fn mul(self, other: &Number) -> Number {
+        if let Some(product) = self.integers(other, i64::checked_mul) {
+            return product;
+        }
         self.combine(other, |a, b| a * b, |a, b| a * b)
     }
 }

@@ -21,8 +21,12 @@ pub struct Rational(Repr);
 /// `Small` whenever numerator and denominator fit: equal values have equal representations.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Repr {
-    Small { numerator: i64, denominator: i64 },
-    Big(RBig),
+    Small {
+        numerator: i64,
+        denominator: i64,
+    },
+    /// Behind a pointer: almost every number is small, and terms are moved about by the million.
+    Big(Box<RBig>),
 }
 
 impl Rational {
@@ -156,7 +160,7 @@ impl Rational {
     pub fn recip(&self) -> Option<Rational> {
         match &self.0 {
             Repr::Small { numerator, denominator } => Rational::new(*denominator, *numerator),
-            Repr::Big(big) => Some(from_big(RBig::ONE / big)),
+            Repr::Big(big) => Some(from_big(RBig::ONE / big.as_ref())),
         }
     }
 
@@ -173,7 +177,24 @@ impl Rational {
             Repr::Small { numerator, denominator } => {
                 RBig::from_parts_signed(IBig::from(*numerator), IBig::from(*denominator))
             }
-            Repr::Big(big) => big.clone(),
+            Repr::Big(big) => big.as_ref().clone(),
+        }
+    }
+
+    /// The operation on two integers, most of what polynomials do; `None` for other numbers and
+    /// results that need more than a word.
+    #[inline]
+    pub(crate) fn integers(
+        &self,
+        other: &Rational,
+        operation: impl Fn(i64, i64) -> Option<i64>,
+    ) -> Option<Rational> {
+        match (&self.0, &other.0) {
+            (
+                Repr::Small { numerator: a, denominator: 1 },
+                Repr::Small { numerator: b, denominator: 1 },
+            ) => operation(*a, *b).filter(|result| *result != i64::MIN).map(Rational::integer),
+            _ => None,
         }
     }
 
@@ -207,10 +228,10 @@ fn reduce(numerator: i128, denominator: i128) -> Rational {
         (Ok(numerator), Ok(denominator)) if numerator != i64::MIN => {
             Rational(Repr::Small { numerator, denominator })
         }
-        _ => Rational(Repr::Big(RBig::from_parts_signed(
+        _ => Rational(Repr::Big(Box::new(RBig::from_parts_signed(
             IBig::from(numerator),
             IBig::from(denominator),
-        ))),
+        )))),
     }
 }
 
@@ -236,7 +257,7 @@ fn from_big(big: RBig) -> Rational {
         Some((numerator, denominator)) if numerator != i64::MIN => {
             Rational(Repr::Small { numerator, denominator })
         }
-        _ => Rational(Repr::Big(big)),
+        _ => Rational(Repr::Big(Box::new(big))),
     }
 }
 
@@ -271,7 +292,7 @@ impl std::ops::Neg for &Rational {
             Repr::Small { numerator, denominator } => {
                 Rational(Repr::Small { numerator: -numerator, denominator: *denominator })
             }
-            Repr::Big(big) => from_big(-big.clone()),
+            Repr::Big(big) => from_big(-big.as_ref().clone()),
         }
     }
 }
