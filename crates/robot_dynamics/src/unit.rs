@@ -40,6 +40,26 @@ impl Dimension {
     pub const fn new(mass: i8, length: i8, time: i8) -> Dimension {
         Dimension { mass, length, time }
     }
+
+    /// The dimension of a product.
+    #[must_use]
+    pub const fn product(self, other: Dimension) -> Dimension {
+        Dimension::new(
+            self.mass.saturating_add(other.mass),
+            self.length.saturating_add(other.length),
+            self.time.saturating_add(other.time),
+        )
+    }
+
+    /// The dimension of a power.
+    #[must_use]
+    pub const fn to_power(self, exponent: i8) -> Dimension {
+        Dimension::new(
+            self.mass.saturating_mul(exponent),
+            self.length.saturating_mul(exponent),
+            self.time.saturating_mul(exponent),
+        )
+    }
 }
 
 /// `kg m^2 s^-2`; `1` for none.

@@ -79,8 +79,7 @@ fn own_wrench<'g>(
 ) -> (Vector<'g>, Vector<'g>) {
     let inertia = &chain.links[index].inertia;
     let force = state.acceleration * inertia.mass + state.tensor * inertia.first;
-    let from_second =
-        Vector([0, 1, 2].map(|k| moment_of_second(state, inertia.second, k, plan.moment[k])));
+    let from_second = Vector([0, 1, 2].map(|k| moment_of_second(state, inertia.second, k, plan)));
     (force, from_second + inertia.first.cross(state.acceleration))
 }
 
@@ -90,17 +89,17 @@ fn moment_of_second<'g>(
     state: &LinkState<'g>,
     Matrix(s): Matrix<'g>,
     k: usize,
-    by_products: bool,
+    plan: &LinkPlan,
 ) -> Expr<'g> {
     let (p, q) = ((k + 1) % 3, (k + 2) % 3);
     let (Matrix(u), Vector(w)) = (state.tensor, state.angular_velocity);
-    let skew = if by_products {
+    let skew = if plan.moment[k] {
         // U_qp = ω_p ω_q + ε_k and U_pq = ω_p ω_q − ε_k
         w[p] * w[q] * (s[p][p] - s[q][q]) + state.angular_acceleration.0[k] * (s[p][p] + s[q][q])
     } else {
         u[q][p] * s[p][p] - u[p][q] * s[q][q]
     };
-    // U_qq − U_pp
-    let difference = w[q] * w[q] - w[p] * w[p];
+    // U_qq − U_pp = ω_q² − ω_p²
+    let difference = if plan.diagonal { u[q][q] - u[p][p] } else { w[q] * w[q] - w[p] * w[p] };
     (u[q][k] * s[k][p] - u[p][k] * s[k][q]) + skew + difference * s[p][q]
 }

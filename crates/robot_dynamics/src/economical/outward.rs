@@ -115,20 +115,28 @@ fn rates<'g>(
             Vector([ex + y * spin, ey - x * spin, epsilon_z + rate])
         }
     };
-    (omega, epsilon, tensor(omega, epsilon, column))
+    (omega, epsilon, tensor(omega, epsilon, column, plan.doubled))
 }
 
 /// U = \[ε\]× + \[ω\]×², its third column where it is known.
-fn tensor<'g>(omega: Vector<'g>, epsilon: Vector<'g>, column: Option<Vector<'g>>) -> Matrix<'g> {
+fn tensor<'g>(
+    omega: Vector<'g>,
+    epsilon: Vector<'g>,
+    column: Option<Vector<'g>>,
+    doubled: bool,
+) -> Matrix<'g> {
     let (Vector([x, y, z]), Vector([ex, ey, ez])) = (omega, epsilon);
     let (xy, xz, yz) = (x * y, x * z, y * z);
     let (xx, yy, zz) = (x * x, y * y, z * z);
     match column {
-        Some(Vector([u13, u23, u33])) => Matrix([
-            [u33 + (xx - zz), xy - ez, u13],
-            [xy + ez, -(xx + zz), u23],
-            [xz - ey, yz + ex, u33],
-        ]),
+        Some(Vector([u13, u23, u33])) => {
+            let twice = z * 2;
+            let (u31, u32) = match doubled {
+                true => (x * twice - u13, y * twice - u23),
+                false => (xz - ey, yz + ex),
+            };
+            Matrix([[u33 + (xx - zz), xy - ez, u13], [xy + ez, -(xx + zz), u23], [u31, u32, u33]])
+        }
         None => Matrix([
             [-(yy + zz), xy - ez, xz + ey],
             [xy + ez, -(xx + zz), yz - ex],

@@ -27,9 +27,15 @@ pub struct LinkPlan {
     pub angle_sum: bool,
     /// \[c\] Whether the third column of U comes from the parent's U.
     pub column: bool,
+    /// \[u\] Whether the third row of U then comes from doubled products, U₃₁ = ω_x 2ω_z − U₁₃, which
+    /// spares an addition where the angular acceleration across the axis is not needed itself.
+    pub doubled: bool,
     /// \[b\] Per component of the moment: products of angular velocities and accelerations in place
     /// of entries of U.
     pub moment: [bool; 3],
+    /// \[d\] Whether differences of squared angular velocities come from the diagonal of U, which
+    /// spares a square where U's third column is known.
+    pub diagonal: bool,
     /// \[m, z\] What of the link's mass, first moment and second moment along its joint axis stays
     /// with it, so that an entry of the parent's inertia vanishes; in that order.
     pub residual: [Option<Entry>; 3],
@@ -115,7 +121,9 @@ impl LinkPlan {
         turn: Turn::NextNormal,
         angle_sum: false,
         column: false,
+        doubled: false,
         moment: [false; 3],
+        diagonal: false,
         residual: [None; 3],
         composite_sum: false,
         meeting: None,
@@ -129,7 +137,9 @@ impl Plan {
         let link = LinkPlan {
             angle_sum: true,
             column: true,
+            doubled: true,
             moment: [false, false, true],
+            diagonal: true,
             ..LinkPlan::BASIC
         };
         Plan::uniform(robot.links.len(), &link)

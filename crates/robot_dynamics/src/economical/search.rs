@@ -17,6 +17,10 @@ use crate::newton_euler::{self, Effects};
 const TOLERANCE: f64 = 1e-12;
 /// Sweeps over all options of all links after which the descent ends, improved or not.
 const MAX_SWEEPS: usize = 6;
+/// How many of the starting plans are descended from: the cheapest.
+const DESCENTS: usize = 2;
+/// Plans after which no new descent begins.
+const MAX_TRIES: usize = 3000;
 
 /// What a search found.
 #[derive(Clone, Debug)]
@@ -98,6 +102,31 @@ pub fn search_for(
 /// The frames of the file.
 const FILE: LinkPlan = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC };
 
+/// Plans to descend from: the same options for every link.
+fn starts(links: usize) -> Vec<Plan> {
+    let searched = LinkPlan { angle_sum: true, column: true, diagonal: true, ..LinkPlan::BASIC };
+    let starts = [
+        LinkPlan::BASIC,
+        FILE,
+        LinkPlan { moment: [false, false, true], ..searched.clone() },
+        LinkPlan { moment: [true; 3], doubled: true, ..searched.clone() },
+        LinkPlan { origin: Origin::PreviousNormal, composite_sum: true, ..searched },
+    ];
+    starts.iter().map(|start| Plan::uniform(links, start)).collect()
+}
+
+/// A fixed sequence of pseudo-random numbers (xorshift): the search is the same at every run.
+struct Steps(u64);
+
+impl Steps {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 33) as usize % bound.max(1)
+    }
+}
+
 struct Search<'m, 'g> {
     mechanism: &'m Mechanism<'g>,
     base: &'m Base<'g>,
@@ -127,32 +156,44 @@ impl<'m, 'g> Search<'m, 'g> {
         Search { mechanism, base, objective, parameters, states, reference, tried: 0 }
     }
 
-    /// The best of the descents from a few plans.
+    /// The best of the descents from the cheapest of a few plans, and of further descents from
+    /// neighbours of the best.
     fn run(&mut self, scope: Scope) -> Found {
-        let starts = [
-            FILE,
-            LinkPlan { angle_sum: true, column: true, moment: [true; 3], ..LinkPlan::BASIC },
-            LinkPlan {
-                origin: Origin::PreviousNormal,
-                angle_sum: true,
-                composite_sum: true,
-                ..LinkPlan::BASIC
-            },
-        ];
-        let links = self.mechanism.links.len();
-        let start = |link: &LinkPlan| Plan::uniform(links, link);
-        let basic = start(&LinkPlan::BASIC);
-        let cost = self.cost(&basic);
-        let mut best = self.descend(scope, basic, cost);
-        for start in starts.iter().map(start) {
-            let cost = self.cost(&start);
+        let mut ranked: Vec<(usize, Plan)> = vec![];
+        for start in starts(self.mechanism.links.len()) {
+            ranked.push((self.cost(&start), start));
+        }
+        ranked.sort_by_key(|(cost, _)| *cost);
+        let (mut operations, mut plan) = ranked[0].clone();
+        for (cost, start) in ranked.into_iter().take(DESCENTS) {
             let found = self.descend(scope, start, cost);
-            if found.0 < best.0 {
-                best = found;
+            if found.0 < operations {
+                (operations, plan) = found;
             }
         }
-        let (operations, plan) = best;
+        // Out of a dead end by a few changes at random, from there downhill again.
+        let mut steps = Steps(1);
+        while self.tried < MAX_TRIES {
+            let kicked = self.kick(scope, &plan, &mut steps);
+            let cost = self.cost(&kicked);
+            let (cost, candidate) = self.descend(scope, kicked, cost);
+            if cost <= operations && self.better(&candidate, operations + 1).is_some() {
+                (operations, plan) = (cost, candidate);
+            }
+        }
         Found { plan, operations, tried: self.tried }
+    }
+
+    /// A plan with a few options changed.
+    fn kick(&self, scope: Scope, plan: &Plan, steps: &mut Steps) -> Plan {
+        let mut kicked = plan.clone();
+        for _ in 0..2 + steps.below(3) {
+            let link = steps.below(kicked.links.len());
+            let changes = self.alternatives(scope, &kicked.links[link], link);
+            let change = steps.below(changes.len());
+            changes[change](&mut kicked.links[link]);
+        }
+        kicked
     }
 
     fn candidate(&mut self, plan: &Plan) -> Objective<'g> {
@@ -279,6 +320,12 @@ fn motion_changes() -> Vec<Change> {
     let mut changes: Vec<Change> = vec![
         Box::new(|plan| plan.angle_sum ^= true),
         Box::new(|plan| plan.column ^= true),
+        Box::new(|plan| plan.diagonal ^= true),
+        Box::new(|plan| plan.doubled ^= true),
+        Box::new(|plan| {
+            plan.column ^= true;
+            plan.diagonal ^= true;
+        }),
         Box::new(|plan| {
             plan.angle_sum ^= true;
             plan.column ^= true;
