@@ -173,7 +173,7 @@ impl<'m, 'g> Search<'m, 'g> {
         }
         // Out of a dead end by a few changes at random, from there downhill again.
         let mut steps = Steps(1);
-        while self.tried < MAX_TRIES {
+        while self.tried < MAX_TRIES && !plan.links.is_empty() {
             let kicked = self.kick(scope, &plan, &mut steps);
             let cost = self.cost(&kicked);
             let (cost, candidate) = self.descend(scope, kicked, cost);
