@@ -21,7 +21,7 @@ pub use counts::{Counts, FunctionCounts, PassCounts};
 pub use error::{Error, Errors};
 pub use interpreter::{Interpreter, OutputValues};
 pub use module::Module;
-pub use passes::{Fused, Options, Schedule};
+pub use passes::{Fused, Options, Resubstitution, Schedule};
 pub use program::Program;
 pub use spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
 pub use trigonometry::Trigonometry;

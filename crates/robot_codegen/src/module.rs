@@ -82,7 +82,7 @@ impl Module {
         let lowered = lower::lower(spec)?;
         let mut functions = vec![];
         for (function, lowered) in spec.functions.iter().zip(lowered) {
-            let (core, report) = passes::run(&lowered.core, options);
+            let (core, report) = passes::run(&lowered.core, &lowered.angles, options);
             functions.push(Function {
                 name: function.name.clone(),
                 doc: function.doc.clone(),

@@ -12,12 +12,14 @@ pub mod fusing;
 mod nary;
 pub mod pair_reuse;
 pub mod product_last;
+pub mod resubstitution;
 pub mod schedule;
 pub mod signs;
 #[cfg(test)]
 mod testing;
 pub mod value_numbering;
 
+use self::resubstitution::Samples;
 pub use self::schedule::Schedule;
 use crate::cost::Cost;
 use crate::counts::{Counts, PassCounts};
@@ -30,7 +32,9 @@ pub struct Options {
     pub factoring: bool,
     /// [`pair_reuse`] in sums and products.
     pub pair_reuse: bool,
-    /// How often the two run in turn, at most; they end when neither saves anything.
+    /// How far [`resubstitution`] looks.
+    pub resubstitution: Resubstitution,
+    /// How often these run in turn, at most; they end when none saves anything.
     pub rounds: usize,
     /// [`signs`] into differences.
     pub signs: bool,
@@ -48,6 +52,7 @@ impl Default for Options {
         Options {
             factoring: true,
             pair_reuse: true,
+            resubstitution: Resubstitution::Multiples,
             rounds: 4,
             signs: true,
             fused: Fused::Never,
@@ -65,11 +70,24 @@ impl Options {
         Options {
             factoring: false,
             pair_reuse: false,
+            resubstitution: Resubstitution::Off,
             signs: false,
             schedule: Schedule::Construction,
             ..Options::default()
         }
     }
+}
+
+/// How far [`resubstitution`] looks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Resubstitution {
+    /// Not at all.
+    Off,
+    /// For equal values and multiples: quick.
+    #[default]
+    Multiples,
+    /// Also for sums and products of two values: the time grows with the square of the program.
+    Pairs,
 }
 
 /// Whether products and sums become multiply-adds.
@@ -83,8 +101,13 @@ pub enum Fused {
 }
 
 /// Runs the passes that save operations on a program that loads parameters, and reports what is
-/// left after each.
-pub(crate) fn run(program: &Program, options: &Options) -> (Program, Vec<PassCounts>) {
+/// left after each. `angles` are the arguments of its sines and cosines.
+pub(crate) fn run(
+    program: &Program,
+    angles: &Program,
+    options: &Options,
+) -> (Program, Vec<PassCounts>) {
+    let samples = Samples::new(angles);
     let mut runner = Runner {
         program: dead_code::run(&value_numbering::run(program)),
         cost: options.cost,
@@ -94,7 +117,10 @@ pub(crate) fn run(program: &Program, options: &Options) -> (Program, Vec<PassCou
     for _ in 0..options.rounds {
         let factored = options.factoring && runner.attempt("factoring", factoring::run);
         let reused = options.pair_reuse && runner.attempt("pair reuse", pair_reuse::run);
-        if !factored && !reused {
+        let effort = options.resubstitution;
+        let replaced = runner
+            .attempt("resubstitution", |program| resubstitution::run(program, &samples, effort));
+        if !factored && !reused && !replaced {
             break;
         }
     }
@@ -158,7 +184,9 @@ mod tests {
         for fused in [Fused::Never, Fused::WhereTarget] {
             for cost in [Cost::Operations, Cost::Instructions] {
                 let options = Options { fused, cost, ..Options::default() };
-                let all = |program: &Program| finish(&run(program, &options).0, &options);
+                let all = |program: &Program| {
+                    finish(&run(program, &Program::default(), &options).0, &options)
+                };
                 assert_same_values("all passes", all);
             }
         }
@@ -168,7 +196,7 @@ mod tests {
     fn no_pass_that_is_taken_costs_more() {
         for seed in 0..100 {
             let program = testing::random_program(seed);
-            let (_, report) = run(&program, &Options::default());
+            let (_, report) = run(&program, &Program::default(), &Options::default());
             let costs: Vec<usize> = report.iter().map(|pass| pass.counts.operations()).collect();
             assert!(costs.is_sorted_by(|before, after| before > after), "{costs:?}");
         }

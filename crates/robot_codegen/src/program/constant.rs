@@ -137,6 +137,12 @@ impl DoubleDouble {
     }
 }
 
+impl From<f64> for DoubleDouble {
+    fn from(value: f64) -> DoubleDouble {
+        DoubleDouble::exact(value)
+    }
+}
+
 impl Add for DoubleDouble {
     type Output = DoubleDouble;
     fn add(self, other: DoubleDouble) -> DoubleDouble {

@@ -1,0 +1,207 @@
+//! Values at sample points.
+
+use robot_symbolic::Function;
+
+use crate::program::{DoubleDouble, Operation, Program, Source, Value};
+
+/// Points that share the values of parameters.
+const POINTS_PER_SET: usize = 2;
+/// Sets of values of parameters.
+const SETS: usize = 3;
+/// All points.
+const POINTS: usize = SETS * POINTS_PER_SET;
+
+/// The unit of rounding of `f64`.
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+/// What loads read at the points: parameters and inputs of either sign and sizes near 1, and the
+/// sines and cosines of a function's angles, which may depend on each other.
+pub(crate) struct Samples {
+    angles: Option<Vec<[DoubleDouble; POINTS]>>,
+}
+
+impl Samples {
+    /// The samples for a function with these angles.
+    pub(crate) fn new(angles: &Program) -> Samples {
+        let unrelated = Samples { angles: None };
+        let samples = unrelated.of(angles);
+        let results = angles.results().iter();
+        let angles = results.map(|value| samples[value.index()].values).collect();
+        Samples { angles: Some(angles) }
+    }
+
+    /// Samples for angles that nothing relates.
+    #[cfg(test)]
+    pub(super) fn unrelated() -> Samples {
+        Samples { angles: None }
+    }
+
+    /// The samples of all values of a program.
+    pub(super) fn of(&self, program: &Program) -> Vec<Sample> {
+        let mut samples: Vec<Sample> = Vec::with_capacity(program.operations().len());
+        for (value, operation) in program.values() {
+            let at = |operand: Value| &samples[operand.index()];
+            let sample = match operation {
+                Operation::Constant(constant) => Sample::exact([constant.get().into(); POINTS]),
+                Operation::Load(source) => Sample::exact(self.load(source)),
+                Operation::Add(a, b) => at(a).plus(at(b)),
+                Operation::Sub(a, b) => at(a).minus(at(b), false),
+                Operation::Mul(a, b) => at(a).times(at(b)),
+                Operation::Div(a, b) => at(a).over(at(b)),
+                Operation::Neg(a) => Sample { values: at(a).values.map(|x| -x), ..*at(a) },
+                Operation::MulAdd(a, b, c) => at(a).times(at(b)).plus(at(c)),
+                // Not their values: see the module's first lines.
+                Operation::Call(..) => Sample::exact(unrelated_numbers(3, value.0, false)),
+            };
+            samples.push(sample);
+        }
+        samples
+    }
+
+    fn load(&self, source: Source) -> [DoubleDouble; POINTS] {
+        match source {
+            Source::Parameter(index) => unrelated_numbers(0, index, true),
+            Source::Field(index) => unrelated_numbers(1, index, true),
+            Source::Input(index) => unrelated_numbers(2, index, false),
+            Source::Sin(index) => self.angle(index).map(|angle| angle.apply(Function::Sin)),
+            Source::Cos(index) => self.angle(index).map(|angle| angle.apply(Function::Cos)),
+        }
+    }
+
+    fn angle(&self, index: u32) -> [DoubleDouble; POINTS] {
+        let known = self.angles.as_ref().and_then(|angles| angles.get(index as usize));
+        known.copied().unwrap_or_else(|| unrelated_numbers(4, index, false))
+    }
+}
+
+/// Numbers between 1/2 and 2 of either sign (SplitMix64, Steele, Lea, Flood 2014).
+fn unrelated_numbers(kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble; POINTS] {
+    std::array::from_fn(|point| {
+        let point = if same_in_set { point / POINTS_PER_SET } else { point };
+        let seed = (kind << 40) + (u64::from(index) << 4) + point as u64 + 1;
+        let mut z = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        let size = (z >> 11) as f64 / (1_u64 << 53) as f64 * 1.5 + 0.5;
+        (if z & 1 == 0 { size } else { -size }).into()
+    })
+}
+
+/// A value at the points, with bounds of what rounding does to its evaluation in `f64`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    values: [DoubleDouble; POINTS],
+    errors: [f64; POINTS],
+}
+
+impl Sample {
+    fn exact(values: [DoubleDouble; POINTS]) -> Sample {
+        Sample { values, errors: [0.0; POINTS] }
+    }
+
+    fn new(value: impl Fn(usize) -> DoubleDouble, inherited: impl Fn(usize) -> f64) -> Sample {
+        let values: [DoubleDouble; POINTS] = std::array::from_fn(value);
+        let error = |point: usize| inherited(point) + UNIT * values[point].to_f64().abs();
+        Sample { values, errors: std::array::from_fn(error) }
+    }
+
+    fn plus(&self, other: &Sample) -> Sample {
+        Sample::new(
+            |point| self.values[point] + other.values[point],
+            |point| self.errors[point] + other.errors[point],
+        )
+    }
+
+    /// The difference, or the sum where the sign of the other is changed.
+    pub(super) fn minus(&self, other: &Sample, negative: bool) -> Sample {
+        let sign = if negative { -1.0 } else { 1.0 };
+        Sample::new(
+            |point| self.values[point] - other.values[point] * sign.into(),
+            |point| self.errors[point] + other.errors[point],
+        )
+    }
+
+    fn times(&self, other: &Sample) -> Sample {
+        Sample::new(
+            |point| self.values[point] * other.values[point],
+            |point| {
+                self.errors[point] * other.value(point).abs()
+                    + self.value(point).abs() * other.errors[point]
+            },
+        )
+    }
+
+    pub(super) fn over(&self, other: &Sample) -> Sample {
+        Sample::new(
+            |point| self.values[point] / other.values[point],
+            |point| {
+                let quotient = (self.value(point) / other.value(point)).abs();
+                (self.errors[point] + quotient * other.errors[point]) / other.value(point).abs()
+            },
+        )
+    }
+
+    /// The value at a point.
+    pub(super) fn value(&self, point: usize) -> f64 {
+        self.values[point].to_f64()
+    }
+
+    /// The largest rounding at any point.
+    pub(super) fn rounding(&self) -> f64 {
+        self.errors.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Whether the value is finite and, up to rounding, not 0 at every point.
+    pub(super) fn is_regular(&self) -> bool {
+        (0..POINTS).all(|point| {
+            let size = self.value(point).abs();
+            size.is_finite() && size > 1e3 * self.errors[point]
+        })
+    }
+
+    /// Whether the value is, up to rounding, the same at all points.
+    pub(super) fn is_constant(&self) -> bool {
+        (1..POINTS).all(|point| {
+            let difference = (self.values[point] - self.values[0]).to_f64().abs();
+            difference <= self.errors[point].min(self.errors[0])
+        })
+    }
+
+    /// The constant that the value is: where its evaluation rounds least; 0 where rounding is all.
+    pub(super) fn mean(&self) -> f64 {
+        let errors = self.errors.iter().copied().enumerate();
+        let least = errors.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(point, _)| point);
+        let value = self.value(least);
+        if value.abs() <= self.errors[least] { 0.0 } else { value }
+    }
+
+    /// Whether the value is another's (`Some(false)`) or its negative (`Some(true)`), to within the
+    /// rounding of this value's evaluation.
+    pub(super) fn equals(&self, other: &Sample) -> Option<bool> {
+        let agree = |sign: f64| {
+            (0..POINTS).all(|point| {
+                let difference = self.values[point] - other.values[point] * sign.into();
+                difference.to_f64().abs() <= self.errors[point]
+            })
+        };
+        if agree(1.0) { Some(false) } else { agree(-1.0).then_some(true) }
+    }
+
+    /// The quotient by another value where it is the same within each set of parameters.
+    pub(super) fn ratio(&self, other: &Sample) -> Option<Sample> {
+        let ratio = self.over(other);
+        let first = |point: usize| point / POINTS_PER_SET * POINTS_PER_SET;
+        let steady = (0..POINTS).all(|point| {
+            // Within the rounding of this value, as the multiple would have it.
+            let expected = ratio.values[first(point)] * other.values[point];
+            (self.values[point] - expected).to_f64().abs() <= self.errors[point]
+        });
+        steady.then(|| Sample { values: ratio.values, errors: self.relative_errors(other) })
+    }
+
+    /// How far off a factor of another value may be before this value leaves its own rounding.
+    fn relative_errors(&self, other: &Sample) -> [f64; POINTS] {
+        std::array::from_fn(|point| self.errors[point] / other.value(point).abs())
+    }
+}
