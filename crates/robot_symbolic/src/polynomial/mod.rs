@@ -31,6 +31,7 @@ use crate::number::Number;
 
 use accumulator::{Budget, Part, Term, Terms};
 pub(crate) use atoms::AtomTable;
+pub(crate) use monomial::compare_powers;
 pub use monomial::{Factor, Monomial};
 
 /// What becomes of sines and cosines of sums and multiples of angles.

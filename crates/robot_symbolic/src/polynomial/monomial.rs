@@ -213,7 +213,7 @@ impl PartialOrd for Monomial {
 
 /// The order of listing of two products of powers, each sorted by rank; `power` gives the rank of
 /// an atom and its exponent.
-pub(super) fn compare_powers<T>(a: &[T], b: &[T], power: impl Fn(&T) -> (u32, i32)) -> Ordering {
+pub(crate) fn compare_powers<T>(a: &[T], b: &[T], power: impl Fn(&T) -> (u32, i32)) -> Ordering {
     // At the first atom that only one has, a positive power comes before none, a negative after.
     let alone = |exponent: i32| exponent.cmp(&0).reverse();
     for (x, y) in a.iter().map(&power).zip(b.iter().map(&power)) {

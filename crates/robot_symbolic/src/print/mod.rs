@@ -1,5 +1,124 @@
-//! Printers: numbers and expressions as text.
+//! Expressions and polynomials as infix text and as LaTeX.
+//!
+//! Text reads back: [`crate::Graph::parse`] of the text of an expression gives the expression
+//! itself, and of a polynomial's text an expression with that polynomial, within the limits of the
+//! parser (nesting, length, and floating-point constants, which read back as the decimal that was
+//! printed). Nothing recurses, and an expression whose parts are shared so often that its text
+//! would fill the memory is refused beforehand.
 
+pub mod latex;
 mod number;
+mod polynomial;
+#[cfg(test)]
+mod tests;
+mod text;
+
+use std::borrow::Cow;
+
+use rustc_hash::FxHashMap;
+
+use crate::expr::{Expr, View};
+use crate::walk;
 
 pub use number::exact_text;
+pub use polynomial::{ArrangedTerm, default_rank};
+pub use text::{to_text, to_text_limited};
+
+/// Expressions of more operations, each shared one counted at every use, are not printed.
+pub const MAX_OPERATIONS: u64 = 1_000_000;
+
+/// An expression that is too long to be written out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "written out, the expression has {operations} operations, more than {limit}; print parts of \
+     it under names of their own"
+)]
+pub struct TooLarge {
+    /// The operations of the expression, or the largest `u64` where there are more.
+    pub operations: u64,
+    /// The most that were allowed.
+    pub limit: u64,
+}
+
+/// How tightly a piece of text binds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Level {
+    Sum,
+    Product,
+    Power,
+    Atom,
+}
+
+/// A part of what an expression is printed as.
+pub(crate) enum Piece<'g> {
+    Text(Cow<'static, str>),
+    /// An operand, in parentheses where it binds less tightly than the level.
+    Operand(Expr<'g>, Level),
+}
+
+/// The text of an expression, by a notation that gives each node its level and pieces, with a pair
+/// of parentheses.
+pub(crate) fn write<'g>(
+    root: Expr<'g>,
+    limit: u64,
+    parentheses: [&'static str; 2],
+    notation: impl Fn(Expr<'g>) -> (Level, Vec<Piece<'g>>),
+) -> Result<String, TooLarge> {
+    let operations = written_operations(root);
+    if operations > limit {
+        return Err(TooLarge { operations, limit });
+    }
+    let mut text = String::new();
+    let mut pending = vec![Piece::Operand(root, Level::Sum)];
+    while let Some(piece) = pending.pop() {
+        match piece {
+            Piece::Text(piece) => text.push_str(&piece),
+            Piece::Operand(expr, least) => {
+                let (level, pieces) = notation(expr);
+                let wrapped = level < least;
+                if wrapped {
+                    text.push_str(parentheses[0]);
+                    pending.push(Piece::Text(parentheses[1].into()));
+                }
+                pending.extend(pieces.into_iter().rev());
+            }
+        }
+    }
+    Ok(text)
+}
+
+/// The number of nodes of an expression as a tree.
+fn written_operations(root: Expr<'_>) -> u64 {
+    let mut sizes: FxHashMap<_, u64> = FxHashMap::default();
+    for expr in walk::reachable(&[root]) {
+        let operands = expr.operands();
+        let size = operands
+            .iter()
+            .map(|operand| sizes.get(&operand.id()).copied().unwrap_or_default())
+            .fold(1, u64::saturating_add);
+        sizes.insert(expr.id(), size);
+    }
+    sizes.get(&root.id()).copied().unwrap_or_default()
+}
+
+/// Powers up to the largest that the parser takes are printed as such.
+const MAX_POWER: u32 = crate::formula::MAX_EXPONENT as u32;
+
+/// `(x, n)` where the expression is the product that [`Expr::powi`] makes of `x` and `n`.
+pub(crate) fn as_power(expr: Expr<'_>) -> (Expr<'_>, u32) {
+    power_within(expr, MAX_POWER)
+}
+
+/// As [`as_power`] for exponents up to `most`; halving bounds the recursion at six calls.
+fn power_within(expr: Expr<'_>, most: u32) -> (Expr<'_>, u32) {
+    let View::Mul(a, b) = expr.view() else {
+        return (expr, 1);
+    };
+    if most < 2 || a.as_number().is_some() {
+        return (expr, 1);
+    }
+    let ((x, m), (y, n)) = (power_within(a, most / 2), power_within(b, most / 2));
+    let (high, low) = (m.max(n), m.min(n));
+    // The last step of repeated squaring squares a power of two or multiplies by the highest one.
+    if x == y && high.is_power_of_two() && m + n <= most { (x, high + low) } else { (expr, 1) }
+}

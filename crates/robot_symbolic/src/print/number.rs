@@ -1,5 +1,7 @@
 //! Numbers as text.
 
+use super::Level;
+use crate::number::Number;
 use crate::rational::Rational;
 
 /// Fractions of more decimal places than this are printed as quotients.
@@ -15,6 +17,22 @@ pub fn exact_text(value: &Rational) -> String {
     decimal_places(value)
         .and_then(|(digits, places)| place_point(&digits.to_digits(), places))
         .unwrap_or_else(|| format!("{numerator}/{denominator}"))
+}
+
+/// The absolute value as text that reads back, and how tightly it binds.
+///
+/// Floating-point constants print as the shortest decimal that rounds to them; infinities and NaN
+/// as `(0/0)`, which is as little a number as they are.
+pub(crate) fn magnitude_text(number: &Number) -> (String, Level) {
+    match number {
+        Number::Rational(value) => {
+            let text = exact_text(&value.abs());
+            let level = if text.contains('/') { Level::Product } else { Level::Atom };
+            (text, level)
+        }
+        Number::Real(value) if value.is_finite() => (format!("{:?}", value.abs()), Level::Atom),
+        Number::Real(_) => ("(0/0)".to_owned(), Level::Atom),
+    }
 }
 
 /// `(n, k)` with the value `n / 10^k` and the least such `k`, where there is one.

@@ -1,0 +1,177 @@
+//! Polynomials as sums of terms, in an order of the caller's.
+
+use std::cmp::Ordering;
+
+use rustc_hash::FxHashMap;
+
+use super::{MAX_OPERATIONS, MAX_POWER, TooLarge, number, written_operations};
+use crate::expr::{Expr, View};
+use crate::graph::{Function, Id};
+use crate::number::Number;
+use crate::polynomial::{Polynomial, compare_powers};
+use crate::print::to_text;
+
+/// A term of a polynomial as it is to be printed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArrangedTerm<'g> {
+    /// Whether the term is subtracted.
+    pub negative: bool,
+    /// The absolute value of the coefficient.
+    pub coefficient: Number,
+    /// Atoms with their exponents (not 0), in order.
+    pub factors: Vec<(Expr<'g>, i32)>,
+}
+
+/// The order of atoms where the caller has none: symbols and π, then sines and cosines, then other
+/// functions, then sums; among each, in order of first use in the graph.
+#[must_use]
+pub fn default_rank(atom: Expr<'_>) -> u8 {
+    match atom.view() {
+        View::Symbol(_) | View::Pi => 0,
+        View::Call(Function::Sin | Function::Cos, _) => 1,
+        View::Call(..) => 2,
+        _ => 3,
+    }
+}
+
+impl<'g> Polynomial<'g> {
+    /// The terms with their factors in order of the ranks that `rank` gives to atoms, those of equal
+    /// rank in order of first use in the graph. The terms are in the order of their monomials by
+    /// those factors: higher powers of the first atom first.
+    #[must_use]
+    pub fn arranged<K: Ord>(&self, rank: impl Fn(Expr<'g>) -> K) -> Vec<ArrangedTerm<'g>> {
+        let mut atoms: Vec<(K, Expr<'g>)> =
+            self.atoms().into_iter().map(|atom| (rank(atom), atom)).collect();
+        atoms.sort_by(|(a, x), (b, y)| a.cmp(b).then(x.id().cmp(&y.id())));
+        let places: FxHashMap<Id, u32> =
+            atoms.iter().zip(0..).map(|((_, atom), place)| (atom.id(), place)).collect();
+        let powers = |monomial: &crate::Monomial| {
+            let place = |atom| places.get(&atom).copied().unwrap_or_default();
+            let factors = monomial.factors().iter();
+            let mut powers: Vec<(u32, i32)> =
+                factors.map(|factor| (place(factor.atom()), factor.exponent())).collect();
+            powers.sort_unstable();
+            powers
+        };
+        let mut terms: Vec<(Vec<(u32, i32)>, &Number)> =
+            self.terms().map(|(monomial, number)| (powers(monomial), number)).collect();
+        terms.sort_by(|(a, _), (b, _)| listed(a, b));
+        let atom =
+            |(place, exponent): &(u32, i32)| Some((atoms.get(*place as usize)?.1, *exponent));
+        terms
+            .into_iter()
+            .map(|(powers, number)| ArrangedTerm {
+                negative: number.is_negative(),
+                coefficient: if number.is_negative() { -number } else { number.clone() },
+                factors: powers.iter().filter_map(atom).collect(),
+            })
+            .collect()
+    }
+
+    /// The polynomial as infix text, in the order of [`default_rank`].
+    ///
+    /// ```
+    /// use robot_symbolic::{Graph, Polynomial, PolynomialOptions};
+    /// let graph = Graph::new();
+    /// let expr = graph.parse("(m*l*(sin(q)*(l*qdd - g) + 0.35*l*(1 - 3*qd^2)))/2").unwrap();
+    /// let polynomial = Polynomial::of(expr, &PolynomialOptions::default()).unwrap();
+    /// assert_eq!(
+    ///     polynomial.to_text().unwrap(),
+    ///     "0.5*m*l^2*qdd*sin(q) - 0.525*m*l^2*qd^2 + 0.175*m*l^2 - 0.5*m*l*g*sin(q)"
+    /// );
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Where an argument of a function is too long to be written out.
+    pub fn to_text(&self) -> Result<String, TooLarge> {
+        self.to_text_by(default_rank)
+    }
+
+    /// The polynomial as infix text, arranged by ranks of its atoms (see [`Polynomial::arranged`]).
+    ///
+    /// # Errors
+    ///
+    /// Where an argument of a function is too long to be written out.
+    pub fn to_text_by<K: Ord>(&self, rank: impl Fn(Expr<'g>) -> K) -> Result<String, TooLarge> {
+        let terms = self.arranged(rank);
+        if terms.is_empty() {
+            return Ok("0".to_owned());
+        }
+        let mut atoms = FxHashMap::default();
+        let mut operations: u64 = 0;
+        for atom in self.atoms() {
+            operations = operations.saturating_add(written_operations(atom));
+            if operations > MAX_OPERATIONS {
+                return Err(TooLarge { operations, limit: MAX_OPERATIONS });
+            }
+            atoms.insert(atom.id(), atom_text(atom)?);
+        }
+        let mut text = String::new();
+        for (place, term) in terms.iter().enumerate() {
+            text.push_str(match (place, term.negative) {
+                (0, false) => "",
+                (0, true) => "-",
+                (_, false) => " + ",
+                (_, true) => " - ",
+            });
+            push_term(&mut text, term, &atoms);
+        }
+        Ok(text)
+    }
+}
+
+/// The order of listing of two products of powers.
+fn listed(a: &[(u32, i32)], b: &[(u32, i32)]) -> Ordering {
+    compare_powers(a, b, |power| *power)
+}
+
+fn atom_text(atom: Expr<'_>) -> Result<String, TooLarge> {
+    let text = to_text(atom)?;
+    Ok(match atom.view() {
+        View::Symbol(_) | View::Pi | View::Call(..) => text,
+        _ => format!("({text})"),
+    })
+}
+
+/// `c*x*y^2/(z*w)`.
+fn push_term(text: &mut String, term: &ArrangedTerm<'_>, atoms: &FxHashMap<Id, String>) {
+    let (coefficient, _) = number::magnitude_text(&term.coefficient);
+    let mut numerator: Vec<String> = vec![];
+    let mut denominator: Vec<String> = vec![];
+    for (atom, exponent) in &term.factors {
+        let name = atoms.get(&atom.id()).map(String::as_str).unwrap_or_default();
+        let side = if *exponent > 0 { &mut numerator } else { &mut denominator };
+        push_power(side, name, exponent.unsigned_abs());
+    }
+    if !term.coefficient.is_one() || numerator.is_empty() {
+        numerator.insert(0, coefficient);
+    }
+    text.push_str(&numerator.join("*"));
+    match denominator.as_slice() {
+        [] => {}
+        [single] => {
+            text.push('/');
+            text.push_str(single);
+        }
+        several => {
+            text.push_str("/(");
+            text.push_str(&several.join("*"));
+            text.push(')');
+        }
+    }
+}
+
+/// `x^n`, in factors whose exponents the parser takes.
+fn push_power(factors: &mut Vec<String>, name: &str, exponent: u32) {
+    // Beyond a few thousand the text would serve nobody; the parser says what it thinks of it.
+    let full = exponent / MAX_POWER;
+    if exponent <= MAX_POWER || full > 64 {
+        factors.push(if exponent == 1 { name.to_owned() } else { format!("{name}^{exponent}") });
+        return;
+    }
+    factors.extend((0..full).map(|_| format!("{name}^{MAX_POWER}")));
+    if !exponent.is_multiple_of(MAX_POWER) {
+        push_power(factors, name, exponent % MAX_POWER);
+    }
+}
