@@ -4,6 +4,7 @@
 //! escaped; or as LaTeX of the caller's that [`check_name`] lets pass (subscripts, accents, Greek:
 //! nothing that could do more than print). Names that it refuses are spelt.
 
+mod check;
 mod expression;
 mod names;
 mod polynomial;
@@ -12,8 +13,9 @@ mod tests;
 
 use std::fmt;
 
+pub use check::{LatexNameError, check_name};
 pub use expression::{to_latex, to_latex_limited};
-pub use names::{LatexNameError, check_name, symbol_latex};
+pub use names::symbol_latex;
 pub use polynomial::{LatexTerm, polynomial_terms, polynomial_to_latex};
 
 /// How sines and cosines are printed.

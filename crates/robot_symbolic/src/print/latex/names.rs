@@ -1,18 +1,6 @@
-//! Names of symbols.
+//! Names of symbols, spelt in LaTeX.
 
-use std::ops::Range;
-
-/// LaTeX given for a name that does more than print a symbol.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{message}")]
-pub struct LatexNameError {
-    /// The offending bytes.
-    pub span: Range<usize>,
-    /// What is wrong, and what a name may hold.
-    pub message: String,
-}
-
-const GREEK: [&str; 40] = [
+pub(super) const GREEK: [&str; 40] = [
     "alpha",
     "beta",
     "gamma",
@@ -54,96 +42,6 @@ const GREEK: [&str; 40] = [
     "Psi",
     "Omega",
 ];
-
-/// Accents and fonts, which take what follows.
-const ARGUMENT: [&str; 10] =
-    ["dot", "ddot", "bar", "hat", "tilde", "vec", "mathrm", "mathit", "mathbf", "mathcal"];
-
-/// Signs that names may hold.
-const SIGNS: [&str; 11] =
-    ["prime", "star", "ast", "ell", "circ", "infty", "parallel", "perp", "pm", "cdot", "nabla"];
-
-/// The longest LaTeX that a name may have, in bytes.
-const MAX_LENGTH: usize = 200;
-
-/// Whether LaTeX given for a name only prints a symbol: letters, digits, `* ' + - , . ( )`, sub- and
-/// superscripts, balanced braces, Greek letters, accents and fonts.
-///
-/// # Errors
-///
-/// The first thing that a name may not hold, with its place.
-pub fn check_name(latex: &str) -> Result<(), LatexNameError> {
-    let error = |span, message: &str| Err(LatexNameError { span, message: message.to_owned() });
-    if latex.trim().is_empty() || latex.len() > MAX_LENGTH {
-        return error(0..latex.len(), "a LaTeX name has 1 to 200 characters");
-    }
-    let bytes = latex.as_bytes();
-    let (mut open, mut place) = (vec![], 0);
-    while let Some(byte) = bytes.get(place) {
-        let start = place;
-        place += 1;
-        match byte {
-            b'\\' => {
-                while bytes.get(place).is_some_and(u8::is_ascii_alphabetic) {
-                    place += 1;
-                }
-                let command = latex.get(start + 1..place).unwrap_or_default();
-                let after = latex.get(place..).unwrap_or_default().trim_start();
-                if ARGUMENT.contains(&command)
-                    && !after
-                        .starts_with(|c: char| c.is_ascii_alphanumeric() || c == '{' || c == '\\')
-                {
-                    return error(start..place, "expected what the accent or font is for");
-                }
-                if !GREEK.contains(&command)
-                    && !ARGUMENT.contains(&command)
-                    && !SIGNS.contains(&command)
-                {
-                    let end = latex.ceil_char_boundary(place.max(start + 2).min(latex.len()));
-                    return error(
-                        start..end,
-                        "a LaTeX name may hold Greek letters, accents (\\dot, \\bar, …) and fonts \
-                         (\\mathrm, …), no other commands",
-                    );
-                }
-            }
-            b'{' => open.push(start),
-            b'}' => {
-                if open.pop().is_none() {
-                    return error(start..place, "this `}` closes nothing");
-                }
-            }
-            b'_' | b'^' => {
-                let argument = bytes.get(place).copied();
-                if !argument
-                    .is_some_and(|byte| byte.is_ascii_alphanumeric() || b"{\\*+-".contains(&byte))
-                {
-                    return error(start..place, "expected what is set below or above");
-                }
-            }
-            b' ' | b'*' | b'\'' | b'+' | b'-' | b',' | b'.' | b'(' | b')' => {}
-            byte if byte.is_ascii_alphanumeric() => {}
-            _ => {
-                let end = latex.ceil_char_boundary(place);
-                return error(
-                    start..end,
-                    "a LaTeX name may hold letters, digits, `* ' + - , . ( )`, `_`, `^` and braces",
-                );
-            }
-        }
-    }
-    if latex.contains('\'') && latex.contains('^') {
-        return error(0..latex.len(), "a prime is a superscript already; write `^{\\prime …}`");
-    }
-    match open.pop() {
-        Some(start) => error(start..start + 1, "this `{` is not closed"),
-        None if repeated_script(latex) => error(
-            0..latex.len(),
-            "two superscripts or two subscripts follow each other; use braces",
-        ),
-        None => Ok(()),
-    }
-}
 
 /// The LaTeX of a symbol by its name: `q2` is `q_2`, `qd2` and `qdd2` are `\dot{q}_2` and
 /// `\ddot{q}_2`, `l4` is `l_4`, `Jx1` is `J_{x1}`, `alpha1` is `\alpha_1`, `v_max` is
@@ -219,47 +117,4 @@ fn escaped(text: &str) -> String {
         }
     }
     latex
-}
-
-/// Whether `x^a^b` or `x_a_b` occurs, which LaTeX refuses. Braces are balanced.
-fn repeated_script(latex: &str) -> bool {
-    let mut levels = vec![[false; 2]];
-    let mut characters = latex.bytes().peekable();
-    let mut argument = false;
-    while let Some(byte) = characters.next() {
-        let script = match byte {
-            b'^' => Some(0),
-            b'_' => Some(1),
-            _ => None,
-        };
-        match (byte, script, levels.last_mut()) {
-            (_, Some(script), Some(level)) => {
-                if std::mem::replace(&mut level[script], true) {
-                    return true;
-                }
-                argument = true;
-                continue;
-            }
-            (b'{', ..) => {
-                if !argument && let Some(level) = levels.last_mut() {
-                    *level = [false; 2];
-                }
-                levels.push([false; 2]);
-            }
-            (b'}', ..) => {
-                levels.pop();
-            }
-            (b'\\', ..) => {
-                while characters.next_if(u8::is_ascii_alphabetic).is_some() {}
-                if !argument && let Some(level) = levels.last_mut() {
-                    *level = [false; 2];
-                }
-            }
-            (b' ', ..) => continue,
-            (_, _, Some(level)) if !argument => *level = [false; 2],
-            _ => {}
-        }
-        argument = false;
-    }
-    false
 }
