@@ -7,9 +7,9 @@ use common::{evaluate, largest_difference, magnitude, robot_files};
 use nalgebra::DMatrix;
 use robot_dynamics::economical::{
     Plan,
-    plan::{Entry, LinkPlan, Origin, Place, Turn},
+    plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
 };
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::{Derivation, FunctionKind, search_plan};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::model::Robot;
 use robot_dynamics::numeric::{
@@ -17,14 +17,19 @@ use robot_dynamics::numeric::{
     random::{Random, Recipe, State},
 };
 use robot_dynamics::random;
-use robot_symbolic::{Expr, Graph};
+use robot_symbolic::{Expr, Graph, operations};
 
 const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;
 
 /// The functions that are held against the solver here; those with loads are in `recursions.rs`.
-const KINDS: [FunctionKind; 3] =
-    [FunctionKind::MassMatrix, FunctionKind::Bias, FunctionKind::Gravity];
+const KINDS: [FunctionKind; 5] = [
+    FunctionKind::MassMatrix,
+    FunctionKind::Bias,
+    FunctionKind::Gravity,
+    FunctionKind::ForwardDynamics,
+    FunctionKind::ForwardDynamicsWrench,
+];
 
 /// What the solver says a function yields.
 fn expected(solver: &numeric::Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
@@ -33,6 +38,13 @@ fn expected(solver: &numeric::Mechanism, kind: FunctionKind, state: &State) -> V
         FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
         FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
         FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
+        FunctionKind::ForwardDynamics => {
+            solver.forward_dynamics(q, qd, &state.tau, &[]).unwrap().as_slice().to_vec()
+        }
+        FunctionKind::ForwardDynamicsWrench => {
+            let wrenches = &state.wrenches;
+            solver.forward_dynamics(q, qd, &state.tau, wrenches).unwrap().as_slice().to_vec()
+        }
         other => panic!("nothing to hold `{}` against", other.name()),
     }
 }
@@ -64,8 +76,11 @@ fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
         turn: [Turn::File, Turn::NextNormal, Turn::FirstMoment][random.index(3)],
         angle_sum: random.once_in(2),
         column: random.once_in(2),
+        doubled: random.once_in(2),
+        diagonal: random.once_in(2),
         moment: [0; 3].map(|_| random.once_in(2)),
         residual: [0; 3].map(|_| random.once_in(3).then(|| Entry::ALL[random.index(8)])),
+        free: FreeRate::ALL[random.index(6)],
         composite_sum: random.once_in(2),
         meeting: random
             .once_in(2)
@@ -76,11 +91,22 @@ fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
     Plan { links, unit_length }
 }
 
+/// A random state with wrenches on the tips only.
+fn state(random: &mut Random, solver: &numeric::Mechanism, robot: &Robot) -> State {
+    let mut state = random.state(solver);
+    for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
+        if frame.wrench.is_none() {
+            *wrench = numeric::Wrench::zero();
+        }
+    }
+    state
+}
+
 /// The worst error of each function, relative to its largest value over the states.
 fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64; KINDS.len()]) {
     let mut random = Random::new(seed);
     let solver = numeric::Mechanism::nominal(robot).unwrap();
-    let states: Vec<State> = (0..STATES).map(|_| random.state(&solver)).collect();
+    let states: Vec<State> = (0..STATES).map(|_| state(&mut random, &solver, robot)).collect();
     let graph = Graph::new();
     let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
     let drawn: Vec<Plan> = (0..3).map(|_| random_plan(&mut random, robot)).collect();
@@ -152,4 +178,26 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
         check(&random::parametrised(&robot), seed, "parameters", &mut worst);
     }
     report("parameters", worst);
+}
+
+/// Figures that must not be exceeded: multiplications and additions, and divisions.
+#[test]
+fn searched_plans_keep_the_operations_of_functions_low() {
+    let budgets = [
+        ("puma560", FunctionKind::MassMatrix, 136, 0),
+        ("ur5", FunctionKind::MassMatrix, 99, 0),
+        ("puma560", FunctionKind::ForwardDynamics, 488, 4),
+        ("ur5", FunctionKind::ForwardDynamics, 382, 5),
+    ];
+    for (name, kind, flops, divisions) in budgets {
+        let robot = common::robot(name);
+        let options = MechanismOptions::ROUNDED;
+        let found = search_plan(&robot, &options, &[kind]).unwrap();
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &options, Some(found.plan));
+        let count = operations(&values(&derivation, kind), |_| false);
+        assert_eq!(count.flops(), found.operations, "{name}, {}", kind.name());
+        assert!(count.flops() <= flops, "{name}, {}: {} operations", kind.name(), count.flops());
+        assert!(count.divisions <= divisions, "{name}: {} divisions", count.divisions);
+    }
 }

@@ -56,7 +56,9 @@ fn value_of(robot: &Robot, name: &str, state: &numeric::random::State) -> Option
         let number: usize = name.strip_prefix(prefix)?.parse().ok()?;
         values.get(number - 1).copied()
     };
-    for (prefix, values) in [("qdd", &state.qdd), ("qd", &state.qd), ("q", &state.q)] {
+    let arrays =
+        [("qdd", &state.qdd), ("qd", &state.qd), ("q", &state.q), ("tau", &state.tau)];
+    for (prefix, values) in arrays {
         if let Some(value) = coordinate(prefix, values) {
             return Some(value);
         }

@@ -46,6 +46,34 @@ impl<'g> SymmetricMatrix<'g> {
         (0..self.order).flat_map(row).collect()
     }
 
+    /// x of A x = b, by A = Lᵀ D L from the last row to the first, which keeps the zeros between
+    /// branches of a tree zero (R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section
+    /// 6.5). A division per row whose pivot is not constant, no branch: A is taken for positive
+    /// definite.
+    #[must_use]
+    pub fn solve(mut self, mut right: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        let mut reciprocals = right.clone();
+        for pivot in (0..self.order).rev() {
+            let reciprocal = right[pivot].graph().one() / self.at(pivot, pivot);
+            reciprocals[pivot] = reciprocal;
+            let known = right[pivot];
+            for (row, value) in right.iter_mut().enumerate().take(pivot) {
+                let factor = self.at(pivot, row) * reciprocal;
+                *value -= factor * known;
+                for column in 0..=row {
+                    self.add(row, column, -(factor * self.at(pivot, column)));
+                }
+            }
+        }
+        let mut solution: Vec<Expr<'g>> = vec![];
+        for row in 0..self.order.min(right.len()) {
+            let known = solution.iter().enumerate();
+            let rest = known.fold(right[row], |rest, (column, x)| rest - self.at(row, column) * *x);
+            solution.push(rest * reciprocals[row]);
+        }
+        solution
+    }
+
     fn place(row: usize, column: usize) -> usize {
         let (row, column) = (row.max(column), row.min(column));
         row * (row + 1) / 2 + column

@@ -258,6 +258,18 @@ fn assemble<'g>(
 }
 
 impl<'g> Chain<'g> {
+    /// The links whose parent is `link`.
+    pub(crate) fn children(&self, link: usize) -> impl Iterator<Item = usize> {
+        (link + 1..self.links.len()).filter(move |child| self.links[*child].parent == Some(link))
+    }
+
+    /// Whether a coordinate moves this joint and no other.
+    pub(crate) fn drives_alone(&self, link: usize) -> bool {
+        let coordinate = self.links[link].coordinate;
+        self.links.iter().filter(|other| other.coordinate == coordinate).count() == 1
+            && self.links[link].ratio.as_number().is_some_and(|ratio| !ratio.is_zero())
+    }
+
     /// Takes a component of a link's position for the unit of length. Second moments and torques
     /// keep the metre: r and a shrink by the unit where h grows by it, and m by its square.
     fn rescale(&mut self, link: usize, component: usize) {

@@ -43,9 +43,9 @@ pub(crate) fn inward<'g>(
         forces[index] = force + forces[index];
         moments[index] = moment + moments[index];
         let torque = if link.is_revolute() {
-            moments[index].0[2] + link.reflected_inertia * link.motion[2]
+            moments[index].0[2] + link.reflected_inertia * state.rate
         } else {
-            let reflected = link.reflected_inertia * chain.unit * link.motion[2];
+            let reflected = link.reflected_inertia * chain.unit * state.rate;
             forces[index].0[2] / chain.unit + reflected
         };
         torques[link.coordinate] += torque * link.ratio;

@@ -23,13 +23,14 @@ mod rotation;
 pub mod search;
 mod spatial;
 
-use robot_symbolic::Expr;
+use robot_symbolic::{Expr, Graph};
 
 use crate::matrix::SymmetricMatrix;
 use crate::mechanism::Mechanism;
 use crate::vector::Vector;
 use chain::{Base, Chain};
 use inward::TipWrench;
+use outward::{Accelerations, LinkState};
 use plan::LinkPlan;
 pub use plan::Plan;
 
@@ -56,11 +57,23 @@ impl<'g> Recursion<'g> {
         Recursion { chain, plans: plan.links.clone(), tips }
     }
 
+    /// The graph of the recursion's expressions.
+    #[must_use]
+    pub fn graph(&self) -> &'g Graph {
+        self.chain.graph
+    }
+
+    /// The number of generalised coordinates.
+    #[must_use]
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.chain.degrees_of_freedom
+    }
+
     /// The generalised driving forces Q, with the tips' wrenches where `wrench` asks for them;
     /// friction is not part of them.
     #[must_use]
     pub fn inverse_dynamics(&self, wrench: bool) -> Vec<Expr<'g>> {
-        self.torques(&self.chain, wrench)
+        self.torques(&self.chain, Accelerations::Given, wrench).0
     }
 
     /// C(q, q̇) q̇ + g(q): the driving forces at rest accelerations, with the tips' wrenches where
@@ -71,13 +84,39 @@ impl<'g> Recursion<'g> {
         for link in &mut chain.links {
             link.motion[2] = chain.graph.zero();
         }
-        self.torques(&chain, wrench)
+        self.torques(&chain, Accelerations::Given, wrench).0
     }
 
-    fn torques(&self, chain: &Chain<'g>, wrench: bool) -> Vec<Expr<'g>> {
-        let states = outward::outward(chain, &self.plans);
+    /// q̈ for the driving forces `tau`, with the tips' wrenches where `wrench` asks for them.
+    ///
+    /// By M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own driving forces
+    /// cheap ([`LinkPlan::free`]).
+    #[must_use]
+    pub fn forward_dynamics(&self, tau: &[Expr<'g>], wrench: bool) -> Vec<Expr<'g>> {
+        let (torques, states) = self.torques(&self.chain, Accelerations::Free, wrench);
+        let excess = tau.iter().zip(torques).map(|(tau, torque)| *tau - torque).collect();
+        let mut accelerations = self.mass_matrix().solve(excess);
+        for (link, state) in self.chain.links.iter().zip(&states) {
+            let rate = match link.is_revolute() {
+                true => state.rate,
+                false => state.rate * self.chain.unit,
+            };
+            if !rate.is_zero() {
+                accelerations[link.coordinate] += rate / link.ratio;
+            }
+        }
+        accelerations
+    }
+
+    fn torques(
+        &self,
+        chain: &Chain<'g>,
+        accelerations: Accelerations,
+        wrench: bool,
+    ) -> (Vec<Expr<'g>>, Vec<LinkState<'g>>) {
+        let states = outward::outward(chain, &self.plans, accelerations);
         let tips = if wrench { &self.tips[..] } else { &[] };
-        inward::inward(chain, &self.plans, &states, tips)
+        (inward::inward(chain, &self.plans, &states, tips), states)
     }
 
     /// g(q): the driving forces that hold the mechanism at rest.

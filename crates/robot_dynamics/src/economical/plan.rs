@@ -39,12 +39,45 @@ pub struct LinkPlan {
     /// \[m, z\] What of the link's mass, first moment and second moment along its joint axis stays
     /// with it, so that an entry of the parent's inertia vanishes; in that order.
     pub residual: [Option<Entry>; 3],
+    /// What the joint's acceleration is taken for where it is free to choose.
+    pub free: FreeRate,
     /// Whether composite inertias use the home axes of the parallel group, as `angle_sum` has it
     /// for motions.
     pub composite_sum: bool,
     /// Where this link's wrench for a unit acceleration of its joint meets the motions of the
     /// joints farther inward: a place on the way to the base; `None` for each joint's own.
     pub meeting: Option<Place>,
+}
+
+/// What a joint's acceleration is taken for in forward dynamics, where the bias may be that of any
+/// accelerations q̈*, since q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FreeRate {
+    /// 0.
+    Zero,
+    /// What makes the link's own acceleration along the joint axis vanish: ε_z of a rotation, a_z of
+    /// a translation.
+    Still,
+    /// What makes U₁₂ vanish.
+    Upper,
+    /// What makes U₂₁ vanish.
+    Lower,
+    /// What makes the acceleration of the next link's origin vanish along x.
+    NextX,
+    /// What makes the acceleration of the next link's origin vanish along y.
+    NextY,
+}
+
+impl FreeRate {
+    /// All choices.
+    pub const ALL: [FreeRate; 6] = [
+        FreeRate::Zero,
+        FreeRate::Still,
+        FreeRate::Upper,
+        FreeRate::Lower,
+        FreeRate::NextX,
+        FreeRate::NextY,
+    ];
 }
 
 /// Axes about the origin of a link's working frame.
@@ -125,6 +158,7 @@ impl LinkPlan {
         moment: [false; 3],
         diagonal: false,
         residual: [None; 3],
+        free: FreeRate::Zero,
         composite_sum: false,
         meeting: None,
     };

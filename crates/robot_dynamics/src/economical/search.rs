@@ -8,7 +8,7 @@ use robot_symbolic::{Expr, Graph, SymbolId, operations, walk};
 
 use super::Recursion;
 use super::chain::Base;
-use super::plan::{Entry, LinkPlan, Origin, Place, Plan, Turn};
+use super::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::model::{Parameter, Robot};
 use crate::newton_euler::{self, Effects};
@@ -59,6 +59,8 @@ pub struct Scope {
     pub motions: bool,
     /// Those of composite inertias.
     pub composites: bool,
+    /// The choice of accelerations in forward dynamics.
+    pub free: bool,
 }
 
 /// Searches the plan with the fewest multiplications and additions for inverse dynamics.
@@ -75,7 +77,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
     let torques: ObjectiveOf<'_, '_> =
         &|recursion| Objective::of(recursion.inverse_dynamics(false));
     let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
-    Some(search.run(Scope { motions: true, composites: false }))
+    Some(search.run(Scope { motions: true, composites: false, free: false }))
 }
 
 /// Searches the plan with the fewest multiplications and additions for any functions.
@@ -247,6 +249,11 @@ impl<'m, 'g> Search<'m, 'g> {
         let mut changes = frame_changes(current);
         if scope.motions {
             changes.extend(motion_changes());
+        }
+        if scope.free {
+            for free in FreeRate::ALL {
+                changes.push(Box::new(move |plan| plan.free = free));
+            }
         }
         if scope.composites {
             changes.push(Box::new(|plan| plan.composite_sum ^= true));

@@ -30,7 +30,7 @@ pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
 }
 
 /// M by composite inertias, or as ∂Q/∂q̈.
-fn matrix<'g>(derivation: &Derivation<'_, 'g>) -> SymmetricMatrix<'g> {
+pub(super) fn matrix<'g>(derivation: &Derivation<'_, 'g>) -> SymmetricMatrix<'g> {
     if let Some(recursion) = &derivation.recursion {
         return recursion.mass_matrix();
     }

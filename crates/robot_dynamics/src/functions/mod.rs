@@ -4,10 +4,13 @@
 //! parameters alone is shared among them. Torques come from the economical recursion; whatever
 //! needs the forces between links comes from the paper's iterations.
 
+mod forward_dynamics;
 mod gravity;
 mod inverse_dynamics;
 mod mass_matrix;
+mod plans;
 
+pub use plans::search_plan;
 use robot_symbolic::{Expr, Graph, walk};
 
 use crate::economical::{Plan, Recursion};
@@ -75,6 +78,10 @@ pub enum FunctionKind {
     Bias,
     /// g from q.
     Gravity,
+    /// q̈ from q, q̇, τ.
+    ForwardDynamics,
+    /// q̈ from q, q̇, τ and the tips' wrenches.
+    ForwardDynamicsWrench,
 }
 
 impl FunctionKind {
@@ -88,6 +95,8 @@ impl FunctionKind {
         FunctionKind::MassMatrix,
         FunctionKind::Bias,
         FunctionKind::Gravity,
+        FunctionKind::ForwardDynamics,
+        FunctionKind::ForwardDynamicsWrench,
     ];
 
     /// The name in code and on the command line.
@@ -102,6 +111,8 @@ impl FunctionKind {
             FunctionKind::MassMatrix => "mass_matrix",
             FunctionKind::Bias => "bias",
             FunctionKind::Gravity => "gravity",
+            FunctionKind::ForwardDynamics => "forward_dynamics",
+            FunctionKind::ForwardDynamicsWrench => "forward_dynamics_wrench",
         }
     }
 
@@ -116,7 +127,9 @@ impl FunctionKind {
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let needs_tip = matches!(
             self,
-            FunctionKind::InverseDynamicsWrench | FunctionKind::InverseDynamicsWrenchFriction
+            FunctionKind::InverseDynamicsWrench
+                | FunctionKind::InverseDynamicsWrenchFriction
+                | FunctionKind::ForwardDynamicsWrench
         );
         let needs_friction = matches!(
             self,
@@ -190,6 +203,9 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::MassMatrix => mass_matrix::mass_matrix(self),
             FunctionKind::Bias => inverse_dynamics::bias(self),
             FunctionKind::Gravity => gravity::gravity(self),
+            FunctionKind::ForwardDynamics | FunctionKind::ForwardDynamicsWrench => {
+                forward_dynamics::forward_dynamics(self, kind)
+            }
         }
     }
 

@@ -1,0 +1,50 @@
+//! Forward dynamics: accelerations from driving forces.
+
+use robot_symbolic::Expr;
+
+use super::{Derivation, Function, FunctionKind, Output, mass_matrix};
+
+/// q̈ of M q̈ = τ − C q̇ − g.
+pub(super) fn forward_dynamics<'g>(
+    derivation: &Derivation<'_, 'g>,
+    kind: FunctionKind,
+) -> Function<'g> {
+    let wrench = kind == FunctionKind::ForwardDynamicsWrench;
+    let mut inputs = derivation.coordinate_inputs(["q", "qd", "tau"]);
+    if wrench {
+        inputs.extend(derivation.wrench_inputs());
+    }
+    let values = accelerations(derivation, wrench);
+    let output = Output {
+        name: "qdd".to_owned(),
+        doc: "Joint accelerations".to_owned(),
+        unit: derivation.coordinate_unit("rad/s²", "m/s²"),
+        shape: vec![values.len()],
+        values,
+    };
+    Function {
+        kind,
+        doc: vec![
+            "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
+             solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`."
+                .to_owned(),
+            "By the decomposition M = Lᵀ D L without pivots or branches: where M is not positive \
+             definite (a coordinate that moves no mass), the result is not finite or meaningless."
+                .to_owned(),
+        ],
+        inputs,
+        outputs: vec![output],
+    }
+}
+
+fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
+    let graph = derivation.mechanism.graph;
+    let numbers = 1..=derivation.mechanism.degrees_of_freedom;
+    let tau: Vec<Expr<'g>> = numbers.map(|number| graph.symbol(&format!("tau{number}"))).collect();
+    if let Some(recursion) = &derivation.recursion {
+        return recursion.forward_dynamics(&tau, wrench);
+    }
+    let bias = derivation.paper_torques(wrench, &["qdd"]);
+    let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();
+    mass_matrix::matrix(derivation).solve(excess)
+}

@@ -1,0 +1,60 @@
+//! The cheapest plan for the functions that are wanted.
+
+use super::{Derivation, FunctionKind};
+use crate::economical::Recursion;
+use crate::economical::search::{self, Found, Objective, Scope};
+use crate::mechanism::{Mechanism, MechanismOptions};
+use crate::model::Robot;
+
+/// Searches the plan under which these functions together need the fewest multiplications and
+/// additions; what they share counts once.
+///
+/// `None` where the economical recursion does not apply (a joint axis that depends on parameters).
+#[must_use]
+pub fn search_plan(
+    robot: &Robot,
+    options: &MechanismOptions,
+    kinds: &[FunctionKind],
+) -> Option<Found> {
+    let scope = Scope {
+        motions: kinds.iter().any(|kind| kind.uses_motions()),
+        composites: kinds.iter().any(|kind| kind.uses_composites()),
+        free: kinds.iter().any(|kind| kind.chooses_accelerations()),
+    };
+    search::search_for(robot, options, scope, &|mechanism, recursion| {
+        objective(robot, mechanism, recursion, kinds)
+    })
+}
+
+fn objective<'g>(
+    robot: &Robot,
+    mechanism: &Mechanism<'g>,
+    recursion: &Recursion<'g>,
+    kinds: &[FunctionKind],
+) -> Objective<'g> {
+    let derivation =
+        Derivation { robot, mechanism: mechanism.clone(), recursion: Some(recursion.clone()) };
+    let values = |kind: FunctionKind| {
+        let outputs = derivation.function(kind).outputs;
+        outputs.into_iter().flat_map(|output| output.values)
+    };
+    Objective::of(kinds.iter().copied().flat_map(values).collect())
+}
+
+impl FunctionKind {
+    /// Whether the recursion over motions and forces is part of the function.
+    fn uses_motions(self) -> bool {
+        !matches!(self, FunctionKind::MassMatrix | FunctionKind::Gravity)
+    }
+
+    /// Whether composite inertias are part of the function.
+    fn uses_composites(self) -> bool {
+        matches!(self, FunctionKind::MassMatrix | FunctionKind::Gravity)
+            || self.chooses_accelerations()
+    }
+
+    /// Whether the function is free to choose the accelerations of its bias.
+    fn chooses_accelerations(self) -> bool {
+        matches!(self, FunctionKind::ForwardDynamics | FunctionKind::ForwardDynamicsWrench)
+    }
+}
