@@ -244,10 +244,11 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Applies the waiting operators that bind at least as tightly as `limit`.
+    /// Applies the waiting operators that bind at least as tightly as `limit`, which is at least 1, so
+    /// that parentheses stay.
     fn reduce(&mut self, limit: u8) -> Result<(), ParseError> {
         while let Some((pending, span)) = self.pending.last().cloned()
-            && pending.strength() >= limit.max(1)
+            && pending.strength() >= limit
         {
             self.pending.pop();
             match pending {

@@ -23,6 +23,8 @@ fn parentheses_are_few() {
         "(a + b)^3",
         "(a*b)^2",
         "a^64",
+        "a*a^7",
+        "a^3*a^3",
         "1/a^2",
         "sin(a + b)^2",
         "-a*b",
