@@ -44,7 +44,7 @@ pub use files::{File, Staleness, staleness, write_if_changed};
 pub use generate::{Generated, generate};
 pub use options::{DEFAULT_FUNCTIONS, Options};
 pub use paths::RobotFile;
-pub use programs::{Programs, programs, read};
+pub use programs::{Programs, programs, programs_of, read};
 pub use robot_codegen::Trigonometry;
 pub use robot_codegen::backend::rust::Scalar;
 pub use robot_dynamics::diagnostic::Source;

@@ -45,16 +45,29 @@ pub fn read(source: &Source) -> Result<Described, Errors> {
 ///
 /// Everything that is wrong with the file or the options.
 pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
+    let Described { robot, warnings, .. } = read(source)?;
+    let mut programs = programs_of(robot, &source.name, options)?;
+    programs.warnings = warnings;
+    Ok(programs)
+}
+
+/// As [`programs`], for a robot that is there already; `name` is what errors call its source.
+///
+/// # Errors
+///
+/// Everything that is wrong with the options.
+pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Programs, Errors> {
     if !(0.0..=MAX_SNAP).contains(&options.snap) {
         return Err(Errors::from(Error::Snap { snap: options.snap.to_string() }));
     }
-    let Described { robot, warnings, .. } = read(source)?;
     let functions = options.functions_of(&robot)?;
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(), options.plan.clone());
     let specification = specification::module(&derivation, &functions);
     let module = Module::compile(&specification, &robot_codegen::Options::default())
-        .map_err(|errors| Errors::of_code(&source.name, &errors))?;
+        .map_err(|errors| Errors::of_code(name, &errors))?;
     let snapped = derivation.mechanism.snapped.clone();
+    let source = Source { name: name.to_owned(), text: String::new() };
+    let warnings = Diagnostics::new(source, vec![]);
     Ok(Programs { robot, warnings, snapped, functions, module })
 }

@@ -6,6 +6,7 @@
 pub mod description;
 pub mod diagnostic;
 pub mod economical;
+pub mod errata;
 pub mod functions;
 pub mod matrix;
 pub mod mechanism;

@@ -268,13 +268,13 @@ impl<'r, 'g> Derivation<'r, 'g> {
             .iter()
             .enumerate()
             .filter(|(_, coordinate)| coordinate.kind == JointKind::Prismatic)
-            .map(|(index, _)| index.to_string())
+            .map(|(index, _)| format!("[{index}]"))
             .collect();
         match translations.len() {
             0 => rotation.to_owned(),
             count if count == kinds.len() => translation.to_owned(),
             _ => format!(
-                "{rotation}; {translation} for the translations {}",
+                "{rotation}; {translation} for the translations at {}",
                 translations.join(", ")
             ),
         }

@@ -1,0 +1,59 @@
+//! Dimensions of symbols and terms.
+
+use std::collections::BTreeMap;
+
+use robot_symbolic::View;
+
+use super::term::Term;
+use crate::model::{JointKind, Robot};
+use crate::unit::Dimension;
+
+/// The dimension of every symbol of a robot that has one.
+pub(super) struct Dimensions {
+    symbols: BTreeMap<String, Dimension>,
+}
+
+impl Dimensions {
+    pub(super) fn of(robot: &Robot) -> Dimensions {
+        let mut symbols = BTreeMap::new();
+        for (index, coordinate) in robot.coordinates.iter().enumerate() {
+            let length = i8::from(coordinate.kind == JointKind::Prismatic);
+            for (dots, prefix) in ["q", "qd", "qdd"].iter().enumerate() {
+                // Two dots at the most.
+                let dimension = Dimension::new(0, length, -(dots as i8));
+                symbols.insert(format!("{prefix}{}", index + 1), dimension);
+            }
+        }
+        for parameter in &robot.parameters {
+            if let Some(unit) = &parameter.unit {
+                symbols.insert(parameter.name.clone(), unit.dimension);
+            }
+        }
+        for (_, wrench) in robot.tips() {
+            for name in &wrench.force {
+                symbols.insert(name.clone(), Dimension::FORCE);
+            }
+            for name in &wrench.moment {
+                symbols.insert(name.clone(), Dimension::MOMENT);
+            }
+        }
+        Dimensions { symbols }
+    }
+
+    /// The dimension of a term: of the product of its symbols' powers.
+    ///
+    /// # Errors
+    ///
+    /// The name of a symbol without a known dimension.
+    pub(super) fn of_term(&self, term: &Term<'_>) -> Result<Dimension, String> {
+        let mut product = Dimension::NONE;
+        for factor in &term.factors {
+            let View::Symbol(symbol) = factor.atom.view() else { continue };
+            let name = factor.atom.graph().symbol_name(symbol);
+            let Some(dimension) = self.symbols.get(&name) else { return Err(name) };
+            let exponent = i8::try_from(factor.exponent).unwrap_or(i8::MAX);
+            product = product.product(dimension.to_power(exponent));
+        }
+        Ok(product)
+    }
+}

@@ -1,0 +1,254 @@
+//! The code against the numeric solver: the straight-line programs through the interpreter for
+//! hundreds of random robots, and the Rust that they are printed as, compiled, for twenty.
+
+mod common;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::{largest_difference, magnitude, robot_files};
+use robot_build::{FunctionKind, Options, Programs, programs_of};
+use robot_codegen::Interpreter;
+use robot_codegen::backend::rust::{self, RustOptions, Scalar};
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric::{
+    self, Loads,
+    random::{Random, Recipe, State},
+};
+use robot_dynamics::random;
+
+const TOLERANCE: f64 = 1e-12;
+const FUNCTIONS: [FunctionKind; 5] = [
+    FunctionKind::InverseDynamics,
+    FunctionKind::InverseDynamicsWrench,
+    FunctionKind::InverseDynamicsFriction,
+    FunctionKind::InverseDynamicsWrenchFriction,
+    FunctionKind::LinkWrenches,
+];
+
+/// A robot, its programs and states with what the numeric solver says about them.
+struct Case {
+    name: String,
+    programs: Programs,
+    states: Vec<State>,
+    solver: numeric::Mechanism,
+}
+
+impl Case {
+    fn new(name: &str, robot: Robot, seed: u64, states: usize) -> Case {
+        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let mut random = Random::new(seed);
+        let mut states: Vec<State> = (0..states).map(|_| random.state(&solver)).collect();
+        for state in &mut states {
+            for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
+                if frame.wrench.is_none() {
+                    *wrench = numeric::Wrench::zero();
+                }
+            }
+        }
+        let kinds = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
+        let options = Options { functions: Some(kinds.collect()), ..Options::default() };
+        let programs = programs_of(robot, name, &options).unwrap();
+        Case { name: format!("{name}, seed {seed}"), programs, states, solver }
+    }
+
+    /// The inputs of a function at a state, by name.
+    fn inputs(&self, kind: FunctionKind, state: &State) -> Vec<(String, Vec<f64>)> {
+        let function = self.programs.module.function(kind.name()).unwrap();
+        let frames = self.programs.robot.frames.iter().zip(&state.wrenches);
+        let wrenches: Vec<Vec<f64>> = frames
+            .filter(|(frame, _)| frame.wrench.is_some())
+            .map(|(_, w)| w.force.iter().chain(w.moment.iter()).copied().collect())
+            .collect();
+        let mut wrenches = wrenches.into_iter();
+        let value = |name: &str| match name {
+            "q" => state.q.clone(),
+            "qd" => state.qd.clone(),
+            "qdd" => state.qdd.clone(),
+            _ => wrenches.next().unwrap(),
+        };
+        let names: Vec<String> = function.inputs.iter().map(|input| input.name.clone()).collect();
+        let values: Vec<Vec<f64>> = names.iter().map(|name| name.as_str()).map(value).collect();
+        names.into_iter().zip(values).collect()
+    }
+
+    fn expected(&self, kind: FunctionKind, state: &State) -> Vec<f64> {
+        let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
+        let (wrench, friction) = match kind {
+            FunctionKind::InverseDynamics => (false, false),
+            FunctionKind::InverseDynamicsWrench => (true, false),
+            FunctionKind::InverseDynamicsFriction => (false, true),
+            _ => (true, true),
+        };
+        if kind == FunctionKind::LinkWrenches {
+            let links = self.solver.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
+            let forces =
+                links.iter().flat_map(|l| l.contact_force.iter().copied().collect::<Vec<_>>());
+            let moments =
+                links.iter().flat_map(|l| l.contact_moment.iter().copied().collect::<Vec<_>>());
+            return forces.chain(moments).collect();
+        }
+        let wrenches = if wrench { state.wrenches.clone() } else { vec![] };
+        let torques = self.solver.inverse_dynamics_with(q, qd, qdd, &Loads { wrenches, friction });
+        torques.unwrap().iter().copied().collect()
+    }
+
+    /// Holds values (per state) against the solver; the worst error in units of the largest value.
+    fn hold(&self, kind: FunctionKind, values: &[Vec<f64>]) -> f64 {
+        let expected: Vec<Vec<f64>> =
+            self.states.iter().map(|state| self.expected(kind, state)).collect();
+        let size = magnitude(expected.iter().flatten());
+        let errors = values.iter().zip(&expected).map(|(a, b)| largest_difference(a, b));
+        let worst = errors.fold(0.0, f64::max) / size.max(f64::MIN_POSITIVE);
+        assert!(worst <= TOLERANCE, "{}: {} is off by {worst:e}", self.name, kind.name());
+        worst
+    }
+
+    fn interpret(&self) -> f64 {
+        let interpreter = Interpreter::new(&self.programs.module, &[]).unwrap();
+        let mut worst = 0.0_f64;
+        for &kind in &self.programs.functions {
+            let run = |state: &State| -> Vec<f64> {
+                let inputs = self.inputs(kind, state);
+                let inputs: Vec<(&str, &[f64])> = inputs
+                    .iter()
+                    .map(|(name, values)| (name.as_str(), values.as_slice()))
+                    .collect();
+                let outputs = interpreter.call(kind.name(), &inputs).unwrap();
+                outputs.into_iter().flat_map(|output| output.values).collect()
+            };
+            let values: Vec<Vec<f64>> = self.states.iter().map(run).collect();
+            worst = worst.max(self.hold(kind, &values));
+        }
+        worst
+    }
+}
+
+#[test]
+fn the_programs_of_every_robot_file() {
+    for (name, text) in robot_files() {
+        let worst = Case::new(&name, common::read(&name, &text), 11, 50).interpret();
+        println!("{name}: worst error {worst:.1e}");
+    }
+}
+
+#[test]
+fn the_programs_of_two_hundred_random_robots() {
+    let mut worst = 0.0_f64;
+    for seed in 0..200 {
+        let recipe = Recipe {
+            drives: seed % 4 == 1,
+            fixed: seed % 4 == 2,
+            mimic: seed % 8 == 3,
+            ..Recipe::serial(1 + seed as usize % 8)
+        };
+        let robot = random::robot(&mut Random::new(seed), &recipe);
+        let robot = if seed % 5 == 0 { random::parametrised(&robot) } else { robot };
+        worst = worst.max(Case::new("random robot", robot, seed, 50).interpret());
+    }
+    println!("200 random robots × 50 states: worst error {worst:.1e}");
+}
+
+#[test]
+fn the_compiled_code_of_twenty_random_robots() {
+    let cases: Vec<Case> = (500..520)
+        .map(|seed| {
+            let recipe = Recipe { drives: seed % 2 == 0, ..Recipe::tree(1 + seed as usize % 8) };
+            let robot = random::robot(&mut Random::new(seed), &recipe);
+            let robot = if seed % 3 == 0 { random::parametrised(&robot) } else { robot };
+            Case::new("compiled robot", robot, seed, 50)
+        })
+        .collect();
+    let output = run(&cases);
+    let mut lines = output.lines();
+    let mut worst = 0.0_f64;
+    for case in &cases {
+        for &kind in &case.programs.functions {
+            let values: Vec<Vec<f64>> = case
+                .states
+                .iter()
+                .map(|_| {
+                    let line = lines.next().expect("a line per state");
+                    line.split(' ').map(|bits| f64::from_bits(bits.parse().unwrap())).collect()
+                })
+                .collect();
+            worst = worst.max(case.hold(kind, &values));
+        }
+    }
+    assert_eq!(lines.next(), None);
+    println!("20 compiled robots × 50 states: worst error {worst:.1e}");
+}
+
+/// Compiles the cases into one program that prints the bits of every output, and runs it.
+fn run(cases: &[Case]) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("generated");
+    let manifest = format!(
+        "[package]\nname = \"generated\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
+         [dependencies]\nrobot_runtime = {{ path = \"{}/crates/robot_runtime\", features = [\"std\"] }}\n",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    std::fs::create_dir_all(folder.join("src")).unwrap();
+    write(folder.join("Cargo.toml"), &manifest);
+    write(folder.join("src/main.rs"), &program(cases));
+    // Cargo's own defaults, as users build.
+    let output = Command::new(env!("CARGO"))
+        .args(["run", "--offline", "--quiet"])
+        .current_dir(&folder)
+        .env("CARGO_TARGET_DIR", folder.join("target"))
+        .env_remove("RUSTFLAGS")
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn write(path: PathBuf, text: &str) {
+    if std::fs::read_to_string(&path).is_ok_and(|old| old == text) {
+        return;
+    }
+    std::fs::write(path, text).unwrap();
+}
+
+fn program(cases: &[Case]) -> String {
+    let mut text = String::from("#![deny(warnings)]\n");
+    let mut main = String::from("fn main() {\n");
+    for (index, case) in cases.iter().enumerate() {
+        let options = RustOptions {
+            runtime: "::robot_runtime".to_owned(),
+            scalar: Scalar::F64,
+            trigonometry: Options::default().trigonometry,
+            ..RustOptions::default()
+        };
+        let code = rust::generate(&case.programs.module, &options).unwrap().to_text();
+        let module = rust::identifier(&case.programs.module.name);
+        writeln!(text, "mod case_{index} {{\n{code}\n}}").unwrap();
+        let path = format!("case_{index}::{module}");
+        if case.programs.module.parameters.is_empty() {
+            writeln!(main, "    let m = {path}::Model::NOMINAL;").unwrap();
+        } else {
+            writeln!(main, "    let m = {path}::Model::new(&{path}::Parameters::NOMINAL);")
+                .unwrap();
+        }
+        for &kind in &case.programs.functions {
+            for state in &case.states {
+                call(&mut main, case, kind, state);
+            }
+        }
+    }
+    text + &main
+        + "}\n\nfn show(values: &[f64]) {\n    let bits: Vec<String> = values.iter().map(|v| v.to_bits().to_string()).collect();\n    println!(\"{}\", bits.join(\" \"));\n}\n"
+}
+
+fn call(main: &mut String, case: &Case, kind: FunctionKind, state: &State) {
+    let inputs = case.inputs(kind, state);
+    let arguments: Vec<String> = inputs.iter().map(|(_, values)| format!("&{values:?}")).collect();
+    let call = format!("m.{}({})", kind.name(), arguments.join(", "));
+    let line = match kind {
+        FunctionKind::LinkWrenches => format!(
+            "    let out = {call}; show(&[out.force.as_flattened(), out.moment.as_flattened()].concat());"
+        ),
+        _ => format!("    show(&{call});"),
+    };
+    writeln!(main, "{line}").unwrap();
+}
