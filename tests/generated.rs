@@ -1,5 +1,6 @@
 //! The code against the numeric solver: the straight-line programs through the interpreter for
 //! hundreds of random robots, and the Rust that they are printed as, compiled, for twenty.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod common;
 
@@ -69,7 +70,7 @@ impl Case {
             _ => wrenches.next().unwrap(),
         };
         let names: Vec<String> = function.inputs.iter().map(|input| input.name.clone()).collect();
-        let values: Vec<Vec<f64>> = names.iter().map(|name| name.as_str()).map(value).collect();
+        let values: Vec<Vec<f64>> = names.iter().map(String::as_str).map(value).collect();
         names.into_iter().zip(values).collect()
     }
 

@@ -1,5 +1,6 @@
 //! The two recursions on symbols against the numeric solver, which shares nothing with them: for
 //! every robot file and for random robots, serial and branched.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod common;
 

@@ -56,8 +56,7 @@ fn value_of(robot: &Robot, name: &str, state: &numeric::random::State) -> Option
         let number: usize = name.strip_prefix(prefix)?.parse().ok()?;
         values.get(number - 1).copied()
     };
-    let arrays =
-        [("qdd", &state.qdd), ("qd", &state.qd), ("q", &state.q), ("tau", &state.tau)];
+    let arrays = [("qdd", &state.qdd), ("qd", &state.qd), ("q", &state.q), ("tau", &state.tau)];
     for (prefix, values) in arrays {
         if let Some(value) = coordinate(prefix, values) {
             return Some(value);
