@@ -1,7 +1,6 @@
 //! The builder that a `build.rs` calls.
 
 use std::collections::BTreeMap;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use robot_codegen::Trigonometry;
@@ -13,7 +12,7 @@ use crate::error::{Error, Errors};
 use crate::files::write_if_changed;
 use crate::generate::{Generated, generate};
 use crate::options::{Options, functions_named};
-use crate::paths::RobotFile;
+use crate::paths::{RobotFile, robot_files};
 
 /// The name of the index of several robots.
 const INDEX: &str = "robots";
@@ -132,11 +131,27 @@ impl Builder {
         let mut directives = Directives::default();
         let result = self.run(&paths, &mut directives);
         if !self.silent {
-            let mut output = std::io::stdout().lock();
-            // Nobody is listening where this fails.
-            let _ = output.write_all(directives.text().as_bytes());
+            directives.print();
         }
         result
+    }
+
+    /// Generates the modules of all robot files of a folder, in the order of their names.
+    ///
+    /// Cargo is told to run the build script again where a file comes or goes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Builder::compile`]; a folder that cannot be read or has no robot files.
+    pub fn compile_folder(&self, folder: impl AsRef<Path>) -> Result<(), Errors> {
+        let folder = folder.as_ref();
+        let package = self.package_dir.clone().map_or_else(cargo::package_dir, Ok)?;
+        if !self.silent {
+            let mut directives = Directives::default();
+            directives.rerun_if_changed(folder);
+            directives.print();
+        }
+        self.compile(&robot_files(&package, folder)?)
     }
 
     fn run(&self, paths: &[&Path], directives: &mut Directives) -> Result<(), Errors> {

@@ -1,6 +1,7 @@
 //! What Cargo tells a build script, and what a build script tells Cargo.
 
 use std::fmt::Write as _;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use robot_dynamics::diagnostic::Diagnostics;
@@ -51,8 +52,15 @@ impl Directives {
         }
     }
 
+    #[cfg(test)]
     pub(crate) fn text(&self) -> &str {
         &self.0
+    }
+
+    /// Tells Cargo, on standard output.
+    pub(crate) fn print(&self) {
+        // Nobody is listening where this fails.
+        let _ = std::io::stdout().lock().write_all(self.0.as_bytes());
     }
 
     fn line(&mut self, directive: &str, value: &str) {

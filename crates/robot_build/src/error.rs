@@ -46,6 +46,14 @@ pub enum Error {
         /// What is wrong.
         error: robot_codegen::Error,
     },
+    /// Equations that cannot be written out.
+    #[error("{name}: {reason}")]
+    Equations {
+        /// The robot file.
+        name: String,
+        /// Why, and the remedy.
+        reason: String,
+    },
     /// A file that cannot be read or written.
     #[error("cannot {action} {}: {reason}", path.display())]
     File {

@@ -28,6 +28,7 @@ mod builder;
 mod cargo;
 pub mod check;
 mod conventions;
+pub mod equations;
 mod error;
 mod files;
 mod generate;

@@ -67,6 +67,20 @@ impl RobotFile {
     }
 }
 
+/// The robot files of a folder, relative to the package as the folder is, in the order of names.
+pub(crate) fn robot_files(package: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let failed = |error: std::io::Error| cannot_read(folder, &error.to_string());
+    let mut files = vec![];
+    for entry in std::fs::read_dir(package.join(folder)).map_err(failed)? {
+        let path = folder.join(entry.map_err(failed)?.file_name());
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
 fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {
     path.canonicalize().map_err(|error| {
         let reason = match error.kind() {

@@ -22,14 +22,12 @@ pub(crate) fn module<'g>(
 
 /// The robot, what the file says about it, and the conventions.
 fn module_doc(robot: &Robot) -> Vec<String> {
-    let mut lines = vec![format!("Dynamics of the robot {}.", robot.name), String::new()];
+    let blank = || "\n".to_owned();
+    let mut lines = vec![format!("Dynamics of the robot {}.", robot.name), blank()];
     if let Some(description) = &robot.description {
-        lines.extend([description.clone(), String::new()]);
+        lines.extend([description.clone(), blank()]);
     }
-    for line in CONVENTIONS {
-        lines.extend([line.to_owned(), String::new()]);
-    }
-    lines.pop();
+    lines.extend(CONVENTIONS.map(|line| format!("- {line}")));
     lines
 }
 

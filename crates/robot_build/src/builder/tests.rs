@@ -87,6 +87,23 @@ fn several_robots_have_an_index() {
 }
 
 #[test]
+fn a_folder_is_taken_in_the_order_of_names() {
+    let package = package("folder");
+    for (name, robot) in [("b", "Swing"), ("a", "Pendulum")] {
+        fs::write(package.join(format!("robots/{name}.toml")), ARM.replace("Pendulum", robot))
+            .unwrap();
+    }
+    fs::write(package.join("robots/notes.md"), "no robot").unwrap();
+    builder(&package).compile_folder("robots").unwrap();
+    let index = fs::read_to_string(package.join("out/robots.rs")).unwrap();
+    assert!(index.ends_with("include!(\"pendulum.rs\");\ninclude!(\"swing.rs\");\n"), "{index}");
+    fs::create_dir(package.join("empty")).unwrap();
+    let shown = builder(&package).compile_folder("empty").unwrap_err().to_string();
+    assert!(shown.contains("no robot file is given"), "{shown}");
+    assert!(builder(&package).compile_folder("none").is_err());
+}
+
+#[test]
 fn all_errors_of_all_files_are_shown() {
     let package = package("errors");
     fs::write(package.join("robots/a.toml"), ARM.replace("mass = \"m\"", "mas = \"m\"")).unwrap();

@@ -147,7 +147,14 @@ fn check_values(text: &mut String, parts: &Parts<'_>) {
             line_of(text, format_args!("  {name} = {entries:?}"));
         }
         for output in &check.outputs {
-            line_of(text, format_args!("  -> {} = {:?}", output.name, output.values));
+            let values = match output.shape.as_slice() {
+                [_, columns] if *columns > 0 => {
+                    let rows: Vec<&[f64]> = output.values.chunks(*columns).collect();
+                    format!("{rows:?}")
+                }
+                _ => format!("{:?}", output.values),
+            };
+            line_of(text, format_args!("  -> {} = {values}", output.name));
         }
         line_of(text, format_args!("```\n"));
     }

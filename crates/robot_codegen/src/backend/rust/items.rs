@@ -145,8 +145,9 @@ fn constructor(scope: &mut Scope<'_>) -> Item {
     let (calls, part_items) = parts::statements(scope, &body, &frame);
     statements.extend(calls);
     let values = body.results().into_iter().map(|value| stored(scope, value));
-    let fields = &scope.fields;
-    let value = parse_quote!(Model { #(#fields: #values),* });
+    let fields = scope.fields.iter().zip(values);
+    let fields = fields.map(|(name, value)| syntax::field_value(name, &value));
+    let value = parse_quote!(Model { #(#fields),* });
     let docs = doc::attributes(&constructor_doc(scope));
     let constness = is_const.then(|| quote!(const));
     let signature = parse_quote! {

@@ -55,8 +55,9 @@ pub(super) fn value(scope: &Scope<'_>, function: &Function, results: Vec<Expr>) 
     match scope.output_type(function) {
         None => values.next().unwrap_or_else(|| syntax::tuple(vec![])),
         Some(name) => {
-            let fields = fields(function);
-            parse_quote!(#name { #(#fields: #values),* })
+            let fields = fields(function).into_iter().zip(values);
+            let fields = fields.map(|(name, value)| syntax::field_value(&name, &value));
+            parse_quote!(#name { #(#fields),* })
         }
     }
 }

@@ -24,6 +24,14 @@ pub(super) fn negative(operand: Expr) -> Expr {
     })
 }
 
+/// `name: value` in a struct expression; `name` where the value is the variable of that name.
+pub(super) fn field_value(name: &Ident, value: &Expr) -> syn::FieldValue {
+    match value {
+        Expr::Path(path) if path.path.is_ident(name) => parse_quote!(#name),
+        _ => parse_quote!(#name: #value),
+    }
+}
+
 pub(super) fn variable(name: &Ident) -> Expr {
     Expr::Path(syn::ExprPath { attrs: vec![], qself: None, path: name.clone().into() })
 }

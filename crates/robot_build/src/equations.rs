@@ -1,0 +1,227 @@
+//! From the text of a robot file to its equations of motion, as text and LaTeX.
+
+use robot_dynamics::diagnostic::{Diagnostics, Source};
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
+use robot_dynamics::model::{Parameter, Robot};
+use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::quantity::{Kind, Symbol};
+use robot_symbolic::print::latex::{LatexStyle, LatexTerm, Trigonometry, polynomial_terms};
+use robot_symbolic::print::{TooLarge, default_rank};
+use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions, View};
+
+use crate::error::{Error, Errors};
+use crate::programs::read;
+
+/// Which equations, and how they are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquationOptions {
+    /// The quantities, in the order in which they are wanted.
+    pub kinds: Vec<Kind>,
+    /// Whether the driving forces include friction, equations (4)-(5).
+    pub friction: bool,
+    /// Constant angles within this many radians of a multiple of π/2 become that multiple.
+    pub snap: f64,
+    /// How the equations are written.
+    pub notation: Notation,
+}
+
+/// How equations are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notation {
+    /// Infix text that reads back: `M5*l5*qdd1*cos(q2)`.
+    Text,
+    /// LaTeX for math mode, with the names that the robot file gives.
+    Latex(Trigonometry),
+}
+
+/// The driving forces as text, without friction.
+impl Default for EquationOptions {
+    fn default() -> EquationOptions {
+        EquationOptions {
+            kinds: vec![Kind::DrivingForce],
+            friction: false,
+            snap: MechanismOptions::SNAP,
+            notation: Notation::Text,
+        }
+    }
+}
+
+/// The equations of a robot.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// The robot.
+    pub robot: Robot,
+    /// What looks like a slip in the robot file.
+    pub warnings: Diagnostics,
+    /// The equations, in order.
+    pub list: Vec<Equation>,
+}
+
+/// An equation: a quantity, and the expanded sum that it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Equation {
+    /// The quantity in text, `F_l5.x`.
+    pub name: String,
+    /// The left side in the notation that was chosen.
+    pub left: String,
+    /// The terms of the right side; of 0 there is one term `0`. Text is one term.
+    pub terms: Vec<LatexTerm>,
+}
+
+impl Equation {
+    /// The right side on one line.
+    #[must_use]
+    pub fn right(&self) -> String {
+        let mut text = String::new();
+        for (place, term) in self.terms.iter().enumerate() {
+            text.push_str(sign(place, term.negative));
+            text.push_str(&term.text);
+        }
+        text
+    }
+
+    /// The right side on lines about `width` characters wide, broken before signs. A first line
+    /// starts with its term, the others with a sign.
+    #[must_use]
+    pub fn lines(&self, width: usize) -> Vec<String> {
+        let (mut lines, mut line, mut used) = (vec![], String::new(), 0);
+        for (place, term) in self.terms.iter().enumerate() {
+            if !line.is_empty() && used + term.width > width {
+                lines.push(std::mem::take(&mut line));
+                used = 0;
+            }
+            let sign = sign(place, term.negative);
+            line.push_str(if line.is_empty() { sign.trim_start() } else { sign });
+            line.push_str(&term.text);
+            used += term.width + 2;
+        }
+        lines.push(line);
+        lines
+    }
+}
+
+fn sign(place: usize, negative: bool) -> &'static str {
+    match (place, negative) {
+        (0, false) => "",
+        (0, true) => "-",
+        (_, false) => " + ",
+        (_, true) => " - ",
+    }
+}
+
+/// Derives the quantities of the paper's iterations and expands them: products multiplied out, angle
+/// sums resolved, s² replaced by 1 − c², like terms merged.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file; quantities whose expanded form is too long to be of use.
+pub fn equations(source: &Source, options: &EquationOptions) -> Result<Equations, Errors> {
+    let described = read(source)?;
+    let robot = described.robot;
+    let graph = Graph::new();
+    let exact = MechanismOptions { snap: options.snap, ..MechanismOptions::EXACT };
+    let mechanism = Mechanism::new(&robot, &graph, &exact);
+    let effects = Effects { wrench: true, friction: options.friction };
+    let iterations = newton_euler(&mechanism, effects);
+    let quantities: Vec<_> =
+        options.kinds.iter().flat_map(|kind| iterations.quantities(*kind)).collect();
+    let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
+    let failed = |reason: &dyn std::fmt::Display| Error::Equations {
+        name: source.name.clone(),
+        reason: reason.to_string(),
+    };
+    let polynomials = Polynomial::of_all(&values, &PolynomialOptions::default())
+        .map_err(|error| failed(&error))?;
+    let writer = Writer::new(&robot, options.notation);
+    let mut list = vec![];
+    for (quantity, polynomial) in quantities.iter().zip(&polynomials) {
+        list.push(writer.equation(quantity.symbol, polynomial).map_err(|error| failed(&error))?);
+    }
+    Ok(Equations { robot, warnings: described.warnings, list })
+}
+
+/// The order of factors within a term: masses and inertias, other parameters, sines and cosines,
+/// then coordinates, velocities and accelerations; each by number.
+type Rank = (u8, u8, usize);
+
+/// Writes the equations of a robot.
+struct Writer<'r> {
+    robot: &'r Robot,
+    notation: Notation,
+}
+
+impl<'r> Writer<'r> {
+    fn new(robot: &'r Robot, notation: Notation) -> Writer<'r> {
+        Writer { robot, notation }
+    }
+
+    fn equation(&self, symbol: Symbol, polynomial: &Polynomial<'_>) -> Result<Equation, TooLarge> {
+        let name = symbol.to_string();
+        let rank = |atom: Expr<'_>| self.rank(atom);
+        Ok(match self.notation {
+            Notation::Text => {
+                let text = polynomial.to_text_by(rank)?;
+                let width = text.chars().count();
+                let term = LatexTerm { negative: false, text, width };
+                Equation { left: name.clone(), name, terms: vec![term] }
+            }
+            Notation::Latex(trigonometry) => {
+                let names = |name: &str| self.latex(name);
+                let style = LatexStyle::new(trigonometry).with_names(&names);
+                let terms = polynomial_terms(polynomial, &style, rank)?;
+                Equation { left: left_side(symbol), name, terms }
+            }
+        })
+    }
+
+    fn rank(&self, atom: Expr<'_>) -> Rank {
+        let group = 2 * default_rank(atom);
+        let View::Symbol(symbol) = atom.view() else {
+            return (group, 0, 0);
+        };
+        let name = atom.graph().symbol_name(symbol);
+        let parameters = &self.robot.parameters;
+        if let Some(place) = parameters.iter().position(|parameter| parameter.name == name) {
+            return (group, u8::from(!is_inertial(&parameters[place])), place);
+        }
+        let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+        let number = digits.parse().unwrap_or_default();
+        // Motions stand at the end of a term, wrenches at its beginning.
+        match name.strip_suffix(digits) {
+            Some("q") => (9, 0, number),
+            Some("qd") => (9, 1, number),
+            Some("qdd") => (9, 2, number),
+            _ => (0, 0, number),
+        }
+    }
+
+    /// How the robot file wants a name to be printed.
+    fn latex(&self, name: &str) -> Option<String> {
+        if let Some(parameter) = self.robot.parameter(name) {
+            return parameter.latex.clone();
+        }
+        self.robot.tips().find_map(|(_, wrench)| {
+            let mut names = wrench.force.iter().chain(&wrench.moment);
+            wrench.latex.get(names.position(|known| known == name)?)?.clone()
+        })
+    }
+}
+
+/// Whether a parameter is a mass or an inertia, by its unit.
+fn is_inertial(parameter: &Parameter) -> bool {
+    let dimension = parameter.unit.as_ref().map(|unit| unit.dimension);
+    dimension.is_some_and(|dimension| dimension.mass == 1 && dimension.time == 0)
+}
+
+/// `Q_{2}`, `F_{l_x}^{5}`
+fn left_side(symbol: Symbol) -> String {
+    let number = symbol.number;
+    let Some(component) = symbol.component else {
+        return format!("{}_{{{number}}}", symbol.kind.name());
+    };
+    let axis = ["x", "y", "z"][component.min(2)];
+    match symbol.kind.name().split_once('_') {
+        Some((letter, index)) => format!("{letter}_{{{index}_{axis}}}^{{{number}}}"),
+        None => format!("{}_{{{axis}}}^{{{number}}}", symbol.kind.name()),
+    }
+}

@@ -1,0 +1,51 @@
+//! `demo`: the equations of TRTTR1, and its generated code at a check state.
+
+use std::fmt::Write as _;
+
+use clap::Args;
+use robot_build::equations::{EquationOptions, equations};
+use robot_build::{Options, Source, Trigonometry, check, programs};
+
+use super::equations::plain;
+use crate::Terminal;
+use crate::failure::Failure;
+
+include!(concat!(env!("OUT_DIR"), "/trttr1.rs"));
+
+/// The robot file that the code above was generated from when this command was built.
+const ROBOT: &str = include_str!("../../../../robots/trttr1.toml");
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic demo")]
+pub(crate) struct Arguments {}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let source = Source { name: "robots/trttr1.toml".to_owned(), text: ROBOT.to_owned() };
+        let equations = equations(&source, &EquationOptions::default())?;
+        let mut shown = String::from(
+            "The equations of motion of TRTTR1, driving forces without friction, expanded:\n\n",
+        );
+        shown.push_str(&plain(&equations));
+        let function = "inverse_dynamics";
+        let programs = programs(&source, &Options::default())?;
+        let state = check::check_value(&source.name, &programs, function, Trigonometry::Standard)?;
+        shown.push_str("\nInverse dynamics at a check state, nominal parameters:\n\n");
+        // Writing to a string does not fail.
+        for (name, entries) in &state.inputs {
+            let _ = writeln!(shown, "  {name} = {entries:?}");
+        }
+        let interpreted: Vec<f64> =
+            state.outputs.iter().flat_map(|output| output.values.iter().copied()).collect();
+        let _ = writeln!(shown, "  tau = {interpreted:?}, interpreted");
+        let inputs: Vec<Option<[f64; trttr1::DOF]>> =
+            state.inputs.iter().map(|(_, entries)| entries.as_slice().try_into().ok()).collect();
+        if let [Some(q), Some(qd), Some(qdd)] = inputs.as_slice() {
+            let tau = trttr1::Model::NOMINAL.inverse_dynamics(q, qd, qdd);
+            let _ = writeln!(shown, "  tau = {tau:?}, by the generated code");
+        }
+        shown.push_str("\n`robot-symbolic --help` shows what else there is.\n");
+        Ok(terminal.output.write_all(shown.as_bytes())?)
+    }
+}

@@ -1,0 +1,218 @@
+//! `eval`: a function of a robot at given states.
+
+mod output;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_build::{FunctionKind, Options, Programs, Source, Trigonometry, programs};
+use robot_codegen::module::Function;
+use robot_codegen::{Interpreter, OutputValues};
+use robot_dynamics::model::Robot;
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::robot::{RobotArgument, TrigonometryName, functions};
+use crate::states::{Layout, State, WRENCH};
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic eval robots/planar_2r.toml --function inverse_dynamics --states - <<'END'
+  [{\"q\": [0.3, 0.5], \"qd\": [0, 1], \"qdd\": [2, 0]}]
+  END
+
+States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz;
+wrench_NAME for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz.
+A function needs all its inputs but the wrench, which is 0 where it is not given. Where a state has a
+wrench other than 0, inverse_dynamics means inverse_dynamics_wrench and inverse_dynamics_friction
+means inverse_dynamics_wrench_friction. Numbers come from the straight-line program that the
+generated code prints.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// The function
+    #[arg(long, value_name = "NAME")]
+    function: String,
+    /// The file with the states; `-` for standard input
+    #[arg(long, value_name = "FILE")]
+    states: PathBuf,
+    /// A parameter's value in place of the nominal one
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
+    settings: Vec<(String, f64)>,
+    /// Where sines and cosines come from
+    #[arg(long, value_enum, default_value_t = TrigonometryName::Standard)]
+    trigonometry: TrigonometryName,
+    /// How to print the outputs
+    #[arg(long, value_enum, default_value_t = Format::Json)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Json,
+    Csv,
+}
+
+/// `M5=2.5`
+fn setting(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as M5=2.5")?;
+    let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let number = number.ok_or_else(|| format!("`{}` is not a number", value.trim()))?;
+    Ok((name.trim().to_owned(), number))
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let kind = functions(std::slice::from_ref(&self.function))?.remove(0);
+        let source = self.robot.source()?;
+        let robot = robot_build::read(&source)?.robot;
+        let mut wrong = self.wrong_settings(&robot);
+        let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
+        let kind = with_wrench(kind, &robot, &states, &mut wrong);
+        let options = Options { functions: Some(vec![kind]), ..self.robot.options() };
+        let programs = programs(&source, &options)?;
+        text::warnings(&programs.warnings, terminal)?;
+        let results = self.results(&source, &programs, &states, wrong)?;
+        let shown = match self.format {
+            Format::Json => output::json(&results),
+            Format::Csv => output::csv(&results),
+        };
+        Ok(terminal.output.write_all(shown.as_bytes())?)
+    }
+
+    fn states(
+        &self,
+        layout: &Layout,
+        terminal: &mut Terminal<'_>,
+        wrong: &mut Vec<String>,
+    ) -> Result<Vec<State>, Failure> {
+        let (mut name, mut bytes) = (self.states.display().to_string(), vec![]);
+        if name == "-" {
+            name = "standard input".to_owned();
+            terminal.input.read_to_end(&mut bytes)?;
+        } else {
+            bytes = std::fs::read(&self.states)
+                .map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
+        }
+        let text = String::from_utf8(bytes)
+            .map_err(|error| Failure::input(format!("{name} is not UTF-8 text: {error}")))?;
+        let (states, found) = layout.read(&text);
+        wrong.extend(found.into_iter().map(|message| format!("{name}: {message}")));
+        Ok(states)
+    }
+
+    /// The outputs at every state, where nothing is wrong.
+    fn results(
+        &self,
+        source: &Source,
+        programs: &Programs,
+        states: &[State],
+        mut wrong: Vec<String>,
+    ) -> Result<Vec<Vec<OutputValues>>, Failure> {
+        let Some(function) = programs.module.functions.first() else {
+            return Ok(vec![]);
+        };
+        wrong.extend(states.iter().flat_map(|state| missing_inputs(function, state)));
+        if !wrong.is_empty() {
+            return Err(Failure::Input(wrong));
+        }
+        let settings: Vec<(&str, f64)> =
+            self.settings.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let failed = |errors: robot_codegen::Errors| {
+            let errors = errors.as_slice().iter();
+            Failure::Input(errors.map(|error| format!("{}: {error}", source.name)).collect())
+        };
+        let interpreter = Interpreter::new(&programs.module, &settings)
+            .map_err(failed)?
+            .with_trigonometry(Trigonometry::from(self.trigonometry));
+        let mut results = vec![];
+        for state in states {
+            let inputs = inputs(function, state);
+            let given: Vec<(&str, &[f64])> =
+                inputs.iter().map(|(name, entries)| (*name, entries.as_slice())).collect();
+            let outputs = interpreter.call(&function.name, &given).map_err(failed)?;
+            wrong.extend(infinite(state, &outputs));
+            results.push(outputs);
+        }
+        if wrong.is_empty() { Ok(results) } else { Err(Failure::Input(wrong)) }
+    }
+
+    /// Parameters that there are not, that are set twice, or that have no value.
+    fn wrong_settings(&self, robot: &Robot) -> Vec<String> {
+        let mut wrong = vec![];
+        let parameters = &robot.parameters;
+        let known: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        for (index, (name, _)) in self.settings.iter().enumerate() {
+            if !known.contains(&name.as_str()) {
+                wrong.push(format!("--set: {}", text::unknown("parameter", name, &known)));
+            } else if self.settings[..index].iter().any(|(earlier, _)| earlier == name) {
+                wrong.push(format!("--set: `{name}` is set twice"));
+            }
+        }
+        for parameter in parameters.iter().filter(|parameter| parameter.value.is_none()) {
+            let name = &parameter.name;
+            if self.settings.iter().all(|(set, _)| set != name) {
+                wrong.push(format!("`{name}` has no nominal value: give one, --set {name}=…"));
+            }
+        }
+        wrong
+    }
+}
+
+/// The function that takes the wrenches which the states have.
+fn with_wrench(
+    kind: FunctionKind,
+    robot: &Robot,
+    states: &[State],
+    wrong: &mut Vec<String>,
+) -> FunctionKind {
+    let loaded: Vec<&State> =
+        states.iter().filter(|state| state.wrenches().next().is_some()).collect();
+    if loaded.is_empty() {
+        return kind;
+    }
+    if let Some(why) = FunctionKind::InverseDynamicsWrench.missing_in(robot) {
+        wrong.extend(loaded.iter().map(|state| format!("{}: a wrench, but {why}", state.place)));
+        return kind;
+    }
+    match kind {
+        FunctionKind::InverseDynamics => FunctionKind::InverseDynamicsWrench,
+        FunctionKind::InverseDynamicsFriction => FunctionKind::InverseDynamicsWrenchFriction,
+        other => other,
+    }
+}
+
+/// The inputs that a state lacks; a wrench is 0 where it is not given.
+fn missing_inputs(function: &Function, state: &State) -> Vec<String> {
+    let missing = function
+        .inputs
+        .iter()
+        .filter(|input| !input.name.starts_with(WRENCH) && state.array(&input.name).is_none());
+    missing
+        .map(|input| {
+            format!("{}: `{}` is missing; {} takes it", state.place, input.name, function.name)
+        })
+        .collect()
+}
+
+/// The inputs of a function at a state; a wrench that is not given is 0.
+fn inputs<'f>(function: &'f Function, state: &State) -> Vec<(&'f str, Vec<f64>)> {
+    let inputs = function.inputs.iter().map(|input| {
+        let entries = state.array(&input.name).map(<[f64]>::to_vec);
+        (input.name.as_str(), entries.unwrap_or_else(|| vec![0.0; input.symbols.len()]))
+    });
+    inputs.collect()
+}
+
+/// Outputs that JSON cannot hold.
+fn infinite<'s>(
+    state: &'s State,
+    outputs: &'s [OutputValues],
+) -> impl Iterator<Item = String> + use<'s> {
+    let wrong =
+        outputs.iter().filter(|output| output.values.iter().any(|value| !value.is_finite()));
+    wrong.map(|output| {
+        format!("{}: `{}` has no finite value; look at the parameters", state.place, output.name)
+    })
+}

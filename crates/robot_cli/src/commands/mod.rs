@@ -1,0 +1,59 @@
+//! The commands, a file each.
+
+mod demo;
+mod equations;
+mod eval;
+mod generate;
+mod package;
+mod search;
+mod show;
+mod stats;
+
+use clap::Subcommand;
+
+use crate::Terminal;
+use crate::failure::Failure;
+
+/// What the command line asks for.
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Print the equations of motion of a robot
+    Equations(equations::Arguments),
+    /// Write the Rust module of a robot
+    Generate(generate::Arguments),
+    /// Write a whole crate with the functions of a robot
+    Crate(package::Arguments),
+    /// Compute a function of a robot at given states
+    Eval(eval::Arguments),
+    /// Count the operations of a robot's functions
+    Stats(stats::Arguments),
+    /// Search the form of the recursion with the fewest operations
+    Search(search::Arguments),
+    /// Show what a robot file says
+    Show(show::Arguments),
+    /// Show the equations of the robot TRTTR1 and run its generated code
+    Demo(demo::Arguments),
+}
+
+/// The demonstration, for those who have no robot file yet.
+impl Default for Command {
+    fn default() -> Command {
+        Command::Demo(demo::Arguments {})
+    }
+}
+
+impl Command {
+    /// Does what was asked for.
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        match self {
+            Command::Equations(arguments) => arguments.run(terminal),
+            Command::Generate(arguments) => arguments.run(terminal),
+            Command::Crate(arguments) => arguments.run(terminal),
+            Command::Eval(arguments) => arguments.run(terminal),
+            Command::Stats(arguments) => arguments.run(terminal),
+            Command::Search(arguments) => arguments.run(terminal),
+            Command::Show(arguments) => arguments.run(terminal),
+            Command::Demo(arguments) => arguments.run(terminal),
+        }
+    }
+}

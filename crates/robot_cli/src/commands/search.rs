@@ -1,0 +1,75 @@
+//! `search`: the form of the recursion with the fewest operations.
+
+use clap::Args;
+use robot_dynamics::economical::search::search;
+use robot_dynamics::economical::{Plan, plan::LinkPlan};
+use robot_dynamics::mechanism::MechanismOptions;
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::robot::RobotArgument;
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic search robots/ur5.toml
+
+Tries the options of the economical recursion for inverse dynamics link by link and counts what each
+costs. All forms give the same torques.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let robot = self.robot.read(terminal)?.robot;
+        let options = MechanismOptions { snap: self.robot.snap(), ..MechanismOptions::ROUNDED };
+        let Some(found) = search(&robot, &options) else {
+            return Err(Failure::input(format!(
+                "{}: a joint axis depends on parameters; the economical recursion has no forms for it",
+                robot.name
+            )));
+        };
+        writeln!(
+            terminal.output,
+            "{}: {} multiplications and additions, the best of {} forms\n",
+            robot.name, found.operations, found.tried
+        )?;
+        let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
+        write!(terminal.output, "{}", text::table(&rows(&found.plan, &names)))?;
+        if let Some((link, component)) = found.plan.unit_length {
+            let name = names.get(link).copied().unwrap_or_default();
+            let axis = ["x", "y", "z"][component.min(2)];
+            writeln!(terminal.output, "\nunit of length: {axis} of the position of link {name}")?;
+        }
+        Ok(())
+    }
+}
+
+fn rows(plan: &Plan, names: &[&str]) -> Vec<Vec<String>> {
+    let title = ["link", "origin", "turn", "angle sum", "column", "moment", "residual"];
+    let mut rows = vec![title.map(str::to_owned).to_vec()];
+    for (link, name) in plan.links.iter().zip(names) {
+        rows.push(row(link, name));
+    }
+    rows
+}
+
+fn row(plan: &LinkPlan, name: &str) -> Vec<String> {
+    let yes = |flag: bool| if flag { "yes" } else { "-" };
+    let moment: Vec<&str> = plan.moment.into_iter().map(yes).collect();
+    let residual = plan.residual.map(|entry| match entry {
+        Some(entry) => format!("{entry:?}"),
+        None => "-".to_owned(),
+    });
+    vec![
+        name.to_owned(),
+        format!("{:?}", plan.origin),
+        format!("{:?}", plan.turn),
+        yes(plan.angle_sum).to_owned(),
+        yes(plan.column).to_owned(),
+        moment.join(" "),
+        residual.join(" "),
+    ]
+}

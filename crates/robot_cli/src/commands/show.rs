@@ -1,0 +1,83 @@
+//! `show`: what a robot file says.
+
+use clap::Args;
+use robot_build::FunctionKind;
+use robot_dynamics::model::{JointKind, Robot};
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::robot::RobotArgument;
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic show robots/trttr1.toml")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let robot = self.robot.read(terminal)?.robot;
+        let output = &mut terminal.output;
+        writeln!(output, "{}", robot.name)?;
+        if let Some(description) = &robot.description {
+            writeln!(output, "{}", description.trim())?;
+        }
+        writeln!(output, "\n{}", text::table(&joints(&robot)))?;
+        if !robot.parameters.is_empty() {
+            writeln!(output, "{}", text::table(&parameters(&robot)))?;
+        }
+        writeln!(output, "{}", text::table(&functions(&robot)))?;
+        Ok(())
+    }
+}
+
+fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
+    cells.map(str::to_owned).to_vec()
+}
+
+fn joints(robot: &Robot) -> Vec<Vec<String>> {
+    let mut rows = vec![row(["link", "parent", "joint", "motion", "coordinate", "bodies"])];
+    for link in &robot.links {
+        let parent = link.parent.and_then(|parent| robot.links.get(parent));
+        let axis: Vec<&str> = link.joint.axis.iter().map(robot_symbolic::Formula::text).collect();
+        let motion = match link.joint.kind {
+            JointKind::Revolute => format!("rotation about ({})", axis.join(", ")),
+            JointKind::Prismatic => format!("translation along ({})", axis.join(", ")),
+        };
+        let bodies: Vec<&str> = link.bodies.iter().map(|body| body.name.as_str()).collect();
+        rows.push(vec![
+            link.name.clone(),
+            parent.map_or("base", |parent| &parent.name).to_owned(),
+            link.joint.name.clone(),
+            motion,
+            format!("q{}", link.joint.coordinate + 1),
+            bodies.join(", "),
+        ]);
+    }
+    rows
+}
+
+fn parameters(robot: &Robot) -> Vec<Vec<String>> {
+    let mut rows = vec![row(["parameter", "nominal", "unit", "meaning"])];
+    for parameter in &robot.parameters {
+        let nominal = parameter.value.as_ref().map(|value| value.to_f64().to_string());
+        rows.push(vec![
+            parameter.name.clone(),
+            nominal.unwrap_or_default(),
+            parameter.unit.as_ref().map(|unit| unit.text.clone()).unwrap_or_default(),
+            parameter.doc.clone().unwrap_or_default(),
+        ]);
+    }
+    rows
+}
+
+fn functions(robot: &Robot) -> Vec<Vec<String>> {
+    let mut rows = vec![row(["function", ""])];
+    for kind in FunctionKind::ALL {
+        rows.push(row([kind.name(), kind.missing_in(robot).unwrap_or("yes")]));
+    }
+    rows
+}

@@ -1,0 +1,29 @@
+//! Operation counts as JSON and text.
+
+use robot_codegen::{Counts, FunctionCounts};
+use serde_json::{Map, Value, json};
+
+/// A named figure of [`Counts`].
+type Figure = (&'static str, fn(&Counts) -> usize);
+
+/// The figures, by their names in JSON.
+pub(crate) const FIGURES: [Figure; 8] = [
+    ("mul", |counts| counts.mul),
+    ("add", |counts| counts.add),
+    ("div", |counts| counts.div),
+    ("sqrt", |counts| counts.sqrt),
+    ("other", |counts| counts.other),
+    ("sin", |counts| counts.sin),
+    ("cos", |counts| counts.cos),
+    ("temporaries", |counts| counts.temporaries),
+];
+
+/// `{"mul": …, …, "constructor": {"mul": …, …}}`
+pub(crate) fn json(counts: &FunctionCounts) -> Value {
+    let figures = |counts: &Counts| -> Map<String, Value> {
+        FIGURES.iter().map(|(name, figure)| ((*name).to_owned(), json!(figure(counts)))).collect()
+    };
+    let mut object = figures(&counts.call);
+    object.insert("constructor".to_owned(), Value::Object(figures(&counts.constructor)));
+    Value::Object(object)
+}

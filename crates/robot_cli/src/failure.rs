@@ -1,0 +1,84 @@
+//! Why a command ended without having done its work.
+
+use std::io;
+
+use robot_build::{Error, Errors};
+use robot_dynamics::diagnostic::Style;
+
+use crate::Terminal;
+
+/// More messages than this are counted, not shown.
+const MAX_SHOWN: usize = 20;
+
+/// Why a command ended without having done its work.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The robot file, or what was asked of it.
+    Robot(Errors),
+    /// Other inputs, a message each.
+    Input(Vec<String>),
+    /// Arguments that do not fit together, or name what there is not.
+    Usage(Vec<String>),
+    /// A stream.
+    Stream(io::Error),
+}
+
+impl From<Errors> for Failure {
+    fn from(errors: Errors) -> Failure {
+        Failure::Robot(errors)
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Failure {
+        Failure::Robot(Errors::from(error))
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Failure {
+        Failure::Stream(error)
+    }
+}
+
+impl Failure {
+    /// One wrong input.
+    pub(crate) fn input(message: impl Into<String>) -> Failure {
+        Failure::Input(vec![message.into()])
+    }
+
+    /// Shows what is wrong; gives the exit code.
+    pub(crate) fn report(&self, terminal: &mut Terminal<'_>) -> u8 {
+        let (messages, code) = match self {
+            Failure::Robot(errors) => (robot_messages(errors, terminal.colours), 1),
+            Failure::Input(messages) => (shown(messages), 1),
+            Failure::Usage(messages) => (shown(messages), 2),
+            // Whoever reads the output has seen enough.
+            Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
+            Failure::Stream(error) => (vec![format!("error: {error}")], 1),
+        };
+        for message in messages {
+            // Nobody is listening where this fails.
+            let _ = writeln!(terminal.errors, "{}", message.trim_end());
+        }
+        code
+    }
+}
+
+fn robot_messages(errors: &Errors, colours: bool) -> Vec<String> {
+    let style = if colours { Style::Terminal } else { Style::Plain };
+    let messages = errors.as_slice().iter().map(|error| match error {
+        Error::Robot(diagnostics) => diagnostics.render(style),
+        _ => format!("error: {error}"),
+    });
+    messages.collect()
+}
+
+fn shown(messages: &[String]) -> Vec<String> {
+    let mut lines: Vec<String> =
+        messages.iter().take(MAX_SHOWN).map(|message| format!("error: {message}")).collect();
+    if let Some(more @ 1..) = messages.len().checked_sub(MAX_SHOWN) {
+        lines.push(format!("({more} more not shown)"));
+    }
+    lines
+}

@@ -1,0 +1,111 @@
+//! The robot file of a command, and how code is made of it.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_build::{FunctionKind, Options, RobotFile, Scalar, Source, Trigonometry};
+use robot_dynamics::description::Described;
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::text;
+
+/// The robot file.
+#[derive(Args)]
+pub(crate) struct RobotArgument {
+    /// The robot file
+    file: PathBuf,
+    /// Constant angles this near to a multiple of π/2, in radians, become that multiple
+    #[arg(long, value_name = "RAD", default_value_t = Options::default().snap)]
+    snap: f64,
+}
+
+impl RobotArgument {
+    /// The text of the file.
+    pub(crate) fn source(&self) -> Result<Source, Failure> {
+        Ok(RobotFile::read(&self.file)?.source)
+    }
+
+    /// The robot; warnings are shown.
+    pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
+        let described = robot_build::read(&self.source()?)?;
+        text::warnings(&described.warnings, terminal)?;
+        Ok(described)
+    }
+
+    /// The snapping tolerance, rad.
+    pub(crate) fn snap(&self) -> f64 {
+        self.snap
+    }
+
+    /// The default options with the snapping tolerance.
+    pub(crate) fn options(&self) -> Options {
+        Options { snap: self.snap, ..Options::default() }
+    }
+}
+
+/// What code is made.
+#[derive(Args)]
+pub(crate) struct CodeArguments {
+    /// Functions to generate; all that the robot has without this
+    #[arg(long = "function", value_name = "NAME", value_delimiter = ',')]
+    functions: Vec<String>,
+    /// The number type of the functions
+    #[arg(long, value_enum, default_value_t = ScalarName::F64)]
+    scalar: ScalarName,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum ScalarName {
+    F64,
+    F32,
+}
+
+/// Where sines and cosines come from.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum TrigonometryName {
+    /// The standard library
+    Standard,
+    /// The runtime's branch-free polynomials
+    Polynomial,
+}
+
+impl From<TrigonometryName> for Trigonometry {
+    fn from(name: TrigonometryName) -> Trigonometry {
+        match name {
+            TrigonometryName::Standard => Trigonometry::Standard,
+            TrigonometryName::Polynomial => Trigonometry::Polynomial,
+        }
+    }
+}
+
+impl CodeArguments {
+    /// The options for code.
+    pub(crate) fn options(
+        &self,
+        robot: &RobotArgument,
+        trigonometry: TrigonometryName,
+    ) -> Result<Options, Failure> {
+        let scalar = match self.scalar {
+            ScalarName::F64 => Scalar::F64,
+            ScalarName::F32 => Scalar::F32,
+        };
+        let functions = functions(&self.functions)?;
+        let functions = (!functions.is_empty()).then_some(functions);
+        let trigonometry = trigonometry.into();
+        Ok(Options { functions, scalar, trigonometry, ..robot.options() })
+    }
+}
+
+/// The functions of those names.
+pub(crate) fn functions(names: &[String]) -> Result<Vec<FunctionKind>, Failure> {
+    let (mut kinds, mut wrong) = (vec![], vec![]);
+    let known: Vec<&str> = FunctionKind::ALL.iter().map(|kind| kind.name()).collect();
+    for name in names {
+        match FunctionKind::from_name(name) {
+            Some(kind) => kinds.push(kind),
+            None => wrong.push(text::unknown("function", name, &known)),
+        }
+    }
+    if wrong.is_empty() { Ok(kinds) } else { Err(Failure::Usage(wrong)) }
+}

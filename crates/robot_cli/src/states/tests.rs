@@ -1,0 +1,69 @@
+use super::*;
+
+fn layout() -> Layout {
+    let text = include_str!("../../../../robots/planar_2r.toml");
+    let described = robot_dynamics::description::read_toml("planar_2r.toml", text).unwrap();
+    Layout::of(&described.robot)
+}
+
+fn states(text: &str) -> Vec<State> {
+    let (states, errors) = layout().read(text);
+    assert_eq!(errors, [""; 0]);
+    states
+}
+
+fn errors(text: &str) -> Vec<String> {
+    layout().read(text).1
+}
+
+#[test]
+fn json_and_csv_give_the_same_states() {
+    let json = r#"[{"q": [0.1, -2], "qd": [1e-3, 4], "wrench": [1, 2, 3, 4, 5, 6]},
+                   {"qd": [0, 0], "q": [3, 4], "wrench": [0, 0, 0, 0, 0, 0]}]"#;
+    let csv = "\u{feff}fx,fy,fz,mx,my,mz,q2, q1,qd1,qd2\r\n1,2,3,4,5,6,-2,0.1,1e-3,4\r\n\r\n\
+               0,0,0,0,0,0,4,3,0,0\n";
+    let [json, csv] = [json, csv].map(states);
+    assert_eq!(json.len(), 2);
+    for (json, csv) in json.iter().zip(&csv) {
+        for name in ["q", "qd", "wrench"] {
+            assert_eq!(json.array(name), csv.array(name));
+            assert!(json.array(name).is_some());
+        }
+        assert_eq!((json.array("qdd"), csv.array("qdd")), (None, None));
+    }
+    assert_eq!(json[0].array("q"), Some(&[0.1, -2.0][..]));
+    assert_eq!(json.iter().map(|state| state.wrenches().count()).collect::<Vec<_>>(), [1, 0]);
+    assert_eq!([json[1].place.as_str(), csv[1].place.as_str()], ["state 2", "line 4"]);
+}
+
+#[test]
+fn everything_that_is_wrong_with_json_is_named() {
+    let text = r#"[{"q": [1, "x"], "qd": [1], "qdt": []}, 5, {"q": 3, "qd": [null, 1]}]"#;
+    let expected = [
+        "state 1: `q` has a text at entry 2, not a number",
+        "state 1: `qd` has 1 entries, not 2",
+        "state 1: there is no key `qdt`. Did you mean `qd`? There are q, qd, qdd, tau, wrench.",
+        "state 2: expected an object, not a number",
+        "state 3: `q` is a number, not an array of 2 numbers",
+        "state 3: `qd` has null at entry 1, not a number",
+    ];
+    assert_eq!(errors(text), expected);
+    assert!(errors("{}")[0].contains("expected an array of states"));
+    assert!(errors("[{")[0].contains("this is not JSON: EOF"));
+    assert_eq!(errors(" \n"), ["there are no states"]);
+    assert_eq!(states("[]"), []);
+}
+
+#[test]
+fn everything_that_is_wrong_with_csv_is_named() {
+    let header = errors("q1,q3,q1\n");
+    assert!(header[0].contains("there is no column `q3`. Did you mean `q1`?"), "{header:?}");
+    assert_eq!(header[1..], ["the header has `q1` twice", "the header lacks q2 of `q`"]);
+    let found = errors("q1,q2\n1,nan\n1\n2,\n");
+    let expected = [
+        "line 2: `q2` is `nan`, not a number",
+        "line 3: 1 entries under a header of 2",
+        "line 4: `q2` is ``, not a number",
+    ];
+    assert_eq!(found, expected);
+}

@@ -1,0 +1,130 @@
+//! Pieces of text that several commands show.
+
+use std::fmt::Write as _;
+
+use robot_dynamics::diagnostic::{Diagnostics, Style, quote};
+
+use crate::Terminal;
+use crate::failure::Failure;
+
+/// `there is no function `invers`; did you mean `inverse`? There are …`
+pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
+    let near =
+        nearest(name, known).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
+    let known = match known {
+        [] => "There is none.".to_owned(),
+        known => format!("There are {}.", known.join(", ")),
+    };
+    format!("there is no {what} `{}`.{near} {known}", quote(name))
+}
+
+/// The known name that a misspelt one most likely means.
+fn nearest<'n>(name: &str, known: &[&'n str]) -> Option<&'n str> {
+    if name.chars().count() > 64 {
+        return None;
+    }
+    let lower = name.to_lowercase();
+    let distances = known.iter().map(|near| {
+        let distance = strsim::damerau_levenshtein(&lower, &near.to_lowercase());
+        // Among those equally near, the one with the same first letter.
+        (distance, near.chars().next() != name.chars().next(), *near)
+    });
+    let nearest = distances.min_by_key(|(distance, other, _)| (*distance, *other));
+    let (distance, _, near) = nearest?;
+    (distance <= near.len().div_ceil(3).min(3)).then_some(near)
+}
+
+/// Shows the warnings of a robot file.
+pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    if !warnings.is_empty() {
+        let style = if terminal.colours { Style::Terminal } else { Style::Plain };
+        writeln!(terminal.errors, "{}", warnings.render(style).trim_end())?;
+    }
+    Ok(())
+}
+
+/// A sum on lines of so many columns, broken before signs that stand in no parentheses.
+pub(crate) fn wrapped(text: &str, columns: usize) -> Vec<&str> {
+    let (mut lines, mut start, mut last, mut depth) = (vec![], 0, 0, 0_usize);
+    for (place, character) in text.char_indices() {
+        match character {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            '+' | '-' if depth == 0 && text[..place].ends_with(' ') => {
+                if place - start > columns && last > start {
+                    lines.push(text[start..last].trim_end());
+                    start = last;
+                }
+                last = place;
+            }
+            _ => {}
+        }
+    }
+    if text.len() - start > columns && last > start {
+        lines.push(text[start..last].trim_end());
+        start = last;
+    }
+    lines.push(&text[start..]);
+    lines
+}
+
+/// Rows in columns, the first row a title; numbers to the right.
+pub(crate) fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let is_number = |column: usize| {
+        let mut cells = rows.iter().skip(1).filter_map(|row| row.get(column));
+        cells.all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
+    };
+    let right: Vec<bool> = (0..columns).map(is_number).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (column, cell) in row.iter().enumerate() {
+            let width = widths[column];
+            // Writing to a string does not fail.
+            let _ = match right[column] {
+                true => write!(line, "{cell:>width$}  "),
+                false => write!(line, "{cell:<width$}  "),
+            };
+        }
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_that_are_near_are_suggested() {
+        let shown = unknown("quantity", "F_1", &["Q", "F_l", "M_l"]);
+        assert_eq!(shown, "there is no quantity `F_1`. Did you mean `F_l`? There are Q, F_l, M_l.");
+        assert!(!unknown("quantity", "torques", &["Q", "F_l"]).contains("mean"));
+        assert_eq!(unknown("tip", "a", &[]), "there is no tip `a`. There is none.");
+    }
+
+    #[test]
+    fn sums_are_broken_before_signs() {
+        let lines = wrapped("Q = aa + bb*(c - d - e) - f + gggg", 12);
+        assert_eq!(lines, ["Q = aa", "+ bb*(c - d - e)", "- f + gggg"]);
+        assert_eq!(wrapped("Q1 = 0", 3), ["Q1 = 0"]);
+        let text = "x = a - b + c - d*(e + f) + g - h";
+        for columns in 0..40 {
+            assert_eq!(wrapped(text, columns).join(" "), text);
+        }
+    }
+
+    #[test]
+    fn numbers_stand_to_the_right() {
+        let rows = [["a", "number"], ["name", "1"], ["b", "20"]];
+        let rows = rows.map(|row| row.map(str::to_owned).to_vec());
+        assert_eq!(table(&rows), "a     number\nname       1\nb         20\n");
+    }
+}

@@ -1,0 +1,157 @@
+//! `equations`: what is printed reads back and has the values of the numeric solver.
+
+use robot_dynamics::description::read_toml;
+use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
+use robot_symbolic::Formula;
+use serde_json::{Map, Value};
+
+use crate::{complaint, output, robot};
+
+const Q: [f64; 5] = [0.1, -0.7, 0.2, 0.3, 1.1];
+const QD: [f64; 5] = [0.4, 1.2, -0.3, 0.6, -0.9];
+const QDD: [f64; 5] = [-1.0, 0.5, 0.8, -0.2, 2.0];
+const WRENCH: [f64; 6] = [5.0, -3.0, 20.0, 0.4, 0.7, -0.6];
+
+/// The value of a name of TRTTR1's equations at the state above.
+fn value(robot: &robot_dynamics::model::Robot, name: &str) -> f64 {
+    if let Some(parameter) = robot.parameter(name) {
+        return parameter.value.as_ref().unwrap().to_f64();
+    }
+    let wrench = ["Fx6", "Fy6", "Fz6", "Mx6", "My6", "Mz6"];
+    if let Some(component) = wrench.iter().position(|known| *known == name) {
+        return WRENCH[component];
+    }
+    let (letters, number) = name.split_at(name.len() - 1);
+    let number: usize = number.parse().unwrap();
+    match letters {
+        "q" => Q[number - 1],
+        "qd" => QD[number - 1],
+        "qdd" => QDD[number - 1],
+        _ => panic!("{name} is no name of the robot file"),
+    }
+}
+
+fn quantities(arguments: &[&str]) -> Map<String, Value> {
+    let file = robot("trttr1");
+    let arguments = [&["equations", &file, "--format", "json"], arguments].concat();
+    let shown: Value = serde_json::from_str(&output(&arguments, "")).unwrap();
+    assert_eq!(shown["robot"], "TRTTR1");
+    shown["quantities"].as_object().unwrap().clone()
+}
+
+/// What the equations say, by name, and the numeric mechanism.
+fn evaluated(arguments: &[&str]) -> (Vec<(String, f64)>, Mechanism) {
+    let text = std::fs::read_to_string(robot("trttr1")).unwrap();
+    let robot = read_toml("trttr1.toml", &text).unwrap().robot;
+    let values = quantities(arguments).into_iter().map(|(name, text)| {
+        let formula = Formula::parse(text.as_str().unwrap()).unwrap();
+        let number = formula.evaluate(|name| value(&robot, name));
+        (name, number)
+    });
+    (values.collect(), Mechanism::nominal(&robot).unwrap())
+}
+
+fn wrench() -> Wrench {
+    let [fx, fy, fz, mx, my, mz] = WRENCH;
+    Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() }
+}
+
+fn assert_close(name: &str, found: f64, expected: f64) {
+    assert!(
+        (found - expected).abs() <= 1e-10 * expected.abs().max(1.0),
+        "{name}: {found} {expected}"
+    );
+}
+
+#[test]
+fn driving_forces_have_the_values_of_the_numeric_solver() {
+    for friction in [false, true] {
+        let arguments: &[&str] = if friction { &["--friction"] } else { &[] };
+        let (values, mechanism) = evaluated(arguments);
+        let loads = Loads { wrenches: vec![wrench()], friction };
+        let expected = mechanism.inverse_dynamics_with(&Q, &QD, &QDD, &loads).unwrap();
+        assert_eq!(values.len(), 5);
+        for (number, ((name, found), expected)) in values.iter().zip(expected.iter()).enumerate() {
+            assert_eq!(*name, format!("Q{}", number + 1));
+            assert_close(name, *found, *expected);
+        }
+    }
+}
+
+#[test]
+fn every_quantity_has_the_value_of_the_numeric_solver() {
+    let (values, mechanism) = evaluated(&["--quantity", "all"]);
+    let links = mechanism.link_dynamics(&Q, &QD, &QDD, &[wrench()]).unwrap();
+    let mut expected = vec![];
+    for kind in ["a_c", "F", "M_c", "F_l", "M_l"] {
+        for (index, link) in links.iter().enumerate() {
+            let vector = match kind {
+                "a_c" => link.center_acceleration,
+                "F" => link.inertial_force,
+                "M_c" => link.inertial_moment,
+                "F_l" => link.contact_force,
+                _ => link.contact_moment,
+            };
+            for (axis, value) in ["x", "y", "z"].iter().zip(vector.iter()) {
+                expected.push((format!("{kind}{}.{axis}", index + 1), *value));
+            }
+        }
+    }
+    assert_eq!(values.len(), expected.len() + 5);
+    for ((name, found), (expected_name, expected)) in values.iter().zip(&expected) {
+        assert_eq!(name, expected_name);
+        assert_close(name, *found, *expected);
+    }
+}
+
+#[test]
+fn the_quantities_asked_for_are_printed_in_their_order() {
+    let names: Vec<String> =
+        quantities(&["--quantity", "M_c,Q,M_c"]).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names.len(), 20);
+    assert_eq!(
+        [names[0].as_str(), names[14].as_str(), names[15].as_str()],
+        ["M_c1.x", "M_c5.z", "Q1"]
+    );
+    let file = robot("trttr1");
+    let shown = complaint(2, &["equations", &file, "--quantity", "F_1,Q,T"], "");
+    assert!(shown.contains("there is no quantity `F_1`. Did you mean `F_l`?"), "{shown}");
+    assert!(shown.contains("there is no quantity `T`."), "{shown}");
+}
+
+#[test]
+fn text_holds_the_equations_on_lines_that_fit() {
+    let shown = output(&["equations", &robot("trttr1")], "");
+    assert!(shown.lines().all(|line| line.len() <= 104), "{shown}");
+    let joined = shown.replace("\n    ", " ");
+    for (name, text) in quantities(&[]) {
+        assert!(joined.contains(&format!("{name} = {}\n", text.as_str().unwrap())), "{name}");
+    }
+}
+
+#[test]
+fn latex_has_the_names_of_the_file_and_the_style_asked_for() {
+    let file = robot("trttr1");
+    let shown = |trig: &str| {
+        output(
+            &["equations", &file, "--format", "latex", "--quantity", "Q,F_l", "--trig", trig],
+            "",
+        )
+    };
+    for (trig, sine) in [("named", r"\sin q_2"), ("short", "s_2"), ("paper", "sq_2")] {
+        let latex = shown(trig);
+        assert!(
+            latex.starts_with("\\begin{align*}\n  Q_{1} &= ")
+                && latex.ends_with("\n\\end{align*}\n")
+        );
+        assert!(latex.contains("  F_{l_x}^{5} &= "), "{latex}");
+        for part in [sine, r"\ddot{q}_1", "F_{l_x}^6", "J_x^{*5}", r"\dot{q}_2^{2}"] {
+            assert!(latex.contains(part), "{part} is not in {latex}");
+        }
+        // Every line but the last ends in a break, every equation has one alignment mark a line.
+        let lines: Vec<&str> = latex.lines().collect();
+        for line in &lines[1..lines.len() - 2] {
+            assert!(line.ends_with(r" \\") && line.matches('&').count() == 1, "{line}");
+        }
+    }
+}

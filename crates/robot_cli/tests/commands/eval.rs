@@ -1,0 +1,175 @@
+//! `eval` against the numeric recursive solver, and what it says of wrong input.
+
+use robot_dynamics::description::read_toml;
+use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
+use serde_json::{Value, json};
+
+use crate::{complaint, output, robot};
+
+/// The numeric mechanism of a robot with some parameters changed.
+fn mechanism(name: &str, settings: &[(&str, f64)]) -> Mechanism {
+    let text = std::fs::read_to_string(robot(name)).unwrap();
+    let robot = read_toml(name, &text).unwrap().robot;
+    Mechanism::from_robot(&robot, &|name| {
+        let set = settings.iter().find(|(set, _)| *set == name).map(|(_, value)| *value);
+        set.unwrap_or_else(|| robot.parameter(name).unwrap().value.as_ref().unwrap().to_f64())
+    })
+    .unwrap()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+fn assert_close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    let size = expected.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() <= 1e-12 * size, "{found} is not {expected}");
+    }
+}
+
+const Q: [f64; 5] = [0.1, -0.7, 0.2, 0.3, 1.1];
+const QD: [f64; 5] = [0.4, 1.2, -0.3, 0.6, -0.9];
+const QDD: [f64; 5] = [-1.0, 0.5, 0.8, -0.2, 2.0];
+const WRENCH: [f64; 6] = [5.0, -3.0, 20.0, 0.4, 0.7, -0.6];
+
+/// The torques of TRTTR1 by the numeric solver.
+fn expected(settings: &[(&str, f64)], wrench: &[f64; 6], friction: bool) -> Vec<f64> {
+    let mechanism = mechanism("trttr1", settings);
+    let [fx, fy, fz, mx, my, mz] = *wrench;
+    let wrench = Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() };
+    let loads = Loads { wrenches: vec![wrench], friction };
+    let torques = mechanism.inverse_dynamics_with(&Q, &QD, &QDD, &loads).unwrap();
+    torques.iter().copied().collect()
+}
+
+fn eval(function: &str, states: &Value, more: &[&str]) -> Vec<Vec<f64>> {
+    let file = robot("trttr1");
+    let mut arguments = vec!["eval", &file, "--function", function, "--states", "-"];
+    arguments.extend(more);
+    let shown: Value = serde_json::from_str(&output(&arguments, &states.to_string())).unwrap();
+    let objects = shown.as_array().unwrap().iter();
+    objects.map(|object| numbers(&object["tau"])).collect()
+}
+
+#[test]
+fn torques_are_those_of_the_numeric_solver() {
+    let still = json!({"q": Q, "qd": QD, "qdd": QDD});
+    let loaded = json!({"q": Q, "qd": QD, "qdd": QDD, "wrench": WRENCH});
+    for (function, friction) in [("inverse_dynamics", false), ("inverse_dynamics_friction", true)] {
+        let found = eval(function, &json!([still]), &[]);
+        assert_close(&found[0], &expected(&[], &[0.0; 6], friction));
+        // A wrench chooses the function that takes it, for all states.
+        let found = eval(function, &json!([still, loaded]), &[]);
+        assert_close(&found[0], &expected(&[], &[0.0; 6], friction));
+        assert_close(&found[1], &expected(&[], &WRENCH, friction));
+        assert_eq!(
+            found,
+            eval(
+                &format!("{}_wrench{}", "inverse_dynamics", &function[16..]),
+                &json!([still, loaded]),
+                &[]
+            )
+        );
+    }
+}
+
+#[test]
+fn parameters_can_be_set() {
+    let settings = [("M5", 2.5), ("l6", -0.25)];
+    let loaded = json!([{"q": Q, "qd": QD, "qdd": QDD, "wrench": WRENCH}]);
+    let found = eval("inverse_dynamics", &loaded, &["--set", "M5=2.5", "--set", "l6 = -0.25"]);
+    assert_close(&found[0], &expected(&settings, &WRENCH, false));
+}
+
+#[test]
+fn matrices_are_rows_and_csv_has_a_header() {
+    let file = robot("trttr1");
+    let header: Vec<String> = ["q", "qd", "qdd"]
+        .iter()
+        .flat_map(|name| (1..=5).map(move |number| format!("{name}{number}")))
+        .collect();
+    let entries: Vec<String> =
+        [Q, QD, QDD].concat().iter().map(|entry| format!("{entry:?}")).collect();
+    let states = format!("{}\n{}\n", header.join(","), entries.join(","));
+    let arguments = ["eval", &file, "--function", "link_wrenches", "--states", "-"];
+    let shown: Value = serde_json::from_str(&output(&arguments, &states)).unwrap();
+    let dynamics = mechanism("trttr1", &[]).link_dynamics(&Q, &QD, &QDD, &[]).unwrap();
+    let csv = output(&[&arguments[..], &["--format", "csv"]].concat(), &states);
+    let (header, line) = csv.split_once('\n').unwrap();
+    let cells: Vec<f64> = line.trim().split(',').map(|cell| cell.parse().unwrap()).collect();
+    for (name, first) in [("force", 0), ("moment", 15)] {
+        let rows = shown[0][name].as_array().unwrap();
+        assert_eq!(rows.len(), 5);
+        let found: Vec<f64> = rows.iter().flat_map(numbers).collect();
+        let mut expected = vec![];
+        for link in &dynamics {
+            let vector = if name == "force" { link.contact_force } else { link.contact_moment };
+            expected.extend_from_slice(vector.as_slice());
+        }
+        assert_close(&found, &expected);
+        assert_eq!(cells[first..first + 15], found);
+        assert_eq!(header.split(',').nth(first + 5), Some(format!("{name}2_3").as_str()));
+    }
+}
+
+#[test]
+fn everything_that_is_wrong_is_said_at_once() {
+    let states = json!([{"q": Q, "qd": QD}, {"q": [1, 2], "qd": QD, "qdd": QDD, "tip": 1}]);
+    let file = robot("trttr1");
+    let arguments =
+        ["eval", &file, "--function", "inverse_dynamics", "--states", "-", "--set", "M6=1"];
+    let shown = complaint(1, &arguments, &states.to_string());
+    let lines: Vec<&str> = shown.lines().collect();
+    assert!(
+        lines[0].starts_with("error: --set: there is no parameter `M6`. Did you mean `M"),
+        "{shown}"
+    );
+    assert_eq!(lines[1], "error: standard input: state 2: `q` has 2 entries, not 5");
+    assert!(
+        lines[2].starts_with("error: standard input: state 2: there is no key `tip`"),
+        "{shown}"
+    );
+    assert_eq!(lines[3], "error: state 1: `qdd` is missing; inverse_dynamics takes it");
+    assert_eq!(lines.len(), 4);
+}
+
+#[test]
+fn a_robot_without_a_tip_takes_no_wrench() {
+    let file = robot("planar_3r");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let (without_tip, _) = text.split_once("[tip]").unwrap();
+    let path = crate::folder("eval-no-tip").join("arm.toml");
+    std::fs::write(&path, without_tip).unwrap();
+    let zero = [0.0; 3];
+    let arguments =
+        ["eval", path.to_str().unwrap(), "--function", "inverse_dynamics", "--states", "-"];
+    let state = json!([{"q": zero, "qd": zero, "qdd": zero, "wrench": [0, 0, 0, 0, 0, 0]}]);
+    crate::run_with(&arguments, state.to_string().as_bytes());
+    let state = json!([{"q": zero, "qd": zero, "qdd": zero, "wrench": [1, 0, 0, 0, 0, 0]}]);
+    let shown = complaint(1, &arguments, &state.to_string());
+    assert!(shown.contains("state 1: a wrench, but the robot has no tip"), "{shown}");
+}
+
+#[test]
+fn wrong_arguments_are_usage_errors() {
+    let file = robot("trttr1");
+    let with = |function: &str, more: &[&str]| {
+        let arguments = ["eval", &file, "--function", function, "--states", "-"];
+        complaint(2, &[&arguments[..], more].concat(), "[]")
+    };
+    let shown = with("inverse_dynamic", &[]);
+    assert!(
+        shown.contains("there is no function `inverse_dynamic`. Did you mean `inverse_dynamics`?")
+    );
+    for setting in ["M5", "M5=x", "M5=inf", "M5="] {
+        assert!(with("inverse_dynamics", &["--set", setting]).contains("--set"), "{setting}");
+    }
+    let shown = complaint(
+        1,
+        &["eval", &file, "--function", "inverse_dynamics", "--states", "none.json"],
+        "",
+    );
+    assert!(shown.starts_with("error: cannot read none.json"), "{shown}");
+}

@@ -1,0 +1,48 @@
+//! Streams of the real command.
+
+use std::io::{Read, Write};
+use std::process::{Command, Stdio};
+
+use crate::robot;
+
+#[test]
+fn the_process_reads_and_writes_its_streams() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_robot-symbolic"))
+        .args(["eval", &robot("planar_2r"), "--function", "inverse_dynamics", "--states", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let state = br#"[{"q": [0, 0], "qd": [0, 0], "qdd": [0, 0]}]"#;
+    child.stdin.take().unwrap().write_all(state).unwrap();
+    let mut shown = String::new();
+    child.stdout.take().unwrap().read_to_string(&mut shown).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert!(shown.starts_with("[\n{\"tau\":["), "{shown}");
+}
+
+#[test]
+fn exit_codes_tell_wrong_files_from_wrong_usage() {
+    for (argument, code) in [("none.toml", 1), ("--nothing", 2)] {
+        let output = Command::new(env!("CARGO_BIN_EXE_robot-symbolic"))
+            .args(["stats", argument])
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(code));
+        assert!(!output.stderr.is_empty());
+    }
+}
+
+#[test]
+fn a_reader_that_has_seen_enough_is_no_error() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_robot-symbolic"))
+        .args(["generate", &robot("panda")])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut errors = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut errors).unwrap();
+    assert_eq!((child.wait().unwrap().code(), errors.as_str()), (Some(0), ""));
+}

@@ -1,0 +1,65 @@
+//! `stats`, `search` and `show`.
+
+use serde_json::Value;
+
+use crate::{output, robot, run};
+
+#[test]
+fn counts_have_the_stated_keys() {
+    let file = robot("trttr1");
+    let shown: Value = serde_json::from_str(&output(&["stats", &file], "")).unwrap();
+    let functions = shown["functions"].as_object().unwrap();
+    for name in ["inverse_dynamics", "inverse_dynamics_wrench_friction", "link_wrenches"] {
+        for counts in [&functions[name], &functions[name]["constructor"]] {
+            for key in ["mul", "add", "div", "sqrt", "other", "sin", "cos", "temporaries"] {
+                assert!(counts[key].is_u64(), "{name} {key}");
+            }
+        }
+        assert!(functions[name]["mul"].as_u64() > Some(0));
+        assert_eq!([&functions[name]["sin"], &functions[name]["cos"]], [2, 2]);
+    }
+    assert!(functions["inverse_dynamics_friction"]["sqrt"].as_u64() > Some(0));
+}
+
+#[test]
+fn text_has_a_line_for_each_function() {
+    let file = robot("planar_2r");
+    let arguments = ["stats", &file, "--function", "inverse_dynamics", "--format", "text"];
+    let shown = output(&arguments, "");
+    let starts: Vec<&str> = shown.lines().map(|line| line.split("  ").next().unwrap()).collect();
+    assert_eq!(starts, ["function", "inverse_dynamics", ""]);
+    assert!(shown.lines().nth(2).unwrap().starts_with("  once for inverse_dynamics "));
+}
+
+#[test]
+fn a_search_does_not_make_things_worse() {
+    let file = robot("scara");
+    let shown = output(&["search", &file], "");
+    let operations = shown.strip_prefix("scara: ").and_then(|rest| rest.split(' ').next());
+    let operations: u64 = operations.unwrap().parse().unwrap();
+    let stats: Value = serde_json::from_str(&output(&["stats", &file], "")).unwrap();
+    let counts = &stats["functions"]["inverse_dynamics"];
+    assert!(operations > 0);
+    assert!(operations <= counts["mul"].as_u64().unwrap() + counts["add"].as_u64().unwrap());
+    assert_eq!(shown.lines().filter(|line| line.starts_with("link")).count(), 5);
+}
+
+#[test]
+fn a_robot_is_shown() {
+    let shown = output(&["show", &robot("trttr1")], "");
+    for part in ["TRTTR1", "translation along (0, 1, 0)", "mass of element 5", "link_wrenches"] {
+        assert!(shown.contains(part), "{part} is not in {shown}");
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_file_is_shown() {
+    let path = crate::folder("stats-broken").join("arm.toml");
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    std::fs::write(&path, text.replace("gravity", "gravty")).unwrap();
+    for command in ["stats", "show", "search", "generate", "equations"] {
+        let outcome = run(&[command, path.to_str().unwrap()]);
+        assert_eq!((outcome.code, outcome.output.as_str()), (1, ""), "{command}");
+        assert!(outcome.errors.contains("did you mean `gravity`"), "{}", outcome.errors);
+    }
+}
