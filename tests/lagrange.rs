@@ -4,78 +4,23 @@
 
 mod common;
 
+use common::energy::{Motion, energies};
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::model::Robot;
 use robot_dynamics::newton_euler::{Effects, newton_euler};
 use robot_dynamics::numeric::random::{Random, Recipe};
 use robot_dynamics::random;
-use robot_dynamics::vector::{Matrix, Vector};
+use robot_symbolic::Graph;
 use robot_symbolic::polynomial::expands_to_zero;
-use robot_symbolic::{Expr, Graph, walk};
-
-/// The coordinates and their derivatives by time.
-struct Motion<'g> {
-    q: Vec<Expr<'g>>,
-    qd: Vec<Expr<'g>>,
-    qdd: Vec<Expr<'g>>,
-}
-
-impl<'g> Motion<'g> {
-    fn new(mechanism: &Mechanism<'g>) -> Motion<'g> {
-        let symbols = |prefix: &str| {
-            let numbers = 1..=mechanism.degrees_of_freedom;
-            numbers.map(|n| mechanism.graph.symbol(&format!("{prefix}{n}"))).collect()
-        };
-        Motion { q: symbols("q"), qd: symbols("qd"), qdd: symbols("qdd") }
-    }
-
-    /// The derivative by time of functions of q and q̇.
-    fn rate(&self, values: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let mut rates = vec![values[0].graph().zero(); values.len()];
-        let pairs = self.q.iter().zip(&self.qd).chain(self.qd.iter().zip(&self.qdd));
-        for (symbol, rate) in pairs {
-            for (sum, slope) in rates.iter_mut().zip(walk::derivatives(values, *symbol)) {
-                *sum += slope * *rate;
-            }
-        }
-        rates
-    }
-}
-
-/// T − V, from the poses of the links in the base frame alone.
-fn lagrangian<'g>(mechanism: &Mechanism<'g>, motion: &Motion<'g>) -> Expr<'g> {
-    let graph = mechanism.graph;
-    let mut poses: Vec<(Matrix<'g>, Vector<'g>)> = vec![];
-    let mut sum = graph.zero();
-    for link in &mechanism.links {
-        let (rotation, origin) = (link.joint_rotation(), link.joint_translation());
-        let (rotation, origin) = match link.parent.map(|parent| poses[parent]) {
-            Some((outer, place)) => (outer * rotation, place + outer * origin),
-            None => (rotation, origin),
-        };
-        poses.push((rotation, origin));
-        let centre = origin + rotation * link.center_of_mass;
-        let velocity = motion.rate(&centre.0);
-        let velocity = Vector([velocity[0], velocity[1], velocity[2]]);
-        // Rᵀ Ṙ = [ω]× in the link's axes.
-        let entries: Vec<_> = rotation.0.iter().flatten().copied().collect();
-        let rates = motion.rate(&entries);
-        let spin = rotation.transpose() * Matrix::from_fn(|row, column| rates[3 * row + column]);
-        let omega = Vector([spin.0[2][1], spin.0[0][2], spin.0[1][0]]);
-        let kinetic = (link.mass * velocity.dot(velocity) + omega.dot(link.inertia * omega)) / 2;
-        let potential = -(link.mass * mechanism.gravity.dot(centre));
-        sum += kinetic - potential + link.reflected_inertia * link.velocity * link.velocity / 2;
-    }
-    sum
-}
 
 /// Checks each coordinate's equation; the number of recursions that were compared.
 fn check(robot: &Robot, name: &str) -> usize {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::EXACT);
     let motion = Motion::new(&mechanism);
-    let lagrangian = lagrangian(&mechanism, &motion);
+    let (kinetic, potential) = energies(&mechanism, &motion);
+    let lagrangian = kinetic - potential;
     let effects = Effects { wrench: false, friction: false };
     let mut torques = vec![("iterations", newton_euler(&mechanism, effects).driving_forces)];
     // With a skew axis of irrational exact components there are no working frames; the numeric

@@ -1,6 +1,8 @@
 //! What several tests share: robots, states, and values of expressions at them.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
+pub mod energy;
+
 use robot_dynamics::description::read_toml;
 use robot_dynamics::model::Robot;
 use robot_dynamics::numeric;
