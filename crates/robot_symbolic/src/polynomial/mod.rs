@@ -67,13 +67,13 @@ impl PolynomialOptions {
     }
 }
 
-/// Angle sums expanded, 2 million terms, 500 million products.
+/// Angle sums expanded, 2 million terms, 100 million products.
 impl Default for PolynomialOptions {
     fn default() -> PolynomialOptions {
         PolynomialOptions {
             angle_sums: AngleSums::Expand,
             max_terms: 2_000_000,
-            max_products: 500_000_000,
+            max_products: 100_000_000,
         }
     }
 }
