@@ -12,24 +12,29 @@ use robot_dynamics::economical::{
 };
 use robot_dynamics::functions::{Derivation, FunctionKind, search_plan};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
+use robot_dynamics::model::{Parameter, Robot};
 use robot_dynamics::numeric::{
     self,
     random::{Random, Recipe, State},
 };
 use robot_dynamics::random;
-use robot_symbolic::{Expr, Graph, operations};
+use robot_symbolic::{Expr, Formula, Graph, Rational, operations};
 
 const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;
 
 /// The functions that are held against the solver here; those with loads are in `recursions.rs`.
-const KINDS: [FunctionKind; 5] = [
+const KINDS: [FunctionKind; 10] = [
     FunctionKind::MassMatrix,
     FunctionKind::Bias,
     FunctionKind::Gravity,
     FunctionKind::ForwardDynamics,
     FunctionKind::ForwardDynamicsWrench,
+    FunctionKind::ForwardKinematics,
+    FunctionKind::FramePoses,
+    FunctionKind::Jacobian,
+    FunctionKind::JacobianDotQd,
+    FunctionKind::Energies,
 ];
 
 /// What the solver says a function yields.
@@ -46,8 +51,31 @@ fn expected(solver: &numeric::Mechanism, kind: FunctionKind, state: &State) -> V
             let wrenches = &state.wrenches;
             solver.forward_dynamics(q, qd, &state.tau, wrenches).unwrap().as_slice().to_vec()
         }
+        FunctionKind::ForwardKinematics => poses(&solver.forward_kinematics(q).unwrap().links),
+        FunctionKind::FramePoses => poses(&solver.forward_kinematics(q).unwrap().frames),
+        FunctionKind::Jacobian => {
+            let jacobian = |frame| solver.frame_jacobian(q, frame).unwrap();
+            (0..solver.frames().len())
+                .flat_map(|frame| jacobian(frame).transpose().as_slice().to_vec())
+                .collect()
+        }
+        FunctionKind::JacobianDotQd => {
+            let drift = |frame| solver.frame_jacobian_dot_qd(q, qd, frame).unwrap();
+            (0..solver.frames().len()).flat_map(|frame| drift(frame).as_slice().to_vec()).collect()
+        }
+        FunctionKind::Energies => {
+            let energies = solver.energies(q, qd).unwrap();
+            vec![energies.kinetic, energies.potential]
+        }
         other => panic!("nothing to hold `{}` against", other.name()),
     }
+}
+
+/// Rotations row by row, then origins.
+fn poses(poses: &[numeric::Pose]) -> Vec<f64> {
+    let rotations = poses.iter().flat_map(|pose| pose.rotation.transpose().as_slice().to_vec());
+    let origins = poses.iter().flat_map(|pose| pose.translation.as_slice().to_vec());
+    rotations.chain(origins).collect()
 }
 
 fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
@@ -55,7 +83,8 @@ fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
 }
 
 fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
-    let outputs = derivation.function(kind).outputs;
+    let functions = derivation.functions(kind).into_iter();
+    let outputs: Vec<_> = functions.flat_map(|function| function.outputs).collect();
     for output in &outputs {
         assert_eq!(output.values.len(), output.shape.iter().product::<usize>(), "{}", output.name);
     }
@@ -114,6 +143,9 @@ fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64; KINDS.len()]) {
     let mut derivations = vec![derivation];
     derivations.extend(drawn.iter().map(|plan| derivations[0].with_plan(plan)).collect::<Vec<_>>());
     for (kind, worst) in KINDS.iter().zip(worst) {
+        if kind.missing_in(robot).is_some() {
+            continue;
+        }
         let expected: Vec<_> = states.iter().map(|state| expected(&solver, *kind, state)).collect();
         let size = magnitude(expected.iter().flatten()).max(1e-3);
         for (number, derivation) in derivations.iter().enumerate() {
@@ -179,6 +211,28 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
         check(&random::parametrised(&robot), seed, "parameters", &mut worst);
     }
     report("parameters", worst);
+}
+
+/// Joint axes that depend on parameters leave no working frames to choose: every function then
+/// comes from the links' own frames.
+#[test]
+fn functions_of_robots_with_free_axes_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 3000..3008 {
+        let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(1 + seed as usize % 4) };
+        let mut robot = random::robot(&mut Random::new(seed), &recipe);
+        for (number, link) in (1..).zip(&mut robot.links) {
+            let name = format!("lean{number}");
+            link.joint.axis[1] = Formula::symbol(&name);
+            let value = Rational::new(number, 7);
+            robot.parameters.push(Parameter { name, value, unit: None, latex: None, doc: None });
+        }
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        assert!(derivation.recursion.is_none());
+        check(&robot, seed, "free axes", &mut worst);
+    }
+    report("free axes", worst);
 }
 
 /// Figures that must not be exceeded: multiplications and additions, and divisions.

@@ -16,7 +16,7 @@ pub(crate) fn module<'g>(
         name: robot.name.to_lowercase(),
         doc: module_doc(robot),
         parameters: robot.parameters.iter().map(parameter).collect(),
-        functions: functions.iter().map(|kind| function(derivation.function(*kind))).collect(),
+        functions: functions.iter().flat_map(|kind| derivation.functions(*kind)).map(function).collect(),
     }
 }
 
@@ -41,9 +41,9 @@ fn parameter(parameter: &Parameter) -> ParameterSpec {
 }
 
 fn function(function: Function<'_>) -> FunctionSpec<'_> {
-    let Function { kind, doc, inputs, outputs } = function;
+    let Function { kind: _, name, doc, inputs, outputs } = function;
     FunctionSpec {
-        name: kind.name().to_owned(),
+        name,
         doc,
         inputs: inputs.into_iter().map(input).collect(),
         outputs: outputs.into_iter().map(output).collect(),

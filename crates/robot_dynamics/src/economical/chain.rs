@@ -23,6 +23,8 @@ pub(crate) struct Chain<'g> {
     pub(crate) links: Vec<ChainLink<'g>>,
     pub(crate) frames: Vec<WorkingFrame<'g>>,
     pub(crate) degrees_of_freedom: usize,
+    /// First moment that regrouping moved to the base, in the base frame.
+    pub(crate) fixed_moment: Vector<'g>,
     /// The unit of length, m.
     pub(crate) unit: Expr<'g>,
 }
@@ -65,6 +67,7 @@ impl<'g> ChainLink<'g> {
 #[derive(Clone, Debug)]
 pub(crate) struct Base<'g> {
     file: Vec<WorkingFrame<'g>>,
+    /// Those of the links, and of the base: at first nothing.
     inertias: Vec<PseudoInertia<'g>>,
     regrouped: Vec<PseudoInertia<'g>>,
 }
@@ -76,6 +79,7 @@ impl<'g> Base<'g> {
         let links = mechanism.links.iter().zip(&file);
         let inertias: Vec<_> = links
             .map(|(link, frame)| PseudoInertia::of_link(link).seen_in(frame.axes, frame.origin))
+            .chain([PseudoInertia::zero(mechanism.graph)])
             .collect();
         let mut regrouped = inertias.clone();
         regroup(mechanism, &displacements(mechanism, &file), &mut regrouped);
@@ -146,10 +150,10 @@ fn move_inward<'g>(
         (moved, PseudoInertia { second: zero.second, ..own })
     };
     inertias[index] = kept;
-    if let Some(parent) = link.parent {
-        let (rotation, origin) = displacements[index];
-        inertias[parent] = inertias[parent].plus(moved.seen_from(rotation, origin));
-    }
+    // The base comes after the links.
+    let parent = link.parent.unwrap_or(mechanism.links.len());
+    let (rotation, origin) = displacements[index];
+    inertias[parent] = inertias[parent].plus(moved.seen_from(rotation, origin));
 }
 
 /// What residuals may not exceed: mass, first and second moment of the whole robot.
@@ -253,6 +257,7 @@ fn assemble<'g>(
         links: links.collect(),
         frames: placed.to_vec(),
         degrees_of_freedom: mechanism.degrees_of_freedom,
+        fixed_moment: inertias[mechanism.links.len()].first,
         unit: mechanism.graph.one(),
     }
 }
@@ -282,6 +287,7 @@ impl<'g> Chain<'g> {
         }
         self.unit = length;
         self.gravity = self.gravity.map(|entry| entry / length);
+        self.fixed_moment = self.fixed_moment * length;
         for link in &mut self.links {
             link.translation = link.translation.map(|entry| entry / length);
             link.inertia.first = link.inertia.first * length;

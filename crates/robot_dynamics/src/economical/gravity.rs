@@ -36,6 +36,20 @@ pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>
     torques
 }
 
+/// −g · ∫ r dm over the robot, r from the base frame's origin.
+pub(crate) fn weight_in_base<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Expr<'g> {
+    let ways = Ways::new(chain, |index| plans[index].composite_sum);
+    let mut energy = -(chain.gravity.dot(chain.fixed_moment));
+    for (index, (mass, first)) in first_moments(&ways).into_iter().enumerate() {
+        let link = &chain.links[index];
+        if link.parent.is_none() {
+            let first = link.rotation.forward(first) + ways.postures[index].origin * mass;
+            energy -= chain.gravity.dot(first);
+        }
+    }
+    energy
+}
+
 /// Mass and first moment of every link with all that it carries, in its home axes.
 fn first_moments<'g>(ways: &Ways<'_, 'g>) -> Vec<(Expr<'g>, Vector<'g>)> {
     let chain = ways.chain;

@@ -11,10 +11,12 @@
 
 mod chain;
 mod composite;
+mod energy;
 mod frames;
 mod gravity;
 mod inertia;
 mod inward;
+mod kinematics;
 mod mass_matrix;
 mod outward;
 pub mod plan;
@@ -30,6 +32,7 @@ use crate::mechanism::Mechanism;
 use crate::vector::Vector;
 use chain::{Base, Chain};
 use inward::TipWrench;
+pub use kinematics::Pose;
 use outward::{Accelerations, LinkState};
 use plan::LinkPlan;
 pub use plan::Plan;

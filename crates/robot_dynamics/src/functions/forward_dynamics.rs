@@ -15,26 +15,24 @@ pub(super) fn forward_dynamics<'g>(
         inputs.extend(derivation.wrench_inputs());
     }
     let values = accelerations(derivation, wrench);
-    let output = Output {
-        name: "qdd".to_owned(),
-        doc: "Joint accelerations".to_owned(),
-        unit: derivation.coordinate_unit("rad/s²", "m/s²"),
-        shape: vec![values.len()],
+    let output = Output::new(
+        "qdd",
+        "Joint accelerations",
+        &derivation.coordinate_unit("rad/s²", "m/s²"),
+        vec![values.len()],
         values,
-    };
-    Function {
+    );
+    derivation.of_kind(
         kind,
-        doc: vec![
+        &[
             "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
-             solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`."
-                .to_owned(),
+             solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`.",
             "By the decomposition M = Lᵀ D L without pivots or branches: where M is not positive \
-             definite (a coordinate that moves no mass), the result is not finite or meaningless."
-                .to_owned(),
+             definite (a coordinate that moves no mass), the result is not finite or meaningless.",
         ],
         inputs,
-        outputs: vec![output],
-    }
+        vec![output],
+    )
 }
 
 fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {

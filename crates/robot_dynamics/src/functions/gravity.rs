@@ -8,14 +8,11 @@ pub(super) fn gravity<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
         Some(recursion) => recursion.gravity(),
         None => derivation.paper_torques(false, &["qd", "qdd"]),
     };
-    Function {
-        kind: FunctionKind::Gravity,
-        doc: vec![
-            "The driving forces that hold the robot at rest against its weight, g(q): the gradient \
-             of the potential energy."
-                .to_owned(),
-        ],
-        inputs: derivation.coordinate_inputs(["q"]),
-        outputs: vec![derivation.torque_output(torques)],
-    }
+    derivation.of_kind(
+        FunctionKind::Gravity,
+        &["The driving forces that hold the robot at rest against its weight, g(q): the gradient of \
+           the potential energy."],
+        derivation.coordinate_inputs(["q"]),
+        vec![derivation.torque_output(torques)],
+    )
 }

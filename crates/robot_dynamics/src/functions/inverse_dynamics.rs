@@ -19,22 +19,21 @@ pub(super) fn inverse_dynamics<'g>(
         kind,
         FunctionKind::InverseDynamicsFriction | FunctionKind::InverseDynamicsWrenchFriction
     );
-    let mut doc = vec![
+    let friction_doc = match friction {
+        true => "Includes the friction of the joints, equations (4)-(5).",
+        false => "Without friction.",
+    };
+    let doc = [
         "Inverse dynamics: the generalised driving forces Q that bring about the accelerations \
-         `qdd`, equation (3)."
-            .to_owned(),
+         `qdd`, equation (3).",
+        friction_doc,
     ];
-    doc.push(if friction {
-        "Includes the friction of the joints, equations (4)-(5).".to_owned()
-    } else {
-        "Without friction.".to_owned()
-    });
     let mut inputs = derivation.coordinate_inputs(["q", "qd", "qdd"]);
     if wrench {
         inputs.extend(derivation.wrench_inputs());
     }
     let tau = derivation.torque_output(driving_forces(derivation, wrench, friction));
-    Function { kind, doc, inputs, outputs: vec![tau] }
+    derivation.of_kind(kind, &doc, inputs, vec![tau])
 }
 
 /// C(q, q̇) q̇ + g(q).
@@ -43,16 +42,13 @@ pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
         Some(recursion) => recursion.bias(false),
         None => derivation.paper_torques(false, &["qdd"]),
     };
-    Function {
-        kind: FunctionKind::Bias,
-        doc: vec![
-            "The driving forces at zero accelerations, C(q, q̇) q̇ + g(q): what gravity, Coriolis and \
-             centrifugal effects ask for. Without wrenches and friction."
-                .to_owned(),
-        ],
-        inputs: derivation.coordinate_inputs(["q", "qd"]),
-        outputs: vec![derivation.torque_output(torques)],
-    }
+    derivation.of_kind(
+        FunctionKind::Bias,
+        &["The driving forces at zero accelerations, C(q, q̇) q̇ + g(q): what gravity, Coriolis and \
+           centrifugal effects ask for. Without wrenches and friction."],
+        derivation.coordinate_inputs(["q", "qd"]),
+        vec![derivation.torque_output(torques)],
+    )
 }
 
 /// Q by the economical recursion, friction added to it.
@@ -91,24 +87,17 @@ pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g>
     let rows = |part: fn(&newton_euler::LinkWrench<'g>) -> Vector<'g>| {
         wrenches.iter().flat_map(|wrench| part(wrench).0).collect()
     };
-    let output = |name: &str, doc: &str, unit: &str, values| Output {
-        name: name.to_owned(),
-        doc: doc.to_owned(),
-        unit: unit.to_owned(),
-        shape: shape.clone(),
-        values,
+    let output = |name: &str, doc: &str, unit: &str, values| {
+        Output::new(name, doc, unit, shape.clone(), values)
     };
     let mut inputs = derivation.coordinate_inputs(["q", "qd", "qdd"]);
     inputs.extend(derivation.wrench_inputs());
-    Function {
-        kind: FunctionKind::LinkWrenches,
-        doc: vec![
-            "The contact torsor of every joint, equations (26) and (36): what each link receives \
-             through its joint, a row per link, in the link's own frame."
-                .to_owned(),
-        ],
+    derivation.of_kind(
+        FunctionKind::LinkWrenches,
+        &["The contact torsor of every joint, equations (26) and (36): what each link receives \
+           through its joint, a row per link, in the link's own frame."],
         inputs,
-        outputs: vec![
+        vec![
             output("force", "Contact forces F_l", "N", rows(|wrench| wrench.force)),
             output(
                 "moment",
@@ -117,5 +106,5 @@ pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g>
                 rows(|wrench| wrench.moment),
             ),
         ],
-    }
+    )
 }

@@ -9,24 +9,21 @@ use crate::matrix::SymmetricMatrix;
 pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let matrix = matrix(derivation);
     let order = matrix.order();
-    let output = Output {
-        name: "mass_matrix".to_owned(),
-        doc: "The mass matrix, row by row, both triangles".to_owned(),
-        unit: derivation.matrix_unit("kg m²", "kg m", "kg"),
-        shape: vec![order, order],
-        values: matrix.rows(),
-    };
-    Function {
-        kind: FunctionKind::MassMatrix,
-        doc: vec![
-            "The mass matrix M(q), the drives' reflected inertias included: symmetric, positive \
-             definite; the driving forces for the accelerations `qdd` are M q̈ + C q̇ + g and the \
-             kinetic energy is ½ q̇ᵀ M q̇."
-                .to_owned(),
-        ],
-        inputs: derivation.coordinate_inputs(["q"]),
-        outputs: vec![output],
-    }
+    let output = Output::new(
+        "mass_matrix",
+        "The mass matrix, row by row, both triangles",
+        &derivation.matrix_unit("kg m²", "kg m", "kg"),
+        vec![order, order],
+        matrix.rows(),
+    );
+    derivation.of_kind(
+        FunctionKind::MassMatrix,
+        &["The mass matrix M(q), the drives' reflected inertias included: symmetric, positive \
+           definite; the driving forces for the accelerations `qdd` are M q̈ + C q̇ + g and the \
+           kinetic energy is ½ q̇ᵀ M q̇."],
+        derivation.coordinate_inputs(["q"]),
+        vec![output],
+    )
 }
 
 /// M by composite inertias, or as ∂Q/∂q̈.

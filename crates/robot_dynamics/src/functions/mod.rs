@@ -4,18 +4,21 @@
 //! parameters alone is shared among them. Torques come from the economical recursion; whatever
 //! needs the forces between links comes from the paper's iterations.
 
+mod energies;
 mod forward_dynamics;
 mod gravity;
 mod inverse_dynamics;
+mod kinematics;
 mod mass_matrix;
+mod plain;
 mod plans;
 
 pub use plans::search_plan;
-use robot_symbolic::{Expr, Graph, walk};
+use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use crate::economical::{Plan, Recursion};
 use crate::mechanism::{Mechanism, MechanismOptions};
-use crate::model::{JointKind, Robot};
+use crate::model::{JointKind, Parameter, Robot};
 use crate::newton_euler::{self, Effects};
 
 /// A function of a robot.
@@ -23,6 +26,8 @@ use crate::newton_euler::{self, Effects};
 pub struct Function<'g> {
     /// Which function it is.
     pub kind: FunctionKind,
+    /// Its name: the kind's, with that of a frame where there are functions of several frames.
+    pub name: String,
     /// What it computes, in paragraphs: convention, frames, source.
     pub doc: Vec<String>,
     /// The input arrays, in the order of the call.
@@ -59,6 +64,18 @@ pub struct Output<'g> {
     pub values: Vec<Expr<'g>>,
 }
 
+impl<'g> Output<'g> {
+    fn new(
+        name: &str,
+        doc: &str,
+        unit: &str,
+        shape: Vec<usize>,
+        values: Vec<Expr<'g>>,
+    ) -> Output<'g> {
+        Output { name: name.to_owned(), doc: doc.to_owned(), unit: unit.to_owned(), shape, values }
+    }
+}
+
 /// The functions that can be derived.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FunctionKind {
@@ -82,6 +99,16 @@ pub enum FunctionKind {
     ForwardDynamics,
     /// q̈ from q, q̇, τ and the tips' wrenches.
     ForwardDynamicsWrench,
+    /// The poses of the links' frames from q.
+    ForwardKinematics,
+    /// The poses of the named frames from q.
+    FramePoses,
+    /// A named frame's Jacobian from q: a function per frame.
+    Jacobian,
+    /// J̇ q̇ of a named frame from q, q̇: a function per frame.
+    JacobianDotQd,
+    /// Kinetic and potential energy from q, q̇.
+    Energies,
 }
 
 impl FunctionKind {
@@ -97,6 +124,11 @@ impl FunctionKind {
         FunctionKind::Gravity,
         FunctionKind::ForwardDynamics,
         FunctionKind::ForwardDynamicsWrench,
+        FunctionKind::ForwardKinematics,
+        FunctionKind::FramePoses,
+        FunctionKind::Jacobian,
+        FunctionKind::JacobianDotQd,
+        FunctionKind::Energies,
     ];
 
     /// The name in code and on the command line.
@@ -113,6 +145,11 @@ impl FunctionKind {
             FunctionKind::Gravity => "gravity",
             FunctionKind::ForwardDynamics => "forward_dynamics",
             FunctionKind::ForwardDynamicsWrench => "forward_dynamics_wrench",
+            FunctionKind::ForwardKinematics => "forward_kinematics",
+            FunctionKind::FramePoses => "frame_poses",
+            FunctionKind::Jacobian => "jacobian",
+            FunctionKind::JacobianDotQd => "jacobian_dot_qd",
+            FunctionKind::Energies => "energies",
         }
     }
 
@@ -135,6 +172,13 @@ impl FunctionKind {
             self,
             FunctionKind::InverseDynamicsFriction | FunctionKind::InverseDynamicsWrenchFriction
         );
+        let needs_frame = matches!(
+            self,
+            FunctionKind::FramePoses | FunctionKind::Jacobian | FunctionKind::JacobianDotQd
+        );
+        if needs_frame && robot.frames.is_empty() {
+            return Some("the robot has no named frame; add [tip] or [[frame]] to its file");
+        }
         if needs_tip && robot.tips().next().is_none() {
             return Some("the robot has no tip with a wrench; add [tip] to its file");
         }
@@ -180,6 +224,15 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Derivation { robot, mechanism, recursion }
     }
 
+    /// The operations of expressions; what depends on parameters alone is free.
+    fn operations(&self, roots: &[Expr<'g>]) -> Operations {
+        let symbol = |parameter: &Parameter| {
+            self.mechanism.graph.find_symbol(&parameter.name).and_then(Expr::as_symbol)
+        };
+        let free: Vec<SymbolId> = self.robot.parameters.iter().filter_map(symbol).collect();
+        operations(roots, |symbol| free.contains(&symbol))
+    }
+
     /// The same robot in the same graph under another plan.
     #[must_use]
     pub fn with_plan(&self, plan: &Plan) -> Derivation<'r, 'g> {
@@ -188,11 +241,11 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Derivation { robot: self.robot, mechanism, recursion }
     }
 
-    /// Derives a function. What the robot lacks (a tip, friction) is taken for 0: ask
-    /// [`FunctionKind::missing_in`] first.
+    /// Derives the functions of a kind: one, or one per named frame. What the robot lacks (a tip,
+    /// friction) is taken for 0: ask [`FunctionKind::missing_in`] first.
     #[must_use]
-    pub fn function(&self, kind: FunctionKind) -> Function<'g> {
-        match kind {
+    pub fn functions(&self, kind: FunctionKind) -> Vec<Function<'g>> {
+        let function = match kind {
             FunctionKind::InverseDynamics
             | FunctionKind::InverseDynamicsWrench
             | FunctionKind::InverseDynamicsFriction
@@ -206,7 +259,26 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::ForwardDynamics | FunctionKind::ForwardDynamicsWrench => {
                 forward_dynamics::forward_dynamics(self, kind)
             }
-        }
+            FunctionKind::ForwardKinematics => kinematics::forward_kinematics(self),
+            FunctionKind::FramePoses => kinematics::frame_poses(self),
+            FunctionKind::Jacobian | FunctionKind::JacobianDotQd => {
+                return kinematics::per_frame(self, kind);
+            }
+            FunctionKind::Energies => energies::energies(self),
+        };
+        vec![function]
+    }
+
+    /// A function of the kind's own name.
+    fn of_kind(
+        &self,
+        kind: FunctionKind,
+        doc: &[&str],
+        inputs: Vec<Input>,
+        outputs: Vec<Output<'g>>,
+    ) -> Function<'g> {
+        let doc = doc.iter().map(|&paragraph| paragraph.to_owned()).collect();
+        Function { kind, name: kind.name().to_owned(), doc, inputs, outputs }
     }
 
     /// The inputs of those names, each with an element per coordinate.
@@ -216,13 +288,13 @@ impl<'r, 'g> Derivation<'r, 'g> {
 
     /// The generalised driving forces as an output.
     fn torque_output(&self, values: Vec<Expr<'g>>) -> Output<'g> {
-        Output {
-            name: "tau".to_owned(),
-            doc: "Generalised driving forces".to_owned(),
-            unit: self.coordinate_unit("N m", "N"),
-            shape: vec![values.len()],
+        Output::new(
+            "tau",
+            "Generalised driving forces",
+            &self.coordinate_unit("N m", "N"),
+            vec![values.len()],
             values,
-        }
+        )
     }
 
     /// The paper's driving forces at other values of velocities and accelerations, by the symbol's

@@ -35,8 +35,8 @@ fn objective<'g>(
     let derivation =
         Derivation { robot, mechanism: mechanism.clone(), recursion: Some(recursion.clone()) };
     let values = |kind: FunctionKind| {
-        let outputs = derivation.function(kind).outputs;
-        outputs.into_iter().flat_map(|output| output.values)
+        let functions = derivation.functions(kind).into_iter();
+        functions.flat_map(|function| function.outputs).flat_map(|output| output.values)
     };
     Objective::of(kinds.iter().copied().flat_map(values).collect())
 }
@@ -44,12 +44,18 @@ fn objective<'g>(
 impl FunctionKind {
     /// Whether the recursion over motions and forces is part of the function.
     fn uses_motions(self) -> bool {
-        !matches!(self, FunctionKind::MassMatrix | FunctionKind::Gravity)
+        !matches!(
+            self,
+            FunctionKind::MassMatrix
+                | FunctionKind::Gravity
+                | FunctionKind::ForwardKinematics
+                | FunctionKind::LinkWrenches
+        )
     }
 
     /// Whether composite inertias are part of the function.
     fn uses_composites(self) -> bool {
-        matches!(self, FunctionKind::MassMatrix | FunctionKind::Gravity)
+        matches!(self, FunctionKind::MassMatrix | FunctionKind::Gravity | FunctionKind::Energies)
             || self.chooses_accelerations()
     }
 

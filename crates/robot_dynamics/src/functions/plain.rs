@@ -1,0 +1,115 @@
+//! Kinematics and energies straight from the links' frames: for robots whose joint axes depend on
+//! parameters, for which the economical recursion cannot be set up.
+
+use robot_symbolic::{Expr, walk};
+
+use super::Derivation;
+use crate::economical::Pose;
+use crate::matrix::SymmetricMatrix;
+use crate::mechanism::MechanismFrame;
+use crate::vector::{Matrix, Vector};
+
+/// The poses of the links' frames.
+pub(super) fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
+    let mechanism = &derivation.mechanism;
+    let base = Pose {
+        rotation: Matrix::identity(mechanism.graph),
+        position: Vector::zero(mechanism.graph),
+    };
+    let mut poses: Vec<Pose<'g>> = vec![];
+    for link in &mechanism.links {
+        let parent = link.parent.map_or(base, |parent| poses[parent]);
+        poses.push(carried(&parent, link.joint_rotation(), link.joint_translation()));
+    }
+    poses
+}
+
+/// The poses of named frames.
+pub(super) fn frame_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
+    let links = link_poses(derivation);
+    let pose = |frame: &MechanismFrame<'g>| match frame.link {
+        Some(link) => carried(&links[link], frame.rotation, frame.translation),
+        None => Pose { rotation: frame.rotation, position: frame.translation },
+    };
+    derivation.mechanism.frames.iter().map(pose).collect()
+}
+
+fn carried<'g>(carrier: &Pose<'g>, rotation: Matrix<'g>, translation: Vector<'g>) -> Pose<'g> {
+    Pose {
+        rotation: carrier.rotation * rotation,
+        position: carrier.position + carrier.rotation * translation,
+    }
+}
+
+/// The geometric Jacobian of a named frame, row by row.
+pub(super) fn jacobian<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Vec<Vec<Expr<'g>>> {
+    let mechanism = &derivation.mechanism;
+    let poses = link_poses(derivation);
+    let point = frame_poses(derivation)[frame].position;
+    let mut rows = vec![vec![mechanism.graph.zero(); mechanism.degrees_of_freedom]; 6];
+    let mut next = mechanism.frames[frame].link;
+    while let Some(index) = next {
+        let (link, pose) = (&mechanism.links[index], &poses[index]);
+        let axis = pose.rotation * link.axis;
+        let (linear, angular) = match link.is_revolute() {
+            true => (axis.cross(point - pose.position), axis),
+            false => (axis, Vector::zero(mechanism.graph)),
+        };
+        for (row, entry) in linear.0.into_iter().chain(angular.0).enumerate() {
+            rows[row][link.coordinate] += entry * link.ratio;
+        }
+        next = link.parent;
+    }
+    rows
+}
+
+/// J̇ q̇: the rate of J q̇ at constant q̇.
+pub(super) fn jacobian_dot_qd<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Vec<Expr<'g>> {
+    let graph = derivation.mechanism.graph;
+    let rates: Vec<Expr<'g>> = symbols(derivation, "qd");
+    let rows = jacobian(derivation, frame);
+    let twist: Vec<Expr<'g>> = rows
+        .iter()
+        .map(|row| row.iter().zip(&rates).fold(graph.zero(), |sum, (j, qd)| sum + *j * *qd))
+        .collect();
+    let mut drift = vec![graph.zero(); twist.len()];
+    for (q, qd) in symbols(derivation, "q").into_iter().zip(&rates) {
+        for (sum, slope) in drift.iter_mut().zip(walk::derivatives(&twist, q)) {
+            *sum += slope * *qd;
+        }
+    }
+    drift
+}
+
+/// ½ q̇ᵀ M q̇.
+pub(super) fn kinetic_energy<'g>(
+    derivation: &Derivation<'_, 'g>,
+    matrix: &SymmetricMatrix<'g>,
+) -> Expr<'g> {
+    let rates = symbols(derivation, "qd");
+    let mut twice = derivation.mechanism.graph.zero();
+    for (row, rate) in rates.iter().enumerate() {
+        for (column, other) in rates.iter().enumerate() {
+            twice += matrix.at(row, column) * *rate * *other;
+        }
+    }
+    twice / 2
+}
+
+/// −Σ m g · c.
+pub(super) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> {
+    let mechanism = &derivation.mechanism;
+    let mut energy = mechanism.graph.zero();
+    for (link, pose) in mechanism.links.iter().zip(link_poses(derivation)) {
+        let centre = pose.position + pose.rotation * link.center_of_mass;
+        energy -= link.mass * mechanism.gravity.dot(centre);
+    }
+    energy
+}
+
+/// The symbols `q1`, `q2` … of a prefix.
+fn symbols<'g>(derivation: &Derivation<'_, 'g>, prefix: &str) -> Vec<Expr<'g>> {
+    let mechanism = &derivation.mechanism;
+    let numbers = 1..=mechanism.degrees_of_freedom;
+    numbers.map(|number| mechanism.graph.symbol(&format!("{prefix}{number}"))).collect()
+}
