@@ -1,5 +1,91 @@
 #![no_std]
-//! What generated robot code calls at run time.
+//! What generated robot code calls at run time: numbers, and sines and cosines.
+//!
+//! The dynamics of a robot are additions and multiplications of its velocities, its accelerations
+//! and the sines and cosines of its angles. Generated code does the former; this crate is the
+//! rest, without dependencies, allocation, `unsafe`, or a branch that depends on a value.
+//!
+//! ```
+//! use robot_runtime::{Scalar, sin_cos_array, sin_cos_each};
+//!
+//! /// Gravity torques of two links, as a generator writes them: from sines and cosines.
+//! fn gravity_sc<T: Scalar>(s: &[T; 2], c: &[T; 2]) -> [T; 2] {
+//!     let c12 = c[0] * c[1] - s[0] * s[1];
+//!     let outer = T::from_f64(2.0) * c12;
+//!     [T::from_f64(5.0) * c[0] + outer, outer]
+//! }
+//!
+//! /// At one state: the angles go through vector registers together.
+//! fn gravity(q: &[f64; 2]) -> [f64; 2] {
+//!     let (s, c) = sin_cos_array(q);
+//!     gravity_sc(&s, &c)
+//! }
+//!
+//! /// At eight states: LLVM vectorises the loop, states side by side.
+//! #[inline(never)]
+//! fn gravity_block(q: &[[f64; 2]; 8]) -> [[f64; 2]; 8] {
+//!     let mut torques = [[0.0; 2]; 8];
+//!     for (torque, q) in torques.iter_mut().zip(q) {
+//!         let (s, c) = sin_cos_each(q);
+//!         *torque = gravity_sc(&s, &c);
+//!     }
+//!     torques
+//! }
+//!
+//! let q = [0.3, -0.7];
+//! assert_eq!(gravity_block(&[q; 8]), [gravity(&q); 8]);
+//! ```
+//!
+//! # Sines and cosines
+//!
+//! | function | source | meant for |
+//! |---|---|---|
+//! | [`sin_cos_array`] | polynomials | all angles of one state, in vector registers |
+//! | [`sin_cos_each`] | polynomials | the body of a loop over states |
+//! | [`Scalar::sin_cos`] | polynomials | one angle, or one in every lane |
+//! | `std_sin_cos_array` (feature `std`) | standard library | angles of any size |
+//!
+//! The three with polynomials give the same bits. [`Trig`] makes the source a type parameter.
+//!
+//! | type | stated range | worst absolute error there | with [`FUSED`] | in last places |
+//! |---|---|---|---|---|
+//! | `f64` | ǀxǀ ≤ 10⁵ | 1.7e-16 | 1.4e-16 | 1.7 at any angle of the range |
+//! | `f32` | ǀxǀ ≤ 10⁴ | 8.8e-8 | 7.2e-8 | 1.2 for ǀxǀ ≤ π/4 |
+//!
+//! Held in `f32` against every number of the range, in `f64` against 4·10⁷ random ones and the
+//! three neighbours of each multiple of π/2. Beyond the range nothing panics: the error grows to
+//! about a last place of the angle itself; from 2⁵¹ (2²² in `f32`) on the values mean nothing and
+//! may lie outside [−1, 1]. NaN and infinite angles give NaN.
+//!
+//! The same program gives the same bits on every target where [`FUSED`] is the same, with
+//! polynomials; the standard library's sines differ between platforms.
+//!
+//! # Other functions
+//!
+//! | function | error |
+//! |---|---|
+//! | [`Scalar::sqrt`] | correctly rounded with feature `std`; without, no bit differed for any `f32` nor for 3·10⁸ random `f64` |
+//! | [`Scalar::tanh`] | below 3 last places everywhere (2.61 in `f32`, every number tried) |
+//! | [`Scalar::mul_add`] | rounds once where [`FUSED`], else twice |
+//! | [`Scalar::abs`], [`Scalar::signum0`] | exact |
+//!
+//! # Lanes
+//!
+//! [`Lanes`] are several numbers that act as one [`Scalar`]:
+//!
+//! ```
+//! use robot_runtime::{F64x4, Scalar};
+//!
+//! let velocity = F64x4::from_array([-0.2, 0.0, 0.1, 3.0]);
+//! let friction = velocity * F64x4::splat(0.5) + velocity.signum0();
+//! assert_eq!(friction.to_array(), [-1.1, 0.0, 1.05, 2.5]);
+//! ```
+//!
+//! # Features
+//!
+//! - `std` (off): `StdTrig` and `std_sin_cos_array`, the processor's square root, and fused
+//!   multiply-add where the target has it.
+//! - `sources` (off): `SOURCES`, the text of the modules, for generators of self-contained crates.
 
 mod runtime;
 #[cfg(feature = "sources")]

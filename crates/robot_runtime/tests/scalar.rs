@@ -107,7 +107,7 @@ fn states_pass_through_lanes_and_back() {
     assert_eq!(states_from_lanes(&lanes), states);
 
     let some: [[f64; 3]; 4] = padded_states(&states[..3]);
-    assert_eq!((some[..3] == states[..3], some[3]), (true, [0.0; 3]));
+    assert_eq!((&some[..3], some[3]), (&states[..3], [0.0; 3]));
     let first: [[f64; 3]; 4] = padded_states(&states);
     assert_eq!(first, states[..4]);
 }

@@ -57,6 +57,17 @@ fn sin_cos_of_an_acute_half_angle_is_accurate_in_last_places() {
 }
 
 #[test]
+fn sin_cos_beyond_the_range_errs_like_a_rounded_angle() {
+    for x in numbers(1e6, 997).skip_while(|x| *x < 1e4) {
+        let (sine, cosine) = Scalar::sin_cos(x);
+        let (exact_sine, exact_cosine) = f64::sin_cos(f64::from(x));
+        let allowed = 2.0 * f64::from(x.next_up() - x);
+        assert!((f64::from(sine) - exact_sine).abs() < allowed, "{x}");
+        assert!((f64::from(cosine) - exact_cosine).abs() < allowed, "{x}");
+    }
+}
+
+#[test]
 fn sin_cos_of_what_is_no_number_is_no_number() {
     for x in [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let (sine, cosine) = Scalar::sin_cos(x);

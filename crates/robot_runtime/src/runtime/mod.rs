@@ -20,4 +20,4 @@ pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
 pub use self::scalar::Scalar;
 #[cfg(feature = "std")]
 pub use self::std_trig::{StdTrig, std_sin_cos_array};
-pub use self::trig::{PolyTrig, Trig, sin_cos_array};
+pub use self::trig::{PolyTrig, Trig, sin_cos_array, sin_cos_each};

@@ -24,9 +24,8 @@ pub(super) fn sqrt_f32(x: f32) -> f32 {
 
 macro_rules! software_sqrt {
     (
-        $name:ident, $float:ident, $bits:ident,
-        magic = $magic:literal, steps = $steps:literal, split = $split:literal,
-        bias = $bias:literal, scale = $scale:literal
+        $name:ident, $float:ident, $integer:ident,
+        magic = $magic:literal, split = $split:literal, bias = $bias:literal, scale = $scale:literal
     ) => {
         /// Square root of `x` by additions and multiplications without a branch: the halved
         /// exponent as estimate of 1/√x (Lomont, *Fast inverse square root*, 2003), Newton steps,
@@ -35,21 +34,36 @@ macro_rules! software_sqrt {
         /// Within 0.51 units in the last place; √±0 = ±0, √∞ = ∞, NaN below zero and for NaN.
         #[inline(always)]
         pub fn $name(x: $float) -> $float {
-            const MANTISSA: u32 = $float::MANTISSA_DIGITS - 1;
-            let keep_if = |condition: bool| $bits::from(condition).wrapping_neg();
-            // Away from the ends of the range nothing overflows or loses its last bits.
-            let below_one = keep_if(x < 1.0);
-            let pick = |below: $float, above: $float| {
-                $float::from_bits(below.to_bits() & below_one | above.to_bits() & !below_one)
-            };
-            let power = |exponent: $bits| $float::from_bits(exponent << MANTISSA);
-            let a = x * pick(power($bias + $scale), power($bias - $scale));
+            // Masks come from signs of differences of bits: LLVM turns comparisons into jumps.
+            let mask = |negative: $integer| negative >> ($integer::BITS - 1);
+            let of_bits = |bits: $integer| $float::from_bits(bits.cast_unsigned());
+            let power_of_two =
+                |exponent: $integer| of_bits(exponent << ($float::MANTISSA_DIGITS - 1));
+            let bits = x.to_bits().cast_signed();
+            const ONE: $integer = $float::to_bits(1.0).cast_signed();
+            const INFINITY: $integer = $float::INFINITY.to_bits().cast_signed();
+            const NAN: $integer = $float::NAN.to_bits().cast_signed();
 
-            let mut y = $float::from_bits(($magic as $bits).wrapping_sub(a.to_bits() >> 1));
-            let half = 0.5 * a;
-            for _ in 0..$steps {
-                y *= 1.5 - half * y * y;
+            // 0, ∞ and NaN are their own roots and a number below zero has none; the computation
+            // is led past them with +0, whose root has no bits.
+            let is_ordinary = mask(bits.wrapping_neg() & bits.wrapping_sub(INFINITY));
+            let is_below_zero = mask(bits & $integer::MIN.wrapping_sub(bits));
+            let special = (bits | NAN & is_below_zero) & !is_ordinary;
+
+            // Away from the ends of the range nothing overflows or loses its last bits.
+            let below_one = mask(bits.wrapping_sub(ONE));
+            let a = of_bits(bits & is_ordinary);
+            let up_or_down = (2 * $scale & below_one).wrapping_sub($scale);
+            let a = a * power_of_two(up_or_down.wrapping_add($bias));
+
+            #[inline(always)]
+            fn newton(half: $float, y: $float) -> $float {
+                y * (1.5 - half * y * y)
             }
+            let half = 0.5 * a;
+            let halved = (a.to_bits() >> 1).cast_signed();
+            let y = of_bits(halved.wrapping_neg().wrapping_add($magic));
+            let y = newton(half, newton(half, newton(half, newton(half, y))));
             let s = a * y;
             let high = $split * s;
             let high = high - (high - s);
@@ -57,12 +71,8 @@ macro_rules! software_sqrt {
             let square = s * s;
             let square_low = ((high * high - square) + 2.0 * high * low) + low * low;
             let root = s + 0.5 * y * ((a - square) - square_low);
-            let root = root * pick(power($bias - $scale / 2), power($bias + $scale / 2));
-
-            // 0, ∞ and NaN are their own roots; a number below zero has none.
-            let ordinary = keep_if((x > 0.0) & (x < $float::INFINITY));
-            let negative = keep_if(x < 0.0) & $float::NAN.to_bits();
-            $float::from_bits(root.to_bits() & ordinary | x.to_bits() & !ordinary | negative)
+            let root = root * power_of_two((up_or_down >> 1).wrapping_neg().wrapping_add($bias));
+            of_bits(root.to_bits().cast_signed() | special)
         }
     };
 }
@@ -70,9 +80,8 @@ macro_rules! software_sqrt {
 software_sqrt!(
     software_sqrt_f64,
     f64,
-    u64,
+    i64,
     magic = 0x5fe6_eb50_c7b5_37a9,
-    steps = 4,
     split = 134_217_729.0,
     bias = 1023,
     scale = 512
@@ -80,9 +89,8 @@ software_sqrt!(
 software_sqrt!(
     software_sqrt_f32,
     f32,
-    u32,
+    i32,
     magic = 0x5f37_59df,
-    steps = 3,
     split = 4097.0,
     bias = 127,
     scale = 64

@@ -54,8 +54,9 @@ where
     }
 }
 
-/// Sines and cosines of `angles` (radians) by the standard library.
-#[inline(always)]
+/// Sines and cosines of `angles` (radians) by the standard library; like
+/// [`sin_cos_array`](super::sin_cos_array) never inlined.
+#[inline(never)]
 pub fn std_sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N])
 where
     StdTrig: Trig<T>,

@@ -8,53 +8,37 @@
 //! ```
 //!
 //! with E the minimax polynomial of the relative error by Remez's exchange: degree 9 and 3.1e-17
-//! in double precision, degree 4 and 1.8e-8 in single.
+//! in double precision, degree 4 and 1.8e-8 in single; coefficients from the highest down.
 
 use super::fused::{mul_add_f32, mul_add_f64};
 
-const EXPONENTIAL_F64: [f64; 10] = [
-    0.5000000000000006,
-    0.1666666666666659,
-    0.04166666666657669,
-    0.008333333333389141,
-    0.001388888893158733,
-    0.00019841269720196315,
-    2.4801505245959435e-05,
-    2.755740620773172e-06,
-    2.7626049303148893e-07,
-    2.5054284888318235e-08,
-];
-
-const EXPONENTIAL_F32: [f32; 5] =
-    [4.9999997e-1, 1.6666543e-1, 4.1667197e-2, 8.366525e-3, 1.388279e-3];
-
 macro_rules! tanh {
     (
-        $name:ident, $float:ident, $bits:ident, $mul_add:ident, $coefficients:ident,
+        $name:ident, $float:ident, $bits:ident, $mul_add:ident,
         shift = $shift:expr, saturated = $saturated:expr,
-        ln_2_high = $ln_2_high:expr, ln_2_low = $ln_2_low:expr
+        ln_2_high = $ln_2_high:expr, ln_2_low = $ln_2_low:expr,
+        exponential = [$($coefficient:literal)*]
     ) => {
         /// Hyperbolic tangent of `x`: within 3 units in the last place everywhere, ±1 at ±∞.
         #[inline(always)]
         pub(super) fn $name(x: $float) -> $float {
             let twice = 2.0 * x.abs();
             // From here on the result rounds to 1; a NaN passes.
-            let y = if twice > $saturated { $saturated } else { twice };
+            let limit: $float = $saturated;
+            let beyond = $bits::from(twice > limit).wrapping_neg();
+            let y = $float::from_bits(limit.to_bits() & beyond | twice.to_bits() & !beyond);
 
             let shifted = $mul_add(y, core::$float::consts::LOG2_E, $shift);
             let n = shifted - $shift;
             let r = $mul_add(n, -$ln_2_high, y);
             let r = $mul_add(n, -$ln_2_low, r);
             let mut e = 0.0;
-            for coefficient in $coefficients.iter().rev() {
-                e = $mul_add(e, r, *coefficient);
-            }
+            $(e = $mul_add(e, r, $coefficient);)*
             let e = $mul_add(r * r, e, r);
 
             const MANTISSA: u32 = $float::MANTISSA_DIGITS - 1;
-            let power = $float::from_bits(
-                shifted.to_bits().wrapping_shl(MANTISSA).wrapping_add($float::to_bits(1.0)),
-            );
+            let exponent = shifted.to_bits() << MANTISSA;
+            let power = $float::from_bits(exponent.wrapping_add($float::to_bits(1.0)));
             let t = $mul_add(power, e, power - 1.0);
             (t / (t + 2.0)).copysign(x)
         }
@@ -62,24 +46,25 @@ macro_rules! tanh {
 }
 
 tanh!(
-    tanh_f64,
-    f64,
-    u64,
-    mul_add_f64,
-    EXPONENTIAL_F64,
-    shift = 6755399441055744.0,
-    saturated = 44.0,
-    ln_2_high = 0.6931471805598903,
-    ln_2_low = 5.497923018708371e-14
+    tanh_f64, f64, u64, mul_add_f64,
+    shift = 6755399441055744.0, saturated = 44.0,
+    ln_2_high = 0.6931471805598903, ln_2_low = 5.497923018708371e-14,
+    exponential = [
+        2.5054284888318235e-08
+        2.7626049303148893e-07
+        2.755740620773172e-06
+        2.4801505245959435e-05
+        0.00019841269720196315
+        0.001388888893158733
+        0.008333333333389141
+        0.04166666666657669
+        0.1666666666666659
+        0.5000000000000006
+    ]
 );
 tanh!(
-    tanh_f32,
-    f32,
-    u32,
-    mul_add_f32,
-    EXPONENTIAL_F32,
-    shift = 12582912.0,
-    saturated = 20.0,
-    ln_2_high = 0.69314575,
-    ln_2_low = 1.4286068e-6
+    tanh_f32, f32, u32, mul_add_f32,
+    shift = 12582912.0, saturated = 20.0,
+    ln_2_high = 0.69314575, ln_2_low = 1.4286068e-6,
+    exponential = [1.388279e-3 8.366525e-3 4.1667197e-2 1.6666543e-1 4.9999997e-1]
 );

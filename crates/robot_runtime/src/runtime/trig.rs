@@ -32,9 +32,22 @@ impl<T: Scalar> Trig<T> for PolyTrig {
     }
 }
 
-/// Sines and cosines of `angles` (radians) by the branch-free polynomials, vectorised for `f64`
-/// and `f32`.
-#[inline(always)]
+/// Sines and cosines of `angles` (radians) by the branch-free polynomials, several at a time in
+/// vector registers: for one state.
+///
+/// A function of its own, never inlined: whatever calls it stays flat at every optimisation level.
+#[inline(never)]
 pub fn sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
-    PolyTrig::sin_cos_array(angles)
+    T::sin_cos_array(angles)
+}
+
+/// Sines and cosines of `angles` (radians), one after the other in straight-line code: for the
+/// body of a loop over many states.
+///
+/// LLVM vectorises such a loop across the states when its body is straight, at `opt-level` 2
+/// already; the loop stands in a function of its own that is not inlined, takes the states by
+/// reference as arrays (`&[[f64; N]; 8]`) and returns an array. Values as of [`sin_cos_array`].
+#[inline(always)]
+pub fn sin_cos_each<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+    block::unrolled(angles, T::sin_cos)
 }

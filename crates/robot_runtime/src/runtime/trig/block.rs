@@ -24,6 +24,31 @@ pub(crate) fn one_by_one<T: Scalar, const N: usize>(
     (sines, cosines)
 }
 
+/// `function` of each angle, without a loop for the first 16.
+#[inline(always)]
+pub(crate) fn unrolled<T: Scalar, const N: usize>(
+    angles: &[T; N],
+    function: impl Fn(T) -> (T, T),
+) -> ([T; N], [T; N]) {
+    let (mut sines, mut cosines) = ([T::ZERO; N], [T::ZERO; N]);
+    macro_rules! at {
+        ($($index:literal)*) => {$(
+            let element = (angles.get($index), sines.get_mut($index), cosines.get_mut($index));
+            if let (Some(angle), Some(sine), Some(cosine)) = element {
+                (*sine, *cosine) = function(*angle);
+            }
+        )*};
+    }
+    at!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
+    if N > 16 {
+        let results = sines.iter_mut().zip(&mut cosines);
+        for (angle, (sine, cosine)) in angles.iter().zip(results).skip(16) {
+            (*sine, *cosine) = function(*angle);
+        }
+    }
+    (sines, cosines)
+}
+
 /// `function` of each angle, where vectors exist in blocks of `BLOCK` angles.
 ///
 /// A loop of `BLOCK` must be too long to be unrolled before the vectoriser sees it. Up to `BLOCK`
