@@ -54,9 +54,10 @@ where
     }
 }
 
-/// Sines and cosines of `angles` (radians) by the standard library; like
-/// [`sin_cos_array`](super::sin_cos_array) never inlined.
-#[inline(never)]
+/// Sines and cosines of `angles` (radians) by the standard library; inlined
+/// like [`sin_cos_array`](super::sin_cos_array).
+#[cfg_attr(debug_assertions, inline(never))]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn std_sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N])
 where
     StdTrig: Trig<T>,

@@ -35,8 +35,10 @@ impl<T: Scalar> Trig<T> for PolyTrig {
 /// Sines and cosines of `angles` (radians) by the branch-free polynomials, several at a time in
 /// vector registers: for one state.
 ///
-/// A function of its own, never inlined: whatever calls it stays flat at every optimisation level.
-#[inline(never)]
+/// Inlined where debug assertions are off; with them it is a call, so that whatever calls it stays
+/// flat in both.
+#[cfg_attr(debug_assertions, inline(never))]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     T::sin_cos_array(angles)
 }
