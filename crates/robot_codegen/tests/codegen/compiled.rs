@@ -91,7 +91,7 @@ fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
 #[test]
 fn nothing_generated_is_unused() {
     let graph = Graph::new();
-    let spec = support::planar_arm(&graph);
+    let spec = support::arm::planar_arm(&graph);
     let module = Module::compile(&spec, &Options::default()).unwrap();
     for generic in [false, true] {
         let options = RustOptions {

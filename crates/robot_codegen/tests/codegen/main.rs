@@ -5,4 +5,5 @@
 
 mod compiled;
 mod golden;
+#[path = "../support/mod.rs"]
 mod support;

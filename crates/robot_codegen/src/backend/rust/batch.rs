@@ -1,173 +1,282 @@
-//! Functions over slices of states, computed in lanes.
+//! Functions over slices of states.
+//!
+//! A block of states is one loop whose body is the whole function: LLVM's loop vectoriser turns it
+//! into vectors of states, whatever the order of the statements, where its vectoriser of
+//! straight-line code would find vectors or not by chance.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
-use syn::{Expr, ImplItem, Pat, Stmt, parse_quote};
+use syn::{Expr, ImplItem, Pat, Stmt, Type, parse_quote};
 
 use super::doc;
+use super::function::Methods;
 use super::items::derived;
 use super::outputs;
-use super::scope::Scope;
+use super::scope::used_inputs;
 use super::syntax;
 use super::variables::Variables;
-use crate::module::{Function, Output};
-
-/// The method over slices, `lanes` states at a time; `None` for a function without inputs.
-///
-/// It has the only loop of generated code. The last states fill up a block with zeros, so that all
-/// go one way; nothing is indexed, so that nothing can panic.
-pub(super) fn method(
-    scope: &mut Scope<'_>,
-    function: &Function,
-    plain: &Ident,
-    generic: &Ident,
-    lanes: usize,
-) -> Option<ImplItem> {
-    let mut variables = Variables::new(scope, function);
-    let slices = Slices::new(&mut variables, function);
-    let all = slices.inputs.iter().chain(&slices.outputs);
-    let lengths: Vec<Expr> = all.map(|slice| parse_quote!(#slice.len())).collect();
-    let shortest = lengths.into_iter().reduce(|a, b| parse_quote!(#a.min(#b)))?;
-    let name = derived(&mut scope.methods, plain, "batch");
-    let (runtime, scalar) = (scope.number.runtime(), scope.number.ty());
-    let lanes = Literal::usize_unsuffixed(lanes.max(1));
-    let (pattern, blocks) = slices.blocks(&lanes)?;
-    let [count, result] = ["count", "result"].map(|text| variables.namer.name(text));
-    let inputs = &slices.inputs;
-    let stores = slices.stores(scope, function, runtime, &result, &count);
-    let parameters = slices.parameters(function, &scalar);
-    let docs = doc::attributes(&[
-        format!(
-            "`{plain}` of many states, {lanes} at a time: entry i of each slice belongs to state i."
-        ),
-        String::new(),
-        "Computes, and returns, as many states as the shortest slice has.".to_owned(),
-    ]);
-    Some(parse_quote! {
-        #(#docs)*
-        pub fn #name(&self, #(#parameters),*) -> usize {
-            for #pattern in #blocks {
-                let #count = #shortest;
-                let #result = self.#generic::<#runtime::Lanes<#scalar, #lanes>>(
-                    #(&#runtime::lanes_from_states(&#runtime::padded_states(#inputs))),*
-                );
-                #(#stores)*
-            }
-            #shortest
-        }
-    })
-}
+use crate::trigonometry::Trigonometry;
 
 /// The slices that the method takes.
 struct Slices {
-    inputs: Vec<Ident>,
-    outputs: Vec<Ident>,
+    variables: Variables,
+    /// Names, types of one state and whether the function needs it.
+    inputs: Vec<(Ident, Type, bool)>,
+    /// Names, types and zeros of one state.
+    outputs: Vec<(Ident, Type, Expr)>,
+    /// The number of states in a block.
+    lanes: Literal,
 }
 
 impl Slices {
-    fn new(variables: &mut Variables, function: &Function) -> Slices {
-        // The variables of the loops that store.
-        for word in ["row", "to", "from"] {
-            variables.namer.name(word);
-        }
-        let outputs = function.outputs.iter();
-        Slices {
-            outputs: outputs.map(|output| variables.namer.name(&output.name)).collect(),
-            inputs: variables.inputs.clone(),
-        }
+    fn used(&self) -> impl Iterator<Item = &Ident> {
+        self.inputs.iter().filter(|(_, _, used)| *used).map(|(name, ..)| name)
     }
 
-    fn parameters(&self, function: &Function, scalar: &syn::Type) -> Vec<TokenStream> {
-        let inputs = self.inputs.iter().zip(&function.inputs).map(|(name, input)| {
-            let state = syntax::array_type(scalar, input.symbols.len());
-            quote!(#name: &[#state])
-        });
-        let outputs = self.outputs.iter().zip(&function.outputs).map(|(name, output)| {
-            let state = syntax::shaped_type(scalar, &output.shape);
-            quote!(#name: &mut [#state])
-        });
-        inputs.chain(outputs).collect()
+    fn output_names(&self) -> impl Iterator<Item = &Ident> {
+        self.outputs.iter().map(|(name, ..)| name)
     }
 
-    /// `((q, qd), tau)` and `q.chunks(8).zip(qd.chunks(8)).zip(tau.chunks_mut(8))`
-    fn blocks(&self, lanes: &Literal) -> Option<(Pat, Expr)> {
-        let inputs = self.inputs.iter().map(|name| -> (Pat, Expr) {
-            (parse_quote!(#name), parse_quote!(#name.chunks(#lanes)))
-        });
-        let outputs = self.outputs.iter().map(|name| -> (Pat, Expr) {
-            (parse_quote!(#name), parse_quote!(#name.chunks_mut(#lanes)))
-        });
-        let zip = |(a, b): (Pat, Expr), (c, d): (Pat, Expr)| -> (Pat, Expr) {
-            (parse_quote!((#a, #c)), parse_quote!(#b.zip(#d)))
-        };
-        if self.inputs.is_empty() {
-            return None;
-        }
-        inputs.chain(outputs).reduce(zip)
-    }
-
-    /// From lanes to the states of the outputs.
-    fn stores(
-        &self,
-        scope: &Scope<'_>,
-        function: &Function,
-        runtime: &syn::Path,
-        result: &Ident,
-        count: &Ident,
-    ) -> Vec<Stmt> {
-        let is_struct = scope.output_type(function).is_some();
-        let fields = outputs::fields(function);
-        let outputs = function.outputs.iter().zip(fields).zip(&self.outputs);
-        let stores = outputs.flat_map(|((output, field), slice)| {
-            let value =
-                if is_struct { parse_quote!(#result.#field) } else { parse_quote!(#result) };
-            store(output, slice, &value, runtime, count)
-        });
-        stores.collect()
+    /// `q.len().min(tau.len())`
+    fn shortest(&self) -> Option<Expr> {
+        let names = self.inputs.iter().map(|(name, ..)| name).chain(self.output_names());
+        let lengths = names.map(|name| -> Expr { parse_quote!(#name.len()) });
+        lengths.reduce(|a, b| parse_quote!(#a.min(#b)))
     }
 }
 
-/// From the lanes of one output to its states; row by row for a matrix.
-fn store(
-    output: &Output,
-    slice: &Ident,
-    value: &Expr,
-    runtime: &syn::Path,
-    count: &Ident,
-) -> Vec<Stmt> {
-    match output.shape.as_slice() {
-        [] => vec![parse_quote! {
-            for (to, from) in #slice.iter_mut().zip(#value.to_array()).take(#count) {
-                *to = from;
-            }
-        }],
-        [rows, _] => {
-            let rows = 0..*rows;
-            let row = |row: usize| -> Stmt {
-                let only = |name: TokenStream| {
-                    let names = rows
-                        .clone()
-                        .map(|other| if other == row { name.clone() } else { quote!(_) });
-                    quote!([#(#names),*])
-                };
-                let (from_row, to_row) = (only(quote!(row)), only(quote!(to)));
-                parse_quote! {
-                    {
-                        let #from_row = &#value;
-                        for (#to_row, from) in
-                            #slice.iter_mut().zip(#runtime::states_from_lanes(row)).take(#count)
-                        {
-                            *to = from;
-                        }
-                    }
-                }
-            };
-            rows.clone().map(row).collect()
+impl Methods<'_, '_> {
+    /// The method over slices, and the one that computes a block of `lanes` states; none for a
+    /// function that needs no inputs.
+    ///
+    /// The loops of the two are the only ones of generated code. The last states are filled up to a
+    /// block with zeros, so that all go one way; nothing is indexed, so that nothing can panic.
+    pub(super) fn batch(&mut self, lanes: usize) -> Vec<ImplItem> {
+        let slices = self.slices(lanes);
+        if slices.used().next().is_none() {
+            return vec![];
         }
-        _ => vec![parse_quote! {
-            for (to, from) in #slice.iter_mut().zip(#runtime::states_from_lanes(&#value)).take(#count) {
-                *to = from;
-            }
-        }],
+        let plain = self.names.plain.clone();
+        let batch = derived(&mut self.scope.methods, &plain, "batch");
+        let block = derived(&mut self.scope.methods, &plain, "block");
+        vec![self.over_slices(&slices, &batch, &block), self.of_block(slices, &block)]
     }
+
+    fn slices(&self, lanes: usize) -> Slices {
+        let function = self.function;
+        let mut variables = Variables::new(self.scope, function);
+        // The variables of the methods.
+        for word in ["count", "result", "circular", "to", "from"] {
+            variables.namer.name(word);
+        }
+        let scalar = self.number.ty();
+        let used = used_inputs(function, &function.core).into_iter();
+        let used = used.zip(used_inputs(function, &function.angles)).map(|(a, b)| a || b);
+        let names = variables.inputs.iter().cloned().zip(&function.inputs).zip(used);
+        let inputs = names.map(|((name, input), used)| {
+            (name, syntax::array_type(&scalar, input.symbols.len()), used)
+        });
+        let inputs = inputs.collect();
+        let outputs = function.outputs.iter().map(|output| {
+            let zero = output.shape.iter().rev().fold(syntax::float(0.0), |zero, length| {
+                let length = Literal::usize_unsuffixed(*length);
+                parse_quote!([#zero; #length])
+            });
+            let name = variables.namer.name(&output.name);
+            (name, syntax::shaped_type(&scalar, &output.shape), zero)
+        });
+        let outputs = outputs.collect();
+        Slices { variables, inputs, outputs, lanes: Literal::usize_unsuffixed(lanes.max(1)) }
+    }
+
+    /// Cuts the slices into blocks.
+    fn over_slices(&self, slices: &Slices, batch: &Ident, block: &Ident) -> ImplItem {
+        let (runtime, lanes) = (self.number.runtime(), &slices.lanes);
+        let (inputs, input_types) = columns(slices.inputs.iter().map(|(name, ty, _)| (name, ty)));
+        let (outputs, output_types) =
+            columns(slices.outputs.iter().map(|(name, ty, _)| (name, ty)));
+        let used: Vec<&Ident> = slices.used().collect();
+        let count = slices.shortest();
+        let mut namer = slices.variables.namer.clone();
+        let mut with = |names: &[&Ident], suffix: &str| -> Vec<Ident> {
+            names.iter().map(|name| derived(&mut namer, name, suffix)).collect()
+        };
+        let (used_rests, output_rests) = (with(&used, "rest"), with(&outputs, "rest"));
+        let states = with(&outputs, "states");
+        let results = syntax::tuple_pattern(&states);
+        let (pattern, blocks) = zip(used.iter().chain(&outputs).map(|name| plain_item(name)));
+        let docs = doc::attributes(&[
+            format!(
+                "`{}` of many states, {lanes} at a time: entry i of each slice is of state i.",
+                self.names.plain
+            ),
+            String::new(),
+            "Computes, and returns, as many states as the shortest slice has.".to_owned(),
+        ]);
+        parse_quote! {
+            #(#docs)*
+            pub fn #batch(
+                &self,
+                #(#inputs: &[#input_types],)*
+                #(#outputs: &mut [#output_types],)*
+            ) -> usize {
+                let count = #count;
+                #(let #used = #used.get(..count).unwrap_or_default();)*
+                #(let #outputs = #outputs.get_mut(..count).unwrap_or_default();)*
+                #(let (#used, #used_rests) = #used.as_chunks::<#lanes>();)*
+                #(let (#outputs, #output_rests) = #outputs.as_chunks_mut::<#lanes>();)*
+                for #pattern in #blocks {
+                    let #results = self.#block(#(#used),*);
+                    #(*#outputs = #states;)*
+                }
+                let #results = self.#block(#(&#runtime::padded_states(#used_rests)),*);
+                #(for (to, from) in #output_rests.iter_mut().zip(#states) {
+                    *to = from;
+                })*
+                count
+            }
+        }
+    }
+
+    /// A block: the function of each state.
+    fn of_block(&mut self, mut slices: Slices, block: &Ident) -> ImplItem {
+        let lanes = slices.lanes.clone();
+        let inputs = slices.inputs.iter().filter(|(_, _, used)| *used);
+        let parameters = inputs.map(|(name, ty, _)| quote!(#name: &[#ty; #lanes]));
+        let parameters: Vec<TokenStream> = parameters.collect();
+        let blocks: Vec<Type> =
+            slices.outputs.iter().map(|(_, ty, _)| parse_quote!([#ty; #lanes])).collect();
+        let returned: Type = match blocks.as_slice() {
+            [block] => block.clone(),
+            blocks => parse_quote!((#(#blocks),*)),
+        };
+        let zeros = slices.outputs.iter();
+        let zeros = zeros.map(|(name, _, zero)| parse_quote!(let mut #name = [#zero; #lanes];));
+        let mut statements: Vec<Stmt> = zeros.collect();
+        statements.extend(self.loops(&mut slices));
+        let values = slices.output_names().map(syntax::variable).collect();
+        let signature = parse_quote! {
+            #[inline(never)]
+            fn #block(&self, #(#parameters),*) -> #returned {}
+        };
+        syntax::with_body(signature, statements, syntax::tuple(values))
+    }
+
+    /// The loop over the states of a block.
+    fn loops(&mut self, slices: &mut Slices) -> Vec<Stmt> {
+        let outputs: Vec<Ident> = slices.output_names().cloned().collect();
+        let stores = self.stores(&outputs);
+        let to_outputs: Vec<(Pat, Expr)> =
+            outputs.iter().map(|name| (syntax::binding(name), parse_quote!(&mut #name))).collect();
+        if self.function.angles.results().is_empty() {
+            let items = slices.used().map(plain_item).chain(to_outputs);
+            let (pattern, states) = zip(items);
+            let (plain, all) = (&self.names.plain, &slices.variables.inputs);
+            let inputs = slices.inputs.iter().zip(&self.function.inputs);
+            let unused = inputs
+                .filter(|((_, _, used), _)| !used)
+                .map(|((name, ..), input)| (name, Literal::usize_unsuffixed(input.symbols.len())));
+            let (unused, lengths) = columns(unused);
+            return vec![parse_quote! {
+                for #pattern in #states {
+                    #(let #unused = &[0.0; #lengths];)*
+                    let result = self.#plain(#(#all),*);
+                    #(#stores)*
+                }
+            }];
+        }
+        match self.scope.options.trigonometry {
+            Trigonometry::Polynomial => vec![self.one_loop(slices, to_outputs, &stores)],
+            Trigonometry::Standard => self.two_loops(slices, to_outputs, &stores),
+        }
+    }
+
+    /// The whole function in one loop.
+    fn one_loop(
+        &mut self,
+        slices: &mut Slices,
+        to_outputs: Vec<(Pat, Expr)>,
+        stores: &[Stmt],
+    ) -> Stmt {
+        let (takes, angles) = self.angles_argument(&mut slices.variables);
+        let (pattern, states) = zip(slices.used().map(plain_item).chain(to_outputs));
+        let (sc, runtime) = (&self.names.sc, self.number.runtime());
+        let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
+        let inputs = slices.variables.chosen(&used_inputs(self.function, &self.function.core));
+        parse_quote! {
+            for #pattern in #states {
+                #(#takes)*
+                let (#s, #c) = #runtime::sin_cos_each(#angles);
+                let result = self.#sc(&#s, &#c, #(#inputs),*);
+                #(#stores)*
+            }
+        }
+    }
+
+    /// Sines and cosines of the standard library in a loop of their own, for they are calls, and a
+    /// loop with calls is not vectorised.
+    fn two_loops(
+        &mut self,
+        slices: &mut Slices,
+        to_outputs: Vec<(Pat, Expr)>,
+        stores: &[Stmt],
+    ) -> Vec<Stmt> {
+        let function = self.function;
+        let (takes, angles) = self.angles_argument(&mut slices.variables);
+        let angle_inputs = slices.variables.chosen(&used_inputs(function, &function.angles));
+        let count = Literal::usize_unsuffixed(function.angles.results().len());
+        let (lanes, sin_cos) = (&slices.lanes, self.number.circular_array());
+        let circular = (parse_quote!(circular), parse_quote!(&mut circular));
+        let (angle_pattern, angle_states) =
+            zip(angle_inputs.into_iter().map(plain_item).chain([circular]));
+        let inputs = slices.variables.chosen(&used_inputs(function, &function.core));
+        let items = inputs.iter().map(|name| plain_item(name)).chain(to_outputs);
+        let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
+        let known = (parse_quote!((#s, #c)), parse_quote!(circular));
+        let (pattern, states) = zip([known].into_iter().chain(items));
+        let sc = &self.names.sc;
+        vec![
+            parse_quote!(let mut circular = [([0.0; #count], [0.0; #count]); #lanes];),
+            parse_quote! {
+                for #angle_pattern in #angle_states {
+                    #(#takes)*
+                    *circular = #sin_cos(#angles);
+                }
+            },
+            parse_quote! {
+                for #pattern in #states {
+                    let result = self.#sc(#s, #c, #(#inputs),*);
+                    #(#stores)*
+                }
+            },
+        ]
+    }
+
+    /// `*tau = result;`
+    fn stores(&self, outputs: &[Ident]) -> Vec<Stmt> {
+        if self.scope.output_type(self.function).is_none() {
+            return outputs.iter().map(|name| parse_quote!(*#name = result;)).collect();
+        }
+        let fields = outputs::fields(self.function);
+        let stores = outputs.iter().zip(fields);
+        stores.map(|(name, field)| parse_quote!(*#name = result.#field;)).collect()
+    }
+}
+
+/// A variable that is iterated over, under its own name.
+fn plain_item(name: &Ident) -> (Pat, Expr) {
+    (syntax::binding(name), syntax::variable(name))
+}
+
+/// Pairs as two lists.
+fn columns<A, B>(pairs: impl Iterator<Item = (A, B)>) -> (Vec<A>, Vec<B>) {
+    pairs.unzip()
+}
+
+/// `((q, qd), tau)` and `q.iter().zip(qd).zip(tau)`
+fn zip(mut items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
+    let (first, value) = items.next().unwrap_or_else(|| (parse_quote!(()), parse_quote!([(); 0])));
+    items.fold((first, parse_quote!(#value.iter())), |(pattern, zipped), (next, value)| {
+        (parse_quote!((#pattern, #next)), parse_quote!(#zipped.zip(#value)))
+    })
 }

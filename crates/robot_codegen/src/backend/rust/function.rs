@@ -4,7 +4,6 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
 
-use super::batch;
 use super::body::Body;
 use super::doc;
 use super::items::{derived, operations_text};
@@ -22,9 +21,9 @@ use crate::program::{Operation, Program, Source};
 const INLINE_LIMIT: usize = 2000;
 
 /// The names of a function's methods.
-struct Names {
-    plain: Ident,
-    sc: Ident,
+pub(super) struct Names {
+    pub(super) plain: Ident,
+    pub(super) sc: Ident,
     angles: Ident,
 }
 
@@ -41,17 +40,18 @@ impl Names {
 /// All items of one function.
 pub(super) fn items(scope: &mut Scope<'_>, function: &Function) -> Vec<Item> {
     let plain = scope.methods.name(&function.name);
-    let with_generic = scope.options.generic || scope.options.batch.is_some();
     let mut items = vec![];
-    items.extend(outputs::type_item(scope, function, with_generic));
+    items.extend(outputs::type_item(scope, function, scope.options.generic));
     let number = scope.number.clone();
-    let mut methods = Methods::new(scope, function, &number, &plain).all();
-    if with_generic {
+    let mut methods = vec![];
+    let mut printer = Methods::new(scope, function, &number, &plain);
+    methods.extend(printer.all());
+    if let Some(lanes) = printer.scope.options.batch {
+        methods.extend(printer.batch(lanes));
+    }
+    if scope.options.generic {
         let generic = derived(&mut scope.methods, &plain, "generic");
         methods.extend(Methods::new(scope, function, &number.generic(), &generic).all());
-        if let Some(lanes) = scope.options.batch {
-            methods.extend(batch::method(scope, function, &plain, &generic, lanes));
-        }
     }
     items.push(syntax::impl_model(methods));
     if !scope.has_parameters() {
@@ -61,11 +61,11 @@ pub(super) fn items(scope: &mut Scope<'_>, function: &Function) -> Vec<Item> {
 }
 
 /// Prints the methods of a function in one number type.
-struct Methods<'s, 'a> {
-    scope: &'s mut Scope<'a>,
-    function: &'s Function,
-    number: &'s Number,
-    names: Names,
+pub(super) struct Methods<'s, 'a> {
+    pub(super) scope: &'s mut Scope<'a>,
+    pub(super) function: &'s Function,
+    pub(super) number: &'s Number,
+    pub(super) names: Names,
 }
 
 /// The statements of a program, its results, and the functions of its parts.
@@ -112,15 +112,8 @@ impl<'s, 'a> Methods<'s, 'a> {
         let in_angles = used_inputs(function, &function.angles);
         let used: Vec<bool> = in_core.iter().zip(&in_angles).map(|(a, b)| *a || *b).collect();
         let mut statements = variables.ignore(&used);
-        let angles: Expr = if self.has_plain_angles() {
-            statements.extend(variables.take_entries(function, &function.angles));
-            let name = self.names.plain.clone();
-            let array = syntax::array(self.run(&function.angles, &mut variables, &name).results);
-            parse_quote!(&#array)
-        } else {
-            let (method, arguments) = (&self.names.angles, variables.chosen(&in_angles));
-            parse_quote!(&self.#method(#(#arguments),*))
-        };
+        let (takes, angles) = self.angles_argument(&mut variables);
+        statements.extend(takes);
         let circular = self.number.circular_array();
         let (s, c) = (&variables.sines, &variables.cosines);
         statements.push(parse_quote!(let (#s, #c) = #circular(#angles);));
@@ -129,6 +122,20 @@ impl<'s, 'a> Methods<'s, 'a> {
         let parameters = self.input_parameters(&variables, &vec![true; used.len()]);
         let docs = self.doc();
         self.method(&self.names.plain, &docs, &parameters, statements, value)
+    }
+
+    /// `&[q1, q2]` and the statements before it, or a call of the method of the angles.
+    pub(super) fn angles_argument(&mut self, variables: &mut Variables) -> (Vec<Stmt>, Expr) {
+        let function = self.function;
+        if self.has_plain_angles() {
+            let takes = variables.take_entries(function, &function.angles);
+            let name = self.names.plain.clone();
+            let array = syntax::array(self.run(&function.angles, variables, &name).results);
+            return (takes, parse_quote!(&#array));
+        }
+        let used = used_inputs(function, &function.angles);
+        let (method, arguments) = (&self.names.angles, variables.chosen(&used));
+        (vec![], parse_quote!(&self.#method(#(#arguments),*)))
     }
 
     /// The angles where they are more than entries of inputs.
@@ -144,9 +151,10 @@ impl<'s, 'a> Methods<'s, 'a> {
         let parameters = self.input_parameters(&variables, &used);
         let returned = syntax::array_type(&self.number.ty(), run.results.len());
         let (generics, clause) = (self.number.generics(), self.number.where_clause());
+        let inline = self.inline();
         let signature = parse_quote! {
             #(#docs)*
-            #[inline]
+            #inline
             #[must_use]
             pub fn #name #generics (&self, #(#parameters),*) -> #returned #clause {}
         };
@@ -223,8 +231,7 @@ impl<'s, 'a> Methods<'s, 'a> {
     ) -> ImplItem {
         let docs = doc::attributes(docs);
         let (generics, clause) = (self.number.generics(), self.number.where_clause());
-        let short = self.function.core.operations().len() <= INLINE_LIMIT;
-        let inline = short.then(|| quote!(#[inline]));
+        let inline = self.inline();
         let returned = outputs::returned(self.scope, self.function, self.number);
         let signature = parse_quote! {
             #(#docs)*
@@ -233,6 +240,14 @@ impl<'s, 'a> Methods<'s, 'a> {
             pub fn #name #generics (&self, #(#parameters),*) -> #returned #clause {}
         };
         syntax::with_body(signature, statements, value)
+    }
+
+    /// Short functions are offered for inlining; where there is a loop over states, they have to be
+    /// inlined into it for the loop to be vectorised.
+    fn inline(&self) -> Option<TokenStream> {
+        let short = self.function.core.operations().len() <= INLINE_LIMIT;
+        let in_loops = self.scope.options.batch.is_some() && !self.number.is_generic();
+        short.then(|| if in_loops { quote!(#[inline(always)]) } else { quote!(#[inline]) })
     }
 
     fn input_parameters(&self, variables: &Variables, include: &[bool]) -> Vec<TokenStream> {

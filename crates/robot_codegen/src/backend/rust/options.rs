@@ -19,8 +19,8 @@ pub struct RustOptions {
     /// Whether each function has a second form `…_generic` over any scalar of the runtime, lanes
     /// among them.
     pub generic: bool,
-    /// Whether each function has a form `…_batch` over slices of states, computed in so many lanes.
-    /// Needs, and brings with it, the generic form.
+    /// Whether each function has a form `…_batch` over slices of states, computed in blocks of so
+    /// many, which LLVM turns into vectors; 8 is a good number.
     pub batch: Option<usize>,
     /// What stands around the items.
     pub wrapping: Wrapping,

@@ -92,7 +92,7 @@ pub mod planar_arm {
         /// Returns tau, in N m.
         ///
         /// 12 multiplications, 13 additions, 1 sine, 3 cosines.
-        #[inline]
+        #[inline(always)]
         #[must_use]
         pub fn inverse_dynamics(
             &self,
@@ -106,7 +106,7 @@ pub mod planar_arm {
             self.inverse_dynamics_sc(&s, &c, qd, qdd)
         }
         /// The angles whose sines and cosines `inverse_dynamics_sc` takes, in rad.
-        #[inline]
+        #[inline(always)]
         #[must_use]
         pub fn inverse_dynamics_angles(&self, q: &[f64; 2]) -> [f64; 3] {
             let [q1, q2] = *q;
@@ -115,7 +115,7 @@ pub mod planar_arm {
         /// `inverse_dynamics` with the sines `s` and cosines `c` of its angles given.
         ///
         /// The angles: `q1`, `q2`, `q1 + q2`.
-        #[inline]
+        #[inline(always)]
         #[must_use]
         pub fn inverse_dynamics_sc(
             &self,
@@ -136,6 +136,57 @@ pub mod planar_arm {
             let t6 = t5 - t1 * (qd2 * (qd2 + 2.0 * qd1));
             let t7 = qdd2 * self.k4 + (t3 + qdd1 * t4);
             [cq1 * self.k5 + t6, t1 * (qd1 * qd1) + t7]
+        }
+        /// `inverse_dynamics` of many states, 8 at a time: entry i of each slice is of state i.
+        ///
+        /// Computes, and returns, as many states as the shortest slice has.
+        pub fn inverse_dynamics_batch(
+            &self,
+            q: &[[f64; 2]],
+            qd: &[[f64; 2]],
+            qdd: &[[f64; 2]],
+            tau: &mut [[f64; 2]],
+        ) -> usize {
+            let count = q.len().min(qd.len()).min(qdd.len()).min(tau.len());
+            let q = q.get(..count).unwrap_or_default();
+            let qd = qd.get(..count).unwrap_or_default();
+            let qdd = qdd.get(..count).unwrap_or_default();
+            let tau = tau.get_mut(..count).unwrap_or_default();
+            let (q, q_rest) = q.as_chunks::<8>();
+            let (qd, qd_rest) = qd.as_chunks::<8>();
+            let (qdd, qdd_rest) = qdd.as_chunks::<8>();
+            let (tau, tau_rest) = tau.as_chunks_mut::<8>();
+            for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(tau) {
+                let tau_states = self.inverse_dynamics_block(q, qd, qdd);
+                *tau = tau_states;
+            }
+            let tau_states = self
+                .inverse_dynamics_block(
+                    &::robot_runtime::padded_states(q_rest),
+                    &::robot_runtime::padded_states(qd_rest),
+                    &::robot_runtime::padded_states(qdd_rest),
+                );
+            for (to, from) in tau_rest.iter_mut().zip(tau_states) {
+                *to = from;
+            }
+            count
+        }
+        #[inline(never)]
+        fn inverse_dynamics_block(
+            &self,
+            q: &[[f64; 2]; 8],
+            qd: &[[f64; 2]; 8],
+            qdd: &[[f64; 2]; 8],
+        ) -> [[f64; 2]; 8] {
+            let mut tau = [[0.0; 2]; 8];
+            for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(&mut tau) {
+                let (s, c) = ::robot_runtime::sin_cos_each(
+                    &self.inverse_dynamics_angles(q),
+                );
+                let result = self.inverse_dynamics_sc(&s, &c, qd, qdd);
+                *tau = result;
+            }
+            tau
         }
         /// Joint torques of a motion.
         ///
@@ -195,47 +246,6 @@ pub mod planar_arm {
             let t7 = qdd2 * T::from_f64(self.k4) + (t3 + qdd1 * t4);
             [cq1 * T::from_f64(self.k5) + t6, t1 * (qd1 * qd1) + t7]
         }
-        /// `inverse_dynamics` of many states, 8 at a time: entry i of each slice belongs to state i.
-        ///
-        /// Computes, and returns, as many states as the shortest slice has.
-        pub fn inverse_dynamics_batch(
-            &self,
-            q: &[[f64; 2]],
-            qd: &[[f64; 2]],
-            qdd: &[[f64; 2]],
-            tau: &mut [[f64; 2]],
-        ) -> usize {
-            for (((q, qd), qdd), tau) in q
-                .chunks(8)
-                .zip(qd.chunks(8))
-                .zip(qdd.chunks(8))
-                .zip(tau.chunks_mut(8))
-            {
-                let count = q.len().min(qd.len()).min(qdd.len()).min(tau.len());
-                let result = self
-                    .inverse_dynamics_generic::<
-                        ::robot_runtime::Lanes<f64, 8>,
-                    >(
-                        &::robot_runtime::lanes_from_states(
-                            &::robot_runtime::padded_states(q),
-                        ),
-                        &::robot_runtime::lanes_from_states(
-                            &::robot_runtime::padded_states(qd),
-                        ),
-                        &::robot_runtime::lanes_from_states(
-                            &::robot_runtime::padded_states(qdd),
-                        ),
-                    );
-                for (to, from) in tau
-                    .iter_mut()
-                    .zip(::robot_runtime::states_from_lanes(&result))
-                    .take(count)
-                {
-                    *to = from;
-                }
-            }
-            q.len().min(qd.len()).min(qdd.len()).min(tau.len())
-        }
     }
     /// The outputs of mass_matrix.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -251,7 +261,7 @@ pub mod planar_arm {
         /// - `q`: joint q, in rad.
         ///
         /// 1 multiplication, 4 additions, 1 cosine.
-        #[inline]
+        #[inline(always)]
         #[must_use]
         pub fn mass_matrix(&self, q: &[f64; 2]) -> MassMatrix {
             let [_, q2] = *q;
@@ -261,7 +271,7 @@ pub mod planar_arm {
         /// `mass_matrix` with the sines `s` and cosines `c` of its angles given.
         ///
         /// The angles: `q2`.
-        #[inline]
+        #[inline(always)]
         #[must_use]
         pub fn mass_matrix_sc(&self, s: &[f64; 1], c: &[f64; 1]) -> MassMatrix {
             let [_] = *s;
@@ -273,6 +283,53 @@ pub mod planar_arm {
                 m: [[t2, t3], [t3, self.k4]],
                 trace: self.k4 + t2,
             }
+        }
+        /// `mass_matrix` of many states, 8 at a time: entry i of each slice is of state i.
+        ///
+        /// Computes, and returns, as many states as the shortest slice has.
+        pub fn mass_matrix_batch(
+            &self,
+            q: &[[f64; 2]],
+            m: &mut [[[f64; 2]; 2]],
+            trace: &mut [f64],
+        ) -> usize {
+            let count = q.len().min(m.len()).min(trace.len());
+            let q = q.get(..count).unwrap_or_default();
+            let m = m.get_mut(..count).unwrap_or_default();
+            let trace = trace.get_mut(..count).unwrap_or_default();
+            let (q, q_rest) = q.as_chunks::<8>();
+            let (m, m_rest) = m.as_chunks_mut::<8>();
+            let (trace, trace_rest) = trace.as_chunks_mut::<8>();
+            for ((q, m), trace) in q.iter().zip(m).zip(trace) {
+                let (m_states, trace_states) = self.mass_matrix_block(q);
+                *m = m_states;
+                *trace = trace_states;
+            }
+            let (m_states, trace_states) = self
+                .mass_matrix_block(&::robot_runtime::padded_states(q_rest));
+            for (to, from) in m_rest.iter_mut().zip(m_states) {
+                *to = from;
+            }
+            for (to, from) in trace_rest.iter_mut().zip(trace_states) {
+                *to = from;
+            }
+            count
+        }
+        #[inline(never)]
+        fn mass_matrix_block(
+            &self,
+            q: &[[f64; 2]; 8],
+        ) -> ([[[f64; 2]; 2]; 8], [f64; 8]) {
+            let mut m = [[[0.0; 2]; 2]; 8];
+            let mut trace = [0.0; 8];
+            for ((q, m), trace) in q.iter().zip(&mut m).zip(&mut trace) {
+                let [_, q2] = *q;
+                let (s, c) = ::robot_runtime::sin_cos_each(&[q2]);
+                let result = self.mass_matrix_sc(&s, &c);
+                *m = result.m;
+                *trace = result.trace;
+            }
+            (m, trace)
         }
         /// mass_matrix.
         ///
@@ -308,59 +365,6 @@ pub mod planar_arm {
                 m: [[t2, t3], [t3, T::from_f64(self.k4)]],
                 trace: T::from_f64(self.k4) + t2,
             }
-        }
-        /// `mass_matrix` of many states, 8 at a time: entry i of each slice belongs to state i.
-        ///
-        /// Computes, and returns, as many states as the shortest slice has.
-        pub fn mass_matrix_batch(
-            &self,
-            q: &[[f64; 2]],
-            m: &mut [[[f64; 2]; 2]],
-            trace: &mut [f64],
-        ) -> usize {
-            for ((q, m), trace) in q
-                .chunks(8)
-                .zip(m.chunks_mut(8))
-                .zip(trace.chunks_mut(8))
-            {
-                let count = q.len().min(m.len()).min(trace.len());
-                let result = self
-                    .mass_matrix_generic::<
-                        ::robot_runtime::Lanes<f64, 8>,
-                    >(
-                        &::robot_runtime::lanes_from_states(
-                            &::robot_runtime::padded_states(q),
-                        ),
-                    );
-                {
-                    let [row, _] = &result.m;
-                    for ([to, _], from) in m
-                        .iter_mut()
-                        .zip(::robot_runtime::states_from_lanes(row))
-                        .take(count)
-                    {
-                        *to = from;
-                    }
-                }
-                {
-                    let [_, row] = &result.m;
-                    for ([_, to], from) in m
-                        .iter_mut()
-                        .zip(::robot_runtime::states_from_lanes(row))
-                        .take(count)
-                    {
-                        *to = from;
-                    }
-                }
-                for (to, from) in trace
-                    .iter_mut()
-                    .zip(result.trace.to_array())
-                    .take(count)
-                {
-                    *to = from;
-                }
-            }
-            q.len().min(m.len()).min(trace.len())
         }
     }
 }

@@ -1,7 +1,4 @@
-//! What several tests use.
-
-pub(crate) mod random;
-pub(crate) mod rustc;
+//! A planar arm in closed form.
 
 use robot_codegen::spec::*;
 use robot_symbolic::{Expr, Graph};

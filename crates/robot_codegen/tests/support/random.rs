@@ -62,7 +62,7 @@ pub(crate) fn module<'g>(
             name: "f".into(),
             doc: vec![],
             inputs: vec![input("q", q), input("v", v)],
-            outputs: vec![super::vector("y", "", outputs)],
+            outputs: vec![super::arm::vector("y", "", outputs)],
         }],
     }
 }
