@@ -30,13 +30,13 @@ pub struct Programs {
     pub module: Module,
 }
 
-/// Reads a robot file in the format that its name says: TOML.
+/// Reads a robot file in the format that its name says: TOML or URDF.
 ///
 /// # Errors
 ///
 /// Everything that is wrong with the file.
 pub fn read(source: &Source) -> Result<Described, Errors> {
-    Ok(description::read_toml(&source.name, &source.text)?)
+    Ok(description::read(&source.name, &source.text)?)
 }
 
 /// Derives the functions of a robot and compiles them to straight-line programs.

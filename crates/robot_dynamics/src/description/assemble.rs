@@ -1,12 +1,10 @@
 //! The robot from the links in order: fixed links merge into those that carry them.
 
-use robot_symbolic::{Formula, Rational};
-
 use super::draft::{Draft, DraftFrame, DraftLink, Parent};
-use super::locations::{FrameLocation, Locations, ParameterLocation};
-use super::placement::{without_rests, zero};
-use super::reader::{Named, Reader};
-use crate::diagnostic::{Diagnostic, code, quote};
+use super::locations::{DroppedBody, FrameLocation, Locations, ParameterLocation};
+use super::mimic::{self, Following};
+use super::placement::without_rests;
+use super::reader::Reader;
 use crate::model::{Coordinate, Frame, Joint, JointKind, Link, Parameter, Placement, Robot};
 
 /// The moving link that carries a link of the file, and the link's own frame in the carrier's.
@@ -54,7 +52,7 @@ pub(super) fn robot(
         let on = parent(&link.parent, &carried);
         let own = match motion {
             Some(motion) => moving(&mut robot, &mut locations, link, on, motion),
-            None => fixed(reader, &mut robot, &mut locations, link, on),
+            None => fixed(&mut robot, &mut locations, link, on),
         };
         if let Some(slot) = carried.get_mut(*index) {
             *slot = own;
@@ -77,9 +75,7 @@ fn parent(parent: &Parent, carried: &[Carried]) -> Carried {
 /// How a coordinate moves a joint.
 struct Motion {
     kind: JointKind,
-    coordinate: usize,
-    ratio: Formula,
-    offset: Formula,
+    following: Following,
 }
 
 /// Numbers the coordinates in the order of the links. One motion for each link in order; `None`
@@ -100,59 +96,12 @@ fn coordinates(
             });
         }
     }
-    let mut number = |link: &DraftLink| {
+    let mut motion = |link: &DraftLink| {
         let kind = link.joint.kind?;
-        let (leader, ratio, offset) = match &link.joint.mimic {
-            Some(mimic) => (&mimic.joint, mimic.ratio.clone(), mimic.offset.clone()),
-            None => (&link.joint.name, Formula::number(&Rational::ONE), zero()),
-        };
-        let found = robot.coordinates.iter().position(|one| one.joint == leader.name);
-        if found.is_none() {
-            let diagnostic = no_leader(reader, leader, &links);
-            reader.report(diagnostic);
-        }
-        Some(Motion { kind, coordinate: found.unwrap_or_default(), ratio, offset })
+        let following = mimic::follow(reader, &links, &robot.coordinates, link);
+        Some(Motion { kind, following })
     };
-    links.iter().map(|link| number(link)).collect()
-}
-
-fn no_leader(reader: &Reader<'_>, leader: &Named, links: &[&DraftLink]) -> Diagnostic {
-    let name = quote(&leader.name);
-    let diagnostic = |message: String| Diagnostic::error(code::MIMIC, message);
-    match links.iter().find(|link| link.joint.name.name == leader.name) {
-        Some(link) if link.joint.kind.is_none() => {
-            diagnostic(format!("the joint `{name}` is fixed and cannot lead"))
-                .at(&leader.span, "a fixed joint")
-                .help("write `type = \"fixed\"` for the joint that follows, too")
-        }
-        Some(link) => match &link.joint.mimic {
-            Some(mimic) if mimic.joint == *leader => {
-                diagnostic(format!("the joint `{name}` follows itself"))
-                    .at(&leader.span, "its own name")
-                    .help("name the joint that leads, or take `mimic` away")
-            }
-            first => {
-                let first = first.as_ref().map(|mimic| quote(&mimic.joint.name));
-                let first = first.unwrap_or_default();
-                diagnostic(format!("the joint `{name}` follows another joint itself"))
-                    .at(&leader.span, "does not move by itself")
-                    .help(format!("follow `{first}`, with the product of the ratios"))
-            }
-        },
-        None => {
-            let names = links
-                .iter()
-                .filter(|link| link.joint.kind.is_some() && link.joint.mimic.is_none())
-                .map(|link| link.joint.name.name.as_str());
-            let label = match reader.nearest(&leader.name, names) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "no joint of that name".to_owned(),
-            };
-            diagnostic(format!("`{name}` is not a joint of this robot"))
-                .at(&leader.span, label)
-                .help("name a joint; a joint without a name has the name of its link")
-        }
-    }
+    links.iter().map(|link| motion(link)).collect()
 }
 
 fn moving(
@@ -191,9 +140,9 @@ fn moving(
             name: link.joint.name.name,
             kind: motion.kind,
             axis: link.joint.axis,
-            coordinate: motion.coordinate,
-            ratio: motion.ratio,
-            offset: motion.offset,
+            coordinate: motion.following.coordinate,
+            ratio: motion.following.ratio,
+            offset: motion.following.offset,
         },
         bodies,
         friction: link.friction,
@@ -204,13 +153,7 @@ fn moving(
 }
 
 /// A fixed link becomes a body of the link that carries it, and a named frame.
-fn fixed(
-    reader: &mut Reader<'_>,
-    robot: &mut Robot,
-    locations: &mut Locations,
-    link: DraftLink,
-    on: Carried,
-) -> Carried {
+fn fixed(robot: &mut Robot, locations: &mut Locations, link: DraftLink, on: Carried) -> Carried {
     let own = Carried { by: on.by, frame: on.frame.then(&link.before).then(&link.after) };
     if let Some((mut body, place)) = link.body {
         body.placement = own.frame.clone().then(&body.placement);
@@ -221,14 +164,7 @@ fn fixed(
                 carrier.bodies.push(body);
                 places.bodies.push(place);
             }
-            None => reader.report(
-                Diagnostic::warning(
-                    code::NO_EFFECT,
-                    format!("the mass of `{}` has no effect", link.name.name),
-                )
-                .at(&place.mass.or(place.inertia).unwrap_or(place.name), "fixed to the base")
-                .help("leave it out, or let the link move"),
-            ),
+            None => locations.dropped.push(DroppedBody { link: link.name.name.clone(), place }),
         }
     }
     let frame = DraftFrame {

@@ -10,6 +10,7 @@ use crate::diagnostic::Span;
 use crate::model::{Body, Drive, Friction, JointKind, Placement, Wrench};
 
 /// What a file says of a robot.
+#[derive(Clone)]
 pub(super) struct Draft {
     pub(super) name: Named,
     pub(super) description: Option<String>,
@@ -29,6 +30,7 @@ pub(super) enum Parent {
 }
 
 /// A link, moving or fixed.
+#[derive(Clone)]
 pub(super) struct DraftLink {
     pub(super) name: Named,
     pub(super) parent: Parent,
@@ -41,11 +43,14 @@ pub(super) struct DraftLink {
     /// Placed in the link's own frame; `None` where the link has no mass.
     pub(super) body: Option<(Body, BodyLocation)>,
     pub(super) friction: Friction,
+    /// Friction that the file has and the robot has not.
+    pub(super) left_out: Option<Friction>,
     pub(super) drive: Drive,
     pub(super) places: LinkLocation,
 }
 
 /// The joint between a link and its parent.
+#[derive(Clone)]
 pub(super) struct DraftJoint {
     /// `None` for a fixed link.
     pub(super) kind: Option<JointKind>,
@@ -56,6 +61,7 @@ pub(super) struct DraftJoint {
 }
 
 /// Joint position = `ratio` × that of `joint` + `offset`.
+#[derive(Clone)]
 pub(super) struct Mimic {
     pub(super) joint: Named,
     pub(super) ratio: Formula,
@@ -63,6 +69,7 @@ pub(super) struct Mimic {
 }
 
 /// A named frame or a tip.
+#[derive(Clone)]
 pub(super) struct DraftFrame {
     pub(super) name: Named,
     pub(super) parent: Parent,

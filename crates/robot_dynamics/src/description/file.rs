@@ -3,33 +3,31 @@
 use robot_symbolic::{Formula, Rational};
 use toml::de::DeValue;
 
+use super::Lowered;
 use super::draft::{Draft, DraftLink};
 use super::frames::tables;
-use super::locations::Locations;
 use super::names::Kind;
 use super::placement::zero;
 use super::reader::{Named, Reader};
 use super::table::Table;
 use super::value::quantity;
-use super::{assemble, dh, frames, link, parameters, syntax, tree};
+use super::{dh, frames, link, parameters, syntax, tree};
 use crate::diagnostic::{Diagnostic, Span, code};
-use crate::model::Robot;
 
 /// The format that this reader reads.
 const FORMAT: i64 = 1;
 
-/// Reads a file; the robot is of use only where no error is among the diagnostics.
-pub(super) fn read(text: &str) -> (Option<(Robot, Locations)>, Vec<Diagnostic>) {
-    let (tables, found) = syntax::parse(text);
+/// Lowers the text of a file; what is wrong with it is reported.
+pub(super) fn lower(reader: &mut Reader<'_>) -> Option<Lowered> {
+    let (tables, found) = syntax::parse(reader.text);
     if !found.is_empty() {
-        return (None, found);
+        reader.found.extend(found);
+        return None;
     }
-    let mut reader = Reader::new(text);
-    let described = lower(&mut reader, Table::new(tables.get_ref(), 0..0, "a robot file"));
-    (described, reader.found)
+    lower_tables(reader, Table::new(tables.get_ref(), 0..0, "a robot file"))
 }
 
-fn lower(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<(Robot, Locations)> {
+fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered> {
     if !format(reader, &mut root) {
         return None;
     }
@@ -49,19 +47,7 @@ fn lower(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<(Robot, Locatio
     let Head { name, description, gravity, gravity_place } = head;
     let mut draft = Draft { name, description, gravity, gravity_place, links, frames };
     let order = tree::order(reader, &mut draft.links, &mut draft.frames)?;
-    if draft.links.iter().all(|link| link.joint.kind.is_none()) {
-        let last = draft.links.last().map(|link| link.places.joint.clone());
-        let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves");
-        let diagnostic = diagnostic.at(&last.unwrap_or_default(), "");
-        reader.report(diagnostic.help("add a `[[link]]` with a revolute or prismatic joint"));
-    }
-    let described = assemble::robot(reader, draft, &order, parameters);
-    // What an error kept from being read may use parameters.
-    if reader.failed() {
-        return None;
-    }
-    unused(reader);
-    Some(described)
+    Some(Lowered { draft, order, parameters })
 }
 
 /// Checks `format`; nothing else is read of a file of another format.
@@ -143,21 +129,4 @@ fn links(
         .collect();
     let complete = links.len() == count && count > 0;
     (links, complete)
-}
-
-/// Warns of parameters that nothing uses.
-fn unused(reader: &mut Reader<'_>) {
-    let unused: Vec<(String, Span)> = reader
-        .parameters()
-        .iter()
-        .filter(|known| !known.used)
-        .map(|known| (known.name.clone(), known.span.clone()))
-        .collect();
-    for (name, span) in unused {
-        reader.report(
-            Diagnostic::warning(code::UNUSED, format!("the parameter `{name}` is not used"))
-                .at(&span, "")
-                .help("take it away, or see whether a figure should be this parameter"),
-        );
-    }
 }

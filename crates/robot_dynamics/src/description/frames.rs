@@ -2,8 +2,8 @@
 
 use toml::de::DeValue;
 
-use super::MAX_LINKS;
 use super::draft::{DraftFrame, Parent};
+use super::limits::MAX_LINKS;
 use super::link::named_parent;
 use super::locations::FrameLocation;
 use super::names::Kind;

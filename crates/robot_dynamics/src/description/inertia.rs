@@ -1,9 +1,10 @@
 //! Inertia tensors: reading, the shift to the centre of mass, and what no body can have.
 
-use nalgebra::{Matrix3, SymmetricEigen};
-use robot_symbolic::{Formula, Rational};
+use robot_symbolic::Formula;
 
+use super::compute::compute;
 use super::locations::BodyLocation;
+use super::physics::{TOLERANCE, Verdict, judge};
 use super::placement::{RPY, zero};
 use super::reader::Reader;
 use super::table::{Entry, Table};
@@ -12,9 +13,6 @@ use crate::diagnostic::{Diagnostic, Span, code};
 use crate::model::{Axis, Inertia, Move};
 
 const MOMENT: Quantity = quantity("a moment of inertia", 1, 2, 0);
-
-/// Figures are rounded: this part of the largest principal moment is no violation.
-pub(super) const TOLERANCE: f64 = 1e-3;
 
 /// A tensor about the centre of mass, and the turns from the link's axes to its own.
 pub(super) struct Tensor {
@@ -158,76 +156,40 @@ fn finite(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span) {
     );
 }
 
-fn entries_of(inertia: &Inertia) -> [&Formula; 6] {
+pub(super) fn entries_of(inertia: &Inertia) -> [&Formula; 6] {
     let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
     [xx, yy, zz, xy, xz, yz]
-}
-
-/// A formula of formulas: a number where all of them are, else `pattern` with each `#i` replaced
-/// by the text of the i-th; `None` where the text grows beyond what a formula may be.
-fn compute(
-    operands: &[&Formula],
-    pattern: &str,
-    number: impl Fn(&[&Rational]) -> Rational,
-) -> Option<Formula> {
-    let numbers: Vec<_> = operands.iter().map(|operand| operand.as_number()).collect();
-    let rationals: Vec<_> =
-        numbers.iter().filter_map(|number| number.as_ref()?.as_rational()).collect();
-    if rationals.len() == operands.len() {
-        return Some(Formula::number(&number(&rationals)));
-    }
-    let mut text = pattern.to_owned();
-    for (index, operand) in operands.iter().enumerate() {
-        text = text.replace(&format!("#{index}"), operand.text());
-    }
-    Formula::parse(&text).ok()
 }
 
 /// Reports a tensor that no body has. Symbols without nominal values are left alone; all zeros are
 /// a point mass.
 fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool) {
-    let Some([xx, yy, zz, xy, xz, yz]) = values(reader, inertia) else {
+    let Some(tensor) = values(reader, inertia) else {
         return;
     };
-    let Some(moments) = principal_moments([xx, yy, zz, xy, xz, yz]) else {
-        return;
+    let verdict = judge(tensor);
+    let diagnostic = match &verdict {
+        Verdict::Possible => return,
+        Verdict::Negative(_) => Diagnostic::error(verdict.code(), verdict.message())
+            .because("a moment of inertia is a sum of masses times squares")
+            .help(if shifted {
+                "about the centre of mass the tensor is negative: see whether the figures are \
+                 about the centre of mass already"
+            } else {
+                "see that products of inertia have the tensor's sign and that all are in kg m^2"
+            }),
+        Verdict::Triangle(..) => Diagnostic::error(verdict.code(), verdict.message())
+            .because(format!(
+                "x² + y² ≤ (y² + z²) + (z² + x²) for every part of a body; {} % of the largest \
+                 moment is allowed for rounding",
+                TOLERANCE * 100.0
+            ))
+            .help(
+                "correct the figures; where they are published so, or entries that never act are \
+                 left out, add `unchecked = true`",
+            ),
     };
-    let [least, middle, largest] = moments;
-    let tolerance = TOLERANCE * largest.abs();
-    let negative = least < -tolerance || xx.min(yy).min(zz) < 0.0;
-    let triangle = largest > least + middle + tolerance;
-    let printed = moments.map(significant).join(", ");
-    let label = format!("principal moments {printed} kg m^2");
-    let diagnostic = if negative {
-        Diagnostic::error(
-            code::INERTIA_SIGN,
-            "no body has this inertia: a principal moment is negative",
-        )
-        .because("a moment of inertia is a sum of masses times squares")
-        .help(if shifted {
-            "about the centre of mass the tensor is negative: see whether the figures are about \
-             the centre of mass already"
-        } else {
-            "see that products of inertia have the tensor's sign and that all are in kg m^2"
-        })
-    } else if triangle {
-        Diagnostic::error(
-            code::INERTIA_TRIANGLE,
-            "no body has this inertia: one principal moment exceeds the sum of the others",
-        )
-        .because(format!(
-            "x² + y² ≤ (y² + z²) + (z² + x²) for every part of a body; {} % of the largest moment \
-             is allowed for rounding",
-            TOLERANCE * 100.0
-        ))
-        .help(
-            "correct the figures; where they are published so, or entries that never act are left \
-             out, add `unchecked = true`",
-        )
-    } else {
-        return;
-    };
-    reader.report(diagnostic.at(span, label));
+    reader.report(diagnostic.at(span, verdict.label()));
 }
 
 fn values(reader: &Reader<'_>, inertia: &Inertia) -> Option<[f64; 6]> {
@@ -239,52 +201,9 @@ fn values(reader: &Reader<'_>, inertia: &Inertia) -> Option<[f64; 6]> {
     Some(values)
 }
 
-/// The eigenvalues of the tensor `[xx, yy, zz, xy, xz, yz]` in ascending order; `None` where all
-/// entries are 0.
-pub(super) fn principal_moments(tensor: [f64; 6]) -> Option<[f64; 3]> {
-    // Scaled, so that no square overflows.
-    let scale = tensor.iter().fold(0.0_f64, |scale, entry| scale.max(entry.abs()));
-    if scale == 0.0 {
-        return None;
-    }
-    let [xx, yy, zz, xy, xz, yz] = tensor.map(|entry| entry / scale);
-    let matrix = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, 1000)?;
-    let mut moments: [f64; 3] = eigen.eigenvalues.into();
-    moments.sort_by(f64::total_cmp);
-    Some(moments.map(|moment| moment * scale))
-}
-
-/// Six significant digits.
-fn significant(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
-        return format!("{rounded:e}");
-    }
-    rounded.to_string()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn principal_moments_are_eigenvalues() {
-        assert_eq!(principal_moments([0.0; 6]), None);
-        let moments = principal_moments([2.0, 2.0, 5.0, 1.0, 0.0, 0.0]).unwrap();
-        for (found, expected) in moments.iter().zip([1.0, 3.0, 5.0]) {
-            assert!((found - expected).abs() < 1e-14, "{moments:?}");
-        }
-        let [least, ..] = principal_moments([1e300, 1e300, 1e300, 2e300, 0.0, 0.0]).unwrap();
-        assert!((least + 1e300).abs() < 1e286);
-    }
-
-    #[test]
-    fn digits_are_few() {
-        assert_eq!(significant(0.1 + 0.2), "0.3");
-        assert_eq!(significant(1.234_567_8e-7), "1.23457e-7");
-        assert_eq!(significant(0.0), "0");
-    }
 
     #[test]
     fn the_shift_is_exact() {

@@ -41,7 +41,18 @@ pub(super) fn read(
     let body = body::read(reader, &mut table, &named, joint.kind.is_some());
     let (friction, drive) = on_joint(reader, &mut table, joint.kind, &mut places);
     table.finish(reader);
-    Some(DraftLink { name: name?, parent, joint, before, after, body, friction, drive, places })
+    Some(DraftLink {
+        name: name?,
+        parent,
+        joint,
+        before,
+        after,
+        body,
+        friction,
+        left_out: None,
+        drive,
+        places,
+    })
 }
 
 /// `parent`: a name, `base`, or the link before.

@@ -1,6 +1,6 @@
 //! Where in the file the parts of a robot are.
 
-use crate::diagnostic::Span;
+use crate::diagnostic::{Diagnostic, Span, code};
 
 /// Places of a [`crate::model::Robot`]'s parts, index by index; what the file leaves out is `None`
 /// or stands at the place of the table that lacks it.
@@ -16,6 +16,30 @@ pub struct Locations {
     pub links: Vec<LinkLocation>,
     /// One for each of [`crate::model::Robot::frames`].
     pub frames: Vec<FrameLocation>,
+    /// Bodies that are fixed to the base and therefore no part of the robot.
+    pub dropped: Vec<DroppedBody>,
+}
+
+/// A body without effect on the motion: it is fixed to the base.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DroppedBody {
+    /// The link that has it.
+    pub link: String,
+    /// Its places.
+    pub place: BodyLocation,
+}
+
+impl DroppedBody {
+    /// The warning that the body has no effect.
+    #[must_use]
+    pub fn diagnostic(&self) -> Diagnostic {
+        let BodyLocation { name, mass, inertia, .. } = &self.place;
+        let place = mass.as_ref().or(inertia.as_ref()).unwrap_or(name);
+        let message = format!("the mass of `{}` has no effect", self.link);
+        Diagnostic::warning(code::NO_EFFECT, message)
+            .at(place, "fixed to the base")
+            .help("leave it out, or let the link move")
+    }
 }
 
 /// Places of a parameter.

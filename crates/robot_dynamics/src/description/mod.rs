@@ -4,45 +4,51 @@
 //! ([`Locations`]), or into everything that is wrong with it ([`Diagnostics`]). No value is ever
 //! replaced or repaired in silence.
 //!
-//! The way through: [`read_toml`] parses the text, `file` lowers its tables to a draft whose
-//! names are unresolved, `tree` puts the links in order, `assemble` merges fixed links and builds
-//! the robot.
+//! The way through: `file` lowers the tables of a TOML file, `urdf` the elements of a URDF file, to a
+//! draft whose fixed links are still apart; `tree` puts the links in order; `assemble` merges fixed
+//! links and builds the robot. [`import()`] writes the draft as a robot file in TOML.
 
 mod assemble;
 mod body;
+mod compute;
 mod dh;
 mod draft;
 mod drive;
+mod export;
 mod file;
 mod frames;
 mod inertia;
 mod joint;
 mod latex;
+mod limits;
 mod link;
 mod locations;
+mod mimic;
 mod names;
+mod options;
 mod parameters;
+mod physics;
 mod placement;
 mod reader;
 mod strings;
 mod syntax;
 mod table;
 mod tree;
+mod urdf;
 mod value;
 
-pub use locations::{BodyLocation, FrameLocation, LinkLocation, Locations, ParameterLocation};
+pub use limits::{MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
+pub use locations::{
+    BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations, ParameterLocation,
+};
+pub use options::{Format, Options};
 
-use crate::diagnostic::{Diagnostic, Diagnostics, Source, code};
-use crate::model::Robot;
+use std::path::Path;
 
-/// A robot file of more bytes than this is refused.
-pub const MAX_BYTES: usize = 1 << 20;
-/// A robot of more joints than this is refused.
-pub const MAX_JOINTS: usize = 64;
-/// A robot file of more links, fixed ones and all, is refused; so many frames and tips, too.
-pub const MAX_LINKS: usize = 512;
-/// A robot of more parameters than this is refused.
-pub const MAX_PARAMETERS: usize = 4096;
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, code};
+use crate::model::{Parameter, Robot};
+use draft::Draft;
+use reader::Reader;
 
 /// What a robot file gives.
 #[derive(Clone, Debug)]
@@ -53,6 +59,39 @@ pub struct Described {
     pub locations: Locations,
     /// What looks like a slip, with the source.
     pub warnings: Diagnostics,
+    /// How the reader took what the format leaves open or what is not part of a robot here: notes,
+    /// for a file that was not written for this program.
+    pub choices: Diagnostics,
+    /// The format of the file.
+    pub format: Format,
+}
+
+/// A description of another format as a robot file.
+#[derive(Clone, Debug)]
+pub struct Import {
+    /// The robot file in TOML.
+    pub toml: String,
+    /// The robot, its warnings and the choices that were made.
+    pub described: Described,
+}
+
+/// Reads a robot file in the format that the name says: `.toml` or `.urdf`; of any other name, in
+/// the one that its text looks like.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn read(name: &str, text: &str) -> Result<Described, Diagnostics> {
+    read_with(name, text, &Options::default())
+}
+
+/// [`read`] with options.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn read_with(name: &str, text: &str, options: &Options) -> Result<Described, Diagnostics> {
+    described(format_of(name, text), name, text, options).map(|(described, _)| described)
 }
 
 /// Reads a robot file in TOML.
@@ -64,18 +103,36 @@ pub struct Described {
 ///
 /// Everything that is wrong with the file, in the order of the places.
 pub fn read_toml(name: &str, text: &str) -> Result<Described, Diagnostics> {
-    let source = || Source { name: name.to_owned(), text: text.to_owned() };
-    if text.len() > MAX_BYTES {
-        return Err(too_large(name, text.len()));
-    }
-    let (described, list) = file::read(text);
-    let found = Diagnostics::new(source(), list);
-    match described {
-        Some((robot, locations)) if !found.has_errors() => {
-            Ok(Described { robot, locations, warnings: found })
-        }
-        _ => Err(found),
-    }
+    described(Format::Toml, name, text, &Options::default()).map(|(described, _)| described)
+}
+
+/// Reads a robot from URDF, the description format of ROS.
+///
+/// The base is the root link. Fixed links are merged and their frames kept as named frames; joints
+/// that mimic others share their coordinate. Meshes are never looked for. What the format leaves
+/// open is told in [`Described::choices`].
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn read_urdf(name: &str, text: &str) -> Result<Described, Diagnostics> {
+    described(Format::Urdf, name, text, &Options::default()).map(|(described, _)| described)
+}
+
+/// Writes a description as a robot file in TOML, with the source's names and figures. The robot file
+/// gives the same robot, and the same description always the same text. What is a robot file already
+/// stays as it is.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn import(name: &str, text: &str, options: &Options) -> Result<Import, Diagnostics> {
+    let (described, lowered) = described(format_of(name, text), name, text, options)?;
+    let toml = match described.format {
+        Format::Toml => text.to_owned(),
+        Format::Urdf => export::to_toml(&lowered, name),
+    };
+    Ok(Import { toml, described })
 }
 
 /// The bytes of a robot file as text, whatever its format.
@@ -96,6 +153,106 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
         let source = Source { name: name.to_owned(), text };
         Diagnostics::new(source, vec![diagnostic])
     })
+}
+
+/// A file after lowering, its links in order: parents before children.
+#[derive(Clone)]
+struct Lowered {
+    draft: Draft,
+    order: Vec<usize>,
+    parameters: (Vec<Parameter>, Vec<ParameterLocation>),
+}
+
+fn format_of(name: &str, text: &str) -> Format {
+    let extension = Path::new(name).extension().and_then(|extension| extension.to_str());
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("toml") => Format::Toml,
+        Some("urdf" | "xacro" | "xml") => Format::Urdf,
+        _ if text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).starts_with('<') => {
+            Format::Urdf
+        }
+        _ => Format::Toml,
+    }
+}
+
+fn described(
+    format: Format,
+    name: &str,
+    text: &str,
+    options: &Options,
+) -> Result<(Described, Lowered), Diagnostics> {
+    if text.len() > MAX_BYTES {
+        return Err(too_large(name, text.len()));
+    }
+    let mut reader = Reader::new(text);
+    let lowered = match format {
+        Format::Toml => file::lower(&mut reader),
+        Format::Urdf => urdf::lower(&mut reader, options),
+    };
+    let built = lowered.and_then(|lowered| {
+        let (robot, locations) = build(&mut reader, lowered.clone(), format)?;
+        Some((robot, locations, lowered))
+    });
+    let source = Source { name: name.to_owned(), text: text.to_owned() };
+    let (choices, found): (Vec<_>, Vec<_>) =
+        reader.found.into_iter().partition(|found| found.severity == Severity::Note);
+    let found = Diagnostics::new(source.clone(), found);
+    match built {
+        Some((robot, locations, lowered)) if !found.has_errors() => {
+            let choices = Diagnostics::new(source, choices);
+            let described = Described { robot, locations, warnings: found, choices, format };
+            Ok((described, lowered))
+        }
+        _ => Err(found),
+    }
+}
+
+/// The robot of a lowered file, where nothing is wrong with it.
+fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(Robot, Locations)> {
+    let Lowered { draft, order, parameters } = lowered;
+    if draft.links.iter().all(|link| link.joint.kind.is_none()) {
+        let last = draft.links.last().map(|link| link.places.joint.clone());
+        let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves")
+            .at(&last.unwrap_or_default(), "");
+        reader.report(diagnostic.help(match format {
+            Format::Toml => "add a `[[link]]` with a revolute or prismatic joint",
+            Format::Urdf => "add a `<joint>` of type revolute, continuous or prismatic",
+        }));
+    }
+    let (robot, locations) = assemble::robot(reader, draft, &order, parameters);
+    // What an error kept from being read may use parameters.
+    if reader.failed() {
+        return None;
+    }
+    if format == Format::Toml {
+        unused(reader);
+        no_effect(reader, &locations);
+    }
+    Some((robot, locations))
+}
+
+/// Warns of parameters that nothing uses.
+fn unused(reader: &mut Reader<'_>) {
+    let unused: Vec<(String, Span)> = reader
+        .parameters()
+        .iter()
+        .filter(|known| !known.used)
+        .map(|known| (known.name.clone(), known.span.clone()))
+        .collect();
+    for (name, span) in unused {
+        reader.report(
+            Diagnostic::warning(code::UNUSED, format!("the parameter `{name}` is not used"))
+                .at(&span, "")
+                .help("take it away, or see whether a figure should be this parameter"),
+        );
+    }
+}
+
+/// Warns of masses that are fixed to the base.
+fn no_effect(reader: &mut Reader<'_>, locations: &Locations) {
+    for dropped in &locations.dropped {
+        reader.report(dropped.diagnostic());
+    }
 }
 
 /// The source is left out: nobody wants it in a message.

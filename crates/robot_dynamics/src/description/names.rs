@@ -150,7 +150,7 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
 }
 
 /// Who keeps the name for himself.
-fn reserved(name: &str) -> Option<String> {
+pub(super) fn reserved(name: &str) -> Option<String> {
     for (words, language) in KEYWORDS {
         if words.split_whitespace().any(|word| word == name) {
             return Some(format!("a word of {language}"));

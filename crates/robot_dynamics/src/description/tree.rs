@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::MAX_JOINTS;
 use super::draft::{DraftFrame, DraftLink, Parent};
+use super::limits::MAX_JOINTS;
 use super::names::Registry;
 use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};

@@ -12,15 +12,16 @@ macro_rules! codes {
 codes! {
     TOO_LARGE = "R0001", "The file is larger than the limit.";
     NOT_TEXT = "R0002", "The file is not UTF-8 text.";
-    SYNTAX = "R0003", "The text is not TOML.";
-    UNKNOWN_KEY = "R0101", "A key has no meaning where it stands.";
-    MISSING_KEY = "R0102", "A key that is needed is missing.";
+    SYNTAX = "R0003", "The text is not TOML, or not XML.";
+    UNKNOWN_KEY = "R0101", "A key, element or attribute has no meaning where it stands.";
+    MISSING_KEY = "R0102", "A key, element or attribute that is needed is missing.";
     WRONG_TYPE = "R0103", "A value has the wrong type.";
     UNKNOWN_WORD = "R0104", "A word is none of those allowed.";
     WRONG_COUNT = "R0105", "A list has the wrong number of entries.";
     CONFLICT = "R0106", "Keys exclude each other or have no effect together.";
     FORMAT = "R0107", "The file is of a format that is not known.";
     LIMIT = "R0108", "There are more entries than the limit.";
+    XACRO = "R0109", "The file is a xacro template.";
     NAME = "R0201", "A name has characters that names have not.";
     RESERVED = "R0202", "A name means something of itself.";
     DUPLICATE = "R0203", "A name is given twice.";
@@ -39,10 +40,20 @@ codes! {
     LIMITS = "R0404", "Joint limits are in the wrong order.";
     MIMIC = "R0405", "A joint cannot follow the joint that it names.";
     NO_JOINT = "R0406", "Nothing moves.";
+    TWO_PARENTS = "R0407", "A link is the child of several joints.";
+    UNREACHABLE = "R0408", "A link hangs on nothing.";
     MASS = "R0501", "A moving link has no mass that a body can have.";
     INERTIA_SIGN = "R0502", "An inertia tensor has a negative principal moment.";
     INERTIA_TRIANGLE = "R0503", "Principal moments of inertia break the triangle inequality.";
     FRICTION = "R0504", "A figure of friction or drive has a sign that it cannot have.";
     UNUSED = "R0601", "A parameter is not used.";
     NO_EFFECT = "R0602", "A figure has no effect on the motion.";
+    NOT_READ = "R0603", "An element or attribute that URDF does not have is not read.";
+    AXIS_LENGTH = "R0604", "A joint axis is not of unit length.";
+    TAKEN_AS_BASE = "R0701", "A link is taken for the base.";
+    TAKEN_TOGETHER = "R0702", "A fixed link is part of the link that carries it.";
+    TAKEN_COORDINATE = "R0703", "A joint shares or gives a coordinate in a way to know of.";
+    TAKEN_DEFAULT = "R0704", "A figure that the file leaves out has the format's own value.";
+    TAKEN_NAME = "R0705", "A name is changed.";
+    LEFT_OUT = "R0706", "Something in the file is no part of the robot here.";
 }

@@ -21,6 +21,8 @@ pub enum Severity {
     Error,
     /// The file gives a robot, but perhaps not the one that was meant.
     Warning,
+    /// The file gives a robot; this is how it was taken where the format leaves a choice.
+    Note,
 }
 
 /// Bytes of the source with what is to be said about them.
@@ -37,7 +39,7 @@ pub struct Label {
 pub struct Diagnostic {
     /// A stable code of the table [`code::TABLE`], such as `R0101`.
     pub code: &'static str,
-    /// Error or warning.
+    /// Error, warning or note.
     pub severity: Severity,
     /// What is wrong, in one line.
     pub message: String,
@@ -70,6 +72,12 @@ impl Diagnostic {
     #[must_use]
     pub fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
+    }
+
+    /// A note without a place as yet.
+    #[must_use]
+    pub fn note(code: &'static str, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Note, ..Diagnostic::error(code, message) }
     }
 
     /// The offending text.

@@ -22,6 +22,7 @@ pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String 
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
+        Severity::Note => Level::NOTE,
     };
     let mut group =
         Group::with_title(level.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
@@ -62,8 +63,12 @@ pub(super) fn render_all(source: &Source, list: &[Diagnostic], style: Style) -> 
     let shown = list.iter().take(MAX_SHOWN);
     let mut parts: Vec<String> =
         shown.map(|diagnostic| render(source, diagnostic, style)).collect();
-    let errors = list.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
-    let counts = [(errors, "error"), (list.len() - errors, "warning")];
+    let count = |severity| list.iter().filter(|found| found.severity == severity).count();
+    let counts = [
+        (count(Severity::Error), "error"),
+        (count(Severity::Warning), "warning"),
+        (count(Severity::Note), "note"),
+    ];
     let counts: Vec<String> = counts
         .iter()
         .filter(|(count, _)| *count > 0)

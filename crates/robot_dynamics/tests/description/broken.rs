@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-use robot_dynamics::description::read_toml;
+use robot_dynamics::description::read;
 use robot_dynamics::diagnostic::code;
 
 fn folder() -> PathBuf {
@@ -23,26 +23,38 @@ fn stems(extension: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// What is said of a file: its errors, or the warnings of one that gives a robot all the same.
-fn message(stem: &str) -> String {
-    let name = format!("{stem}.toml");
-    let text = fs::read_to_string(folder().join(&name)).unwrap();
-    match read_toml(&name, &text) {
+/// The files of both formats.
+fn files() -> BTreeSet<String> {
+    let of = |end: &str| stems(end).into_iter().map(|stem| format!("{stem}.{end}")).collect();
+    let (toml, urdf): (BTreeSet<String>, BTreeSet<String>) = (of("toml"), of("urdf"));
+    assert!(toml.len() >= 45 && urdf.len() >= 45, "{} {}", toml.len(), urdf.len());
+    toml.union(&urdf).cloned().collect()
+}
+
+/// What is said of a file: its errors, or the warnings and notes of one that gives a robot all the
+/// same.
+fn message(name: &str) -> String {
+    let text = fs::read_to_string(folder().join(name)).unwrap();
+    match read(name, &text) {
+        Ok(described) if described.warnings.is_empty() => described.choices.to_string(),
         Ok(described) => described.warnings.to_string(),
         Err(found) => found.to_string(),
     }
 }
 
+fn stem(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
 #[test]
 fn broken_files_give_their_messages() {
     let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
-    let files = stems("toml");
-    assert!(files.len() >= 45, "{}", files.len());
+    let files = files();
     let mut wrong = Vec::new();
-    for stem in &files {
-        let found = message(stem);
-        assert!(found.contains(&format!("{stem}.toml: ")), "{stem} is not broken: {found}");
-        let path = folder().join(format!("{stem}.txt"));
+    for name in &files {
+        let found = message(name);
+        assert!(found.contains(&format!("{name}: ")), "{name} is not broken: {found}");
+        let path = folder().join(format!("{}.txt", stem(name)));
         let expected = fs::read_to_string(&path).unwrap_or_default();
         if found == expected {
             continue;
@@ -50,10 +62,11 @@ fn broken_files_give_their_messages() {
         if update {
             fs::write(path, found).unwrap();
         } else {
-            wrong.push(format!("{stem}: expected\n{expected}\nfound\n{found}"));
+            wrong.push(format!("{name}: expected\n{expected}\nfound\n{found}"));
         }
     }
-    let stale: Vec<_> = stems("txt").difference(&files).cloned().collect();
+    let told: BTreeSet<String> = files.iter().map(|name| stem(name).to_owned()).collect();
+    let stale: Vec<_> = stems("txt").difference(&told).cloned().collect();
     assert!(stale.is_empty(), "messages without a file: {stale:?}");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

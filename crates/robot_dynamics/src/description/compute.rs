@@ -1,0 +1,33 @@
+//! Formulas of formulas: exact numbers where all parts are numbers, else text.
+
+use robot_symbolic::{Formula, Rational};
+
+/// A formula of formulas: a number where all of them are, else `pattern` with each `#i` replaced
+/// by the text of the i-th; `None` where the text grows beyond what a formula may be.
+pub(super) fn compute(
+    operands: &[&Formula],
+    pattern: &str,
+    number: impl Fn(&[&Rational]) -> Rational,
+) -> Option<Formula> {
+    let numbers: Vec<_> = operands.iter().map(|operand| operand.as_number()).collect();
+    let rationals: Vec<_> =
+        numbers.iter().filter_map(|number| number.as_ref()?.as_rational()).collect();
+    if rationals.len() == operands.len() {
+        return Some(Formula::number(&number(&rationals)));
+    }
+    let mut text = pattern.to_owned();
+    for (index, operand) in operands.iter().enumerate() {
+        text = text.replace(&format!("#{index}"), operand.text());
+    }
+    Formula::parse(&text).ok()
+}
+
+/// a · b.
+pub(super) fn product(a: &Formula, b: &Formula) -> Option<Formula> {
+    compute(&[a, b], "(#0)*(#1)", |v| v[0] * v[1])
+}
+
+/// a + b.
+pub(super) fn sum(a: &Formula, b: &Formula) -> Option<Formula> {
+    compute(&[a, b], "(#0) + (#1)", |v| v[0] + v[1])
+}

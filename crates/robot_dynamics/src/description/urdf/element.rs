@@ -1,0 +1,277 @@
+//! Elements of URDF, read attribute by attribute; what URDF does not know is told.
+
+use roxmltree::Node;
+
+use super::super::reader::Reader;
+use super::super::table::list;
+use super::xml::template;
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+
+/// What an element may hold.
+pub(super) struct Kind {
+    pub(super) name: &'static str,
+    attributes: &'static [&'static str],
+    children: &'static [&'static Kind],
+    /// Elements that say nothing of the motion.
+    ignored: &'static [&'static str],
+    /// Whether everything else is an error; otherwise what is not near to a known word is passed
+    /// over with a warning: it may be an extension of some program.
+    strict: bool,
+}
+
+const LEAF: Kind = Kind { name: "", attributes: &[], children: &[], ignored: &[], strict: true };
+
+/// The root.
+pub(super) static ROBOT: Kind = Kind {
+    name: "robot",
+    attributes: &["name", "version"],
+    children: &[&LINK, &JOINT],
+    ignored: &["material", "transmission", "gazebo", "sensor", "ros2_control", "plugin", "group"],
+    strict: false,
+};
+/// A link.
+pub(super) static LINK: Kind = Kind {
+    name: "link",
+    attributes: &["name", "type"],
+    children: &[&INERTIAL],
+    ignored: &["visual", "collision", "material", "sensor", "gazebo", "contact"],
+    strict: false,
+};
+static INERTIAL: Kind = Kind { name: "inertial", children: &[&ORIGIN, &MASS, &INERTIA], ..LEAF };
+static ORIGIN: Kind = Kind { name: "origin", attributes: &["xyz", "rpy"], ..LEAF };
+static MASS: Kind = Kind { name: "mass", attributes: &["value"], ..LEAF };
+static INERTIA: Kind =
+    Kind { name: "inertia", attributes: &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"], ..LEAF };
+/// A joint.
+pub(super) static JOINT: Kind = Kind {
+    name: "joint",
+    attributes: &["name", "type"],
+    children: &[&ORIGIN, &PARENT, &CHILD, &AXIS, &LIMIT, &MIMIC, &DYNAMICS],
+    ignored: &["calibration", "safety_controller", "hardwareInterface", "gazebo"],
+    strict: false,
+};
+static PARENT: Kind = Kind { name: "parent", attributes: &["link"], ..LEAF };
+static CHILD: Kind = Kind { name: "child", attributes: &["link"], ..LEAF };
+static AXIS: Kind = Kind { name: "axis", attributes: &["xyz"], ..LEAF };
+static LIMIT: Kind = Kind {
+    name: "limit",
+    attributes: &["lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk"],
+    strict: false,
+    ..LEAF
+};
+static MIMIC: Kind = Kind { name: "mimic", attributes: &["joint", "multiplier", "offset"], ..LEAF };
+static DYNAMICS: Kind =
+    Kind { name: "dynamics", attributes: &["damping", "friction"], strict: false, ..LEAF };
+
+/// An element with what it may hold.
+#[derive(Clone, Copy)]
+pub(super) struct Element<'a, 'i> {
+    node: Node<'a, 'i>,
+    kind: &'static Kind,
+}
+
+/// An attribute.
+pub(super) struct Attribute<'a> {
+    pub(super) text: &'a str,
+    /// The value, without its quotes.
+    pub(super) span: Span,
+}
+
+impl<'a, 'i> Element<'a, 'i> {
+    /// The element, after its attributes and children have been looked over.
+    pub(super) fn new(
+        reader: &mut Reader<'_>,
+        node: Node<'a, 'i>,
+        kind: &'static Kind,
+    ) -> Element<'a, 'i> {
+        let element = Element { node, kind };
+        element.check_attributes(reader);
+        element.check_children(reader);
+        element
+    }
+
+    /// `<name`, the beginning of the element.
+    pub(super) fn tag(&self) -> Span {
+        tag(self.node)
+    }
+
+    /// The element from its tag to its end.
+    pub(super) fn span(&self) -> Span {
+        self.node.range()
+    }
+
+    /// The attribute of that name.
+    pub(super) fn attribute(&self, name: &str) -> Option<Attribute<'a>> {
+        debug_assert!(self.kind.attributes.contains(&name), "{name} is not declared");
+        let found = self.node.attribute_node(name)?;
+        Some(Attribute { text: found.value(), span: found.range_value() })
+    }
+
+    /// The attribute of that name, which must be there; `example` is a value for it.
+    pub(super) fn require(
+        &self,
+        reader: &mut Reader<'_>,
+        name: &str,
+        example: &str,
+    ) -> Option<Attribute<'a>> {
+        let attribute = self.attribute(name);
+        if attribute.is_none() {
+            let message = format!("`<{}>` has no `{name}`", self.kind.name);
+            reader.report(
+                Diagnostic::error(code::MISSING_KEY, message)
+                    .at(&self.tag(), format!("`{name}` is missing here"))
+                    .help(format!("add `{name}=\"{example}\"`")),
+            );
+        }
+        attribute
+    }
+
+    /// The first child of that name.
+    pub(super) fn child(&self, reader: &mut Reader<'_>, name: &str) -> Option<Element<'a, 'i>> {
+        let kind = self.child_kind(name)?;
+        let node = self.node.children().find(|node| named(*node, name))?;
+        Some(Element::new(reader, node, kind))
+    }
+
+    /// The first child of that name, which must be there; `example` is what to add.
+    pub(super) fn require_child(
+        &self,
+        reader: &mut Reader<'_>,
+        name: &str,
+        example: &str,
+    ) -> Option<Element<'a, 'i>> {
+        let child = self.child(reader, name);
+        if child.is_none() {
+            let message = format!("`<{}>` has no `<{name}>`", self.kind.name);
+            reader.report(
+                Diagnostic::error(code::MISSING_KEY, message)
+                    .at(&self.tag(), format!("`<{name}>` is missing here"))
+                    .help(format!("add `{example}`")),
+            );
+        }
+        child
+    }
+
+    /// The nodes of all children of that name, in order.
+    pub(super) fn nodes(&self, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
+        self.node.children().filter(move |node| named(*node, name))
+    }
+
+    /// How many elements of that name stand here and one level below.
+    pub(super) fn count(&self, name: &str) -> usize {
+        let below = self.node.children().flat_map(|child| child.children());
+        self.node.children().chain(below).filter(|node| named(*node, name)).count()
+    }
+
+    fn child_kind(&self, name: &str) -> Option<&'static Kind> {
+        self.kind.children.iter().copied().find(|kind| kind.name == name)
+    }
+
+    fn check_attributes(&self, reader: &mut Reader<'_>) {
+        for attribute in self.node.attributes() {
+            let name = attribute.name();
+            if attribute.namespace().is_none() && self.kind.attributes.contains(&name) {
+                continue;
+            }
+            let strict = self.kind.strict && attribute.namespace().is_none();
+            let known = self.kind.attributes.iter().copied();
+            let known = known.filter(|known| !self.node.has_attribute(*known));
+            let near = reader.nearest(name, known);
+            let help = match self.kind.attributes {
+                [] => format!("`<{}>` has no attributes", self.kind.name),
+                known => format!("the attributes of `<{}>` are {}", self.kind.name, list(known)),
+            };
+            let message =
+                format!("`{}` is not an attribute of `<{}>`", quote(name), self.kind.name);
+            reader.report(unknown(&attribute.range_qname(), message, near, strict).help(help));
+        }
+    }
+
+    fn check_children(&self, reader: &mut Reader<'_>) {
+        let mut seen: Vec<(&str, Span)> = Vec::new();
+        for node in self.node.children().filter(Node::is_element) {
+            let name = node.tag_name().name();
+            let place = tag(node);
+            if let Some(prefix) = prefix(node) {
+                let message =
+                    format!("`{prefix}:{}` is an element of another program", quote(name));
+                match prefix {
+                    "xacro" if reader.found.iter().any(|one| one.code == code::XACRO) => {}
+                    "xacro" => reader.report(template(&place)),
+                    _ => reader.report(unknown(&place, message, None, false)),
+                }
+                continue;
+            }
+            if let Some(kind) = self.child_kind(name) {
+                let first = seen.iter().find(|(known, _)| *known == name);
+                match first {
+                    // A robot has many links and joints.
+                    Some((_, first)) if !kind.is_repeated() => {
+                        let message = format!("`<{name}>` stands twice in `<{}>`", self.kind.name);
+                        reader.report(
+                            Diagnostic::error(code::CONFLICT, message)
+                                .at(&place, "again here")
+                                .and_at(first, "first here")
+                                .help("keep one of them"),
+                        );
+                    }
+                    Some(_) => {}
+                    None => seen.push((name, place)),
+                }
+                continue;
+            }
+            if self.kind.ignored.contains(&name) {
+                continue;
+            }
+            let names = self.kind.children.iter().map(|kind| kind.name);
+            let names: Vec<&str> = names.collect();
+            let all = names.iter().copied().chain(self.kind.ignored.iter().copied());
+            let near = reader.nearest(name, all);
+            let message =
+                format!("`<{}>` is not an element of `<{}>`", quote(name), self.kind.name);
+            let help = match names.as_slice() {
+                [] => format!("`<{}>` holds no elements", self.kind.name),
+                names => format!("the elements that are read are {}", list(names)),
+            };
+            reader.report(unknown(&place, message, near, self.kind.strict).help(help));
+        }
+    }
+}
+
+impl Kind {
+    fn is_repeated(&self) -> bool {
+        matches!(self.name, "link" | "joint")
+    }
+}
+
+/// An error where a word is near or nothing else is allowed, else a warning.
+fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> Diagnostic {
+    match near {
+        Some(near) => Diagnostic::error(code::UNKNOWN_KEY, message)
+            .at(place, format!("did you mean `{near}`?"))
+            .because("what is misspelt would be left out of the robot in silence"),
+        None if strict => {
+            Diagnostic::error(code::UNKNOWN_KEY, message).at(place, "means nothing here")
+        }
+        None => Diagnostic::warning(code::NOT_READ, message).at(place, "not read"),
+    }
+}
+
+/// Whether the element has that name and no prefix.
+fn named(node: Node<'_, '_>, name: &str) -> bool {
+    node.is_element() && node.tag_name().name() == name && prefix(node).is_none()
+}
+
+/// `<name` of an element.
+pub(super) fn tag(node: Node<'_, '_>) -> Span {
+    let range = node.range();
+    let text = node.document().input_text().get(range.clone()).unwrap_or_default();
+    let end = text.find([' ', '\t', '\r', '\n', '/', '>']).unwrap_or(text.len());
+    range.start..range.start + end
+}
+
+/// The prefix of an element's name as it is written.
+pub(super) fn prefix<'i>(node: Node<'_, 'i>) -> Option<&'i str> {
+    let written = node.document().input_text().get(tag(node))?.get(1..)?;
+    written.split_once(':').map(|(prefix, _)| prefix)
+}

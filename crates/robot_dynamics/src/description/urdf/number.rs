@@ -1,0 +1,123 @@
+//! Numbers in attributes: decimals between spaces, exact as they are written.
+
+use robot_symbolic::{Formula, Rational};
+
+use super::super::reader::Reader;
+use super::element::Attribute;
+use super::xml::template;
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+
+/// The numbers of an attribute: exactly `N`; `what` says of what, `example` how.
+pub(super) fn numbers<const N: usize>(
+    reader: &mut Reader<'_>,
+    attribute: &Attribute<'_>,
+    what: &str,
+    example: &str,
+) -> Option<[Rational; N]> {
+    let words = words(reader, attribute);
+    let mut found = Vec::new();
+    let mut failed = false;
+    for (word, place) in &words {
+        match number(word) {
+            Some(number) => found.push(number),
+            None => {
+                reader.report(wrong(word, place));
+                failed = true;
+                // One wrong number among the wanted is enough to know; the rest may be no numbers.
+                if found.len() > N {
+                    break;
+                }
+            }
+        }
+    }
+    if failed {
+        return None;
+    }
+    let count = found.len();
+    if let Ok(numbers) = found.try_into() {
+        return Some(numbers);
+    }
+    let expected = if N == 1 { "one number".to_owned() } else { format!("{N} numbers") };
+    let message = format!("{what} is {expected}; here are {count}");
+    reader.report(
+        Diagnostic::error(code::WRONG_COUNT, message)
+            .at(&attribute.span, "")
+            .help(format!("write \"{example}\", with spaces between")),
+    );
+    None
+}
+
+/// [`numbers`] as formulas.
+pub(super) fn formulas<const N: usize>(
+    reader: &mut Reader<'_>,
+    attribute: &Attribute<'_>,
+    what: &str,
+    example: &str,
+) -> Option<[Formula; N]> {
+    let numbers = numbers::<N>(reader, attribute, what, example)?;
+    Some(numbers.each_ref().map(Formula::number))
+}
+
+/// The words of an attribute with their places in the file.
+fn words<'t>(reader: &Reader<'t>, attribute: &Attribute<'t>) -> Vec<(&'t str, Span)> {
+    let raw = reader.text.get(attribute.span.clone()).unwrap_or_default();
+    // Behind references to characters nothing stands where it is read.
+    let followed = !raw.contains('&');
+    let text = if followed { raw } else { attribute.text };
+    let mut words = Vec::new();
+    let mut start = None;
+    for (index, character) in text.char_indices().chain([(text.len(), ' ')]) {
+        let space = matches!(character, ' ' | '\t' | '\r' | '\n');
+        match (start, space) {
+            (None, false) => start = Some(index),
+            (Some(from), true) => {
+                let place = attribute.span.start + from..attribute.span.start + index;
+                let place = if followed { place } else { attribute.span.clone() };
+                words.push((text.get(from..index).unwrap_or_default(), place));
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    words
+}
+
+fn number(word: &str) -> Option<Rational> {
+    let number = Rational::from_decimal(word).filter(|_| !word.contains('_'));
+    number.filter(|number| {
+        let float = number.to_f64();
+        float.is_finite() && (float != 0.0 || number.is_zero())
+    })
+}
+
+fn wrong(word: &str, place: &Span) -> Diagnostic {
+    if word.contains("${") || word.contains("$(") {
+        return template(place);
+    }
+    let lower = word.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    let is_number = |text: &str| Rational::from_decimal(text).is_some() && !text.contains('_');
+    let shown = quote(word);
+    let (message, help) = if lower.starts_with("nan")
+        || lower.contains("#qnan")
+        || lower.contains("#ind")
+    {
+        (format!("`{shown}` is not a number"), "give the figure")
+    } else if lower.starts_with("inf") || lower.contains("#inf") {
+        (format!("`{shown}` is infinite"), "give a finite figure")
+    } else if word.contains(',') && is_number(&word.replacen(',', ".", 1)) && !word.ends_with(',') {
+        (format!("`{shown}` has a decimal comma"), "write the decimal point: `0.5` for `0,5`")
+    } else if word.contains(',') {
+        (format!("`{shown}` is not a number"), "numbers stand between spaces, without commas")
+    } else if Rational::from_decimal(word).is_some() {
+        (
+            format!("`{shown}` is beyond the range of numbers"),
+            "magnitudes lie between 5e-324 and 1.7e308, with at most 400 digits",
+        )
+    } else {
+        (
+            format!("`{shown}` is not a number"),
+            "a number is written like `12`, `-0.35` or `1.5e-3`, in SI units, without the unit",
+        )
+    };
+    Diagnostic::error(code::NUMBER, message).at(place, "").help(help)
+}

@@ -1,0 +1,135 @@
+//! The choices that reading a URDF file makes, as notes.
+
+use super::super::draft::{Draft, DraftLink, Parent};
+use super::super::options::Options;
+use super::super::reader::Reader;
+use super::element::Element;
+use super::joint::UrdfJoint;
+use crate::diagnostic::{Diagnostic, code};
+
+/// What says nothing of the motion, and its plural.
+const IGNORED: &[(&str, &str)] = &[
+    ("visual", "visuals"),
+    ("collision", "collisions"),
+    ("transmission", "transmissions"),
+    ("gazebo", "Gazebo elements"),
+    ("sensor", "sensors"),
+    ("ros2_control", "ros2_control elements"),
+    ("safety_controller", "safety controllers"),
+    ("calibration", "calibrations"),
+];
+
+/// Reports them.
+pub(super) fn choices(
+    reader: &mut Reader<'_>,
+    root: &Element<'_, '_>,
+    draft: &Draft,
+    order: &[usize],
+    joints: &[UrdfJoint<'_>],
+    options: &Options,
+) {
+    whole(reader, root, draft, order);
+    for index in order {
+        let Some(link) = draft.links.get(*index) else { continue };
+        if link.joint.kind.is_none() {
+            reader.report(fixed(draft, link));
+        }
+    }
+    for joint in joints {
+        if joint.kind.is_some() {
+            moving(reader, joint, options);
+        }
+    }
+}
+
+/// What concerns the file as a whole.
+fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: &[usize]) {
+    let gravity = draft.gravity.each_ref().map(|entry| entry.text().to_owned()).join(", ");
+    reader.report(
+        Diagnostic::note(code::TAKEN_DEFAULT, format!("gravity is [{gravity}] m/s^2"))
+            .at(&root.tag(), "in the frame of the base")
+            .because("URDF says nothing of gravity"),
+    );
+    let links = order.iter().filter_map(|index| draft.links.get(*index));
+    let leading = links.filter(|link| link.joint.kind.is_some() && link.joint.mimic.is_none());
+    let names: Vec<String> = leading
+        .enumerate()
+        .map(|(number, link)| format!("q{} of `{}`", number + 1, link.joint.name.name))
+        .collect();
+    reader.report(
+        Diagnostic::note(
+            code::TAKEN_COORDINATE,
+            format!("the coordinates are {}", names.join(", ")),
+        )
+        .at(&root.tag(), "")
+        .because("joints are counted in the order of the file, parents before children"),
+    );
+    let counts: Vec<String> = IGNORED
+        .iter()
+        .filter_map(|(name, plural)| match root.count(name) {
+            0 => None,
+            1 => Some(format!("1 {name}")),
+            count => Some(format!("{count} {plural}")),
+        })
+        .collect();
+    if !counts.is_empty() {
+        reader.report(
+            Diagnostic::note(code::LEFT_OUT, format!("not read: {}", counts.join(", ")))
+                .at(&root.tag(), "")
+                .because("they say nothing of the motion; no other file is looked for"),
+        );
+    }
+}
+
+fn fixed(draft: &Draft, link: &DraftLink) -> Diagnostic {
+    let name = &link.name.name;
+    let mut carrier = link;
+    for _ in 0..draft.links.len() {
+        let Parent::Link(parent) = carrier.parent else { break };
+        let Some(next) = draft.links.get(parent) else { break };
+        carrier = next;
+        if carrier.joint.kind.is_some() {
+            let by = &carrier.name.name;
+            let message = format!("`{name}` is part of `{by}`; its frame keeps the name");
+            return Diagnostic::note(code::TAKEN_TOGETHER, message).at(&link.places.joint, "fixed");
+        }
+    }
+    let message = match link.body {
+        Some(_) => format!("`{name}` is the base or fixed to it; its mass has no effect"),
+        None => format!("`{name}` is the base or fixed to it"),
+    };
+    Diagnostic::note(code::TAKEN_AS_BASE, message).at(&link.places.name, "stands still")
+}
+
+fn moving(reader: &mut Reader<'_>, joint: &UrdfJoint<'_>, options: &Options) {
+    let name = &joint.name.named.name;
+    if joint.is_continuous && joint.mimic.is_none() {
+        let message = format!("`{name}` is one angle without limits");
+        reader
+            .report(Diagnostic::note(code::TAKEN_COORDINATE, message).at(&joint.tag, "continuous"));
+    }
+    if let Some(mimic) = &joint.mimic {
+        let message = format!("`{name}` has no coordinate of its own");
+        let motion =
+            format!("{} times that joint's position, plus {}", mimic.multiplier, mimic.offset);
+        reader.report(
+            Diagnostic::note(code::TAKEN_COORDINATE, message)
+                .at(&mimic.joint.span, motion)
+                .because("the torque of the joint that leads drives both"),
+        );
+    }
+    if let Some(dynamics) = &joint.dynamics {
+        let (damping, friction) = (&dynamics.damping, &dynamics.friction);
+        let figures = format!("damping {damping}, friction {friction}");
+        let diagnostic = if options.friction {
+            let message = format!("the friction of `{name}` is part of the robot");
+            Diagnostic::note(code::TAKEN_DEFAULT, message)
+                .because("damping is viscous friction, friction is constant dry friction")
+        } else {
+            let message = format!("the friction of `{name}` is not part of the robot");
+            Diagnostic::note(code::LEFT_OUT, message)
+                .because("torques are those of the bodies alone")
+        };
+        reader.report(diagnostic.at(&dynamics.span, figures));
+    }
+}

@@ -1,0 +1,101 @@
+//! XML text to a tree of elements, and errors of XML in the words of robot files.
+
+use roxmltree::{Document, Error, ParsingOptions, TextPos};
+
+use super::super::reader::Reader;
+use super::guard;
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+
+/// Parses the text; what is wrong with it is reported.
+pub(super) fn parse<'i>(reader: &mut Reader<'i>) -> Option<Document<'i>> {
+    if let Some(diagnostic) = guard::check(reader.text) {
+        reader.report(diagnostic);
+        return None;
+    }
+    let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
+    match Document::parse_with_options(reader.text, options) {
+        Ok(document) => Some(document),
+        Err(error) => {
+            let diagnostic = words(reader.text, &error);
+            reader.report(diagnostic);
+            None
+        }
+    }
+}
+
+fn words(text: &str, error: &Error) -> Diagnostic {
+    let whole = matches!(error, Error::UnclosedRootNode | Error::UnexpectedEndOfStream);
+    let place = match error {
+        _ if whole => text.len()..text.len(),
+        Error::DtdDetected => text.find("<!DOCTYPE").map_or(0..0, |at| at..at + "<!DOCTYPE".len()),
+        _ => byte_of(text, error.pos()),
+    };
+    let syntax = |message: String| Diagnostic::error(code::SYNTAX, message).at(&place, "");
+    match error {
+        Error::UnknownNamespace(prefix, _) if prefix == "xacro" => template(&place),
+        Error::UnknownNamespace(prefix, _) => {
+            syntax(format!("the prefix `{}` is not declared", quote(prefix)))
+                .help("declare it in the first element: xmlns:prefix=\"…\", or take it away")
+        }
+        Error::UnexpectedCloseTag(expected, found, _) => {
+            syntax(format!("`</{}>` closes `<{}>`", quote(found), quote(expected)))
+                .help(format!("close `<{}>` first", quote(expected)))
+        }
+        Error::DuplicatedAttribute(name, _) => {
+            syntax(format!("the attribute `{}` is given twice", quote(name)))
+                .help("keep one of them")
+        }
+        Error::DtdDetected => syntax("the file has a document type: `<!DOCTYPE …>`".to_owned())
+            .because("such definitions can load files and blow up small texts")
+            .help("take it away"),
+        Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
+            syntax("the file ends within an element".to_owned())
+                .help("close every element: `</robot>` at the end")
+        }
+        Error::NoRootNode => syntax("the file has no elements".to_owned())
+            .help("a robot is described in `<robot name=\"arm\"> … </robot>`"),
+        Error::UnknownEntityReference(name, _) => {
+            syntax(format!("`&{};` means nothing here", quote(name)))
+                .help("write the character, or `&amp;`, `&lt;`, `&gt;`, `&quot;`, `&apos;`")
+        }
+        Error::MalformedEntityReference(_) => {
+            syntax("`&` stands alone".to_owned()).help("write the character `&` as `&amp;`")
+        }
+        Error::DuplicatedNamespace(name, _) => {
+            syntax(format!("the prefix `{}` is declared twice", quote(name)))
+                .help("keep one of the declarations")
+        }
+        other => syntax(format!("this is not XML: {}", without_place(other)))
+            .help("an element is written `<name attribute=\"value\"/>`"),
+    }
+}
+
+/// The parser's words without the line and column that it gives, which the place shows.
+fn without_place(error: &Error) -> String {
+    error.to_string().replace(&format!(" at {}", error.pos()), "")
+}
+
+/// The file is a template.
+pub(super) fn template(place: &Span) -> Diagnostic {
+    Diagnostic::error(code::XACRO, "the file is a xacro template, not a robot")
+        .at(place, "to be expanded")
+        .because("templates are programs: they read files and compute; none is run here")
+        .help(
+            "expand it and read the result: `xacro robot.urdf.xacro > robot.urdf` (of ROS, or \
+             `pip install xacro`)",
+        )
+}
+
+/// The byte of a line and column, both counted from 1, the column in characters.
+fn byte_of(text: &str, position: TextPos) -> Span {
+    let line = usize::try_from(position.row).unwrap_or(1).saturating_sub(1);
+    let start = match line {
+        0 => 0,
+        _ => text.match_indices('\n').nth(line - 1).map_or(text.len(), |(at, _)| at + 1),
+    };
+    let rest = text.get(start..).unwrap_or_default();
+    let column = usize::try_from(position.col).unwrap_or(1).saturating_sub(1);
+    let at = start + rest.char_indices().nth(column).map_or(rest.len(), |(at, _)| at);
+    let length = text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+    at..at + length
+}

@@ -1,0 +1,220 @@
+//! Files that mean harm, and files that chance has spoilt: each ends in a message, soon.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use robot_dynamics::description::{MAX_BYTES, Options, decode, import, read_urdf};
+use robot_dynamics::diagnostic::code;
+use robot_dynamics::numeric::random::Random;
+
+use crate::text::{BODY, one_link};
+use crate::{codes, errors};
+
+/// The codes of the errors of a file, which must be found within a few seconds.
+fn soon(text: &str) -> Vec<&'static str> {
+    let start = Instant::now();
+    let found = errors(text);
+    let rendered = found.to_string();
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    assert!(rendered.len() < 200_000, "{}", rendered.len());
+    codes(&found)
+}
+
+#[test]
+fn elements_nested_deep_end_in_a_message() {
+    let deep = "<link>".repeat(100_000);
+    let closed = "</link>".repeat(100_000 - 60_000);
+    for text in [
+        format!("<robot>{deep}"),
+        format!("<robot>{}{closed}</robot>", "<link>".repeat(40_000)),
+        "<a x='>'>".repeat(100_000),
+        "<!--".repeat(100_000) + &"<a>".repeat(10_000),
+    ] {
+        let found = soon(&text);
+        assert!(found == [code::LIMIT] || found == [code::SYNTAX], "{found:?}");
+    }
+}
+
+#[test]
+fn a_great_many_attributes_and_namespaces_end_in_a_message() {
+    let attributes: String = (0..70_000).map(|i| format!(" a{i}=\">\"")).collect();
+    assert_eq!(soon(&format!("<robot{attributes}/>")), [code::LIMIT]);
+    let namespaces: String = (0..30_000).map(|i| format!("<a xmlns:n{i}='u'>")).collect();
+    assert_eq!(soon(&namespaces), [code::LIMIT]);
+}
+
+#[test]
+fn huge_counts_end_in_a_message() {
+    let links: String = (0..600).map(|i| format!("<link name=\"{i}\"/>")).collect();
+    assert_eq!(soon(&format!("<robot name=\"a\">{links}</robot>")), [code::LIMIT]);
+    let junk = "<jnk a=\"1\"/>".repeat(80_000);
+    let text =
+        one_link(BODY, "<axis xyz=\"0 0 0\"/>").replace("</robot>", &format!("{junk}</robot>"));
+    assert!(soon(&text).contains(&code::ZERO_AXIS));
+    let numbers = "1 ".repeat(400_000);
+    assert_eq!(soon(&one_link(BODY, &format!("<axis xyz=\"{numbers}\"/>"))), [code::WRONG_COUNT]);
+    let digits = "9".repeat(900_000);
+    assert_eq!(soon(&one_link(BODY, &format!("<axis xyz=\"0 0 {digits}\"/>"))), [code::NUMBER]);
+    let name = "x".repeat(400_000);
+    assert!(soon(&one_link(BODY, "").replace("ground", &name)).contains(&code::NAME));
+    let text = one_link(BODY, "") + &" ".repeat(MAX_BYTES);
+    assert_eq!(soon(&text), [code::TOO_LARGE]);
+}
+
+#[test]
+fn a_robot_of_many_joints_is_read_or_refused() {
+    let chain = |joints: usize| {
+        let mut text = "<robot name=\"a\"><link name=\"0\"/>".to_owned();
+        for child in 1..=joints {
+            let parent = child - 1;
+            text += &format!(
+                "<link name=\"{child}\">{BODY}</link><joint name=\"j{child}\" type=\"continuous\">\
+                 <parent link=\"{parent}\"/><child link=\"{child}\"/><axis xyz=\"0 0 1\"/></joint>"
+            );
+        }
+        text + "</robot>"
+    };
+    assert_eq!(crate::read(&chain(64)).robot.degrees_of_freedom(), 64);
+    assert_eq!(soon(&chain(65)), [code::LIMIT]);
+}
+
+#[test]
+fn documents_of_other_kinds_are_told() {
+    let doctype = "<!DOCTYPE robot [<!ENTITY a 'b'>]><robot name=\"&a;\"/>";
+    assert_eq!(soon(doctype), [code::SYNTAX]);
+    assert_eq!(soon("<sdf version='1.6'/>"), [code::FORMAT]);
+    assert_eq!(soon("<robt name='a'/>"), [code::UNKNOWN_KEY]);
+    assert_eq!(soon(""), [code::SYNTAX]);
+    let template = "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\" name=\"a\"><xacro:include filename=\"/etc/passwd\"/></robot>";
+    assert!(soon(template).contains(&code::XACRO));
+    assert_eq!(soon("<robot name=\"a\"><xacro:macro/></robot>"), [code::XACRO]);
+    assert_eq!(soon(&one_link(BODY, "<axis xyz=\"0 0 ${x}\"/>")), [code::XACRO]);
+    let used =
+        one_link(BODY, "").replace("<robot", "<robot xmlns:xacro=\"http://ros.org/wiki/xacro\"");
+    crate::read(&used);
+}
+
+#[test]
+fn hostile_names_stay_text() {
+    for name in [
+        "b}fn x(){}",
+        "\\input{/etc/passwd}",
+        "*/ panic!() /*",
+        "&lt;script&gt;",
+        "../../x",
+        "a&#10;b",
+    ] {
+        let described = crate::read(&one_link(BODY, "").replace("ground", name));
+        let frame = &described.robot.frames[0].name;
+        assert!(
+            frame.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-.".contains(&byte)),
+            "{frame}"
+        );
+    }
+}
+
+/// Every file of the project as seed: the broken ones, and a sound one.
+fn seeds() -> Vec<Vec<u8>> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/broken");
+    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut paths: Vec<_> =
+        paths.filter(|path| path.extension().is_some_and(|end| end == "urdf")).collect();
+    paths.sort();
+    assert!(paths.len() >= 20, "{}", paths.len());
+    let mut seeds: Vec<Vec<u8>> = paths.iter().map(|path| fs::read(path).unwrap()).collect();
+    let joint = "<axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"1\"/><dynamics damping=\"1\"/>";
+    seeds.push(one_link(BODY, joint).into_bytes());
+    seeds
+}
+
+/// Pieces that have a meaning somewhere.
+const PIECES: &[&str] = &[
+    "<",
+    ">",
+    "/>",
+    "</",
+    "\"",
+    "'",
+    "=",
+    "&",
+    ";",
+    "&amp;",
+    "&#0;",
+    "&#x202e;",
+    "<!--",
+    "-->",
+    "<![CDATA[",
+    "]]>",
+    "<?xml?>",
+    " ",
+    "\n",
+    "nan",
+    "-inf",
+    "1e309",
+    "1e-400",
+    "0,5",
+    "-1",
+    "0",
+    "1e400",
+    "${x}",
+    "é",
+    "\u{202e}",
+    "\u{0}",
+    "\u{feff}",
+    "<link name=\"a\"/>",
+    "<origin/>",
+    "<inertial>",
+    "</inertial>",
+    "<mimic joint=\"joint\"/>",
+    "type=\"fixed\"",
+    "xmlns=\"u\"",
+    "<xacro:a/>",
+    "link=\"arm\"",
+];
+
+fn spoil(random: &mut Random, seeds: &[Vec<u8>]) -> Vec<u8> {
+    // The last of them is sound.
+    let which = if random.once_in(2) { seeds.len() - 1 } else { random.index(seeds.len()) };
+    let mut text = seeds[which].clone();
+    for _ in 0..1 + random.index(3) {
+        let at = random.index(text.len() + 1);
+        let most = 1 + random.index(60);
+        let end = (at + random.index(most)).min(text.len());
+        match random.index(4) {
+            0 => drop(text.drain(at..end)),
+            1 => drop(text.splice(at..end, PIECES[random.index(PIECES.len())].bytes())),
+            2 => {
+                let piece = text[at..end].to_vec();
+                let to = random.index(text.len() + 1);
+                drop(text.splice(to..to, piece));
+            }
+            _ if !text.is_empty() => {
+                let at = at.min(text.len() - 1);
+                text[at] ^= 1 << random.index(8);
+            }
+            _ => {}
+        }
+    }
+    text
+}
+
+#[test]
+fn spoilt_files_end_in_a_robot_or_a_message() {
+    let seeds = seeds();
+    let mut random = Random::new(20);
+    let mut read = 0;
+    for _ in 0..20_000 {
+        let Ok(text) = decode("arm.urdf", spoil(&mut random, &seeds)) else { continue };
+        match read_urdf("arm.urdf", &text) {
+            Ok(described) => {
+                read += 1;
+                let import = import("arm.urdf", &text, &Options::default()).unwrap();
+                let again = robot_dynamics::description::read_toml("arm.toml", &import.toml)
+                    .unwrap_or_else(|found| panic!("{text}\n{}\n{found}", import.toml));
+                assert_eq!(again.robot.degrees_of_freedom(), described.robot.degrees_of_freedom());
+            }
+            Err(found) => assert!(found.to_string().contains("arm.urdf"), "{found}"),
+        }
+    }
+    assert!(read > 200, "{read}");
+}
