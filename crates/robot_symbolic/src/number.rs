@@ -80,6 +80,17 @@ impl Number {
         }
     }
 
+    /// What arithmetic on the number costs beyond that on machine words, in units of that: nothing
+    /// for small numbers, memory to allocate and words to multiply for large ones.
+    pub(crate) fn weight(&self) -> u64 {
+        match self {
+            Number::Rational(rational) if rational.to_small().is_none() => {
+                4 + rational.bits() as u64 / 64
+            }
+            _ => 0,
+        }
+    }
+
     #[inline]
     fn integers(
         &self,

@@ -41,8 +41,23 @@ impl Budget {
         Ok(())
     }
 
-    pub(super) fn multiply(&mut self, a: usize, b: usize) -> Result<(), PolynomialError> {
-        let products = (a as u64).saturating_mul(b as u64);
+    /// Pays for all products of a term of `a` with a term of `b`: of two terms with coefficients of
+    /// the weights v and w, 1 + v + w + v w / 8.
+    pub(super) fn multiply(&mut self, a: &[Term], b: &[Term]) -> Result<(), PolynomialError> {
+        let weights = |terms: &[Term]| -> u64 {
+            terms.iter().map(|(_, coefficient)| coefficient.weight()).sum()
+        };
+        let (m, n) = (a.len() as u64, b.len() as u64);
+        let (v, w) = (weights(a), weights(b));
+        let products = m
+            .saturating_mul(n)
+            .saturating_add(m.saturating_mul(w))
+            .saturating_add(n.saturating_mul(v))
+            .saturating_add(v.saturating_mul(w) / 8);
+        self.spend(products)
+    }
+
+    fn spend(&mut self, products: u64) -> Result<(), PolynomialError> {
         match self.products_left.checked_sub(products) {
             Some(left) => {
                 self.products_left = left;
@@ -111,7 +126,7 @@ impl Accumulator<'_> {
         b: &[Term],
         factor: &Number,
     ) -> Result<(), PolynomialError> {
-        self.budget.multiply(a.len(), b.len())?;
+        self.budget.multiply(a, b)?;
         for (x, c) in a {
             let scaled = c * factor;
             for (y, d) in b {
@@ -167,7 +182,7 @@ impl Accumulator<'_> {
                 continue;
             };
             let square = self.graph.square(factor.atom());
-            self.budget.multiply(1, square.0.len())?;
+            self.budget.spend(square.0.len() as u64)?;
             for (x, c) in square.0.iter() {
                 let (product, _) = rest.product(x).ok_or(PolynomialError::ExponentTooLarge)?;
                 pending.push((product, &coefficient * c));

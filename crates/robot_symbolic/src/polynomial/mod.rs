@@ -55,7 +55,8 @@ pub struct PolynomialOptions {
     pub angle_sums: AngleSums,
     /// The number of terms that may be held at once, intermediate results included.
     pub max_terms: usize,
-    /// The number of products of two terms that one operation may form.
+    /// The number of products of two terms that one operation may form; products of coefficients of
+    /// more than 64 bits count for several.
     pub max_products: u64,
 }
 

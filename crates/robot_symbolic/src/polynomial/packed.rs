@@ -272,7 +272,7 @@ impl<'a, const W: usize> Sum<'a, W> {
                 }
                 continue;
             };
-            self.budget.multiply(part.a.len(), b.len())?;
+            self.budget.multiply(part.a, b)?;
             let pack = |(monomial, number)| (self.layout.pack(right, monomial), number);
             let b: Vec<(Key<W>, &Number)> = b.iter().map(|(m, n)| pack((m, n))).collect();
             for (monomial, number) in part.a {

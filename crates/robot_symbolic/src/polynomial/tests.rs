@@ -111,6 +111,12 @@ fn limits_end_hostile_expansions() {
         error("sin(a+b+c+d+e+f+g+h+i+j+k+l+m+n+o)"),
         PolynomialError::TooManyTerms { limit: 1000 }
     );
+    // A third of a million products, but of coefficients of up to a thousand bits.
+    let options = PolynomialOptions { max_products: 1_000_000, ..options };
+    assert_eq!(
+        Polynomial::of(expr("((1 + x)^64)^15"), &options),
+        Err(PolynomialError::TooManyProducts { limit: 1_000_000 })
+    );
     let power = (0..6).fold(g.symbol("x"), |power, _| power.powi(64));
     assert_eq!(Polynomial::of(power, &options), Err(PolynomialError::ExponentTooLarge));
 }
