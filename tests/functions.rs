@@ -7,24 +7,25 @@ mod common;
 use common::{evaluate, largest_difference, magnitude, robot_files};
 use nalgebra::DMatrix;
 use robot_dynamics::economical::{
-    Plan,
+    Plan, Recursion,
     plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
 };
 use robot_dynamics::functions::{Derivation, FunctionKind, search_plan};
-use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::model::{Parameter, Robot};
 use robot_dynamics::numeric::{
     self,
     random::{Random, Recipe, State},
 };
 use robot_dynamics::random;
+use robot_symbolic::differentiate::{forward, reverse};
 use robot_symbolic::{Expr, Formula, Graph, Rational, operations};
 
 const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;
 
 /// The functions that are held against the solver here; those with loads are in `recursions.rs`.
-const KINDS: [FunctionKind; 10] = [
+const KINDS: [FunctionKind; 13] = [
     FunctionKind::MassMatrix,
     FunctionKind::Bias,
     FunctionKind::Gravity,
@@ -35,6 +36,9 @@ const KINDS: [FunctionKind; 10] = [
     FunctionKind::Jacobian,
     FunctionKind::JacobianDotQd,
     FunctionKind::Energies,
+    FunctionKind::CoriolisMatrix,
+    FunctionKind::InverseDynamicsDerivatives,
+    FunctionKind::ForwardDynamicsDerivatives,
 ];
 
 /// What the solver says a function yields.
@@ -66,6 +70,15 @@ fn expected(solver: &numeric::Mechanism, kind: FunctionKind, state: &State) -> V
         FunctionKind::Energies => {
             let energies = solver.energies(q, qd).unwrap();
             vec![energies.kinetic, energies.potential]
+        }
+        FunctionKind::CoriolisMatrix => rows(&solver.coriolis_matrix(q, qd).unwrap()),
+        FunctionKind::InverseDynamicsDerivatives => {
+            let found = solver.inverse_dynamics_derivatives(q, qd, &state.qdd, &[]).unwrap();
+            [rows(&found.dq), rows(&found.dqd)].concat()
+        }
+        FunctionKind::ForwardDynamicsDerivatives => {
+            let found = solver.forward_dynamics_derivatives(q, qd, &state.tau, &[]).unwrap();
+            [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
         }
         other => panic!("nothing to hold `{}` against", other.name()),
     }
@@ -148,7 +161,10 @@ fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64; KINDS.len()]) {
         }
         let expected: Vec<_> = states.iter().map(|state| expected(&solver, *kind, state)).collect();
         let size = magnitude(expected.iter().flatten()).max(1e-3);
-        for (number, derivation) in derivations.iter().enumerate() {
+        // The several ways to the derivatives have a test of their own.
+        let slow = *kind == FunctionKind::InverseDynamicsDerivatives;
+        let derivations = derivations.iter().take(if slow { 1 } else { usize::MAX });
+        for (number, derivation) in derivations.enumerate() {
             let roots = values(derivation, *kind);
             for (state, expected) in states.iter().zip(&expected) {
                 let found = evaluate(robot, &roots, state);
@@ -211,6 +227,41 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
         check(&random::parametrised(&robot), seed, "parameters", &mut worst);
     }
     report("parameters", worst);
+}
+
+/// The derivatives by composite quantities, and by differentiating the torques forward and in
+/// reverse; [`FunctionKind::InverseDynamicsDerivatives`] is the cheapest of them.
+#[test]
+fn three_ways_to_the_derivatives_agree_with_the_numeric_solver() {
+    for seed in 4000..4024 {
+        let recipe = Recipe { mimic: true, ..Recipe::tree(1 + seed as usize % 7) };
+        let mut random = Random::new(seed);
+        let robot = random::robot(&mut random, &recipe);
+        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let graph = Graph::new();
+        let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::ROUNDED);
+        let recursion = Recursion::new(&mechanism, &random_plan(&mut random, &robot)).unwrap();
+        let torques = recursion.inverse_dynamics(false);
+        let of = |prefix: &str| -> Vec<Expr<'_>> {
+            (1..=torques.len()).map(|k| graph.symbol(&format!("{prefix}{k}"))).collect()
+        };
+        let composite = recursion.torque_derivatives();
+        let ways = [
+            [composite.positions.rows(), composite.velocities.rows()].concat(),
+            [forward(&torques, &of("q")).concat(), forward(&torques, &of("qd")).concat()].concat(),
+            [reverse(&torques, &of("q")).concat(), reverse(&torques, &of("qd")).concat()].concat(),
+        ];
+        for _ in 0..STATES {
+            let state = state(&mut random, &solver, &robot);
+            let expected = expected(&solver, FunctionKind::InverseDynamicsDerivatives, &state);
+            let size = magnitude(&expected).max(1e-3);
+            for (way, roots) in ways.iter().enumerate() {
+                let found = evaluate(&robot, roots, &state);
+                let error = largest_difference(&found, &expected) / size;
+                assert!(error <= TOLERANCE, "seed {seed}, way {way}: off by {error:e}");
+            }
+        }
+    }
 }
 
 /// Joint axes that depend on parameters leave no working frames to choose: every function then

@@ -79,3 +79,54 @@ impl<'g> SymmetricMatrix<'g> {
         row * (row + 1) / 2 + column
     }
 }
+
+/// A square matrix.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SquareMatrix<'g> {
+    /// Row by row.
+    entries: Vec<Expr<'g>>,
+    order: usize,
+}
+
+impl<'g> SquareMatrix<'g> {
+    /// The zero matrix.
+    #[must_use]
+    pub fn zero(graph: &'g Graph, order: usize) -> SquareMatrix<'g> {
+        SquareMatrix { entries: vec![graph.zero(); order * order], order }
+    }
+
+    /// The matrix of these rows, one after the other.
+    #[must_use]
+    pub fn from_rows(entries: Vec<Expr<'g>>, order: usize) -> SquareMatrix<'g> {
+        SquareMatrix { entries, order }
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// An entry.
+    #[must_use]
+    pub fn at(&self, row: usize, column: usize) -> Expr<'g> {
+        self.entries[row * self.order + column]
+    }
+
+    /// Adds to an entry.
+    pub fn add(&mut self, row: usize, column: usize, value: Expr<'g>) {
+        self.entries[row * self.order + column] += value;
+    }
+
+    /// A column.
+    #[must_use]
+    pub fn column(&self, column: usize) -> Vec<Expr<'g>> {
+        (0..self.order).map(|row| self.at(row, column)).collect()
+    }
+
+    /// All entries row by row.
+    #[must_use]
+    pub fn rows(&self) -> Vec<Expr<'g>> {
+        self.entries.clone()
+    }
+}

@@ -43,6 +43,7 @@
 //! # Ok::<(), robot_symbolic::PolynomialError>(())
 //! ```
 
+pub mod differentiate;
 mod expr;
 pub mod formula;
 mod graph;

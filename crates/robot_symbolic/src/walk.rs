@@ -136,7 +136,7 @@ impl<'g> Expr<'g> {
     }
 
     /// The derivative of `self = function(argument)` by its argument.
-    fn function_slope(self, function: Function, argument: Expr<'g>) -> Expr<'g> {
+    pub(crate) fn function_slope(self, function: Function, argument: Expr<'g>) -> Expr<'g> {
         let graph = self.graph();
         match function {
             Function::Sin => argument.cos(),

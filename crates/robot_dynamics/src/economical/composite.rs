@@ -1,99 +1,146 @@
-//! Composite inertias: each link with all that it carries, as one rigid body.
+//! Composites: each link with all that it carries, taken together as one rigid body.
+
+use robot_symbolic::{Expr, Graph};
 
 use super::inertia::PseudoInertia;
-use super::rotation::Plane;
-use super::spatial::{Ways, Wrench};
+use super::rotation::{ConstantRotation, Plane};
+use super::spatial::{Twist, Ways, Wrench};
 use crate::vector::{Matrix, Vector};
+
+/// What links hand over to their parents, about an origin.
+pub(crate) trait Inward<'g>: Copy {
+    /// Nothing.
+    fn zero(graph: &'g Graph) -> Self;
+    /// Both together.
+    fn plus(&self, other: &Self) -> Self;
+    /// The same in the axes from which its own are turned.
+    fn turned(&self, plane: &Plane<'g>) -> Self;
+    /// The same in the axes from which its own are rotated.
+    fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self;
+    /// The same about an origin from which its own lies at `arm`, in two parts: what depends on
+    /// constants alone where the arm does, and the rest.
+    fn moved(&self, arm: Vector<'g>) -> (Self, Self);
+}
+
+/// Every link's own with all that it carries, about its origin, in its home axes.
+///
+/// `own` is in the links' own axes.
+pub(crate) fn gather<'g, T: Inward<'g>>(ways: &Ways<'_, 'g>, mut own: Vec<T>) -> Vec<T> {
+    let chain = ways.chain;
+    // What children hand over, in the link's own axes and in its home axes.
+    let none = T::zero(chain.graph);
+    let mut handed = vec![none; chain.links.len()];
+    let mut at_home = vec![none; chain.links.len()];
+    let mut composites = vec![none; chain.links.len()];
+    for (index, link) in chain.links.iter().enumerate().rev() {
+        let posture = &ways.postures[index];
+        let in_own_axes = own[index].plus(&handed[index]);
+        composites[index] = in_own_axes.turned(&posture.group_turn).plus(&at_home[index]);
+        let Some(parent) = link.parent else { continue };
+        let composite = composites[index];
+        if ways.is_joined(index) {
+            let (constant, rest) = composite.moved(ways.arm_at_home(index));
+            at_home[parent] = at_home[parent].plus(&rest.plus(&constant));
+        } else {
+            let (constant, rest) = composite.rotated(&link.rotation).moved(posture.origin);
+            // Constants first, so that they fold into the parent's own.
+            own[parent] = own[parent].plus(&constant);
+            handed[parent] = handed[parent].plus(&rest);
+        }
+    }
+    composites
+}
 
 /// The composite pseudo-inertia of every link about its origin, in its home axes.
 ///
 /// Mass that was regrouped is where it was regrouped to, so that behind rotations a composite has
 /// no mass: only its action on the joint axes is that of the robot.
 pub(crate) fn composites<'g>(ways: &Ways<'_, 'g>) -> Vec<PseudoInertia<'g>> {
-    let chain = ways.chain;
-    // What children hand over, in the link's own axes and in its home axes.
-    let none = PseudoInertia::zero(chain.graph);
-    let mut own: Vec<PseudoInertia<'g>> = chain.links.iter().map(|link| link.inertia).collect();
-    let mut handed = vec![none; chain.links.len()];
-    let mut at_home = vec![none; chain.links.len()];
-    let mut composites = vec![none; chain.links.len()];
-    for (index, link) in chain.links.iter().enumerate().rev() {
-        let posture = &ways.postures[index];
-        let in_own_axes = own[index].plus(handed[index]);
-        composites[index] = turned(&in_own_axes, &posture.group_turn).plus(at_home[index]);
-        let Some(parent) = link.parent else { continue };
-        let composite = composites[index];
-        if ways.is_joined(index) {
-            let (constant, rest) = moved(&composite, ways.arm_at_home(index));
-            at_home[parent] = at_home[parent].plus(rest.plus(constant));
-        } else {
-            let outer = PseudoInertia {
-                second: link.rotation.forward_symmetric(composite.second),
-                first: link.rotation.forward(composite.first),
-                mass: composite.mass,
-            };
-            let (constant, rest) = moved(&outer, posture.origin);
-            // Constants first, so that they fold into the parent's own.
-            own[parent] = own[parent].plus(constant);
-            handed[parent] = handed[parent].plus(rest);
+    gather(ways, ways.chain.links.iter().map(|link| link.inertia).collect())
+}
+
+impl<'g> Inward<'g> for PseudoInertia<'g> {
+    fn zero(graph: &'g Graph) -> Self {
+        PseudoInertia::zero(graph)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        PseudoInertia::plus(*self, *other)
+    }
+
+    fn turned(&self, plane: &Plane<'g>) -> Self {
+        PseudoInertia {
+            second: plane.forward_symmetric(self.second),
+            first: plane.forward(self.first),
+            mass: self.mass,
         }
     }
-    composites
-}
 
-fn turned<'g>(inertia: &PseudoInertia<'g>, plane: &Plane<'g>) -> PseudoInertia<'g> {
-    PseudoInertia {
-        second: plane.forward_symmetric(inertia.second),
-        first: plane.forward(inertia.first),
-        mass: inertia.mass,
+    fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self {
+        PseudoInertia {
+            second: rotation.forward_symmetric(self.second),
+            first: rotation.forward(self.first),
+            mass: self.mass,
+        }
+    }
+
+    /// What the mass alone brings, and Σ + h pᵀ + p hᵀ with h.
+    fn moved(&self, arm: Vector<'g>) -> (Self, Self) {
+        let (Vector(h), Vector(p)) = (self.first, arm);
+        let shift = arm * self.mass;
+        let of_mass = PseudoInertia {
+            second: symmetric(|a, b| shift.0[a] * p[b]),
+            first: shift,
+            mass: self.mass,
+        };
+        let Matrix(s) = self.second;
+        let second = symmetric(|a, b| match a == b {
+            true => s[a][a] + h[a] * (p[a] * 2),
+            false => s[a][b] + (h[a] * p[b] + p[a] * h[b]),
+        });
+        let zero = self.mass.graph().zero();
+        (of_mass, PseudoInertia { second, first: self.first, mass: zero })
     }
 }
 
-/// The inertia about an origin from which its own lies at `arm`: what the mass alone brings, and
-/// the rest, Σ + h pᵀ + p hᵀ and h.
-fn moved<'g>(
-    inertia: &PseudoInertia<'g>,
-    arm: Vector<'g>,
-) -> (PseudoInertia<'g>, PseudoInertia<'g>) {
-    let (Vector(h), Vector(p)) = (inertia.first, arm);
-    let shift = arm * inertia.mass;
-    let mass = PseudoInertia {
-        second: symmetric(|a, b| shift.0[a] * p[b]),
-        first: shift,
-        mass: inertia.mass,
-    };
-    let Matrix(s) = inertia.second;
-    let second = symmetric(|a, b| match a == b {
-        true => s[a][a] + h[a] * (p[a] * 2),
-        false => s[a][b] + (h[a] * p[b] + p[a] * h[b]),
-    });
-    let zero = inertia.mass.graph().zero();
-    (mass, PseudoInertia { second, first: inertia.first, mass: zero })
+impl<'g> Inward<'g> for Wrench<'g> {
+    fn zero(graph: &'g Graph) -> Self {
+        Wrench::zero(graph)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Wrench::plus(self, other)
+    }
+
+    fn turned(&self, plane: &Plane<'g>) -> Self {
+        self.turned_forward(plane)
+    }
+
+    fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self {
+        Wrench { force: rotation.forward(self.force), moment: rotation.forward(self.moment) }
+    }
+
+    fn moved(&self, arm: Vector<'g>) -> (Self, Self) {
+        (Wrench::zero(arm.0[0].graph()), self.about(arm))
+    }
 }
 
-fn symmetric<'g>(entry: impl Fn(usize, usize) -> robot_symbolic::Expr<'g>) -> Matrix<'g> {
+fn symmetric<'g>(entry: impl Fn(usize, usize) -> Expr<'g>) -> Matrix<'g> {
     Matrix::from_fn(|a, b| entry(a.min(b), a.max(b)))
 }
 
-/// The wrench that a unit acceleration of a link's joint asks of all that the link carries, in the
-/// link's home axes: P ẑ.
-pub(crate) fn unit_wrench<'g>(
-    ways: &Ways<'_, 'g>,
-    link: usize,
-    composite: &PseudoInertia<'g>,
-) -> Wrench<'g> {
-    let zero = ways.chain.graph.zero();
-    let (Vector(h), Matrix(s)) = (composite.first, composite.second);
-    if ways.chain.links[link].is_revolute() {
-        // U = [z]×: F = U h, and the moment of r × U r over the body.
-        return Wrench {
-            force: Vector([-h[1], h[0], zero]),
-            moment: Vector([-s[0][2], -s[1][2], s[0][0] + s[1][1]]),
-        };
-    }
-    let per_metre = |vector: Vector<'g>| vector.map(|entry| entry / ways.chain.unit);
+/// The wrench that a body asks for to be accelerated by a twist, at rest: P A.
+pub(crate) fn inertial_wrench<'g>(inertia: &PseudoInertia<'g>, motion: &Twist<'g>) -> Wrench<'g> {
+    let Twist { angular, linear } = *motion;
+    let (first, Matrix(s)) = (inertia.first, inertia.second);
+    // (tr(Σ) 1 − Σ) ε
+    let turning = Vector([0, 1, 2].map(|k| {
+        let (p, q) = ((k + 1) % 3, (k + 2) % 3);
+        let across = s[k][p] * angular.0[p] + s[k][q] * angular.0[q];
+        (s[p][p] + s[q][q]) * angular.0[k] - across
+    }));
     Wrench {
-        force: per_metre(Vector([zero, zero, composite.mass])),
-        moment: per_metre(Vector([h[1], -h[0], zero])),
+        force: angular.cross(first) + linear * inertia.mass,
+        moment: turning + first.cross(linear),
     }
 }

@@ -3,6 +3,7 @@
 use robot_symbolic::Expr;
 
 use super::chain::Chain;
+use super::composite::composites;
 use super::plan::LinkPlan;
 use super::spatial::Ways;
 use crate::vector::Vector;
@@ -12,7 +13,7 @@ use crate::vector::Vector;
 /// Only first moments are summed toward the base: the weight acts on each joint as if in one point.
 pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>> {
     let ways = Ways::new(chain, |index| plans[index].composite_sum);
-    let moments = first_moments(&ways);
+    let composites = composites(&ways);
     // The acceleration with which the base would have to rise, in each link's own and home axes.
     let mut rising: Vec<Vector<'g>> = vec![];
     let mut home: Vec<Vector<'g>> = vec![];
@@ -25,7 +26,7 @@ pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>
         };
         home.push(at_home);
         rising.push(ways.postures[index].group_turn.back(at_home));
-        let (mass, first) = moments[index];
+        let (mass, first) = (composites[index].mass, composites[index].first);
         let torque = if link.is_revolute() {
             first.cross(at_home).0[2]
         } else {
@@ -40,37 +41,12 @@ pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>
 pub(crate) fn weight_in_base<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Expr<'g> {
     let ways = Ways::new(chain, |index| plans[index].composite_sum);
     let mut energy = -(chain.gravity.dot(chain.fixed_moment));
-    for (index, (mass, first)) in first_moments(&ways).into_iter().enumerate() {
-        let link = &chain.links[index];
+    for (index, composite) in composites(&ways).into_iter().enumerate() {
+        let (link, mass, first) = (&chain.links[index], composite.mass, composite.first);
         if link.parent.is_none() {
             let first = link.rotation.forward(first) + ways.postures[index].origin * mass;
             energy -= chain.gravity.dot(first);
         }
     }
     energy
-}
-
-/// Mass and first moment of every link with all that it carries, in its home axes.
-fn first_moments<'g>(ways: &Ways<'_, 'g>) -> Vec<(Expr<'g>, Vector<'g>)> {
-    let chain = ways.chain;
-    let zero = Vector::zero(chain.graph);
-    let mut masses: Vec<_> = chain.links.iter().map(|link| link.inertia.mass).collect();
-    let mut own: Vec<_> = chain.links.iter().map(|link| link.inertia.first).collect();
-    let mut handed = vec![zero; chain.links.len()];
-    let mut at_home = vec![zero; chain.links.len()];
-    let mut moments = vec![(chain.graph.zero(), zero); chain.links.len()];
-    for (index, link) in chain.links.iter().enumerate().rev() {
-        let turned = ways.postures[index].group_turn.forward(own[index] + handed[index]);
-        let (mass, first) = (masses[index], turned + at_home[index]);
-        moments[index] = (mass, first);
-        let Some(parent) = link.parent else { continue };
-        masses[parent] += mass;
-        if ways.is_joined(index) {
-            at_home[parent] = at_home[parent] + (first + ways.arm_at_home(index) * mass);
-        } else {
-            own[parent] = own[parent] + ways.postures[index].origin * mass;
-            handed[parent] = handed[parent] + link.rotation.forward(first);
-        }
-    }
-    moments
 }

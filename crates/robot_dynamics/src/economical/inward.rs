@@ -71,7 +71,7 @@ pub(crate) fn inward<'g>(
 }
 
 /// What a link's own inertia asks for: F = m a + U h, and the moment about its origin.
-fn own_wrench<'g>(
+pub(crate) fn own_wrench<'g>(
     chain: &Chain<'g>,
     index: usize,
     state: &LinkState<'g>,

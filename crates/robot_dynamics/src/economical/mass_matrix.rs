@@ -1,11 +1,10 @@
 //! The mass matrix by composite inertias.
 
-use robot_symbolic::Expr;
-
 use super::chain::Chain;
-use super::composite::{composites, unit_wrench};
-use super::plan::{LinkPlan, Place};
-use super::spatial::{Ways, Wrench};
+use super::composite::{composites, inertial_wrench};
+use super::encounter::{Traveller, encounters};
+use super::plan::LinkPlan;
+use super::spatial::Ways;
 use crate::matrix::SymmetricMatrix;
 
 /// M(q), drives included.
@@ -20,8 +19,13 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
     let composites = composites(&ways);
     let mut matrix = SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom);
     for (index, link) in chain.links.iter().enumerate() {
-        let wrench = unit_wrench(&ways, index, &composites[index]);
-        for (other, element) in elements(&ways, index, wrench, plans[index].meeting) {
+        let wrench = inertial_wrench(&composites[index], &ways.joint_twist(index));
+        let mut traveller = Traveller::from_home(index, wrench);
+        for encounter in encounters(&ways, index, plans[index].meeting) {
+            traveller.go_to(&ways, encounter.place);
+            let other = encounter.inner;
+            let motion = encounter.twist(&ways, &ways.joint_twist(other));
+            let element = motion.dot(&traveller.load);
             let inner = &chain.links[other];
             let coupled = element * link.ratio * inner.ratio;
             // Joints of one coordinate meet on its diagonal twice, in either order.
@@ -33,40 +37,4 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
         matrix.add(link.coordinate, link.coordinate, reflected);
     }
     matrix
-}
-
-/// The power of a link's wrench for unit rates of its own joint and of all inward of it.
-fn elements<'g>(
-    ways: &Ways<'_, 'g>,
-    link: usize,
-    wrench: Wrench<'g>,
-    meeting: Option<Place>,
-) -> Vec<(usize, Expr<'g>)> {
-    let mut place = Place { link, turned: false };
-    let mut wrench = wrench;
-    let mut elements = vec![(link, ways.project(link, &wrench))];
-    // The wrench goes inward to the meeting place …
-    while Some(place) != meeting
-        && let Some(next) = ways.inward(place)
-    {
-        wrench = ways.wrench_inward(place, &wrench);
-        if next.link != place.link {
-            elements.push((next.link, ways.project(next.link, &wrench)));
-        }
-        place = next;
-    }
-    // … and the motions of the joints inward of it come outward.
-    let mut route = vec![place];
-    while let Some(next) = ways.inward(place) {
-        if next.link != place.link {
-            let mut twist = ways.joint_twist(next.link);
-            for step in route.iter().rev() {
-                twist = ways.twist_outward(*step, &twist);
-            }
-            elements.push((next.link, twist.dot(&wrench)));
-        }
-        route.push(next);
-        place = next;
-    }
-    elements
 }

@@ -11,6 +11,8 @@
 
 mod chain;
 mod composite;
+mod derivatives;
+mod encounter;
 mod energy;
 mod frames;
 mod gravity;
@@ -18,6 +20,7 @@ mod inertia;
 mod inward;
 mod kinematics;
 mod mass_matrix;
+mod momentum;
 mod outward;
 pub mod plan;
 mod posture;
@@ -31,6 +34,7 @@ use crate::matrix::SymmetricMatrix;
 use crate::mechanism::Mechanism;
 use crate::vector::Vector;
 use chain::{Base, Chain};
+pub use derivatives::TorqueDerivatives;
 use inward::TipWrench;
 pub use kinematics::Pose;
 use outward::{Accelerations, LinkState};

@@ -59,6 +59,23 @@ impl<'g> Plane<'g> {
         Matrix(turned)
     }
 
+    /// Any tensor in turned components to unturned ones: R T Rᵀ.
+    pub(crate) fn forward_tensor(&self, Matrix(t): Matrix<'g>) -> Matrix<'g> {
+        let (i, j) = self.axes;
+        let k = 3 - i - j;
+        let (sine, cosine) = (self.sine, self.cosine);
+        let u = cosine * (t[i][i] - t[j][j]) - sine * (t[i][j] + t[j][i]);
+        let first = t[j][j] + cosine * u;
+        let mut turned = t;
+        // The trace and the skew part do not change.
+        (turned[i][i], turned[j][j]) = (first, (t[i][i] + t[j][j]) - first);
+        (turned[i][j], turned[j][i]) = (t[i][j] + sine * u, t[j][i] + sine * u);
+        let turn = |a, b| (cosine * a - sine * b, sine * a + cosine * b);
+        (turned[i][k], turned[j][k]) = turn(t[i][k], t[j][k]);
+        (turned[k][i], turned[k][j]) = turn(t[k][i], t[k][j]);
+        Matrix(turned)
+    }
+
     /// Unturned components to turned ones: Rᵀ v.
     pub(crate) fn back(&self, mut vector: Vector<'g>) -> Vector<'g> {
         let (i, j) = self.axes;
@@ -138,6 +155,16 @@ impl<'g> ConstantRotation<'g> {
         match &self.before {
             Before::Planes(planes) => {
                 planes.iter().rev().fold(tensor, |t, plane| plane.forward_symmetric(t))
+            }
+            Before::Full(matrix) => **matrix * tensor * matrix.transpose(),
+        }
+    }
+
+    /// Any tensor in components before the last turn to parent components.
+    pub(crate) fn forward_tensor(&self, tensor: Matrix<'g>) -> Matrix<'g> {
+        match &self.before {
+            Before::Planes(planes) => {
+                planes.iter().rev().fold(tensor, |t, plane| plane.forward_tensor(t))
             }
             Before::Full(matrix) => **matrix * tensor * matrix.transpose(),
         }

@@ -1,6 +1,6 @@
 //! Twists and wrenches about the origins of working frames, and their way from frame to frame.
 
-use robot_symbolic::Expr;
+use robot_symbolic::{Expr, Graph};
 
 use super::chain::Chain;
 use super::plan::Place;
@@ -40,11 +40,28 @@ impl<'g> Twist<'g> {
 
 impl<'g> Wrench<'g> {
     /// The same wrench about an origin from which its own lies at `arm`.
-    fn about(self, arm: Vector<'g>) -> Wrench<'g> {
+    pub(crate) fn about(self, arm: Vector<'g>) -> Wrench<'g> {
         Wrench { moment: self.moment + arm.cross(self.force), ..self }
     }
 
-    fn turned_forward(&self, plane: &Plane<'g>) -> Wrench<'g> {
+    pub(crate) fn zero(graph: &'g Graph) -> Wrench<'g> {
+        Wrench { force: Vector::zero(graph), moment: Vector::zero(graph) }
+    }
+
+    pub(crate) fn plus(&self, other: &Wrench<'g>) -> Wrench<'g> {
+        Wrench { force: self.force + other.force, moment: self.moment + other.moment }
+    }
+
+    /// The rate of a wrench that moves with a body: Z ×* W.
+    pub(crate) fn carried_by(&self, motion: &Twist<'g>) -> Wrench<'g> {
+        let Twist { angular, linear } = *motion;
+        Wrench {
+            force: angular.cross(self.force),
+            moment: angular.cross(self.moment) + linear.cross(self.force),
+        }
+    }
+
+    pub(crate) fn turned_forward(&self, plane: &Plane<'g>) -> Wrench<'g> {
         Wrench { force: plane.forward(self.force), moment: plane.forward(self.moment) }
     }
 }
@@ -67,6 +84,16 @@ impl<'c, 'g> Ways<'c, 'g> {
     /// Whether the link shares its parent's home axes.
     pub(crate) fn is_joined(&self, link: usize) -> bool {
         self.postures[link].group != link
+    }
+
+    /// Components in the parent's own axes (the base's) to components in the link's home axes.
+    pub(crate) fn parent_to_home(&self, link: usize, vector: Vector<'g>) -> Vector<'g> {
+        match self.chain.links[link].parent {
+            Some(parent) if self.is_joined(link) => {
+                self.postures[parent].group_turn.forward(vector)
+            }
+            _ => self.chain.links[link].rotation.back(vector),
+        }
     }
 
     /// The origin of a joined link from its parent's, in their home axes.
@@ -103,6 +130,18 @@ impl<'c, 'g> Ways<'c, 'g> {
         turned.about(posture.origin)
     }
 
+    /// A vector's components at `place`, at the next place inward.
+    pub(crate) fn vector_inward(&self, place: Place, vector: Vector<'g>) -> Vector<'g> {
+        let (link, posture) = (&self.chain.links[place.link], &self.postures[place.link]);
+        if place.turned {
+            posture.group_turn.forward(vector)
+        } else if self.is_joined(place.link) {
+            vector
+        } else {
+            link.rotation.forward(vector)
+        }
+    }
+
     /// A twist at the place inward of `place`, at `place`.
     pub(crate) fn twist_outward(&self, place: Place, twist: &Twist<'g>) -> Twist<'g> {
         let (link, posture) = (&self.chain.links[place.link], &self.postures[place.link]);
@@ -128,14 +167,5 @@ impl<'c, 'g> Ways<'c, 'g> {
             if link.is_revolute() { (one, zero) } else { (zero, one / self.chain.unit) };
         let along = |length| Vector([zero, zero, length]);
         Twist { angular: along(angular), linear: along(linear) }
-    }
-
-    /// The power of a wrench at a link's home or own axes for a unit rate of the link's joint.
-    pub(crate) fn project(&self, link: usize, wrench: &Wrench<'g>) -> Expr<'g> {
-        if self.chain.links[link].is_revolute() {
-            wrench.moment.0[2]
-        } else {
-            wrench.force.0[2] / self.chain.unit
-        }
     }
 }

@@ -35,10 +35,9 @@ pub(super) fn forward_dynamics<'g>(
     )
 }
 
-fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
-    let graph = derivation.mechanism.graph;
-    let numbers = 1..=derivation.mechanism.degrees_of_freedom;
-    let tau: Vec<Expr<'g>> = numbers.map(|number| graph.symbol(&format!("tau{number}"))).collect();
+/// q̈ for the symbols τ.
+pub(super) fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
+    let tau = derivation.coordinate_symbols("tau");
     if let Some(recursion) = &derivation.recursion {
         return recursion.forward_dynamics(&tau, wrench);
     }

@@ -66,14 +66,14 @@ pub(super) fn jacobian<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Vec
 /// J̇ q̇: the rate of J q̇ at constant q̇.
 pub(super) fn jacobian_dot_qd<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Vec<Expr<'g>> {
     let graph = derivation.mechanism.graph;
-    let rates: Vec<Expr<'g>> = symbols(derivation, "qd");
+    let rates = derivation.coordinate_symbols("qd");
     let rows = jacobian(derivation, frame);
     let twist: Vec<Expr<'g>> = rows
         .iter()
         .map(|row| row.iter().zip(&rates).fold(graph.zero(), |sum, (j, qd)| sum + *j * *qd))
         .collect();
     let mut drift = vec![graph.zero(); twist.len()];
-    for (q, qd) in symbols(derivation, "q").into_iter().zip(&rates) {
+    for (q, qd) in derivation.coordinate_symbols("q").into_iter().zip(&rates) {
         for (sum, slope) in drift.iter_mut().zip(walk::derivatives(&twist, q)) {
             *sum += slope * *qd;
         }
@@ -86,7 +86,7 @@ pub(super) fn kinetic_energy<'g>(
     derivation: &Derivation<'_, 'g>,
     matrix: &SymmetricMatrix<'g>,
 ) -> Expr<'g> {
-    let rates = symbols(derivation, "qd");
+    let rates = derivation.coordinate_symbols("qd");
     let mut twice = derivation.mechanism.graph.zero();
     for (row, rate) in rates.iter().enumerate() {
         for (column, other) in rates.iter().enumerate() {
@@ -105,11 +105,4 @@ pub(super) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> 
         energy -= link.mass * mechanism.gravity.dot(centre);
     }
     energy
-}
-
-/// The symbols `q1`, `q2` … of a prefix.
-fn symbols<'g>(derivation: &Derivation<'_, 'g>, prefix: &str) -> Vec<Expr<'g>> {
-    let mechanism = &derivation.mechanism;
-    let numbers = 1..=mechanism.degrees_of_freedom;
-    numbers.map(|number| mechanism.graph.symbol(&format!("{prefix}{number}"))).collect()
 }

@@ -1,8 +1,10 @@
 //! The cheapest plan for the functions that are wanted.
 
+use robot_symbolic::Expr;
+
 use super::{Derivation, FunctionKind};
-use crate::economical::Recursion;
 use crate::economical::search::{self, Found, Objective, Scope};
+use crate::economical::{Recursion, TorqueDerivatives};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::model::Robot;
 
@@ -34,9 +36,14 @@ fn objective<'g>(
 ) -> Objective<'g> {
     let derivation =
         Derivation { robot, mechanism: mechanism.clone(), recursion: Some(recursion.clone()) };
-    let values = |kind: FunctionKind| {
+    let values = |kind: FunctionKind| -> Vec<Expr<'g>> {
+        if kind == FunctionKind::InverseDynamicsDerivatives {
+            // The other ways to them are tried once, when the plan is found.
+            let TorqueDerivatives { positions, velocities } = recursion.torque_derivatives();
+            return [positions.rows(), velocities.rows()].concat();
+        }
         let functions = derivation.functions(kind).into_iter();
-        functions.flat_map(|function| function.outputs).flat_map(|output| output.values)
+        functions.flat_map(|function| function.outputs).flat_map(|output| output.values).collect()
     };
     Objective::of(kinds.iter().copied().flat_map(values).collect())
 }
@@ -55,12 +62,23 @@ impl FunctionKind {
 
     /// Whether composite inertias are part of the function.
     fn uses_composites(self) -> bool {
-        matches!(self, FunctionKind::MassMatrix | FunctionKind::Gravity | FunctionKind::Energies)
-            || self.chooses_accelerations()
+        matches!(
+            self,
+            FunctionKind::MassMatrix
+                | FunctionKind::Gravity
+                | FunctionKind::Energies
+                | FunctionKind::CoriolisMatrix
+                | FunctionKind::InverseDynamicsDerivatives
+        ) || self.chooses_accelerations()
     }
 
     /// Whether the function is free to choose the accelerations of its bias.
     fn chooses_accelerations(self) -> bool {
-        matches!(self, FunctionKind::ForwardDynamics | FunctionKind::ForwardDynamicsWrench)
+        matches!(
+            self,
+            FunctionKind::ForwardDynamics
+                | FunctionKind::ForwardDynamicsWrench
+                | FunctionKind::ForwardDynamicsDerivatives
+        )
     }
 }

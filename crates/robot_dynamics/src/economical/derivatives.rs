@@ -1,0 +1,299 @@
+//! Derivatives of the driving forces by positions and velocities, and the Coriolis matrix, by
+//! composite quantities.
+//!
+//! Write a joint's unit motion as the 4 × 4 matrix Ẑ, a link's motion as V, its pseudo-inertia as P
+//! and ⟨Ẑ, N⟩ for the power of the forces N = ∫ a rᵀ dm. With Ẏ = \[V, Ẑ\], the rate of Ẑ, and
+//! X = \[A', Ẑ\] − 2 Ẏ V', all about the joint and before its own motion, a joint j shifts the
+//! accelerations of all links k that it carries by (X + 2 Ẏ V_k) dq_j and by
+//! (2 Ẏ + 2 Ẑ V_k) dq̇_j. Both X and Ẏ are twists. Summed over the links that a joint carries,
+//! P and B = Σ V P are all that is needed:
+//!
+//! - ∂τᵢ/∂qⱼ = ⟨Ẑᵢ, X P + 2 Ẏ B⟩ and ∂τᵢ/∂q̇ⱼ = ⟨Ẑᵢ, 2 Ẏ P + 2 Ẑⱼ B⟩ with the composites of the
+//!   outer of both joints;
+//! - where j is the outer one, its whole wrench W turns along as well: + Ẑⱼ ×* W.
+//!
+//! The Christoffel form of the Coriolis matrix is half of ∂τ/∂q̇.
+
+use robot_symbolic::Expr;
+
+use super::Recursion;
+use super::chain::Chain;
+use super::composite::{composites, gather, inertial_wrench};
+use super::encounter::{GoesInward, Traveller, encounters};
+use super::inertia::PseudoInertia;
+use super::inward::own_wrench;
+use super::momentum::Momentum;
+use super::outward::{self, Accelerations, LinkState};
+use super::plan::Place;
+use super::spatial::{Twist, Ways, Wrench};
+use crate::matrix::SquareMatrix;
+use crate::vector::Vector;
+
+/// ∂τ/∂q and ∂τ/∂q̇.
+#[derive(Clone, Debug)]
+pub struct TorqueDerivatives<'g> {
+    /// ∂τᵢ/∂qⱼ in row i and column j.
+    pub positions: SquareMatrix<'g>,
+    /// ∂τᵢ/∂q̇ⱼ in row i and column j.
+    pub velocities: SquareMatrix<'g>,
+}
+
+impl<'g> Recursion<'g> {
+    /// The derivatives of the driving forces at the accelerations q̈.
+    #[must_use]
+    pub fn torque_derivatives(&self) -> TorqueDerivatives<'g> {
+        self.torque_derivatives_of(&self.chain)
+    }
+
+    /// The derivatives at other accelerations than the symbols q̈, one per coordinate.
+    #[must_use]
+    pub fn torque_derivatives_at(&self, accelerations: &[Expr<'g>]) -> TorqueDerivatives<'g> {
+        let mut chain = self.chain.clone();
+        for link in &mut chain.links {
+            let unit = if link.is_revolute() { chain.graph.one() } else { chain.unit };
+            link.motion[2] = accelerations[link.coordinate] * link.ratio / unit;
+        }
+        self.torque_derivatives_of(&chain)
+    }
+
+    fn torque_derivatives_of(&self, chain: &Chain<'g>) -> TorqueDerivatives<'g> {
+        let states = outward::outward(chain, &self.plans, Accelerations::Given);
+        let ways = Ways::new(chain, |index| self.plans[index].composite_sum);
+        let motions = Motions::new(&ways, &states, chain.graph.integer(2));
+        let wrenches = {
+            let own = states.iter().enumerate().map(|(index, state)| {
+                let (force, moment) = own_wrench(chain, index, state, &self.plans[index]);
+                Wrench { force, moment }
+            });
+            gather(&ways, own.collect())
+        };
+        let shares = Shares::new(&ways, &motions);
+        let n = chain.degrees_of_freedom;
+        let mut positions = SquareMatrix::zero(chain.graph, n);
+        let mut velocities = SquareMatrix::zero(chain.graph, n);
+        self.each_pair(&ways, &motions, &shares, &mut velocities);
+        for (index, link) in chain.links.iter().enumerate() {
+            let load = shares.of_position(&ways, &motions, index, &wrenches[index]);
+            let mut traveller = Traveller::from_home(index, load);
+            for encounter in encounters(&ways, index, self.plans[index].meeting) {
+                traveller.go_to(&ways, encounter.place);
+                let inner = &chain.links[encounter.inner];
+                let factor = link.ratio * inner.ratio;
+                let load = &traveller.load;
+                let motion = &motions.links[encounter.inner];
+                let unit = encounter.twist(&ways, &motion.unit);
+                let inward = unit.dot(&load.stirred) * factor;
+                positions.add(inner.coordinate, link.coordinate, inward);
+                if encounter.inner != index {
+                    let shift = encounter.twist(&ways, &motion.shift);
+                    let turning = encounter.twist(&ways, &motion.turning);
+                    let outward = shift.dot(&load.unit) + turning.angular.dot(load.felt);
+                    positions.add(link.coordinate, inner.coordinate, outward * factor);
+                }
+            }
+        }
+        TorqueDerivatives { positions, velocities }
+    }
+
+    /// C(q, q̇) by Christoffel symbols: C q̇ is what velocities ask for, and Ṁ − 2 C is skew.
+    #[must_use]
+    pub fn coriolis_matrix(&self) -> SquareMatrix<'g> {
+        let mut chain = self.chain.clone();
+        for link in &mut chain.links {
+            link.motion[2] = chain.graph.zero();
+        }
+        let states = outward::outward(&chain, &self.plans, Accelerations::Given);
+        let ways = Ways::new(&chain, |index| self.plans[index].composite_sum);
+        let motions = Motions::new(&ways, &states, chain.graph.one());
+        let shares = Shares::new(&ways, &motions);
+        let mut matrix = SquareMatrix::zero(chain.graph, chain.degrees_of_freedom);
+        self.each_pair(&ways, &motions, &shares, &mut matrix);
+        matrix
+    }
+
+    /// Adds ⟨Ẑᵢ, Ẏ P + Ẑⱼ B⟩ for all pairs of joints, times the factor of the motions.
+    fn each_pair(
+        &self,
+        ways: &Ways<'_, 'g>,
+        motions: &Motions<'g>,
+        shares: &Shares<'g>,
+        matrix: &mut SquareMatrix<'g>,
+    ) {
+        let links = &ways.chain.links;
+        for (index, link) in links.iter().enumerate() {
+            let load = shares.of_velocity(ways, motions, index);
+            let mut traveller = Traveller::from_home(index, load);
+            for encounter in encounters(ways, index, self.plans[index].meeting) {
+                traveller.go_to(ways, encounter.place);
+                let inner = &links[encounter.inner];
+                let factor = link.ratio * inner.ratio;
+                let load = &traveller.load;
+                let motion = &motions.links[encounter.inner];
+                let unit = encounter.twist(ways, &motion.unit);
+                let inward = unit.dot(&load.stirred) * factor;
+                matrix.add(inner.coordinate, link.coordinate, inward);
+                if encounter.inner != index {
+                    let rate = encounter.twist(ways, &motion.rate);
+                    let outward = rate.dot(&load.unit) + unit.angular.dot(load.felt);
+                    matrix.add(link.coordinate, inner.coordinate, outward * factor);
+                }
+            }
+        }
+    }
+}
+
+/// The motions of a joint in its link's home axes, before its own motion.
+#[derive(Clone, Copy, Debug)]
+struct JointMotion<'g> {
+    /// Z: the motion for a unit rate.
+    unit: Twist<'g>,
+    /// Y = \[V, Z\], times the factor of the motions.
+    rate: Twist<'g>,
+    /// The angular part of Y itself.
+    turning: Twist<'g>,
+    /// X.
+    shift: Twist<'g>,
+}
+
+/// The motions of all joints and links.
+struct Motions<'g> {
+    links: Vec<JointMotion<'g>>,
+    /// V of the links, in own axes, times the factor.
+    twists: Vec<Twist<'g>>,
+}
+
+impl<'g> Motions<'g> {
+    /// `factor` is 1 or 2: V and Y come in pairs of equal terms in the derivatives, and doubling
+    /// them once is cheaper than doubling what they make.
+    fn new(ways: &Ways<'_, 'g>, states: &[LinkState<'g>], factor: Expr<'g>) -> Motions<'g> {
+        let chain = ways.chain;
+        let zero = Vector::zero(chain.graph);
+        let (mut links, mut twists): (Vec<JointMotion<'g>>, Vec<Twist<'g>>) = (vec![], vec![]);
+        for (index, link) in chain.links.iter().enumerate() {
+            let posture = &ways.postures[index];
+            let home = |vector| ways.parent_to_home(index, vector);
+            let at_rest = Twist { angular: zero, linear: zero };
+            let carrier = link.parent.map_or(at_rest, |parent| twists[parent]);
+            let carried = carrier.linear + carrier.angular.cross(posture.origin);
+            let (omega, column, acceleration) = match link.parent {
+                Some(parent) => {
+                    let state = &states[parent];
+                    let acceleration = state.acceleration + state.tensor * posture.origin;
+                    (state.angular_velocity, state.tensor * link.axis, acceleration)
+                }
+                None => (zero, zero, -chain.gravity),
+            };
+            let unit = ways.joint_twist(index);
+            links.push(JointMotion::new(
+                &unit,
+                factor,
+                home(omega),
+                home(carried),
+                home(column),
+                home(acceleration),
+            ));
+            let mut velocity = posture.turn.back(link.rotation.back(carried));
+            if !link.is_revolute() {
+                velocity.0[2] += link.motion[1] * factor;
+            }
+            let angular = states[index].angular_velocity * factor;
+            twists.push(Twist { angular, linear: velocity });
+        }
+        Motions { links, twists }
+    }
+}
+
+impl<'g> JointMotion<'g> {
+    /// From the parent's angular velocity ω, the velocity of the link's origin as a point of the
+    /// parent times the factor, U z, and the acceleration of the link's origin.
+    fn new(
+        unit: &Twist<'g>,
+        factor: Expr<'g>,
+        omega: Vector<'g>,
+        velocity: Vector<'g>,
+        column: Vector<'g>,
+        acceleration: Vector<'g>,
+    ) -> JointMotion<'g> {
+        let zero = Vector::zero(omega.0[0].graph());
+        let turning = Twist { angular: omega.cross(unit.angular), linear: zero };
+        // \[V, Z\] = (ω × z, ω × z_v + v × z)
+        let rate = Twist {
+            angular: turning.angular * factor,
+            linear: omega.cross(unit.linear) * factor + velocity.cross(unit.angular),
+        };
+        // Of a rotation (U z, a × z + 2 v × (ω × z)), of a translation (0, U z).
+        let shift = if unit.angular.is_zero() {
+            Twist { angular: zero, linear: column * unit.linear.0[2] }
+        } else {
+            Twist {
+                angular: column,
+                linear: acceleration.cross(unit.angular) + velocity.cross(turning.angular),
+            }
+        };
+        JointMotion { unit: *unit, rate, turning, shift }
+    }
+}
+
+/// P and B of every link with all that it carries, in home axes; B times the factor of the motions.
+struct Shares<'g> {
+    inertias: Vec<PseudoInertia<'g>>,
+    momenta: Vec<Momentum<'g>>,
+}
+
+/// What an outer joint sends to meet the inner joints.
+#[derive(Clone, Copy, Debug)]
+struct Load<'g> {
+    /// P Z of the outer joint.
+    unit: Wrench<'g>,
+    /// What the outer joint feels of the inner joint's turning, by B.
+    felt: Vector<'g>,
+    /// What the outer joint's own motion stirs up.
+    stirred: Wrench<'g>,
+}
+
+impl<'g> GoesInward<'g> for Load<'g> {
+    fn inward(&self, ways: &Ways<'_, 'g>, place: Place) -> Self {
+        Load {
+            unit: ways.wrench_inward(place, &self.unit),
+            felt: ways.vector_inward(place, self.felt),
+            stirred: ways.wrench_inward(place, &self.stirred),
+        }
+    }
+}
+
+impl<'g> Shares<'g> {
+    fn new(ways: &Ways<'_, 'g>, motions: &Motions<'g>) -> Shares<'g> {
+        let links = ways.chain.links.iter().zip(&motions.twists);
+        let own = links.map(|(link, twist)| Momentum::of_link(twist, &link.inertia)).collect();
+        Shares { inertias: composites(ways), momenta: gather(ways, own) }
+    }
+
+    fn of_velocity(&self, ways: &Ways<'_, 'g>, motions: &Motions<'g>, index: usize) -> Load<'g> {
+        let (motion, momentum) = (&motions.links[index], &self.momenta[index]);
+        let by_rate = inertial_wrench(&self.inertias[index], &motion.rate);
+        Load { stirred: by_rate.plus(&momentum.stirred(&motion.unit)), ..self.common(ways, index) }
+    }
+
+    fn of_position(
+        &self,
+        ways: &Ways<'_, 'g>,
+        motions: &Motions<'g>,
+        index: usize,
+        whole: &Wrench<'g>,
+    ) -> Load<'g> {
+        let (motion, momentum) = (&motions.links[index], &self.momenta[index]);
+        let by_shift = inertial_wrench(&self.inertias[index], &motion.shift);
+        let by_turning = momentum.stirred(&motion.turning);
+        let along = whole.carried_by(&motion.unit);
+        Load { stirred: along.plus(&by_shift.plus(&by_turning)), ..self.common(ways, index) }
+    }
+
+    fn common(&self, ways: &Ways<'_, 'g>, index: usize) -> Load<'g> {
+        let unit = ways.joint_twist(index);
+        Load {
+            unit: inertial_wrench(&self.inertias[index], &unit),
+            felt: self.momenta[index].felt(&unit),
+            stirred: Wrench::zero(ways.chain.graph),
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The Coriolis matrix.
+
+use robot_symbolic::{Expr, differentiate};
+
+use super::{Derivation, Function, FunctionKind, Output};
+use crate::matrix::SquareMatrix;
+
+/// C(q, q̇) by Christoffel symbols.
+pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let matrix = match &derivation.recursion {
+        Some(recursion) => recursion.coriolis_matrix(),
+        None => half_velocity_slopes(derivation),
+    };
+    let output = Output::new(
+        "coriolis_matrix",
+        "The Coriolis matrix, row by row",
+        &derivation.matrix_unit("kg m²/s", "kg m/s", "kg/s"),
+        vec![matrix.order(), matrix.order()],
+        matrix.rows(),
+    );
+    derivation.of_kind(
+        FunctionKind::CoriolisMatrix,
+        &["The Coriolis matrix C(q, q̇) by the Christoffel symbols of the mass matrix: C q̇ is what \
+           Coriolis and centrifugal effects ask for, Ṁ = C + Cᵀ, and Ṁ − 2 C is skew."],
+        derivation.coordinate_inputs(["q", "qd"]),
+        vec![output],
+    )
+}
+
+/// ½ ∂τ/∂q̇, for C q̇ is a quadratic form in q̇ with the Christoffel symbols for coefficients.
+fn half_velocity_slopes<'g>(derivation: &Derivation<'_, 'g>) -> SquareMatrix<'g> {
+    let bias = derivation.paper_torques(false, &["qdd"]);
+    let slopes = differentiate::forward(&bias, &derivation.coordinate_symbols("qd"));
+    let halves: Vec<Expr<'g>> = slopes.into_iter().flatten().map(|slope| slope / 2).collect();
+    SquareMatrix::from_rows(halves, bias.len())
+}

@@ -1,0 +1,130 @@
+//! Derivatives of inverse and forward dynamics.
+
+use robot_symbolic::{Expr, differentiate, walk};
+
+use super::{Derivation, Function, FunctionKind, Output, forward_dynamics, mass_matrix};
+use crate::economical::TorqueDerivatives;
+use crate::matrix::SquareMatrix;
+
+/// ∂Q/∂q and ∂Q/∂q̇.
+pub(super) fn inverse_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let TorqueDerivatives { positions, velocities } = cheapest(derivation);
+    let output = |name, doc, per, matrix: SquareMatrix<'g>| {
+        matrix_output(name, doc, &format!("the unit of tau per {per}"), &matrix)
+    };
+    derivation.of_kind(
+        FunctionKind::InverseDynamicsDerivatives,
+        &["The derivatives of inverse dynamics without friction and wrenches: the entry in row i \
+             and column j is that of the driving force i by the position or velocity j, exact. The \
+             derivative by the accelerations is the mass matrix."],
+        derivation.coordinate_inputs(["q", "qd", "qdd"]),
+        vec![
+            output("dtau_dq", "∂τ/∂q, row by row", "rad or m", positions),
+            output("dtau_dqd", "∂τ/∂q̇, row by row", "rad/s or m/s", velocities),
+        ],
+    )
+}
+
+fn matrix_output<'g>(name: &str, doc: &str, unit: &str, matrix: &SquareMatrix<'g>) -> Output<'g> {
+    Output::new(name, doc, unit, vec![matrix.order(), matrix.order()], matrix.rows())
+}
+
+/// The derivatives by composite quantities, or by forward or reverse differentiation of the
+/// torques, whichever needs the fewest operations.
+fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
+    let (torques, composite) = match &derivation.recursion {
+        Some(recursion) => {
+            (recursion.inverse_dynamics(false), Some(recursion.torque_derivatives()))
+        }
+        None => (derivation.paper_torques(false, &[]), None),
+    };
+    let symbols: Vec<Expr<'g>> =
+        ["q", "qd"].iter().flat_map(|name| derivation.coordinate_symbols(name)).collect();
+    let order = torques.len();
+    let split = |rows: Vec<Vec<Expr<'g>>>| {
+        let part = |skip: usize| {
+            let entries = rows.iter().flat_map(|row| row.iter().skip(skip).take(order).copied());
+            SquareMatrix::from_rows(entries.collect(), order)
+        };
+        TorqueDerivatives { positions: part(0), velocities: part(order) }
+    };
+    let by_forward = split(differentiate::forward(&torques, &symbols));
+    let cost = |derivatives: &TorqueDerivatives<'g>| {
+        let roots = [derivatives.positions.rows(), derivatives.velocities.rows()].concat();
+        derivation.operations(&roots).flops()
+    };
+    let mut best = (cost(&by_forward), by_forward);
+    let others = [Some(split(differentiate::reverse(&torques, &symbols))), composite];
+    for other in others.into_iter().flatten() {
+        let operations = cost(&other);
+        if operations <= best.0 {
+            best = (operations, other);
+        }
+    }
+    best.1
+}
+
+/// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
+pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let accelerations = forward_dynamics::accelerations(derivation, false);
+    let torques = match &derivation.recursion {
+        Some(recursion) => recursion.torque_derivatives_at(&accelerations),
+        None => at(derivation, cheapest(derivation), &accelerations),
+    };
+    let graph = derivation.mechanism.graph;
+    let matrix = mass_matrix::matrix(derivation);
+    let order = matrix.order();
+    let columns = |column: &dyn Fn(usize) -> Vec<Expr<'g>>| {
+        let mut solved = SquareMatrix::zero(graph, order);
+        for index in 0..order {
+            for (row, entry) in matrix.clone().solve(column(index)).into_iter().enumerate() {
+                solved.add(row, index, entry);
+            }
+        }
+        solved
+    };
+    let negative = |matrix: &SquareMatrix<'g>, column| {
+        matrix.column(column).into_iter().map(|entry| -entry).collect()
+    };
+    let unit = |column: usize| {
+        (0..order).map(|row| graph.integer(i64::from(row == column))).collect::<Vec<_>>()
+    };
+    let output = |name, doc, per, matrix: SquareMatrix<'g>| {
+        matrix_output(name, doc, &format!("the unit of qdd per {per}"), &matrix)
+    };
+    let by_positions = columns(&|column| negative(&torques.positions, column));
+    let by_velocities = columns(&|column| negative(&torques.velocities, column));
+    derivation.of_kind(
+        FunctionKind::ForwardDynamicsDerivatives,
+        &["The derivatives of forward dynamics without friction and wrenches: the entry in row i \
+             and column j is that of the acceleration i by the position, velocity or driving force \
+             j, exact: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that the driving forces give, and \
+             ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018)."],
+        derivation.coordinate_inputs(["q", "qd", "tau"]),
+        vec![
+            output("dqdd_dq", "∂q̈/∂q, row by row", "rad or m", by_positions),
+            output("dqdd_dqd", "∂q̈/∂q̇, row by row", "rad/s or m/s", by_velocities),
+            output("dqdd_dtau", "∂q̈/∂τ = M⁻¹, row by row", "N m or N", columns(&unit)),
+        ],
+    )
+}
+
+/// The derivatives with the accelerations in place of the symbols q̈.
+fn at<'g>(
+    derivation: &Derivation<'_, 'g>,
+    derivatives: TorqueDerivatives<'g>,
+    accelerations: &[Expr<'g>],
+) -> TorqueDerivatives<'g> {
+    let graph = derivation.mechanism.graph;
+    let names: Vec<String> =
+        (1..=accelerations.len()).map(|number| format!("qdd{number}")).collect();
+    let replaced = |matrix: &SquareMatrix<'g>| {
+        let rows = walk::rebuild(&matrix.rows(), graph, |name| {
+            let place = names.iter().position(|qdd| qdd == name);
+            place.map_or_else(|| graph.symbol(name), |place| accelerations[place])
+        });
+        SquareMatrix::from_rows(rows, matrix.order())
+    };
+    let TorqueDerivatives { positions, velocities } = derivatives;
+    TorqueDerivatives { positions: replaced(&positions), velocities: replaced(&velocities) }
+}
