@@ -13,6 +13,7 @@ use crate::files::write_if_changed;
 use crate::generate::{Generated, generate};
 use crate::options::{Options, functions_named};
 use crate::paths::{RobotFile, robot_files};
+use crate::pin::pin_path;
 
 /// The name of the index of several robots.
 const INDEX: &str = "robots";
@@ -90,6 +91,9 @@ impl Builder {
     }
 
     /// The form of the economical recursion.
+    ///
+    /// Without it, the plan that `robot-symbolic search` pinned beside the robot file is taken,
+    /// where there is one; a stale one is an error.
     pub fn plan(mut self, plan: Plan) -> Builder {
         self.options.plan = Some(plan);
         self
@@ -188,7 +192,11 @@ impl Builder {
     ) -> Result<Generated, Errors> {
         let file = RobotFile::in_package(path, package, self.allow_outside)?;
         directives.rerun_if_changed(path);
-        let generated = generate(&file.source, options)?;
+        let pin = pin_path(path);
+        if package.join(&pin).is_file() {
+            directives.rerun_if_changed(&pin);
+        }
+        let generated = generate(&file.source, &file.with_pin(options)?)?;
         directives.warnings(&generated.warnings);
         Ok(generated)
     }

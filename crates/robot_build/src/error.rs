@@ -84,6 +84,16 @@ pub enum Error {
         /// What to do.
         remedy: &'static str,
     },
+    /// A pinned plan that is stale or no plan.
+    #[error("{}: {reason}; run `robot-symbolic search {robot}` again, or remove the file", path.display())]
+    Pin {
+        /// The file of the pin.
+        path: PathBuf,
+        /// The robot file.
+        robot: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// No robot file at all.
     #[error("no robot file is given; name one or more")]
     NoRobots,

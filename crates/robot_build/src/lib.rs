@@ -35,6 +35,7 @@ mod generate;
 mod options;
 pub mod package;
 mod paths;
+mod pin;
 mod programs;
 mod specification;
 
@@ -45,6 +46,7 @@ pub use files::{File, Staleness, staleness, write_if_changed};
 pub use generate::{Generated, generate};
 pub use options::{DEFAULT_FUNCTIONS, Options};
 pub use paths::RobotFile;
+pub use pin::{pin_path, pin_text};
 pub use programs::{Programs, programs, programs_of, read};
 pub use robot_codegen::Trigonometry;
 pub use robot_codegen::backend::rust::Scalar;

@@ -31,8 +31,11 @@ pub struct Options {
     pub snap: f64,
     /// The path of the runtime crate or module in generated code.
     pub runtime: String,
-    /// The form of the economical recursion; `None` for one that suits most arms.
+    /// The form of the economical recursion; `None` for one that suits most arms, or is searched.
     pub plan: Option<Plan>,
+    /// Whether to search the cheapest form where none is given: a second or so for an arm of seven
+    /// joints in an optimised build, and tens of seconds in a build script, which is not.
+    pub search: bool,
 }
 
 /// All functions, `f64`, the standard library's sine and cosine, angles snapped within 10⁻⁹ rad.
@@ -46,6 +49,7 @@ impl Default for Options {
             snap: MechanismOptions::SNAP,
             runtime: rust.runtime,
             plan: None,
+            search: false,
         }
     }
 }
@@ -75,6 +79,7 @@ impl Options {
         Ok(functions)
     }
 
+    /// How the robot becomes expressions.
     pub(crate) fn mechanism(&self) -> MechanismOptions {
         MechanismOptions { snap: self.snap, ..MechanismOptions::ROUNDED }
     }

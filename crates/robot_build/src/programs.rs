@@ -3,6 +3,7 @@
 use robot_codegen::Module;
 use robot_dynamics::description::{self, Described};
 use robot_dynamics::diagnostic::{Diagnostics, Source};
+use robot_dynamics::economical::search::search;
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::Snap;
 use robot_dynamics::model::Robot;
@@ -62,7 +63,10 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
     }
     let functions = options.functions_of(&robot)?;
     let graph = Graph::new();
-    let derivation = Derivation::new(&robot, &graph, &options.mechanism(), options.plan.clone());
+    let searched = || search(&robot, &options.mechanism()).map(|found| found.plan);
+    let given = options.plan.clone();
+    let plan = if options.search { given.or_else(searched) } else { given };
+    let derivation = Derivation::new(&robot, &graph, &options.mechanism(), plan);
     let specification = specification::module(&derivation, &functions);
     let module = Module::compile(&specification, &robot_codegen::Options::default())
         .map_err(|errors| Errors::of_code(name, &errors))?;

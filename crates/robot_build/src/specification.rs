@@ -16,7 +16,11 @@ pub(crate) fn module<'g>(
         name: robot.name.to_lowercase(),
         doc: module_doc(robot),
         parameters: robot.parameters.iter().map(parameter).collect(),
-        functions: functions.iter().flat_map(|kind| derivation.functions(*kind)).map(function).collect(),
+        functions: functions
+            .iter()
+            .flat_map(|kind| derivation.functions(*kind))
+            .map(function)
+            .collect(),
     }
 }
 

@@ -38,9 +38,16 @@ impl RobotArgument {
         self.snap
     }
 
-    /// The default options with the snapping tolerance.
-    pub(crate) fn options(&self) -> Options {
-        Options { snap: self.snap, ..Options::default() }
+    /// The default options with the snapping tolerance and the pinned plan; where none is pinned,
+    /// the cheapest form is searched.
+    pub(crate) fn options(&self) -> Result<Options, Failure> {
+        let options = Options { snap: self.snap, search: true, ..Options::default() };
+        Ok(RobotFile::read(&self.file)?.with_pin(&options)?)
+    }
+
+    /// The path of the file.
+    pub(crate) fn path(&self) -> &std::path::Path {
+        &self.file
     }
 }
 
@@ -93,7 +100,7 @@ impl CodeArguments {
         let functions = functions(&self.functions)?;
         let functions = (!functions.is_empty()).then_some(functions);
         let trigonometry = trigonometry.into();
-        Ok(Options { functions, scalar, trigonometry, ..robot.options() })
+        Ok(Options { functions, scalar, trigonometry, ..robot.options()? })
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
-use robot_build::{RobotFile, generate};
+use robot_build::{RobotFile, generate, pin_path};
 
 use crate::arguments::Arguments;
 
@@ -30,10 +30,18 @@ fn expand(arguments: &Arguments, package: &Path) -> syn::Result<TokenStream> {
         .map_err(|errors| failed(&errors))?;
     let absolute = file.path.to_str().ok_or_else(|| failed(&"the file's path is not UTF-8"))?;
     // Makes the compiler watch the file, also where there is something wrong with it.
-    let watch = quote!(
+    let mut watch = quote!(
         const _: &[u8] = ::core::include_bytes!(#absolute);
     );
-    let module: TokenStream = match generate(&file.source, &arguments.options) {
+    let pin = pin_path(&file.path);
+    if let Some(pin) = pin.to_str().filter(|_| pin.is_file()) {
+        watch.extend(quote!(
+            const _: &[u8] = ::core::include_bytes!(#pin);
+        ));
+    }
+    let generated =
+        file.with_pin(&arguments.options).and_then(|options| generate(&file.source, &options));
+    let module: TokenStream = match generated {
         Ok(generated) => generated.code.parse()?,
         Err(errors) => failed(&errors).to_compile_error(),
     };

@@ -6,6 +6,8 @@ use clap::Args;
 use robot_build::equations::{EquationOptions, equations};
 use robot_build::{Options, Source, Trigonometry, check, programs};
 
+use robot_dynamics::economical::pin::Pin;
+
 use super::equations::plain;
 use crate::Terminal;
 use crate::failure::Failure;
@@ -14,6 +16,8 @@ include!(concat!(env!("OUT_DIR"), "/trttr1.rs"));
 
 /// The robot file that the code above was generated from when this command was built.
 const ROBOT: &str = include_str!("../../../../robots/trttr1.toml");
+/// The plan that it was generated with.
+const PLAN: &str = include_str!("../../../../robots/trttr1.plan");
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -29,7 +33,8 @@ impl Arguments {
         );
         shown.push_str(&plain(&equations));
         let function = "inverse_dynamics";
-        let programs = programs(&source, &Options::default())?;
+        let plan = Pin::from_text(PLAN).ok().map(|pin| pin.plan);
+        let programs = programs(&source, &Options { plan, ..Options::default() })?;
         let state = check::check_value(&source.name, &programs, function, Trigonometry::Standard)?;
         shown.push_str("\nInverse dynamics at a check state, nominal parameters:\n\n");
         // Writing to a string does not fail.

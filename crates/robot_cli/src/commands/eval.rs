@@ -70,7 +70,7 @@ impl Arguments {
         let mut wrong = self.wrong_settings(&robot);
         let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
         let kind = with_wrench(kind, &robot, &states, &mut wrong);
-        let options = Options { functions: Some(vec![kind]), ..self.robot.options() };
+        let options = Options { functions: Some(vec![kind]), ..self.robot.options()? };
         let programs = programs(&source, &options)?;
         text::warnings(&programs.warnings, terminal)?;
         let results = self.results(&source, &programs, &states, wrong)?;

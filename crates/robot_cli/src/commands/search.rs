@@ -1,6 +1,7 @@
 //! `search`: the form of the recursion with the fewest operations.
 
 use clap::Args;
+use robot_build::{Options, pin_path, pin_text, write_if_changed};
 use robot_dynamics::economical::search::search;
 use robot_dynamics::economical::{Plan, plan::LinkPlan};
 use robot_dynamics::mechanism::MechanismOptions;
@@ -15,10 +16,14 @@ use crate::text;
   robot-symbolic search robots/ur5.toml
 
 Tries the options of the economical recursion for inverse dynamics link by link and counts what each
-costs. All forms give the same torques.")]
+costs. All forms give the same torques. What is found is pinned beside the robot file, as ur5.plan,
+where builds find it: they do not search. After a change of the robot file, search again.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
+    /// Show what is found and pin nothing
+    #[arg(long)]
+    dry_run: bool,
 }
 
 impl Arguments {
@@ -43,12 +48,28 @@ impl Arguments {
             let axis = ["x", "y", "z"][component.min(2)];
             writeln!(terminal.output, "\nunit of length: {axis} of the position of link {name}")?;
         }
+        if !self.dry_run {
+            let options = Options { snap: self.robot.snap(), ..Options::default() };
+            let path = pin_path(self.robot.path());
+            write_if_changed(&path, &pin_text(&self.robot.source()?, &options, &found))?;
+            writeln!(terminal.output, "\npinned in {}", path.display())?;
+        }
         Ok(())
     }
 }
 
 fn rows(plan: &Plan, names: &[&str]) -> Vec<Vec<String>> {
-    let title = ["link", "origin", "turn", "angle sum", "column", "moment", "residual"];
+    let title = [
+        "link",
+        "origin",
+        "turn",
+        "angle sum",
+        "column",
+        "doubled",
+        "diagonal",
+        "moment",
+        "residual",
+    ];
     let mut rows = vec![title.map(str::to_owned).to_vec()];
     for (link, name) in plan.links.iter().zip(names) {
         rows.push(row(link, name));
@@ -69,6 +90,8 @@ fn row(plan: &LinkPlan, name: &str) -> Vec<String> {
         format!("{:?}", plan.turn),
         yes(plan.angle_sum).to_owned(),
         yes(plan.column).to_owned(),
+        yes(plan.doubled).to_owned(),
+        yes(plan.diagonal).to_owned(),
         moment.join(" "),
         residual.join(" "),
     ]

@@ -42,7 +42,7 @@ impl Arguments {
         if functions.is_empty() {
             functions = FunctionKind::of(&robot_build::read(&source)?.robot);
         }
-        let options = Options { functions: Some(functions), ..self.robot.options() };
+        let options = Options { functions: Some(functions), ..self.robot.options()? };
         let programs = programs(&source, &options)?;
         text::warnings(&programs.warnings, terminal)?;
         let module = &programs.module;

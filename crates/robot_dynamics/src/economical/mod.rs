@@ -22,6 +22,7 @@ mod kinematics;
 mod mass_matrix;
 mod momentum;
 mod outward;
+pub mod pin;
 pub mod plan;
 mod posture;
 mod rotation;
