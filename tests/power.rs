@@ -38,7 +38,7 @@ fn check(robot: &Robot, name: &str, seed: u64) {
         Some(_) => FunctionKind::InverseDynamicsWrench,
         None => FunctionKind::InverseDynamics,
     };
-    let torques = derivation.function(kind).outputs.remove(0).values;
+    let torques = derivation.functions(kind).remove(0).outputs.remove(0).values;
     let motion = Motion::new(&derivation.mechanism);
     let (kinetic, potential) = energies(&derivation.mechanism, &motion);
     let gain = motion.rate(&[kinetic + potential]);

@@ -69,3 +69,39 @@ fn fingerprint(source: &Source, options: &Options) -> String {
     hash.update(options.snap.to_bits().to_le_bytes());
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_dynamics::economical::Plan;
+
+    use super::*;
+
+    const ROBOT: &str = "format = 1\n[robot]\nname = \"pendulum\"\n[[link]]\nname = \"1\"\n\
+        joint = { type = \"revolute\", axis = \"y\" }\nmass = 2\n\
+        center_of_mass = [0.5, 0, 0]\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
+
+    #[test]
+    fn a_pin_is_taken_and_a_stale_one_refused() {
+        let folder = std::env::temp_dir().join(format!("robot_build_pin_{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("pendulum.toml");
+        std::fs::write(&path, ROBOT).unwrap();
+        let options = Options::default();
+        let file = RobotFile::read(&path).unwrap();
+        assert_eq!(file.with_pin(&options).unwrap(), options);
+
+        let robot = crate::read(&file.source).unwrap().robot;
+        let plan = Plan { unit_length: Some((0, 1)), ..Plan::default_for(&robot) };
+        let found = Found { plan: plan.clone(), operations: 7, tried: 1 };
+        std::fs::write(pin_path(&path), pin_text(&file.source, &options, &found)).unwrap();
+        assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));
+
+        std::fs::write(&path, ROBOT.replace("mass = 2", "mass = 3")).unwrap();
+        let changed = RobotFile::read(&path).unwrap();
+        let error = changed.with_pin(&options).unwrap_err().to_string();
+        assert!(error.contains("stale") && error.contains("robot-symbolic search"), "{error}");
+        std::fs::write(pin_path(&path), "format = 3").unwrap();
+        assert!(changed.with_pin(&options).is_err());
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

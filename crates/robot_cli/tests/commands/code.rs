@@ -8,8 +8,9 @@ use crate::{complaint, folder, output, robot, run};
 fn the_module_is_that_of_the_builder() {
     let file = robot("trttr1");
     let shown = output(&["generate", &file], "");
-    let source = robot_build::RobotFile::read(file.as_ref()).unwrap().source;
-    let generated = robot_build::generate(&source, &robot_build::Options::default()).unwrap();
+    let robot_file = robot_build::RobotFile::read(file.as_ref()).unwrap();
+    let options = robot_file.with_pin(&robot_build::Options::default()).unwrap();
+    let generated = robot_build::generate(&robot_file.source, &options).unwrap();
     assert_eq!(shown, generated.code);
     let path = folder("generate").join("new/trttr1.rs");
     let outcome = run(&["generate", &file, "-o", path.to_str().unwrap()]);
