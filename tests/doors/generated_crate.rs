@@ -1,0 +1,84 @@
+//! Generated crates: one that another package depends on, and one for every robot.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::package::Package;
+use crate::reference;
+
+/// Runs `robot-symbolic`; gives the exit code and the messages.
+fn command(arguments: &[&str]) -> (u8, String) {
+    let (mut output, mut errors) = (vec![], vec![]);
+    let mut terminal = robot_cli::Terminal {
+        input: &mut std::io::empty(),
+        output: &mut output,
+        errors: &mut errors,
+        colours: false,
+    };
+    let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
+    let code = robot_cli::run(arguments, &mut terminal);
+    (code, String::from_utf8(errors).unwrap())
+}
+
+/// Generates a crate from a robot file.
+fn generate(file: &Path, folder: &Path, more: &[&str]) {
+    let arguments = ["crate", file.to_str().unwrap(), "-o", folder.to_str().unwrap()];
+    let (code, errors) = command(&[&arguments[..], more].concat());
+    assert_eq!(code, 0, "{errors}");
+}
+
+#[test]
+fn a_package_depends_on_a_generated_crate() {
+    let package = Package::new(
+        "by_crate",
+        "[dependencies]\ntrttr1 = { path = \"generated\", features = [\"std\"] }\n",
+    );
+    package.write("src/main.rs", &reference::main_text("pub use trttr1;"));
+    let file = package.path("robots/trttr1.toml");
+    package.write("robots/trttr1.toml", reference::ROBOT);
+    let standard = ["--trigonometry", "standard"];
+    generate(&file, &package.path("generated"), &standard);
+    assert_eq!(package.run(&["run"]), reference::torques(reference::ROBOT));
+
+    let edited = reference::edited();
+    package.write("robots/trttr1.toml", &edited);
+    let generated = package.path("generated");
+    let check = ["crate", file.to_str().unwrap(), "-o", generated.to_str().unwrap(), "--check"];
+    let (code, errors) = command(&[&check[..], &standard].concat());
+    assert_eq!(code, 1);
+    assert!(errors.contains("model.rs"), "{errors}");
+    generate(&file, &generated, &standard);
+    assert_eq!(package.run(&["run"]), reference::torques(&edited));
+}
+
+/// Dev and release builds, with every function; the crates' own tests compare their check values.
+#[test]
+fn every_robot_builds_in_both_profiles() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("robots");
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    assert!(files.len() >= 9);
+    let mut dependencies = "[dependencies]\n".to_owned();
+    for file in &files {
+        let name = file.file_stem().unwrap().to_str().unwrap();
+        writeln!(dependencies, "{name} = {{ path = \"{name}\" }}").unwrap();
+    }
+    let package = Package::new("every_robot", &dependencies);
+    package.write("src/lib.rs", "//! Nothing but its dependencies.\n");
+    let functions: Vec<&str> =
+        robot_build::DEFAULT_FUNCTIONS.iter().map(|function| function.name()).collect();
+    assert!(functions.contains(&"link_wrenches"));
+    for file in &files {
+        generate(file, &package.path(file.file_stem().unwrap().to_str().unwrap()), &[]);
+    }
+    for profile in ["dev", "release"] {
+        package.run(&["build", "--profile", profile]);
+    }
+    let shown = package.run(&["test", "--workspace", "--tests"]);
+    assert!(shown.matches("inverse_dynamics_gives_its_check_value ... ok").count() >= files.len());
+    // Without the standard library the check values are the same.
+    let shown = package.run(&["test", "--package", "trttr1", "--features", "trttr1/std"]);
+    assert!(shown.contains("link_wrenches_gives_its_check_value ... ok"), "{shown}");
+}

@@ -1,0 +1,29 @@
+//! A package with the macro.
+
+use crate::package::{Package, dependency};
+use crate::reference;
+
+#[test]
+fn a_macro_follows_its_file() {
+    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let macros = dependency("robot_macros", "");
+    let package = Package::new("by_macro", &format!("[dependencies]\n{runtime}{macros}"));
+    let module = "robot_macros::include_robot!(\"robots/trttr1.toml\");";
+    package.write("src/main.rs", &reference::main_text(module));
+    package.write("robots/trttr1.toml", reference::ROBOT);
+    assert_eq!(package.run(&["run"]), reference::torques(reference::ROBOT));
+
+    package.write("robots/trttr1.toml", &reference::broken());
+    reference::assert_shows_what_is_broken(&package.failure(&["build"]));
+
+    let edited = reference::edited();
+    package.write("robots/trttr1.toml", &edited);
+    assert_eq!(package.run(&["run"]), reference::torques(&edited));
+
+    // A wrong option is an error at its place in the source.
+    let module = "robot_macros::include_robot!(\n    \"robots/trttr1.toml\",\n    snapp = 1e-8\n);";
+    package.write("src/main.rs", &reference::main_text(module));
+    let messages = package.failure(&["build"]);
+    assert!(messages.contains("there is no option `snapp`"), "{messages}");
+    assert!(messages.contains("src/main.rs:5:5"), "{messages}");
+}
