@@ -140,7 +140,7 @@ impl Builder {
         result
     }
 
-    /// Generates the modules of all robot files of a folder, in the order of their names.
+    /// Generates the modules of all robot files `*.toml` of a folder, in the order of their names.
     ///
     /// Cargo is told to run the build script again where a file comes or goes.
     ///

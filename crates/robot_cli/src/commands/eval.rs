@@ -25,9 +25,9 @@ use crate::text;
 States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz;
 wrench_NAME for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz.
 A function needs all its inputs but the wrench, which is 0 where it is not given. Where a state has a
-wrench other than 0, inverse_dynamics means inverse_dynamics_wrench and inverse_dynamics_friction
-means inverse_dynamics_wrench_friction. Numbers come from the straight-line program that the
-generated code prints.")]
+wrench other than 0, inverse_dynamics means inverse_dynamics_wrench, inverse_dynamics_friction means
+inverse_dynamics_wrench_friction, and forward_dynamics means forward_dynamics_wrench. Numbers come
+from the straight-line program that the generated code prints.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -64,9 +64,9 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let kind = functions(std::slice::from_ref(&self.function))?.remove(0);
         let source = self.robot.source()?;
         let robot = robot_build::read(&source)?.robot;
+        let kind = self.kind(&robot)?;
         let mut wrong = self.wrong_settings(&robot);
         let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
         let kind = with_wrench(kind, &robot, &states, &mut wrong);
@@ -79,6 +79,36 @@ impl Arguments {
             Format::Csv => output::csv(&results),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
+    }
+
+    /// The kind of the function: its name is the kind's, or has that of a frame behind it where
+    /// there is one for each frame.
+    fn kind(&self, robot: &Robot) -> Result<FunctionKind, Failure> {
+        let suffixed = FunctionKind::ALL.iter().copied().find(|kind| {
+            let suffix = self.function.strip_prefix(kind.name());
+            let frame = suffix.and_then(|suffix| suffix.strip_prefix('_'));
+            FunctionKind::from_name(&self.function).is_none()
+                && kind.missing_in(robot).is_none()
+                && frame.is_some_and(|frame| robot.frames.iter().any(|one| one.name == frame))
+        });
+        match suffixed {
+            Some(kind) => Ok(kind),
+            None => Ok(functions(std::slice::from_ref(&self.function))?.remove(0)),
+        }
+    }
+
+    /// The function among those of its kind.
+    fn chosen<'p>(&self, programs: &'p Programs) -> Result<&'p Function, Failure> {
+        match programs.module.functions.as_slice() {
+            [function] => Ok(function),
+            several => {
+                let names: Vec<&str> =
+                    several.iter().map(|function| function.name.as_str()).collect();
+                let found = several.iter().find(|function| function.name == self.function);
+                let unknown = || text::unknown("function", &self.function, &names);
+                found.ok_or_else(|| Failure::Usage(vec![unknown()]))
+            }
+        }
     }
 
     fn states(
@@ -110,9 +140,7 @@ impl Arguments {
         states: &[State],
         mut wrong: Vec<String>,
     ) -> Result<Vec<Vec<OutputValues>>, Failure> {
-        let Some(function) = programs.module.functions.first() else {
-            return Ok(vec![]);
-        };
+        let function = self.chosen(programs)?;
         wrong.extend(states.iter().flat_map(|state| missing_inputs(function, state)));
         if !wrong.is_empty() {
             return Err(Failure::Input(wrong));
@@ -179,6 +207,7 @@ fn with_wrench(
     match kind {
         FunctionKind::InverseDynamics => FunctionKind::InverseDynamicsWrench,
         FunctionKind::InverseDynamicsFriction => FunctionKind::InverseDynamicsWrenchFriction,
+        FunctionKind::ForwardDynamics => FunctionKind::ForwardDynamicsWrench,
         other => other,
     }
 }

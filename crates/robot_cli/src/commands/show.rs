@@ -19,17 +19,21 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let robot = self.robot.read(terminal)?.robot;
+        let described = self.robot.read(terminal)?;
+        let robot = &described.robot;
         let output = &mut terminal.output;
         writeln!(output, "{}", robot.name)?;
         if let Some(description) = &robot.description {
             writeln!(output, "{}", description.trim())?;
         }
-        writeln!(output, "\n{}", text::table(&joints(&robot)))?;
+        writeln!(output, "\n{}", text::table(&joints(robot)))?;
         if !robot.parameters.is_empty() {
-            writeln!(output, "{}", text::table(&parameters(&robot)))?;
+            writeln!(output, "{}", text::table(&parameters(robot)))?;
         }
-        writeln!(output, "{}", text::table(&functions(&robot)))?;
+        writeln!(output, "{}", text::table(&functions(robot)))?;
+        for choice in described.choices.iter() {
+            writeln!(output, "note: {}", choice.message)?;
+        }
         Ok(())
     }
 }

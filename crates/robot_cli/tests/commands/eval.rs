@@ -173,3 +173,25 @@ fn wrong_arguments_are_usage_errors() {
     );
     assert!(shown.starts_with("error: cannot read none.json"), "{shown}");
 }
+
+#[test]
+fn functions_of_a_frame_are_called_by_their_names() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let path = crate::folder("eval-frames").join("arm.toml");
+    assert!(text.contains("[tip]"));
+    let frame = "\n[[frame]]\nname = \"elbow\"\nparent = \"1\"\n";
+    std::fs::write(&path, format!("{text}{frame}")).unwrap();
+    let states = json!([{"q": [0.3, 0.5]}]).to_string();
+    let arguments = |function: &'static str| {
+        let path = path.to_str().unwrap();
+        ["eval", path, "--function", function, "--states", "-"]
+    };
+    let shown: Value =
+        serde_json::from_str(&output(&arguments("jacobian_elbow"), &states)).unwrap();
+    let (_, rows) = shown[0].as_object().unwrap().iter().next().unwrap();
+    assert_eq!(rows.as_array().unwrap().len(), 6);
+    let shown = complaint(2, &arguments("jacobian"), &states);
+    assert!(shown.contains("jacobian_elbow"), "{shown}");
+    let shown = complaint(2, &arguments("jacobian_knee"), &states);
+    assert!(shown.contains("there is no function `jacobian_knee`"), "{shown}");
+}
