@@ -1,5 +1,6 @@
 //! The code against the numeric solver: the straight-line programs through the interpreter for
-//! hundreds of random robots, and the Rust that they are printed as, compiled, for twenty.
+//! hundreds of random robots, and the Rust that they are printed as, compiled, for every robot file
+//! and twenty random ones.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod common;
@@ -152,15 +153,16 @@ fn the_programs_of_two_hundred_random_robots() {
 }
 
 #[test]
-fn the_compiled_code_of_twenty_random_robots() {
-    let cases: Vec<Case> = (500..520)
-        .map(|seed| {
-            let recipe = Recipe { drives: seed % 2 == 0, ..Recipe::tree(1 + seed as usize % 8) };
-            let robot = random::robot(&mut Random::new(seed), &recipe);
-            let robot = if seed % 3 == 0 { random::parametrised(&robot) } else { robot };
-            Case::new("compiled robot", robot, seed, 50)
-        })
-        .collect();
+fn the_compiled_code_of_every_robot_file_and_of_twenty_random_robots() {
+    let files = robot_files().into_iter();
+    let files = files.map(|(name, text)| Case::new(&name, common::read(&name, &text), 11, 50));
+    let random_cases = (500..520).map(|seed| {
+        let recipe = Recipe { drives: seed % 2 == 0, ..Recipe::tree(1 + seed as usize % 8) };
+        let robot = random::robot(&mut Random::new(seed), &recipe);
+        let robot = if seed % 3 == 0 { random::parametrised(&robot) } else { robot };
+        Case::new("compiled robot", robot, seed, 50)
+    });
+    let cases: Vec<Case> = files.chain(random_cases).collect();
     let output = run(&cases);
     let mut lines = output.lines();
     let mut worst = 0.0_f64;
@@ -178,7 +180,7 @@ fn the_compiled_code_of_twenty_random_robots() {
         }
     }
     assert_eq!(lines.next(), None);
-    println!("20 compiled robots × 50 states: worst error {worst:.1e}");
+    println!("{} compiled robots × 50 states: worst error {worst:.1e}", cases.len());
 }
 
 /// Compiles the cases into one program that prints the bits of every output, and runs it.
