@@ -94,6 +94,12 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
+    /// A plan for another robot.
+    #[error("{name}: the plan of the recursion is not one for this robot's links; search it anew")]
+    Plan {
+        /// The robot file.
+        name: String,
+    },
     /// No robot file at all.
     #[error("no robot file is given; name one or more")]
     NoRobots,

@@ -22,9 +22,9 @@ pub fn pin_path(robot: &Path) -> PathBuf {
 
 /// The text of a pin of what a search found for a robot file.
 #[must_use]
-pub fn pin_text(source: &Source, options: &Options, found: &Found) -> String {
+pub fn pin_text(source: &Source, found: &Found) -> String {
     let pin = Pin {
-        fingerprint: fingerprint(source, options),
+        fingerprint: fingerprint(source),
         operations: found.operations,
         plan: found.plan.clone(),
     };
@@ -37,8 +37,7 @@ impl RobotFile {
     ///
     /// # Errors
     ///
-    /// A pin that is stale: made for another text of the file or another snapping tolerance; one
-    /// that cannot be read.
+    /// A pin that is stale, made for another text of the file; one that cannot be read.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
         if options.plan.is_some() || !path.is_file() {
@@ -54,20 +53,16 @@ impl RobotFile {
         }
         let text = std::fs::read_to_string(&path).map_err(|error| failed(error.to_string()))?;
         let pin = Pin::from_text(&text).map_err(|error| failed(error.to_string()))?;
-        if pin.fingerprint != fingerprint(&self.source, options) {
-            let reason = "the pinned plan is stale: it was searched for another text of the robot \
-                          file or another snapping tolerance";
+        if pin.fingerprint != fingerprint(&self.source) {
+            let reason = "the pinned plan is stale: it was searched for another text of the file";
             return Err(failed(reason.to_owned()));
         }
         Ok(Options { plan: Some(pin.plan), ..options.clone() })
     }
 }
 
-fn fingerprint(source: &Source, options: &Options) -> String {
-    let mut hash = Sha256::new();
-    hash.update(source.text.as_bytes());
-    hash.update(options.snap.to_bits().to_le_bytes());
-    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+fn fingerprint(source: &Source) -> String {
+    Sha256::digest(source.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]
@@ -93,8 +88,13 @@ mod tests {
         let robot = crate::read(&file.source).unwrap().robot;
         let plan = Plan { unit_length: Some((0, 1)), ..Plan::default_for(&robot) };
         let found = Found { plan: plan.clone(), operations: 7, tried: 1 };
-        std::fs::write(pin_path(&path), pin_text(&file.source, &options, &found)).unwrap();
+        std::fs::write(pin_path(&path), pin_text(&file.source, &found)).unwrap();
         assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));
+
+        // Edited by hand into a plan of no links: refused, not followed.
+        let empty = Plan { links: vec![], unit_length: None };
+        let options_with_plan = Options { plan: Some(empty), ..options.clone() };
+        assert!(crate::programs(&file.source, &options_with_plan).is_err());
 
         std::fs::write(&path, ROBOT.replace("mass = 2", "mass = 3")).unwrap();
         let changed = RobotFile::read(&path).unwrap();

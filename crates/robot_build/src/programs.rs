@@ -66,6 +66,9 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
     let searched = || search(&robot, &options.mechanism()).map(|found| found.plan);
     let given = options.plan.clone();
     let plan = if options.search { given.or_else(searched) } else { given };
+    if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
+        return Err(Errors::from(Error::Plan { name: name.to_owned() }));
+    }
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(), plan);
     let specification = specification::module(&derivation, &functions);
     let module = Module::compile(&specification, &robot_codegen::Options::default())

@@ -4,6 +4,7 @@ mod demo;
 mod equations;
 mod eval;
 mod generate;
+mod import;
 mod package;
 mod search;
 mod show;
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     Stats(stats::Arguments),
     /// Search the form of the recursion with the fewest operations
     Search(search::Arguments),
+    /// Write a URDF file as a robot file
+    Import(import::Arguments),
     /// Show what a robot file says
     Show(show::Arguments),
     /// Show the equations of the robot TRTTR1 and run its generated code
@@ -52,6 +55,7 @@ impl Command {
             Command::Eval(arguments) => arguments.run(terminal),
             Command::Stats(arguments) => arguments.run(terminal),
             Command::Search(arguments) => arguments.run(terminal),
+            Command::Import(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
             Command::Demo(arguments) => arguments.run(terminal),
         }

@@ -1,7 +1,7 @@
 //! `search`: the form of the recursion with the fewest operations.
 
 use clap::Args;
-use robot_build::{Options, pin_path, pin_text, write_if_changed};
+use robot_build::{pin_path, pin_text, write_if_changed};
 use robot_dynamics::economical::search::search;
 use robot_dynamics::economical::{Plan, plan::LinkPlan};
 use robot_dynamics::mechanism::MechanismOptions;
@@ -49,9 +49,8 @@ impl Arguments {
             writeln!(terminal.output, "\nunit of length: {axis} of the position of link {name}")?;
         }
         if !self.dry_run {
-            let options = Options { snap: self.robot.snap(), ..Options::default() };
             let path = pin_path(self.robot.path());
-            write_if_changed(&path, &pin_text(&self.robot.source()?, &options, &found))?;
+            write_if_changed(&path, &pin_text(&self.robot.source()?, &found))?;
             writeln!(terminal.output, "\npinned in {}", path.display())?;
         }
         Ok(())

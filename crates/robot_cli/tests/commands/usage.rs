@@ -2,8 +2,8 @@
 
 use crate::{complaint, output, run};
 
-const COMMANDS: [&str; 8] =
-    ["equations", "generate", "crate", "eval", "stats", "search", "show", "demo"];
+const COMMANDS: [&str; 9] =
+    ["equations", "generate", "crate", "eval", "stats", "search", "import", "show", "demo"];
 
 #[test]
 fn every_command_has_help_with_an_example() {
@@ -38,4 +38,38 @@ fn the_version_is_that_of_the_package() {
         run(&["--version"]).output,
         format!("robot-symbolic {}\n", env!("CARGO_PKG_VERSION"))
     );
+}
+
+const URDF: &str = r#"<robot name="pendulum">
+  <link name="base"/>
+  <link name="rod">
+    <inertial>
+      <origin xyz="0.5 0 0" rpy="0 0 0"/>
+      <mass value="2"/>
+      <inertia ixx="0.01" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+  </link>
+  <joint name="swing" type="continuous">
+    <parent link="base"/>
+    <child link="rod"/>
+    <axis xyz="0 1 0"/>
+  </joint>
+</robot>
+"#;
+
+#[test]
+fn an_imported_urdf_gives_the_same_torques() {
+    let folder = crate::folder("import");
+    let (urdf, toml) = (folder.join("pendulum.urdf"), folder.join("pendulum.toml"));
+    std::fs::write(&urdf, URDF).unwrap();
+    let (urdf, toml) = (urdf.to_str().unwrap(), toml.to_str().unwrap());
+    assert_eq!(run(&["import", urdf, "-o", toml]).code, 0);
+    let states = r#"[{"q": [0.3], "qd": [0.1], "qdd": [-0.2]}]"#;
+    let eval =
+        |file| output(&["eval", file, "--function", "inverse_dynamics", "--states", "-"], states);
+    assert_eq!(eval(urdf), eval(toml));
+    // Without the mass: refused, unless that is waived.
+    let massless = URDF.replace("<mass value=\"2\"/>", "");
+    std::fs::write(urdf, massless).unwrap();
+    assert!(complaint(1, &["import", urdf], "").contains("--allow-massless"));
 }

@@ -9,7 +9,7 @@ use super::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 /// A plan with what it was searched for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
-    /// Identifies the robot file and the options of the search; a pin with another is stale.
+    /// Identifies the text of the robot file; a pin with another is stale.
     pub fingerprint: String,
     /// The multiplications and additions of inverse dynamics under the plan.
     pub operations: usize,

@@ -165,6 +165,15 @@ impl LinkPlan {
 }
 
 impl Plan {
+    /// Whether the plan is one for that many links and names only links that there are.
+    #[must_use]
+    pub fn fits(&self, links: usize) -> bool {
+        let meetings = self.links.iter().filter_map(|link| link.meeting);
+        self.links.len() == links
+            && self.unit_length.is_none_or(|(link, component)| link < links && component < 3)
+            && meetings.into_iter().all(|place| place.link < links)
+    }
+
     /// What suits most arms, without a search: the cheapest searched plans have most links so.
     #[must_use]
     pub fn default_for(robot: &Robot) -> Plan {

@@ -82,7 +82,7 @@ fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
     let mut diagnostic = Diagnostic::error(code::MASS, format!("the link `{name}` has no mass"))
         .at(place, label)
         .because("a link without mass falls out of the equations in silence")
-        .help("add its `<inertial>`; where it has no mass indeed, allow massless links (`--allow-massless`)");
+        .help("add its `<inertial>`; where it has no mass indeed, import it with `robot-symbolic import --allow-massless`");
     if options.allow_massless {
         diagnostic.severity = Severity::Warning;
         diagnostic.help = None;
@@ -119,7 +119,7 @@ fn judge_body(
             Diagnostic::error(code::MASS, "a body of mass 0 has moments of inertia")
                 .at(&of_mass, "the mass is 0")
                 .because("a moment of inertia is a sum of masses times squares")
-                .help("give the mass; where the figures are meant so, allow massless links (`--allow-massless`)");
+                .help("give the mass; where the figures are meant so, import it with `robot-symbolic import --allow-massless`");
         if options.allow_massless || !own {
             diagnostic.severity = Severity::Warning;
         }
@@ -143,7 +143,7 @@ fn judge_body(
                 PUBLISHED * 100.0
             ));
             diagnostic = diagnostic.help(
-                "correct the figures; where they are published so, allow inertias that no body has (`--allow-unphysical`)",
+                "correct the figures; where they are published so, import it with `robot-symbolic import --allow-unphysical`",
             );
             excess
         }

@@ -1,0 +1,56 @@
+//! `import`: a URDF file as a robot file.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_build::{Errors, File, RobotFile};
+use robot_dynamics::description::{self, Options};
+
+use crate::Terminal;
+use crate::commands::package::deliver;
+use crate::failure::Failure;
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic import arm.urdf -o robots/arm.toml
+
+The robot file has the source's names and figures; every choice that was made is told. What is waived
+here is written down in the robot file, so that the commands take it from there.")]
+pub(crate) struct Arguments {
+    /// The URDF file
+    file: PathBuf,
+    /// The robot file to write; standard output without this
+    #[arg(short, long, value_name = "PATH")]
+    output: Option<PathBuf>,
+    /// Take moving links without mass
+    #[arg(long)]
+    allow_massless: bool,
+    /// Take inertias that no body has
+    #[arg(long)]
+    allow_unphysical: bool,
+    /// Write the damping and friction of `<dynamics>` as friction of the joints
+    #[arg(long)]
+    friction: bool,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let source = RobotFile::read(&self.file)?.source;
+        let options = Options {
+            allow_massless: self.allow_massless,
+            allow_unphysical: self.allow_unphysical,
+            friction: self.friction,
+        };
+        let import =
+            description::import(&source.name, &source.text, &options).map_err(Errors::from)?;
+        text::warnings(&import.described.warnings, terminal)?;
+        for choice in import.described.choices.iter() {
+            writeln!(terminal.errors, "note: {}", choice.message)?;
+        }
+        let Some(path) = &self.output else {
+            return Ok(terminal.output.write_all(import.toml.as_bytes())?);
+        };
+        deliver(path, &[File { path: String::new(), text: import.toml }], false, terminal)
+    }
+}
