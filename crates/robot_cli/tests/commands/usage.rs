@@ -68,8 +68,9 @@ fn an_imported_urdf_gives_the_same_torques() {
     let eval =
         |file| output(&["eval", file, "--function", "inverse_dynamics", "--states", "-"], states);
     assert_eq!(eval(urdf), eval(toml));
-    // Without the mass: refused, unless that is waived.
-    let massless = URDF.replace("<mass value=\"2\"/>", "");
+    // Moments of inertia without mass: refused, unless that is waived.
+    let massless = URDF.replace("<mass value=\"2\"/>", "<mass value=\"0\"/>");
     std::fs::write(urdf, massless).unwrap();
     assert!(complaint(1, &["import", urdf], "").contains("--allow-massless"));
+    assert_eq!(run(&["import", "--allow-massless", urdf]).code, 0);
 }
