@@ -46,7 +46,16 @@ pub(crate) fn code(text: &str) -> String {
 
 /// The torques of a robot file at the state above, as [`MAIN`] prints them.
 pub(crate) fn torques(text: &str) -> String {
-    let programs = programs(&source(text), &Options::default()).unwrap();
+    torques_under(text, &Options::default())
+}
+
+/// The same by the command, which searches the cheapest form where none is pinned.
+pub(crate) fn searched_torques(text: &str) -> String {
+    torques_under(text, &Options { search: true, ..Options::default() })
+}
+
+fn torques_under(text: &str, options: &Options) -> String {
+    let programs = programs(&source(text), options).unwrap();
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
     let inputs = [("q", &Q[..]), ("qd", &QD[..]), ("qdd", &QDD[..])];
     let outputs = interpreter.call("inverse_dynamics", &inputs).unwrap();
