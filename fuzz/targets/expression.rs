@@ -1,0 +1,42 @@
+//! Any text as an expression: read, put into a graph, printed, read again.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use robot_symbolic::polynomial::{Polynomial, PolynomialOptions};
+use robot_symbolic::print::latex::{LatexStyle, Trigonometry, to_latex_limited};
+use robot_symbolic::{Formula, Graph, print};
+
+/// Nodes of an expression that is printed or expanded.
+const MAX_NODES: usize = 200;
+const MAX_SIZE: u64 = 10_000;
+
+fuzz_target!(|text: &str| {
+    if let Err(error) = Formula::parse_with_dots(text) {
+        assert!(text.get(error.span.clone()).is_some(), "{error:?}");
+    }
+    let Ok(formula) = Formula::parse(text) else { return };
+    assert!(formula.symbols().all(|(name, place)| text.get(place) == Some(name)));
+    let graph = Graph::new();
+    let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
+    let _ = expr.evaluate(|_| 0.75);
+    if graph.len() > MAX_NODES {
+        return;
+    }
+    // Long powers and deep sums print as text that is beyond the limits of what is read.
+    if let Ok(printed) = print::to_text_limited(expr, MAX_SIZE)
+        && let Ok(again) = graph.parse(&printed)
+    {
+        let _ = again.evaluate(|_| 0.75);
+    }
+    if let Ok(latex) = to_latex_limited(expr, &LatexStyle::new(Trigonometry::Short), MAX_SIZE) {
+        robot_fuzz::harmless_latex(&latex);
+    }
+    let options = PolynomialOptions {
+        max_terms: 1_000,
+        max_products: 10_000,
+        ..PolynomialOptions::default()
+    };
+    if let Ok(polynomial) = Polynomial::of(expr, &options) {
+        assert!(polynomial.len() <= 1_000);
+    }
+});

@@ -1,0 +1,112 @@
+//! What the targets share: how far an accepted robot is followed, and what must hold of it there.
+
+use robot_codegen::backend::rust::{self, RustOptions};
+use robot_dynamics::description::{Described, Options, import, read_toml};
+use robot_dynamics::diagnostic::Diagnostics;
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
+use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_symbolic::print::latex::{LatexStyle, Trigonometry, to_latex_limited};
+use robot_symbolic::{Graph, print};
+
+/// Robots of more moving links than this are read, but not derived.
+const MAX_LINKS: usize = 3;
+/// Equations of more terms than this are not written.
+const MAX_TERMS: u64 = 20_000;
+
+/// Whether an input is one of the few that are followed further: one in `every`, always the same ones.
+pub fn chosen(data: &[u8], every: u64) -> bool {
+    // FNV-1a
+    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
+    (data.iter().fold(0xcbf2_9ce4_8422_2325, step) >> 20).is_multiple_of(every)
+}
+
+/// Some messages are shown: they can be, whatever the text they point at.
+pub fn show(found: &Diagnostics) {
+    assert!(!found.is_empty());
+    if chosen(found.source().text.as_bytes(), 32) {
+        assert!(!found.to_string().is_empty());
+    }
+}
+
+/// Takes some accepted robots on: into symbols, through the paper's iterations, to text and LaTeX;
+/// few of them to generated Rust, which is parsed again.
+pub fn follow(text: &str, described: &Described) {
+    let robot = &described.robot;
+    if robot.links.len() > MAX_LINKS || !chosen(text.as_bytes(), 16) {
+        return;
+    }
+    let graph = Graph::new();
+    let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::EXACT);
+    let effects = Effects { wrench: true, friction: true };
+    let equations = newton_euler(&mechanism, effects).driving_forces;
+    assert_eq!(equations.len(), robot.degrees_of_freedom());
+    let style = LatexStyle::new(Trigonometry::Named);
+    for equation in equations {
+        if let Ok(text) = print::to_text_limited(equation, MAX_TERMS) {
+            assert!(!text.is_empty());
+        }
+        if let Ok(latex) = to_latex_limited(equation, &style, MAX_TERMS) {
+            harmless_latex(&latex);
+        }
+    }
+    if chosen(text.as_bytes(), 512) {
+        generate(described);
+    }
+}
+
+/// Down to Rust, which the backend parses again before it gives it away.
+fn generate(described: &Described) {
+    let options = robot_build::Options::default();
+    let robot = described.robot.clone();
+    let Ok(programs) = robot_build::programs_of(robot, "fuzz", &options) else { return };
+    let code = rust::generate(&programs.module, &RustOptions::default());
+    assert!(code.is_ok_and(|code| !code.to_text().is_empty()));
+}
+
+/// An accepted description can be imported; the import is a robot file of the same coordinates, and
+/// importing it again changes nothing.
+pub fn imports(name: &str, text: &str, described: &Described) {
+    if !chosen(text.as_bytes(), 4) {
+        return;
+    }
+    let first = import(name, text, &Options::default()).expect("what is read can be imported");
+    let again = read_toml("again.toml", &first.toml).expect("an import can be read");
+    assert_eq!(again.robot.coordinates.len(), described.robot.coordinates.len());
+    let second = import("again.toml", &first.toml, &Options::default()).expect("and imported");
+    assert_eq!(first.toml, second.toml);
+}
+
+/// LaTeX that can only print: no command that reads, writes or defines, balanced braces, no comment
+/// and no way out of math mode.
+pub fn harmless_latex(latex: &str) {
+    const HARM: [&str; 12] = [
+        "input",
+        "include",
+        "write",
+        "openin",
+        "openout",
+        "read",
+        "catcode",
+        "def",
+        "let",
+        "csname",
+        "newcommand",
+        "begin",
+    ];
+    let mut depth = 0_i32;
+    for (place, letter) in latex.char_indices() {
+        match letter {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            '%' | '$' | '#' | '~' => panic!("{letter} in {latex}"),
+            '\\' => {
+                let rest = &latex[place + 1..];
+                let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+                assert!(!HARM.contains(&&rest[..end]), "{latex}");
+            }
+            _ => assert!(letter.is_ascii() && !letter.is_ascii_control(), "{latex:?}"),
+        }
+        assert!(depth >= 0, "{latex}");
+    }
+    assert_eq!(depth, 0, "{latex}");
+}
