@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use common::{largest_difference, magnitude, robot_files};
-use robot_build::{FunctionKind, Options, Programs, programs_of};
+use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
 use robot_codegen::backend::rust::{self, RustOptions, Scalar};
 use robot_dynamics::model::Robot;
@@ -50,7 +50,8 @@ impl Case {
             }
         }
         let kinds = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
-        let options = Options { functions: Some(kinds.collect()), ..Options::default() };
+        let options =
+            Options { functions: Functions::Chosen(kinds.collect()), ..Options::default() };
         let programs = programs_of(robot, name, &options).unwrap();
         Case { name: format!("{name}, seed {seed}"), programs, states, solver }
     }

@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod build_script;
+mod forms;
 mod generated_crate;
 mod include_macro;
 mod package;

@@ -36,8 +36,8 @@ impl Package {
         std::fs::write(path, text).unwrap();
     }
 
-    /// Runs Cargo in the package.
-    pub(crate) fn cargo(&self, arguments: &[&str]) -> Output {
+    /// Runs Cargo in the package, with flags for the compiler.
+    fn cargo(&self, arguments: &[&str], flags: &str) -> Output {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap());
         command.current_dir(&self.folder).args(arguments).arg("--offline");
         // What the test itself was built with does not concern the package.
@@ -48,12 +48,17 @@ impl Package {
             }
         }
         let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("doors-target");
-        command.env("CARGO_TARGET_DIR", target).env_remove("RUSTFLAGS").output().unwrap()
+        command.env("CARGO_TARGET_DIR", target).env("RUSTFLAGS", flags).output().unwrap()
     }
 
     /// What the package's program prints.
     pub(crate) fn run(&self, arguments: &[&str]) -> String {
-        let output = self.cargo(arguments);
+        self.run_with(arguments, "")
+    }
+
+    /// The same, built with flags for the compiler.
+    pub(crate) fn run_with(&self, arguments: &[&str], flags: &str) -> String {
+        let output = self.cargo(arguments, flags);
         let errors = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "cargo {arguments:?}\n{errors}");
         String::from_utf8(output.stdout).unwrap()
@@ -61,7 +66,7 @@ impl Package {
 
     /// What Cargo says where it fails.
     pub(crate) fn failure(&self, arguments: &[&str]) -> String {
-        let output = self.cargo(arguments);
+        let output = self.cargo(arguments, "");
         assert!(!output.status.success());
         String::from_utf8(output.stderr).unwrap()
     }

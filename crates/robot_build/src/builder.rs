@@ -54,12 +54,13 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// All functions that a robot has, in `f64`, into `OUT_DIR`.
+    /// The usual functions that a robot has, in `f64`, into `OUT_DIR`.
     pub fn new() -> Builder {
         Builder::default()
     }
 
-    /// The functions to generate, by name; without this all that the robot has.
+    /// The functions to generate, by name; `"all"` for all that the robot has. Without this those of
+    /// [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that it has.
     pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
         self.functions = Some(names.into_iter().map(Into::into).collect());
         self
@@ -68,6 +69,29 @@ impl Builder {
     /// The number type of the functions; `f64` without this.
     pub fn scalar(mut self, scalar: Scalar) -> Builder {
         self.options.scalar = scalar;
+        self
+    }
+
+    /// Whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
+    /// `f32` and `Lanes` of either. Without this there is none.
+    pub fn generic(mut self, generic: bool) -> Builder {
+        self.options.generic = generic;
+        self
+    }
+
+    /// Gives each function a form `…_batch` over slices of states, computed in blocks of so many
+    /// states, which LLVM turns into vectors; [`DEFAULT_BATCH`](crate::DEFAULT_BATCH) is a good
+    /// number. Without this there is none.
+    pub fn batch(mut self, states: usize) -> Builder {
+        self.options.batch = Some(states);
+        self
+    }
+
+    /// Whether products and sums become multiply-adds, which round once on a target that has the
+    /// instruction and are a product and a sum elsewhere. Without this they do not, and the code
+    /// gives the same bits on every target.
+    pub fn fused(mut self, fused: bool) -> Builder {
+        self.options.fused = fused;
         self
     }
 
@@ -169,7 +193,7 @@ impl Builder {
         })?;
         let mut options = self.options.clone();
         if let Some(names) = &self.functions {
-            options.functions = Some(functions_named(names)?);
+            options.functions = functions_named(names)?;
         }
         let (mut modules, mut errors) = (vec![], vec![]);
         for path in paths {

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use robot_dynamics::diagnostic::{Diagnostics, quote};
 use robot_dynamics::functions::FunctionKind;
 
+use crate::options::ALL_FUNCTIONS;
+
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -37,6 +39,16 @@ pub enum Error {
     Snap {
         /// The tolerance as text.
         snap: String,
+    },
+    /// A number of states that is no size of a block.
+    #[error(
+        "a batch in blocks of {states} states is not possible; choose 1 to {most}, 8 is a good number"
+    )]
+    Batch {
+        /// The number.
+        states: usize,
+        /// The largest that there is.
+        most: usize,
     },
     /// What the code generator refuses.
     #[error("{name}: {error}")]
@@ -117,7 +129,8 @@ pub enum Error {
 
 fn known_functions() -> String {
     let names = FunctionKind::ALL.iter().map(|kind| format!("`{}`", kind.name()));
-    names.collect::<Vec<_>>().join(", ")
+    let all = format!("`{ALL_FUNCTIONS}` for all that the robot has");
+    names.chain([all]).collect::<Vec<_>>().join(", ")
 }
 
 /// The text of [`fmt::Display`]: a `main` that returns an error shows this.

@@ -70,6 +70,8 @@ pub(crate) fn rust_text(
         runtime: options.runtime.clone(),
         trigonometry: options.trigonometry,
         scalar: options.scalar,
+        generic: options.generic,
+        batch: options.batch,
         wrapping,
         constants: constants(&programs.robot),
         ..RustOptions::default()

@@ -44,7 +44,7 @@ pub use conventions::CONVENTIONS;
 pub use error::{Error, Errors};
 pub use files::{File, Staleness, staleness, write_if_changed};
 pub use generate::{Generated, generate};
-pub use options::{DEFAULT_FUNCTIONS, Options};
+pub use options::{ALL_FUNCTIONS, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Functions, Options};
 pub use paths::RobotFile;
 pub use pin::{pin_path, pin_text};
 pub use programs::{Programs, programs, programs_of, read};

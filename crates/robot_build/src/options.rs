@@ -1,7 +1,7 @@
 //! What is generated, and how.
 
-use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::{RustOptions, Scalar};
+use robot_codegen::{Cost, Fused, Trigonometry};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::functions::FunctionKind;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -18,13 +18,48 @@ pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::LinkWrenches,
 ];
 
+/// The word for all functions where functions are named.
+pub const ALL_FUNCTIONS: &str = "all";
+
+/// The states that a block of a batch holds where no other number is given: two or four vector
+/// registers of `f64` on most processors.
+pub const DEFAULT_BATCH: usize = 8;
+
+/// The most states that a block of a batch holds: its arrays lie on the stack.
+const MAX_BATCH: usize = 64;
+
+/// Which functions are generated.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Functions {
+    /// Those of [`DEFAULT_FUNCTIONS`] that the robot has.
+    #[default]
+    Usual,
+    /// All that the robot has.
+    All,
+    /// These; one that the robot lacks is an error.
+    Chosen(Vec<FunctionKind>),
+}
+
+/// The largest angle by which snapping may change a rotation, rad.
+const MAX_SNAP: f64 = 0.1;
+
 /// What is generated, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The functions; `None` for those of [`DEFAULT_FUNCTIONS`] that the robot has.
-    pub functions: Option<Vec<FunctionKind>>,
+    /// The functions.
+    pub functions: Functions,
     /// The number type of the functions.
     pub scalar: Scalar,
+    /// Whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
+    /// `f32` and lanes of either.
+    pub generic: bool,
+    /// The number of states in a block of the forms `…_batch` over slices of states; `None` for no
+    /// such forms.
+    pub batch: Option<usize>,
+    /// Whether products and sums become multiply-adds, which round once on a target that has the
+    /// instruction (the runtime's `FUSED`) and are a product and a sum elsewhere. Without this the
+    /// code gives the same bits on every target.
+    pub fused: bool,
     /// Where sines and cosines come from.
     pub trigonometry: Trigonometry,
     /// Constant angles within this many radians of a multiple of π/2 become that multiple.
@@ -38,13 +73,17 @@ pub struct Options {
     pub search: bool,
 }
 
-/// All functions, `f64`, the standard library's sine and cosine, angles snapped within 10⁻⁹ rad.
+/// The usual functions at one state, `f64`, plain operations, the standard library's sine and cosine,
+/// angles snapped within 10⁻⁹ rad.
 impl Default for Options {
     fn default() -> Options {
         let rust = RustOptions::default();
         Options {
-            functions: None,
+            functions: Functions::Usual,
             scalar: rust.scalar,
+            generic: rust.generic,
+            batch: rust.batch,
+            fused: false,
             trigonometry: rust.trigonometry,
             snap: MechanismOptions::SNAP,
             runtime: rust.runtime,
@@ -61,9 +100,13 @@ impl Options {
     ///
     /// Each chosen function that the robot lacks, with the reason.
     pub(crate) fn functions_of(&self, robot: &Robot) -> Result<Vec<FunctionKind>, Errors> {
-        let Some(chosen) = &self.functions else {
-            let all = DEFAULT_FUNCTIONS.into_iter();
-            return Ok(all.filter(|kind| kind.missing_in(robot).is_none()).collect());
+        let chosen = match &self.functions {
+            Functions::Usual => {
+                let usual = DEFAULT_FUNCTIONS.into_iter();
+                return Ok(usual.filter(|kind| kind.missing_in(robot).is_none()).collect());
+            }
+            Functions::All => return Ok(FunctionKind::of(robot)),
+            Functions::Chosen(chosen) => chosen,
         };
         let missing = chosen.iter().filter_map(|kind| {
             let why = kind.missing_in(robot)?;
@@ -79,18 +122,44 @@ impl Options {
         Ok(functions)
     }
 
+    /// What is wrong with the figures among the options.
+    pub(crate) fn check(&self) -> Result<(), Errors> {
+        let mut errors = vec![];
+        if !(0.0..=MAX_SNAP).contains(&self.snap) {
+            errors.push(Error::Snap { snap: self.snap.to_string() });
+        }
+        if let Some(states) = self.batch.filter(|states| !(1..=MAX_BATCH).contains(states)) {
+            errors.push(Error::Batch { states, most: MAX_BATCH });
+        }
+        Errors::check(errors, ())
+    }
+
+    /// How expressions become programs.
+    pub(crate) fn codegen(&self) -> robot_codegen::Options {
+        let options = robot_codegen::Options::default();
+        if self.fused {
+            robot_codegen::Options {
+                fused: Fused::WhereTarget,
+                cost: Cost::Instructions,
+                ..options
+            }
+        } else {
+            options
+        }
+    }
+
     /// How the robot becomes expressions.
     pub(crate) fn mechanism(&self) -> MechanismOptions {
         MechanismOptions { snap: self.snap, ..MechanismOptions::ROUNDED }
     }
 }
 
-/// The functions of those names.
+/// The functions of those names; [`ALL_FUNCTIONS`] among them means all.
 ///
 /// # Errors
 ///
 /// Each name that is no function's, and an empty list.
-pub(crate) fn functions_named(names: &[String]) -> Result<Vec<FunctionKind>, Errors> {
+pub(crate) fn functions_named(names: &[String]) -> Result<Functions, Errors> {
     if names.is_empty() {
         return Err(Errors::from(Error::NoFunctions));
     }
@@ -98,8 +167,10 @@ pub(crate) fn functions_named(names: &[String]) -> Result<Vec<FunctionKind>, Err
     for name in names {
         match FunctionKind::from_name(name) {
             Some(kind) => kinds.push(kind),
+            None if name == ALL_FUNCTIONS => {}
             None => errors.push(Error::UnknownFunction { function: name.clone() }),
         }
     }
-    Errors::check(errors, kinds)
+    let all = names.iter().any(|name| name == ALL_FUNCTIONS);
+    Errors::check(errors, if all { Functions::All } else { Functions::Chosen(kinds) })
 }

@@ -13,9 +13,6 @@ use crate::error::{Error, Errors};
 use crate::options::Options;
 use crate::specification;
 
-/// The largest angle by which snapping may change a rotation, rad.
-const MAX_SNAP: f64 = 0.1;
-
 /// A robot and the programs of its functions.
 #[derive(Clone, Debug)]
 pub struct Programs {
@@ -25,7 +22,7 @@ pub struct Programs {
     pub warnings: Diagnostics,
     /// The constant angles that were taken for multiples of π/2.
     pub snapped: Vec<Snap>,
-    /// The functions, as [`Options::functions`] has them.
+    /// The functions that [`Options::functions`] means.
     pub functions: Vec<FunctionKind>,
     /// The programs: what the interpreter runs and the backends print.
     pub module: Module,
@@ -58,9 +55,7 @@ pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> 
 ///
 /// Everything that is wrong with the options.
 pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Programs, Errors> {
-    if !(0.0..=MAX_SNAP).contains(&options.snap) {
-        return Err(Errors::from(Error::Snap { snap: options.snap.to_string() }));
-    }
+    options.check()?;
     let functions = options.functions_of(&robot)?;
     let graph = Graph::new();
     let searched = || search(&robot, &options.mechanism()).map(|found| found.plan);
@@ -71,7 +66,7 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
     }
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(), plan);
     let specification = specification::module(&derivation, &functions);
-    let module = Module::compile(&specification, &robot_codegen::Options::default())
+    let module = Module::compile(&specification, &options.codegen())
         .map_err(|errors| Errors::of_code(name, &errors))?;
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };

@@ -4,7 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
-use robot_build::{Options, RobotFile, Source, Trigonometry, generate, package, programs};
+use robot_build::{
+    Functions, Options, RobotFile, Source, Trigonometry, generate, package, programs,
+};
 
 fn robot_files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
@@ -57,7 +59,7 @@ fn parameters_are_documented() {
 
 #[test]
 fn only_the_chosen_functions_are_generated() {
-    let functions = Some(vec![robot_build::FunctionKind::LinkWrenches]);
+    let functions = Functions::Chosen(vec![robot_build::FunctionKind::LinkWrenches]);
     let options = Options { functions, ..Options::default() };
     let programs = programs(&source("trttr1.toml"), &options).unwrap();
     let names: Vec<_> = programs.module.functions.iter().map(|one| one.name.as_str()).collect();

@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use robot_build::{FunctionKind, Options, RobotFile, Scalar, Source, Trigonometry};
+use robot_build::{
+    ALL_FUNCTIONS, DEFAULT_BATCH, FunctionKind, Functions, Options, RobotFile, Scalar, Source,
+    Trigonometry,
+};
 use robot_dynamics::description::Described;
 
 use crate::Terminal;
@@ -54,12 +57,22 @@ impl RobotArgument {
 /// What code is made.
 #[derive(Args)]
 pub(crate) struct CodeArguments {
-    /// Functions to generate; all that the robot has without this
+    /// Functions to generate, several with commas between; `all` for all that the robot has. Without
+    /// this inverse dynamics in its forms and the wrenches in the joints
     #[arg(long = "function", value_name = "NAME", value_delimiter = ',')]
     functions: Vec<String>,
     /// The number type of the functions
     #[arg(long, value_enum, default_value_t = ScalarName::F64)]
     scalar: ScalarName,
+    /// Add to each function a form `…_generic` over any scalar of the runtime: f64, f32 and lanes
+    #[arg(long)]
+    generic: bool,
+    /// Add to each function a form `…_batch` over slices of states, computed in blocks of so many
+    #[arg(long, value_name = "STATES", require_equals = true)]
+    batch: Option<Option<usize>>,
+    /// Multiply and add in one instruction where the target has it: it rounds once
+    #[arg(long)]
+    fused: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -97,22 +110,35 @@ impl CodeArguments {
             ScalarName::F64 => Scalar::F64,
             ScalarName::F32 => Scalar::F32,
         };
-        let functions = functions(&self.functions)?;
-        let functions = (!functions.is_empty()).then_some(functions);
+        let functions = match self.functions.as_slice() {
+            [] => Functions::Usual,
+            names => functions(names)?,
+        };
+        let &CodeArguments { generic, batch, fused, .. } = self;
+        let batch = batch.map(|states| states.unwrap_or(DEFAULT_BATCH));
         let trigonometry = trigonometry.into();
-        Ok(Options { functions, scalar, trigonometry, ..robot.options()? })
+        Ok(Options { functions, scalar, generic, batch, fused, trigonometry, ..robot.options()? })
     }
 }
 
 /// The functions of those names.
-pub(crate) fn functions(names: &[String]) -> Result<Vec<FunctionKind>, Failure> {
+pub(crate) fn functions(names: &[String]) -> Result<Functions, Failure> {
     let (mut kinds, mut wrong) = (vec![], vec![]);
-    let known: Vec<&str> = FunctionKind::ALL.iter().map(|kind| kind.name()).collect();
-    for name in names {
+    for name in names.iter().filter(|name| *name != ALL_FUNCTIONS) {
         match FunctionKind::from_name(name) {
             Some(kind) => kinds.push(kind),
-            None => wrong.push(text::unknown("function", name, &known)),
+            None => wrong.push(unknown_function(name, &[ALL_FUNCTIONS])),
         }
     }
-    if wrong.is_empty() { Ok(kinds) } else { Err(Failure::Usage(wrong)) }
+    if !wrong.is_empty() {
+        return Err(Failure::Usage(wrong));
+    }
+    let all = names.iter().any(|name| name == ALL_FUNCTIONS);
+    Ok(if all { Functions::All } else { Functions::Chosen(kinds) })
+}
+
+/// What is said of a name that is no function's nor one of some further words.
+pub(crate) fn unknown_function(name: &str, more: &[&str]) -> String {
+    let known: Vec<&str> = FunctionKind::ALL.iter().map(|kind| kind.name()).collect();
+    text::unknown("function", name, &[&known[..], more].concat())
 }

@@ -1,11 +1,12 @@
 //! The arguments of `include_robot!`.
 
-use robot_build::{FunctionKind, Options, Scalar, Trigonometry};
+use robot_build::{ALL_FUNCTIONS, FunctionKind, Functions, Options, Scalar, Trigonometry};
 use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
 /// The keys, for messages.
-const KEYS: &str = "functions, snap, scalar, trigonometry, runtime, allow_outside";
+const KEYS: &str =
+    "functions, snap, scalar, generic, batch, fused, trigonometry, runtime, allow_outside";
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
@@ -50,12 +51,15 @@ impl Parse for Arguments {
 impl Arguments {
     fn set(&mut self, key: &Ident, value: &Expr) -> syn::Result<()> {
         match key.to_string().as_str() {
-            "functions" => self.options.functions = Some(functions(value)?),
+            "functions" => self.options.functions = functions(value)?,
             "snap" => self.options.snap = number(value)?,
             "scalar" => {
                 let known = [("f64", Scalar::F64), ("f32", Scalar::F32)];
                 self.options.scalar = one_of(value, &known)?;
             }
+            "generic" => self.options.generic = boolean(value)?,
+            "batch" => self.options.batch = Some(size(value)?),
+            "fused" => self.options.fused = boolean(value)?,
             "trigonometry" => {
                 let known = [
                     ("standard", Trigonometry::Standard),
@@ -74,7 +78,7 @@ impl Arguments {
     }
 }
 
-fn functions(value: &Expr) -> syn::Result<Vec<FunctionKind>> {
+fn functions(value: &Expr) -> syn::Result<Functions> {
     let Expr::Array(array) = value else {
         return Err(syn::Error::new_spanned(
             value,
@@ -84,9 +88,15 @@ fn functions(value: &Expr) -> syn::Result<Vec<FunctionKind>> {
     if array.elems.is_empty() {
         return Err(syn::Error::new_spanned(value, "no functions are chosen"));
     }
-    let known: Vec<(&str, FunctionKind)> =
-        FunctionKind::ALL.iter().map(|kind| (kind.name(), *kind)).collect();
-    array.elems.iter().map(|element| one_of(element, &known)).collect()
+    let known: Vec<(&str, Option<FunctionKind>)> = FunctionKind::ALL
+        .iter()
+        .map(|kind| (kind.name(), Some(*kind)))
+        .chain([(ALL_FUNCTIONS, None)])
+        .collect();
+    let chosen: Vec<Option<FunctionKind>> =
+        array.elems.iter().map(|element| one_of(element, &known)).collect::<syn::Result<_>>()?;
+    let chosen: Option<Vec<FunctionKind>> = chosen.into_iter().collect();
+    Ok(chosen.map_or(Functions::All, Functions::Chosen))
 }
 
 fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {
@@ -109,6 +119,13 @@ fn boolean(value: &Expr) -> syn::Result<bool> {
     match literal(value) {
         Some(Lit::Bool(literal)) => Ok(literal.value),
         _ => Err(syn::Error::new_spanned(value, "expected true or false")),
+    }
+}
+
+fn size(value: &Expr) -> syn::Result<usize> {
+    match literal(value) {
+        Some(Lit::Int(literal)) => literal.base10_parse(),
+        _ => Err(syn::Error::new_spanned(value, "expected a whole number")),
     }
 }
 

@@ -23,9 +23,12 @@ use proc_macro::TokenStream;
 /// ```ignore
 /// include_robot!(
 ///     "robots/trttr1.toml",
-///     functions = ["inverse_dynamics", "link_wrenches"], // all that the robot has without this
+///     functions = ["inverse_dynamics", "mass_matrix"], // ["all"] for all; the usual ones without this
 ///     snap = 1e-8,                  // rad; constant angles this near to π/2 · n become that
 ///     scalar = "f32",               // "f64" without this
+///     generic = true,               // forms `…_generic` over any scalar of the runtime, lanes too
+///     batch = 8,                    // forms `…_batch` over slices of states, in blocks of so many
+///     fused = true,                 // multiply-adds where the target has the instruction
 ///     trigonometry = "polynomial",  // "standard" without this
 ///     runtime = "::robot_runtime",
 ///     allow_outside = true,         // the file may lie outside of the package

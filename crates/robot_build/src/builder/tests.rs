@@ -138,6 +138,10 @@ fn wrong_options_are_errors() {
         shown.contains("Pendulum has no function `inverse_dynamics_wrench`: the robot has no tip")
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("no functions are chosen"));
+    for states in [0, 65] {
+        let shown = message(&builder(&package).batch(states), &["robots/a.toml"]);
+        assert!(shown.contains("choose 1 to 64"), "{shown}");
+    }
     for snap in [f64::NAN, -1.0, 2.0] {
         assert!(message(&builder(&package).snap(snap), &["robots/a.toml"]).contains("is no angle"));
     }

@@ -5,14 +5,14 @@ mod output;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use robot_build::{FunctionKind, Options, Programs, Source, Trigonometry, programs};
+use robot_build::{FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs};
 use robot_codegen::module::Function;
 use robot_codegen::{Interpreter, OutputValues};
 use robot_dynamics::model::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
-use crate::robot::{RobotArgument, TrigonometryName, functions};
+use crate::robot::{RobotArgument, TrigonometryName, unknown_function};
 use crate::states::{Layout, State, WRENCH};
 use crate::text;
 
@@ -70,7 +70,7 @@ impl Arguments {
         let mut wrong = self.wrong_settings(&robot);
         let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
         let kind = with_wrench(kind, &robot, &states, &mut wrong);
-        let options = Options { functions: Some(vec![kind]), ..self.robot.options()? };
+        let options = Options { functions: Functions::Chosen(vec![kind]), ..self.robot.options()? };
         let programs = programs(&source, &options)?;
         text::warnings(&programs.warnings, terminal)?;
         let results = self.results(&source, &programs, &states, wrong)?;
@@ -91,10 +91,8 @@ impl Arguments {
                 && kind.missing_in(robot).is_none()
                 && frame.is_some_and(|frame| robot.frames.iter().any(|one| one.name == frame))
         });
-        match suffixed {
-            Some(kind) => Ok(kind),
-            None => Ok(functions(std::slice::from_ref(&self.function))?.remove(0)),
-        }
+        let known = suffixed.or_else(|| FunctionKind::from_name(&self.function));
+        known.ok_or_else(|| Failure::Usage(vec![unknown_function(&self.function, &[])]))
     }
 
     /// The function among those of its kind.

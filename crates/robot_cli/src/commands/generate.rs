@@ -15,6 +15,7 @@ use crate::text;
 #[command(after_help = "Example:
   robot-symbolic generate robots/trttr1.toml -o src/trttr1.rs
   robot-symbolic generate robots/trttr1.toml -o src/trttr1.rs --check
+  robot-symbolic generate robots/ur5.toml --function all --batch --fused
 
 The file holds one module, named after the robot in lower case; it calls the crate robot_runtime.
 With --check nothing is written: the exit code is 1 where the file is out of date.")]

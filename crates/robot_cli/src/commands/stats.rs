@@ -1,7 +1,7 @@
 //! `stats`: the operations of a robot's functions.
 
 use clap::{Args, ValueEnum};
-use robot_build::{FunctionKind, Options, programs};
+use robot_build::{Functions, Options, programs};
 use robot_codegen::FunctionCounts;
 use serde_json::{Map, Value, json};
 
@@ -37,12 +37,12 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let mut functions = functions(&self.functions)?;
+        let functions = match self.functions.as_slice() {
+            [] => Functions::All,
+            names => functions(names)?,
+        };
         let source = self.robot.source()?;
-        if functions.is_empty() {
-            functions = FunctionKind::of(&robot_build::read(&source)?.robot);
-        }
-        let options = Options { functions: Some(functions), ..self.robot.options()? };
+        let options = Options { functions, ..self.robot.options()? };
         let programs = programs(&source, &options)?;
         text::warnings(&programs.warnings, terminal)?;
         let module = &programs.module;

@@ -36,6 +36,22 @@ fn options_reach_the_code() {
     ] {
         assert_eq!(shown.contains(part), is_there, "{part}");
     }
+    let forms = ["generate", &file, "--function", "all", "--generic", "--batch", "--fused"];
+    let shown = output(&forms, "");
+    for part in [
+        "pub fn inverse_dynamics_generic<T: ::robot_runtime::Scalar>",
+        "pub fn mass_matrix_batch",
+        "as_chunks::<8>",
+        "::robot_runtime::Scalar::mul_add",
+        "pub fn forward_dynamics_derivatives",
+    ] {
+        assert!(shown.contains(part), "{part}");
+    }
+    let shown = output(&["generate", &file, "--batch=4"], "");
+    assert!(shown.contains("as_chunks::<4>"));
+    assert!(!shown.contains("mul_add") && !shown.contains("_generic"));
+    let shown = complaint(1, &["generate", &file, "--batch=0"], "");
+    assert!(shown.contains("choose 1 to 64"), "{shown}");
     let shown = complaint(2, &["generate", &file, "--function", "a,link_wrench"], "");
     assert_eq!(shown.lines().count(), 2);
     let shown = complaint(1, &["generate", &file, "--runtime", "a b"], "");

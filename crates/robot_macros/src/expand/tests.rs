@@ -18,6 +18,9 @@ fn the_module_is_the_builders() {
         .out_dir(&out)
         .emit_directives(false)
         .snap(1e-7)
+        .generic(true)
+        .batch(4)
+        .fused(true)
         .functions(["inverse_dynamics_wrench"])
         .compile(&["robots/trttr1.toml"])
         .unwrap();
@@ -26,6 +29,7 @@ fn the_module_is_the_builders() {
     let built: TokenStream = built.parse().unwrap();
     let expanded = expanded(quote! {
         "robots/trttr1.toml", functions = ["inverse_dynamics_wrench"], snap = 1e-7,
+        generic = true, batch = 4, fused = true,
     });
     let rest = expanded.strip_prefix(&built.to_string()).unwrap();
     assert!(
@@ -39,7 +43,7 @@ fn the_module_is_the_builders() {
 fn all_wrong_options_are_named() {
     let shown = expanded(quote! {
         "robots/trttr1.toml", snapp = 1, snap = "x", functions = ["inverse"], scalar = "f16",
-        allow_outside = 1, runtime = 3, trigonometry = "none", scalar = "f32"
+        allow_outside = 1, runtime = 3, trigonometry = "none", scalar = "f32", batch = 2.5
     });
     for part in [
         "there is no option `snapp`",
@@ -47,13 +51,14 @@ fn all_wrong_options_are_named() {
         "expected one of \\\"inverse_dynamics\\\"",
         "expected one of \\\"f64\\\", \\\"f32\\\"",
         "expected true or false",
+        "expected a whole number",
         "expected a string literal",
         "expected one of \\\"standard\\\", \\\"polynomial\\\"",
         "`scalar` is given twice",
     ] {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }
-    assert_eq!(shown.matches("compile_error").count(), 8);
+    assert_eq!(shown.matches("compile_error").count(), 9);
     assert!(expanded(quote!(5)).contains("expected the path of a robot file"));
     assert!(expanded(quote!()).contains("expected the path of a robot file"));
 }

@@ -1,0 +1,166 @@
+//! The further forms of functions, compiled: generic ones at every scalar, batches, multiply-adds.
+
+use std::fmt::Write as _;
+
+use robot_build::{Functions, Options, Source, Trigonometry, generate, programs};
+use robot_codegen::Interpreter;
+use robot_dynamics::functions::FunctionKind;
+use robot_dynamics::numeric::random::Random;
+
+use crate::package::{Package, dependency};
+
+/// More than two blocks of eight, and a rest.
+const STATES: usize = 19;
+/// Of the largest torque: what roundings in another order may do.
+const TOLERANCE: f64 = 1e-12;
+const SINGLE_TOLERANCE: f64 = 1e-4;
+
+const UR5: &str = include_str!("../../robots/ur5.toml");
+const TRTTR1: &str = include_str!("../../robots/trttr1.toml");
+
+/// Every form of inverse dynamics, and a batch of the mass matrix, whose velocities are unused.
+fn options(trigonometry: Trigonometry, fused: bool) -> Options {
+    let functions = vec![FunctionKind::InverseDynamics, FunctionKind::MassMatrix];
+    Options {
+        functions: Functions::Chosen(functions),
+        generic: true,
+        batch: Some(8),
+        fused,
+        trigonometry,
+        ..Options::default()
+    }
+}
+
+fn source(robot: &str) -> Source {
+    Source { name: "robot.toml".to_owned(), text: robot.to_owned() }
+}
+
+/// Positions, velocities and accelerations of the states.
+fn states(dof: usize) -> [Vec<Vec<f64>>; 3] {
+    let mut random = Random::new(3);
+    std::array::from_fn(|_| {
+        let state = |_| (0..dof).map(|_| random.uniform(-3.0, 3.0)).collect();
+        (0..STATES).map(state).collect()
+    })
+}
+
+/// The torques by the interpreter.
+fn expected(robot: &str, dof: usize) -> Vec<Vec<f64>> {
+    let programs = programs(&source(robot), &options(Trigonometry::Standard, false)).unwrap();
+    let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
+    let [q, qd, qdd] = states(dof);
+    let torques = |state: usize| {
+        let inputs = [("q", &q[state][..]), ("qd", &qd[state]), ("qdd", &qdd[state])];
+        interpreter.call("inverse_dynamics", &inputs).unwrap().remove(0).values
+    };
+    (0..STATES).map(torques).collect()
+}
+
+/// A program that prints the torques at all states by each form, a state a line.
+fn main_text() -> String {
+    let mut text = "#![deny(warnings)]\nmod cases;\nuse robot_runtime::{F32x8, F64x4, Scalar};\n\
+        fn show<const N: usize>(form: &str, tau: &[[f64; N]]) {\n    \
+            for tau in tau { println!(\"{form} {tau:?}\"); }\n\
+        }\n\
+        fn wide<T: Scalar, const N: usize>(values: &[f64; N]) -> [T; N] { values.map(T::from_f64) }\n\
+        fn main() {\n"
+        .to_owned();
+    for (module, dof, model) in [
+        ("ur5", 6, "Model::NOMINAL"),
+        ("trttr1", 5, "Model::new(&cases::CASE::Parameters::NOMINAL)"),
+    ] {
+        for case in ["standard", "polynomial"] {
+            let path = format!("{case}::{module}");
+            let model = model.replace("CASE", &path);
+            let [q, qd, qdd] = states(dof);
+            let each = "q.iter().zip(&qd).zip(&qdd).map(|((q, qd), qdd)|";
+            let collect = ").collect::<Vec<_>>()";
+            writeln!(
+                text,
+                "{{ let m = cases::{path}::{model};\n\
+                 let (q, qd, qdd) = ({q:?}, {qd:?}, {qdd:?});\n\
+                 show(\"plain\", &{each} m.inverse_dynamics(q, qd, qdd){collect});\n\
+                 show(\"f64\", &{each} m.inverse_dynamics_generic(q, qd, qdd){collect});\n\
+                 show(\"f32\", &{each} m.inverse_dynamics_generic(&wide::<f32, {dof}>(q), &wide(qd), \
+                   &wide(qdd)).map(f64::from){collect});\n\
+                 show(\"lanes\", &{each} m.inverse_dynamics_generic(&wide::<F64x4, {dof}>(q), &wide(qd), \
+                   &wide(qdd)).map(|tau| tau.to_array()[3]){collect});\n\
+                 show(\"f32\", &{each} m.inverse_dynamics_generic(&wide::<F32x8, {dof}>(q), &wide(qd), \
+                   &wide(qdd)).map(|tau| tau.to_array()[7].into()){collect});\n\
+                 let mut tau = [[0.0; {dof}]; {STATES}];\n\
+                 assert_eq!(m.inverse_dynamics_batch(&q, &qd, &qdd, &mut tau), {STATES});\n\
+                 show(\"batch\", &tau);\n\
+                 let mut masses = [[[0.0; {dof}]; {dof}]; {STATES}];\n\
+                 assert_eq!(m.mass_matrix_batch(&q, &mut masses), {STATES});\n\
+                 for (q, mass) in q.iter().zip(&masses) {{\n    \
+                   for (row, batch) in m.mass_matrix(q).iter().zip(mass) {{\n        \
+                     for (a, b) in row.iter().zip(batch) {{ assert!((a - b).abs() < 1e-9); }}\n    \
+                   }}\n\
+                 }} }}"
+            )
+            .unwrap();
+        }
+    }
+    text.push_str("println!(\"fused {}\", robot_runtime::FUSED);\n}\n");
+    text
+}
+
+/// The code of both robots with both sources of sines.
+fn cases_text(fused: bool) -> String {
+    let mut text = String::new();
+    for (case, trigonometry) in
+        [("standard", Trigonometry::Standard), ("polynomial", Trigonometry::Polynomial)]
+    {
+        let code = |robot| generate(&source(robot), &options(trigonometry, fused)).unwrap().code;
+        writeln!(text, "pub mod {case} {{\n{}\n{}\n}}", code(UR5), code(TRTTR1)).unwrap();
+    }
+    text
+}
+
+/// Holds what the program prints against the interpreter; gives whether it fused.
+fn hold(printed: &str) -> bool {
+    let mut lines = printed.lines();
+    for (robot, dof) in [(UR5, 6), (TRTTR1, 5)] {
+        let expected = expected(robot, dof);
+        let size = expected.iter().flatten().fold(0.0_f64, |size, tau| size.max(tau.abs()));
+        // Two sources of sines, six forms each.
+        for _ in 0..2 * 6 {
+            for expected in &expected {
+                let (form, values) = lines.next().unwrap().split_once(' ').unwrap();
+                let tolerance = if form == "f32" { SINGLE_TOLERANCE } else { TOLERANCE };
+                let values = values.trim_matches(['[', ']']).split(", ");
+                for (value, expected) in values.zip(expected) {
+                    let error = (value.parse::<f64>().unwrap() - expected).abs() / size;
+                    assert!(error <= tolerance, "{form} is off by {error:e}");
+                }
+            }
+        }
+    }
+    lines.next() == Some("fused true")
+}
+
+/// Cargo's flags for an optimised build with a target's features, and whether it is the machine's.
+fn builds() -> Vec<(&'static str, bool)> {
+    let mut builds = vec![("", cfg!(target_arch = "aarch64"))];
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("fma") && std::arch::is_x86_feature_detected!("avx2") {
+        builds.push(("-Ctarget-feature=+avx2,+fma", true));
+    }
+    builds
+}
+
+#[test]
+fn every_form_agrees_with_or_without_fused_instructions() {
+    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let profile = "[profile.dev]\nopt-level = 1\n";
+    let package = Package::new("forms", &format!("[dependencies]\n{runtime}\n{profile}"));
+    package.write("src/main.rs", &main_text());
+    for fused in [false, true] {
+        let code = cases_text(fused);
+        assert_eq!(code.contains("mul_add"), fused);
+        package.write("src/cases.rs", &code);
+        for (flags, fuses) in builds() {
+            assert_eq!(hold(&package.run_with(&["run"], flags)), fuses, "{flags}");
+        }
+    }
+}
