@@ -19,6 +19,8 @@ pub(crate) enum Failure {
     Input(Vec<String>),
     /// Arguments that do not fit together, or name what there is not.
     Usage(Vec<String>),
+    /// What is shown already.
+    Shown,
     /// A stream.
     Stream(io::Error),
 }
@@ -53,6 +55,7 @@ impl Failure {
             Failure::Robot(errors) => (robot_messages(errors, terminal.colours), 1),
             Failure::Input(messages) => (shown(messages), 1),
             Failure::Usage(messages) => (shown(messages), 2),
+            Failure::Shown => (vec![], 1),
             // Whoever reads the output has seen enough.
             Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
             Failure::Stream(error) => (vec![format!("error: {error}")], 1),

@@ -5,6 +5,7 @@
 
 pub mod description;
 pub mod diagnostic;
+pub mod doctor;
 pub mod economical;
 pub mod errata;
 pub mod functions;

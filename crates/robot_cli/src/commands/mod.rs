@@ -1,5 +1,6 @@
 //! The commands, a file each.
 
+mod check;
 mod demo;
 mod equations;
 mod eval;
@@ -32,6 +33,8 @@ pub(crate) enum Command {
     Search(search::Arguments),
     /// Write a URDF file as a robot file
     Import(import::Arguments),
+    /// Check robot files for errors and likely slips
+    Check(check::Arguments),
     /// Show what a robot file says
     Show(show::Arguments),
     /// Show the equations of the robot TRTTR1 and run its generated code
@@ -56,6 +59,7 @@ impl Command {
             Command::Stats(arguments) => arguments.run(terminal),
             Command::Search(arguments) => arguments.run(terminal),
             Command::Import(arguments) => arguments.run(terminal),
+            Command::Check(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
             Command::Demo(arguments) => arguments.run(terminal),
         }

@@ -2,8 +2,18 @@
 
 use crate::{complaint, output, run};
 
-const COMMANDS: [&str; 9] =
-    ["equations", "generate", "crate", "eval", "stats", "search", "import", "show", "demo"];
+const COMMANDS: [&str; 10] = [
+    "equations",
+    "generate",
+    "crate",
+    "eval",
+    "stats",
+    "search",
+    "import",
+    "check",
+    "show",
+    "demo",
+];
 
 #[test]
 fn every_command_has_help_with_an_example() {

@@ -54,7 +54,7 @@ pub(super) fn read(
     place.unchecked = unchecked.and_then(|entry| reader.boolean(entry.value)) == Some(true);
     tensor.inertia = entries(reader, &mut table, place.unchecked);
     if let Some(entry) = table.get("rpy") {
-        let [roll, pitch, yaw] = reader.vector(entry.value, RPY);
+        let [roll, pitch, yaw] = reader.angle_vector(entry.value, RPY);
         tensor.turns = vec![
             Move::Rotate(Axis::Z, yaw),
             Move::Rotate(Axis::Y, pitch),
@@ -156,7 +156,7 @@ fn finite(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span) {
     );
 }
 
-pub(super) fn entries_of(inertia: &Inertia) -> [&Formula; 6] {
+pub(crate) fn entries_of(inertia: &Inertia) -> [&Formula; 6] {
     let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
     [xx, yy, zz, xy, xz, yz]
 }

@@ -1,10 +1,12 @@
 //! Where in the file the parts of a robot are.
 
+use robot_symbolic::Formula;
+
 use crate::diagnostic::{Diagnostic, Span, code};
 
 /// Places of a [`crate::model::Robot`]'s parts, index by index; what the file leaves out is `None`
 /// or stands at the place of the table that lacks it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Locations {
     /// The robot's name.
     pub name: Span,
@@ -16,8 +18,19 @@ pub struct Locations {
     pub links: Vec<LinkLocation>,
     /// One for each of [`crate::model::Robot::frames`].
     pub frames: Vec<FrameLocation>,
+    /// The angles of placements and of tensors' axes, in the order of reading.
+    pub angles: Vec<AngleLocation>,
     /// Bodies that are fixed to the base and therefore no part of the robot.
     pub dropped: Vec<DroppedBody>,
+}
+
+/// An angle of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AngleLocation {
+    /// The angle, rad.
+    pub value: Formula,
+    /// Its place.
+    pub place: Span,
 }
 
 /// A body without effect on the motion: it is fixed to the base.

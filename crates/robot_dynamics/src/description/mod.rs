@@ -17,7 +17,7 @@ mod drive;
 mod export;
 mod file;
 mod frames;
-mod inertia;
+pub(crate) mod inertia;
 mod joint;
 mod latex;
 mod limits;
@@ -27,7 +27,7 @@ mod mimic;
 mod names;
 mod options;
 mod parameters;
-mod physics;
+pub(crate) mod physics;
 mod placement;
 mod reader;
 mod strings;
@@ -39,7 +39,8 @@ mod value;
 
 pub use limits::{MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
 pub use locations::{
-    BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations, ParameterLocation,
+    AngleLocation, BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations,
+    ParameterLocation,
 };
 pub use options::{Format, Options};
 
@@ -219,7 +220,8 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(R
             Format::Urdf => "add a `<joint>` of type revolute, continuous or prismatic",
         }));
     }
-    let (robot, locations) = assemble::robot(reader, draft, &order, parameters);
+    let (robot, mut locations) = assemble::robot(reader, draft, &order, parameters);
+    locations.angles = std::mem::take(&mut reader.angles);
     // What an error kept from being read may use parameters.
     if reader.failed() {
         return None;

@@ -9,7 +9,7 @@ pub(super) const TOLERANCE: f64 = 1e-3;
 
 /// What is to be said of an inertia tensor. Principal moments ascend, kg m².
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Verdict {
+pub(crate) enum Verdict {
     /// Some body has it; all zeros are a point mass.
     Possible,
     /// A principal moment is negative.
@@ -19,7 +19,7 @@ pub(super) enum Verdict {
 }
 
 /// Judges the tensor `[xx, yy, zz, xy, xz, yz]` about the centre of mass.
-pub(super) fn judge(tensor: [f64; 6]) -> Verdict {
+pub(crate) fn judge(tensor: [f64; 6]) -> Verdict {
     let Some(moments) = principal_moments(tensor) else {
         return Verdict::Possible;
     };
@@ -83,7 +83,7 @@ pub(super) fn principal_moments(tensor: [f64; 6]) -> Option<[f64; 3]> {
 }
 
 /// Six significant digits.
-pub(super) fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
         return format!("{rounded:e}");

@@ -80,7 +80,7 @@ pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement 
     let xyz = table
         .get("xyz")
         .map_or_else(zeros, |entry| reader.vector(entry.value, quantity("the origin", 0, 1, 0)));
-    let rpy = table.get("rpy").map_or_else(zeros, |entry| reader.vector(entry.value, RPY));
+    let rpy = table.get("rpy").map_or_else(zeros, |entry| reader.angle_vector(entry.value, RPY));
     table.finish(reader);
     without_rests(Placement::from_xyz_rpy(xyz, rpy))
 }
@@ -110,15 +110,15 @@ pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Opti
 
 /// `a`, `alpha`, `d` and `theta`, each zero where it is left out.
 pub(super) fn row(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Row {
-    let mut figure = |key: &'static str, what: Quantity| {
-        let entry = table.get(key);
-        entry.map_or_else(zero, |entry| reader.formula(entry.value, what))
+    let mut figure = |key: &'static str, what: Quantity, is_angle: bool| {
+        let read = if is_angle { Reader::angle } else { Reader::formula };
+        table.get(key).map_or_else(zero, |entry| read(reader, entry.value, what))
     };
     Row {
-        a: figure("a", quantity("the length `a`", 0, 1, 0)),
-        alpha: figure("alpha", quantity("the twist `alpha`", 0, 0, 0)),
-        d: figure("d", quantity("the offset `d`", 0, 1, 0)),
-        theta: figure("theta", quantity("the angle `theta`", 0, 0, 0)),
+        a: figure("a", quantity("the length `a`", 0, 1, 0), false),
+        alpha: figure("alpha", quantity("the twist `alpha`", 0, 0, 0), true),
+        d: figure("d", quantity("the offset `d`", 0, 1, 0), false),
+        theta: figure("theta", quantity("the angle `theta`", 0, 0, 0), true),
     }
 }
 

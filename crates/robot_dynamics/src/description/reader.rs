@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use robot_symbolic::{Formula, Graph, Number, Rational};
 
+use super::locations::AngleLocation;
 use super::names::{Registry, is_coordinate};
 use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
@@ -32,6 +33,8 @@ pub(super) struct Named {
 pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
     pub(super) found: Vec<Diagnostic>,
+    /// The angles of the file.
+    pub(super) angles: Vec<AngleLocation>,
     parameters: Vec<Known>,
     by_name: BTreeMap<String, usize>,
     /// Parameters and wrench components: what equations and code call by name.
@@ -43,6 +46,7 @@ impl<'a> Reader<'a> {
         Reader {
             text,
             found: Vec::new(),
+            angles: Vec::new(),
             parameters: Vec::new(),
             by_name: BTreeMap::new(),
             symbols: Registry::new("symbol"),

@@ -6,6 +6,7 @@ use robot_symbolic::{Formula, Rational};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
+use super::locations::AngleLocation;
 use super::reader::Reader;
 use super::strings;
 use super::table::{Table, Value, list};
@@ -271,11 +272,32 @@ impl Reader<'_> {
         false
     }
 
+    /// An angle, rad, which is noted with its place.
+    pub(super) fn angle(&mut self, value: Value<'_>, quantity: Quantity) -> Formula {
+        let angle = self.formula(value, quantity);
+        self.angles.push(AngleLocation { value: angle.clone(), place: value.span() });
+        angle
+    }
+
+    /// Three angles, rad.
+    pub(super) fn angle_vector(&mut self, value: Value<'_>, quantity: Quantity) -> [Formula; 3] {
+        self.three(value, quantity, Reader::angle)
+    }
+
     /// Three numbers or expressions.
     pub(super) fn vector(&mut self, value: Value<'_>, quantity: Quantity) -> [Formula; 3] {
+        self.three(value, quantity, Reader::formula)
+    }
+
+    fn three(
+        &mut self,
+        value: Value<'_>,
+        quantity: Quantity,
+        figure: impl Fn(&mut Self, Value<'_>, Quantity) -> Formula,
+    ) -> [Formula; 3] {
         let expected = format!("{} as `[x, y, z]`", quantity.what);
         match self.entries::<3>(value, &expected) {
-            Some(entries) => entries.map(|entry| self.formula(entry, quantity)),
+            Some(entries) => entries.map(|entry| figure(self, entry, quantity)),
             None => array::from_fn(|_| Reader::unknown()),
         }
     }

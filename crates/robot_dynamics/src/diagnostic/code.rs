@@ -50,10 +50,22 @@ codes! {
     NO_EFFECT = "R0602", "A figure has no effect on the motion.";
     NOT_READ = "R0603", "An element or attribute that URDF does not have is not read.";
     AXIS_LENGTH = "R0604", "A joint axis is not of unit length.";
+    UNITS = "R0605", "Figures look as if they were not in SI units.";
+    CENTER_FAR = "R0606", "A centre of mass lies far outside of its link.";
+    COPIED = "R0607", "Several links have the same inertia.";
+    ABOUT_ORIGIN = "R0608", "An inertia looks as if it were about the origin of its frame.";
+    TOO_WIDE = "R0609", "An inertia is that of a far larger body than the link.";
+    POINT_MASS = "R0610", "A body that turns has mass and no moments of inertia.";
+    MOVES_NOTHING = "R0611", "A joint moves nothing that has mass.";
+    ANGLE_NEAR = "R0612", "An angle is nearly a multiple of π/2.";
+    DEGREES = "R0613", "An angle looks as if it were in degrees.";
+    AXIS_NEAR = "R0614", "A joint axis is nearly along an axis of its frame.";
+    GRAVITY_UP = "R0615", "Gravity points up.";
     TAKEN_AS_BASE = "R0701", "A link is taken for the base.";
     TAKEN_TOGETHER = "R0702", "A fixed link is part of the link that carries it.";
     TAKEN_COORDINATE = "R0703", "A joint shares or gives a coordinate in a way to know of.";
     TAKEN_DEFAULT = "R0704", "A figure that the file leaves out has the format's own value.";
     TAKEN_NAME = "R0705", "A name is changed.";
     LEFT_OUT = "R0706", "Something in the file is no part of the robot here.";
+    TAKEN_ANGLE = "R0707", "An angle is taken for a multiple of π/2.";
 }

@@ -36,28 +36,33 @@ impl Mechanism {
     ///
     /// Those of [`Mechanism::from_robot`]; a parameter without a nominal value has none.
     pub fn nominal(robot: &model::Robot) -> Result<Self, NumericError> {
-        Mechanism::from_robot(robot, &|name| {
-            let parameter = robot.parameter(name);
-            let value = parameter.and_then(|parameter| parameter.value.as_ref());
-            value.map_or(f64::NAN, robot_symbolic::Rational::to_f64)
-        })
+        Mechanism::from_robot(robot, &|name| nominal_value(robot, name))
     }
 }
 
-struct Evaluation<'v> {
-    value: &'v dyn Fn(&str) -> f64,
+/// The nominal value of a parameter; NaN where it has none.
+pub(crate) fn nominal_value(robot: &model::Robot, name: &str) -> f64 {
+    let parameter = robot.parameter(name);
+    let value = parameter.and_then(|parameter| parameter.value.as_ref());
+    value.map_or(f64::NAN, robot_symbolic::Rational::to_f64)
+}
+
+/// Formulas in numbers.
+pub(crate) struct Evaluation<'v> {
+    /// The values of parameters by name.
+    pub(crate) value: &'v dyn Fn(&str) -> f64,
 }
 
 impl Evaluation<'_> {
-    fn number(&self, formula: &Formula) -> f64 {
+    pub(crate) fn number(&self, formula: &Formula) -> f64 {
         formula.evaluate(self.value)
     }
 
-    fn vector(&self, [x, y, z]: &[Formula; 3]) -> Vector3<f64> {
+    pub(crate) fn vector(&self, [x, y, z]: &[Formula; 3]) -> Vector3<f64> {
         Vector3::new(self.number(x), self.number(y), self.number(z))
     }
 
-    fn pose(&self, placement: &model::Placement) -> Pose {
+    pub(crate) fn pose(&self, placement: &model::Placement) -> Pose {
         placement.0.iter().fold(Pose::identity(), |pose, step| {
             let mut next = Pose::identity();
             match step {
@@ -104,12 +109,7 @@ impl Evaluation<'_> {
             .iter()
             .map(|body| {
                 let pose = self.pose(&body.placement);
-                let [xx, yy, zz, xy, xz, yz] = {
-                    let model::Inertia { xx, yy, zz, xy, xz, yz } = &body.inertia;
-                    [xx, yy, zz, xy, xz, yz].map(|entry| self.number(entry))
-                };
-                let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-                let turned = pose.rotation * own * pose.rotation.transpose();
+                let turned = pose.rotation * self.tensor(&body.inertia) * pose.rotation.transpose();
                 (self.number(&body.mass), pose.translation, turned)
             })
             .collect();
@@ -125,6 +125,13 @@ impl Evaluation<'_> {
             inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
         });
         (mass, centre, inertia.sum())
+    }
+
+    /// The tensor in its own axes.
+    pub(crate) fn tensor(&self, inertia: &model::Inertia) -> Matrix3<f64> {
+        let model::Inertia { xx, yy, zz, xy, xz, yz } = inertia;
+        let [xx, yy, zz, xy, xz, yz] = [xx, yy, zz, xy, xz, yz].map(|entry| self.number(entry));
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     }
 
     fn friction(&self, friction: &model::Friction) -> Friction {

@@ -40,7 +40,7 @@ mod energy;
 mod error;
 mod forward_dynamics;
 mod friction;
-mod from_robot;
+pub(crate) mod from_robot;
 mod jacobian;
 mod kinematics;
 mod mass_matrix;

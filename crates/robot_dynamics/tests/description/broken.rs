@@ -6,8 +6,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-use robot_dynamics::description::read;
+use robot_dynamics::description::Options;
 use robot_dynamics::diagnostic::code;
+use robot_dynamics::doctor::{Examination, check};
 
 fn folder() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/broken"))
@@ -35,11 +36,8 @@ fn files() -> BTreeSet<String> {
 /// same.
 fn message(name: &str) -> String {
     let text = fs::read_to_string(folder().join(name)).unwrap();
-    match read(name, &text) {
-        Ok(described) if described.warnings.is_empty() => described.choices.to_string(),
-        Ok(described) => described.warnings.to_string(),
-        Err(found) => found.to_string(),
-    }
+    let Examination { found, choices } = check(name, &text, &Options::default());
+    if found.is_empty() { choices.to_string() } else { found.to_string() }
 }
 
 fn stem(name: &str) -> &str {

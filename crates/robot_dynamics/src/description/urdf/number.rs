@@ -59,7 +59,7 @@ pub(super) fn formulas<const N: usize>(
 }
 
 /// The words of an attribute with their places in the file.
-fn words<'t>(reader: &Reader<'t>, attribute: &Attribute<'t>) -> Vec<(&'t str, Span)> {
+pub(super) fn words<'t>(reader: &Reader<'t>, attribute: &Attribute<'t>) -> Vec<(&'t str, Span)> {
     let raw = reader.text.get(attribute.span.clone()).unwrap_or_default();
     // Behind references to characters nothing stands where it is read.
     let followed = !raw.contains('&');

@@ -2,10 +2,11 @@
 
 use robot_symbolic::Formula;
 
+use super::super::locations::AngleLocation;
 use super::super::placement::{without_rests, zeros};
 use super::super::reader::Reader;
 use super::element::Element;
-use super::number::formulas;
+use super::number::{formulas, words};
 use crate::diagnostic::Span;
 use crate::model::Placement;
 
@@ -27,8 +28,9 @@ pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Orig
     };
     let attributes = [element.attribute("xyz"), element.attribute("rpy")];
     let mut vectors = [Some(zeros()), Some(zeros())];
-    let words = [("the origin", "0 0 0.1"), ("the angles roll, pitch and yaw", "0 0 1.57")];
-    for ((vector, attribute), (what, example)) in vectors.iter_mut().zip(&attributes).zip(words) {
+    let examples = [("the origin", "0 0 0.1"), ("the angles roll, pitch and yaw", "0 0 1.57")];
+    for ((vector, attribute), (what, example)) in vectors.iter_mut().zip(&attributes).zip(examples)
+    {
         if let Some(attribute) = attribute {
             *vector = formulas::<3>(reader, attribute, what, example);
         }
@@ -36,7 +38,11 @@ pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Orig
     let [Some(xyz), Some(rpy)] = vectors else {
         return None;
     };
-    let [of_xyz, _] = attributes;
+    let [of_xyz, of_rpy] = attributes;
+    let places = of_rpy.map(|attribute| words(reader, &attribute)).unwrap_or_default();
+    let angles = rpy.iter().zip(places);
+    let angles = angles.map(|(value, (_, place))| AngleLocation { value: value.clone(), place });
+    reader.angles.extend(angles);
     Some(Origin {
         placement: placement(xyz, rpy),
         span: Some(element.span()),

@@ -1,0 +1,184 @@
+//! `check`: what is wrong with robot files, and what is likely a slip.
+
+mod json;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_build::{Error, RobotFile};
+use robot_dynamics::description::Options;
+use robot_dynamics::diagnostic::{Diagnostics, Severity, Style, code};
+use robot_dynamics::doctor::{self, Examination};
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic check robots/*.toml arm.urdf
+  robot-symbolic check arm.urdf --deny warnings --allow R0607 --format json
+  robot-symbolic check --explain R0608
+
+Errors are what no mechanism can be: no other command takes such a file. Warnings are likely slips; they
+change nothing, and but for a few that the reader knows no other command shows them. Notes tell how the
+file was taken. Every diagnostic has a stable code with a page (docs/diagnostics).
+
+Exit codes: 0 no errors; 1 errors in some file, or warnings with --deny warnings; 2 the command line is
+wrong. Text goes to standard error, JSON to standard output.")]
+pub(crate) struct Arguments {
+    /// Robot files, TOML or URDF
+    #[arg(required_unless_present = "explain", value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// How to show what is found
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Let warnings fail, too
+    #[arg(long, value_enum)]
+    deny: Option<Deny>,
+    /// Leave out warnings and notes with these codes
+    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    allow: Vec<String>,
+    /// Show the page of a code
+    #[arg(long, value_name = "CODE", exclusive = true)]
+    explain: Option<String>,
+    /// URDF: take moving links without mass
+    #[arg(long)]
+    allow_massless: bool,
+    /// URDF: take inertias that no body has
+    #[arg(long)]
+    allow_unphysical: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Deny {
+    Warnings,
+}
+
+/// What is found in one file.
+enum Report {
+    Examined(Examination),
+    /// A file that cannot be read, and why.
+    Unread {
+        file: String,
+        reason: String,
+    },
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        if let Some(wanted) = &self.explain {
+            return explain(wanted, terminal);
+        }
+        let wrong: Vec<String> = self
+            .allow
+            .iter()
+            .filter(|code| title(code).is_none())
+            .map(|code| unknown(code))
+            .collect();
+        if !wrong.is_empty() {
+            return Err(Failure::Usage(wrong));
+        }
+        let reports: Vec<Report> = self.files.iter().map(|file| self.report(file)).collect();
+        match self.format {
+            Format::Text => {
+                for report in &reports {
+                    show(report, terminal)?;
+                }
+            }
+            Format::Json => writeln!(terminal.output, "{:#}", json::document(&reports))?,
+        }
+        let count = |severity| reports.iter().map(|report| report.count(severity)).sum::<usize>();
+        let denied = self.deny == Some(Deny::Warnings) && count(Severity::Warning) > 0;
+        if denied || count(Severity::Error) > 0 { Err(Failure::Shown) } else { Ok(()) }
+    }
+
+    fn report(&self, path: &std::path::Path) -> Report {
+        let options = Options {
+            allow_massless: self.allow_massless,
+            allow_unphysical: self.allow_unphysical,
+            friction: false,
+        };
+        let examination = match RobotFile::read(path) {
+            Ok(file) => doctor::check(&file.source.name, &file.source.text, &options),
+            Err(errors) => match errors.as_slice() {
+                // Bytes that are no text.
+                [Error::Robot(found)] => Examination::refused((**found).clone()),
+                others => {
+                    let file = path.to_string_lossy().into_owned();
+                    let reasons: Vec<String> = others.iter().map(ToString::to_string).collect();
+                    return Report::Unread { file, reason: reasons.join("; ") };
+                }
+            },
+        };
+        let Examination { found, choices } = examination;
+        Report::Examined(Examination { found: self.wanted(&found), choices: self.wanted(&choices) })
+    }
+
+    /// What is not allowed; errors always.
+    fn wanted(&self, found: &Diagnostics) -> Diagnostics {
+        let wanted = found.iter().filter(|one| {
+            one.severity == Severity::Error || self.allow.iter().all(|code| code != one.code)
+        });
+        Diagnostics::new(found.source().clone(), wanted.cloned().collect())
+    }
+}
+
+impl Report {
+    fn count(&self, severity: Severity) -> usize {
+        match self {
+            Report::Examined(Examination { found, choices }) => {
+                let all = found.iter().chain(choices.iter());
+                all.filter(|one| one.severity == severity).count()
+            }
+            Report::Unread { .. } => usize::from(severity == Severity::Error),
+        }
+    }
+}
+
+fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    let Examination { found, choices } = match report {
+        Report::Examined(examination) => examination,
+        Report::Unread { reason, .. } => {
+            writeln!(terminal.errors, "error: {reason}")?;
+            return Ok(());
+        }
+    };
+    let name = &choices.source().name;
+    for choice in choices.iter() {
+        let place = choice.primary.as_ref().map_or(0, |label| label.span.start);
+        let (line, column) = choices.source().position(place);
+        let (code, message) = (choice.code, &choice.message);
+        writeln!(terminal.errors, "note[{code}]: {name}:{line}:{column}: {message}")?;
+    }
+    if found.is_empty() {
+        writeln!(terminal.output, "{name}: no errors, no warnings")?;
+    } else {
+        let style = if terminal.colours { Style::Terminal } else { Style::Plain };
+        writeln!(terminal.errors, "{}", found.render(style).trim_end())?;
+    }
+    Ok(())
+}
+
+fn title(code: &str) -> Option<&'static str> {
+    code::TABLE.iter().find(|(known, _)| *known == code).map(|(_, title)| *title)
+}
+
+fn unknown(wanted: &str) -> String {
+    let known: Vec<&str> = code::TABLE.iter().map(|(code, _)| *code).collect();
+    text::unknown("code", wanted, &known)
+}
+
+fn explain(wanted: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    let wanted = wanted.to_uppercase();
+    let Some(title) = title(&wanted) else {
+        return Err(Failure::Usage(vec![unknown(&wanted)]));
+    };
+    Ok(writeln!(terminal.output, "{wanted}: {title}")?)
+}
