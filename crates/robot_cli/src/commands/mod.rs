@@ -7,6 +7,7 @@ mod eval;
 mod generate;
 mod import;
 mod package;
+mod prove;
 mod search;
 mod show;
 mod stats;
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     Eval(eval::Arguments),
     /// Count the operations of a robot's functions
     Stats(stats::Arguments),
+    /// Compile a robot's code and read what the compiler made of it
+    Prove(prove::Arguments),
     /// Search the form of the recursion with the fewest operations
     Search(search::Arguments),
     /// Write a URDF file as a robot file
@@ -57,6 +60,7 @@ impl Command {
             Command::Crate(arguments) => arguments.run(terminal),
             Command::Eval(arguments) => arguments.run(terminal),
             Command::Stats(arguments) => arguments.run(terminal),
+            Command::Prove(arguments) => arguments.run(terminal),
             Command::Search(arguments) => arguments.run(terminal),
             Command::Import(arguments) => arguments.run(terminal),
             Command::Check(arguments) => arguments.run(terminal),

@@ -7,6 +7,7 @@ mod code;
 mod equations;
 mod eval;
 mod files;
+mod prove;
 mod stats;
 mod usage;
 

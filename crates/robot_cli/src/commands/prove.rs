@@ -1,0 +1,179 @@
+//! `prove`: what the compiler makes of a robot's code.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_evidence::{Compiler, Evidence, Figures, Module, Profile, prove};
+use serde_json::{Map, Value, json};
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic prove robots/ur5.toml
+  robot-symbolic prove robots/ur5.toml --function inverse_dynamics --trigonometry polynomial \\
+      --scalar f32 --target thumbv7em-none-eabihf
+
+Compiles the generated code and reads the object file. This is the one command that starts another
+program: rustc, which must be installed. Nothing is linked, so that a target needs no more than
+`rustup target add`.
+
+The claim: no conditional jump, no panic, and no call but those of sines and cosines. The exit code is
+1 where it does not hold. In dev builds the runtime's sines and cosines loop over the angles, and are
+shown but not part of the claim; arrays may be copied by memcpy. Functions that take slices loop over
+the states; nothing is claimed of them in dev.
+
+A function is counted with all that it calls, each once. `frame` is the function's own stack, `stack`
+that of the deepest chain of calls, in bytes; what sin and cos take comes on top.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    #[command(flatten)]
+    code: CodeArguments,
+    /// Where sines and cosines come from; targets without a standard library need `polynomial`
+    #[arg(long, value_enum, default_value_t = TrigonometryName::Standard)]
+    trigonometry: TrigonometryName,
+    /// Compile as Cargo does in these profiles
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [ProfileName::Dev, ProfileName::Release])]
+    profile: Vec<ProfileName>,
+    /// The target; this machine without it
+    #[arg(long, value_name = "TRIPLE")]
+    target: Option<String>,
+    /// The processor of the target, such as `native`; the plainest without it
+    #[arg(long, value_name = "CPU")]
+    target_cpu: Option<String>,
+    /// The compiler; the variable RUSTC, or `rustc`, without it
+    #[arg(long, value_name = "PATH")]
+    rustc: Option<PathBuf>,
+    /// How to print it
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum ProfileName {
+    Dev,
+    Release,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let options = self.code.options(&self.robot, self.trigonometry)?;
+        let compiler = Compiler {
+            rustc: self.rustc.clone(),
+            target: self.target.clone(),
+            cpu: self.target_cpu.clone(),
+        };
+        let profiles: Vec<Profile> = self.profile.iter().map(|profile| (*profile).into()).collect();
+        let failed = |error: robot_evidence::Error| match error {
+            robot_evidence::Error::Robot(errors) => Failure::Robot(errors),
+            other => Failure::input(other.to_string()),
+        };
+        let description = compiler.description().map_err(failed)?;
+        let modules =
+            prove(&self.robot.source()?, &options, &compiler, &profiles).map_err(failed)?;
+        match self.format {
+            Format::Text => {
+                writeln!(terminal.output, "{description}")?;
+                for module in &modules {
+                    write!(terminal.output, "\n{}", text_of(module))?;
+                }
+            }
+            Format::Json => {
+                let modules: Vec<Value> = modules.iter().map(json_of).collect();
+                let shown = json!({ "compiler": description, "profiles": modules });
+                writeln!(terminal.output, "{shown:#}")?;
+            }
+        }
+        let broken: Vec<String> = modules.iter().flat_map(violations).collect();
+        if broken.is_empty() { Ok(()) } else { Err(Failure::Input(broken)) }
+    }
+}
+
+impl From<ProfileName> for Profile {
+    fn from(name: ProfileName) -> Profile {
+        match name {
+            ProfileName::Dev => Profile::Dev,
+            ProfileName::Release => Profile::Release,
+        }
+    }
+}
+
+/// A named figure.
+type Figure = (&'static str, fn(&Figures) -> u64);
+
+const FIGURES: [Figure; 7] = [
+    ("functions", |figures| figures.functions as u64),
+    ("instructions", |figures| figures.instructions as u64),
+    ("jumps", |figures| figures.conditional_jumps as u64),
+    ("panics", |figures| figures.panics as u64),
+    ("frame", |figures| figures.frame),
+    ("stack", |figures| figures.stack),
+    ("bytes", |figures| figures.bytes as u64),
+];
+
+/// A table of a profile.
+fn text_of(module: &Module) -> String {
+    let mut title = vec![format!("{}: function", module.profile.name())];
+    title.extend(FIGURES.iter().map(|(name, _)| (*name).to_owned()));
+    title.extend(["claim", "calls"].map(str::to_owned));
+    let mut rows = vec![title];
+    rows.extend(module.functions.iter().map(|function| {
+        let claim = match (function.takes_slices, function.violations.as_slice()) {
+            (true, []) if module.profile == Profile::Dev => "none",
+            (true, []) => "loops",
+            (false, []) => "flat",
+            _ => "BROKEN",
+        };
+        row(function, claim)
+    }));
+    rows.extend(module.trigonometry.iter().map(|function| row(function, "-")));
+    text::table(&rows)
+}
+
+fn row(function: &Evidence, claim: &str) -> Vec<String> {
+    let calls = function.calls.iter().map(|(symbol, count)| format!("{count} {symbol}"));
+    let mut row = vec![function.name.clone()];
+    row.extend(FIGURES.iter().map(|(_, figure)| figure(&function.figures).to_string()));
+    row.extend([claim.to_owned(), calls.collect::<Vec<_>>().join(", ")]);
+    row
+}
+
+fn json_of(module: &Module) -> Value {
+    let list = |functions: &[Evidence]| -> Vec<Value> { functions.iter().map(entry).collect() };
+    json!({
+        "profile": module.profile.name(),
+        "flags": module.profile.flags(),
+        "functions": list(&module.functions),
+        "trigonometry": list(&module.trigonometry),
+    })
+}
+
+fn entry(function: &Evidence) -> Value {
+    let mut object = Map::new();
+    object.insert("name".to_owned(), json!(function.name));
+    for (name, figure) in FIGURES {
+        object.insert(name.to_owned(), json!(figure(&function.figures)));
+    }
+    let calls = function.calls.iter().map(|(symbol, count)| (symbol.clone(), json!(count)));
+    object.insert("calls".to_owned(), Value::Object(calls.collect()));
+    object.insert("takes_slices".to_owned(), json!(function.takes_slices));
+    let violations: Vec<String> = function.violations.iter().map(ToString::to_string).collect();
+    object.insert("violations".to_owned(), json!(violations));
+    Value::Object(object)
+}
+
+fn violations(module: &Module) -> Vec<String> {
+    let profile = module.profile.name();
+    let violations = module.violations();
+    violations.map(|(function, violation)| format!("{profile}, {function}: {violation}")).collect()
+}

@@ -1,0 +1,415 @@
+//! The claim: flat, without panics, and no calls but those of sines and cosines.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use crate::Module;
+use crate::compile::Profile;
+use crate::error::Error;
+use crate::listing::Listing;
+use crate::object_file::{Object, Referred};
+use crate::probe::{CRATE, Root};
+
+/// Sine and cosine of the platforms' libraries.
+const CIRCULAR: [&str; 10] = [
+    "sin",
+    "cos",
+    "sincos",
+    "sinf",
+    "cosf",
+    "sincosf",
+    "__sincos_stret",
+    "__sincosf_stret",
+    "_sincos",
+    "_sincosf",
+];
+
+/// What the compiler made of a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Evidence {
+    /// Its name: `Model::inverse_dynamics`.
+    pub name: String,
+    /// Whether it takes slices of states, and so loops over them.
+    pub takes_slices: bool,
+    /// Its figures.
+    pub figures: Figures,
+    /// What it calls that is not looked into, by name, with the number of calls in the code.
+    pub calls: Vec<(String, usize)>,
+    /// What stands in the way of the claim.
+    pub violations: Vec<Violation>,
+}
+
+/// Figures of a function together with all that it calls and that is looked into, each counted
+/// once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Figures {
+    /// Functions: this one, and those that it calls.
+    pub functions: usize,
+    /// Instructions, padding left out.
+    pub instructions: usize,
+    /// Conditional jumps.
+    pub conditional_jumps: usize,
+    /// Functions that panic.
+    pub panics: usize,
+    /// Bytes of stack of the function alone, the return address included.
+    pub frame: u64,
+    /// Bytes of stack of the deepest chain of calls within the object file; what `sin`, `cos` and
+    /// other functions of libraries take comes on top.
+    pub stack: u64,
+    /// Bytes of code.
+    pub bytes: usize,
+}
+
+/// Something that stands in the way of the claim.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Violation {
+    /// Conditional jumps.
+    Jumps {
+        /// How many.
+        count: usize,
+        /// In which function.
+        place: String,
+    },
+    /// Jumps or calls to where a register or memory says.
+    Indirect {
+        /// How many.
+        count: usize,
+        /// In which function.
+        place: String,
+    },
+    /// Instructions that trap.
+    Traps {
+        /// How many.
+        count: usize,
+        /// In which function.
+        place: String,
+    },
+    /// A call of a function that panics.
+    Panic {
+        /// That function.
+        symbol: String,
+        /// The function that calls it.
+        place: String,
+    },
+    /// A call of a function that is not looked into.
+    Call {
+        /// That function.
+        symbol: String,
+        /// The function that calls it.
+        place: String,
+    },
+    /// A function that calls itself, be it through others: its stack has no bound.
+    Recursion,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Violation::Jumps { count, place } => {
+                write!(formatter, "{count} conditional jumps in {place}")
+            }
+            Violation::Indirect { count, place } => {
+                write!(formatter, "{count} jumps or calls by a value in {place}")
+            }
+            Violation::Traps { count, place } => {
+                write!(formatter, "{count} instructions that trap in {place}")
+            }
+            Violation::Panic { symbol, place } => {
+                write!(formatter, "{place} can panic: it calls {symbol}")
+            }
+            Violation::Call { symbol, place } => write!(formatter, "{place} calls {symbol}"),
+            Violation::Recursion => {
+                formatter.write_str("it calls itself, so that its stack has no bound")
+            }
+        }
+    }
+}
+
+/// The evidence of all functions of an object file.
+pub(crate) fn module(object: &Object, roots: &[Root], profile: Profile) -> Result<Module, Error> {
+    let listings: Vec<Listing> =
+        object.functions.iter().map(|code| Listing::of(object, code)).collect();
+    let reader = Reader { object, listings, profile };
+    let mut functions = vec![];
+    let mut reached = BTreeSet::new();
+    if object.table.len() != roots.len() {
+        let (found, expected) = (object.table.len(), roots.len());
+        return Err(Error::Object(format!("it lists {found} functions, not {expected}")));
+    }
+    for (root, place) in roots.iter().zip(&object.table) {
+        let (evidence, trigonometry) = reader.evidence(*place, &root.path, root.takes_slices);
+        functions.push(evidence);
+        reached.extend(trigonometry);
+    }
+    let trigonometry = reached.into_iter().map(|place| {
+        let evidence = reader.evidence(place, reader.name(place), true).0;
+        Evidence { violations: vec![], takes_slices: false, ..evidence }
+    });
+    Ok(Module { profile, functions, trigonometry: trigonometry.collect() })
+}
+
+struct Reader<'o> {
+    object: &'o Object,
+    listings: Vec<Listing>,
+    profile: Profile,
+}
+
+/// What a function outside of the object file is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outside {
+    Circular,
+    Memory,
+    Panic,
+    Other,
+}
+
+impl Outside {
+    fn of(symbol: &str) -> Outside {
+        let panics = ["panic", "unwrap_failed", "expect_failed", "_fail", "Unwind", "abort"];
+        let plain = symbol.trim_start_matches("__aeabi_").trim_start_matches('_');
+        if CIRCULAR.contains(&symbol) {
+            Outside::Circular
+        } else if ["memcpy", "memset", "memmove", "memclr"]
+            .iter()
+            .any(|name| plain.starts_with(name))
+        {
+            Outside::Memory
+        } else if panics.iter().any(|part| symbol.contains(part)) {
+            Outside::Panic
+        } else {
+            Outside::Other
+        }
+    }
+}
+
+impl Reader<'_> {
+    /// The name of a function, the crate left out.
+    fn name(&self, place: usize) -> &str {
+        let names = &self.object.functions[place].names;
+        let name = names.first().map_or("", String::as_str);
+        let name =
+            name.strip_prefix(CRATE).and_then(|name| name.strip_prefix("::")).unwrap_or(name);
+        name.strip_prefix("model::").unwrap_or(name)
+    }
+
+    /// Whether a function is one of the runtime's for sines and cosines.
+    fn is_trigonometry(&self, place: usize) -> bool {
+        let name = self.name(place);
+        name.contains("runtime::")
+            && ["sin_cos", "::trig::", "::std_trig::"].iter().any(|part| name.contains(part))
+    }
+
+    /// The evidence of a function, and the trigonometry that it reaches.
+    fn evidence(&self, root: usize, name: &str, takes_slices: bool) -> (Evidence, Vec<usize>) {
+        let walk = self.walk(root);
+        let mut figures = Figures {
+            functions: walk.functions.len(),
+            frame: self.listings[root].frame,
+            stack: walk.stack,
+            ..Figures::default()
+        };
+        let (mut calls, mut violations) = (BTreeMap::<String, usize>::new(), BTreeSet::new());
+        if walk.recurs {
+            violations.insert(Violation::Recursion);
+        }
+        for place in &walk.functions {
+            let listing = &self.listings[*place];
+            figures.instructions += listing.instructions;
+            figures.conditional_jumps += listing.conditional_jumps;
+            figures.bytes += listing.bytes;
+            self.judge(*place, takes_slices, &mut violations);
+            for called in &listing.calls {
+                let symbol = match called {
+                    Referred::Outside(symbol) => symbol,
+                    Referred::Function(place) if !walk.functions.contains(place) => {
+                        self.name(*place)
+                    }
+                    _ => continue,
+                };
+                *calls.entry(symbol.to_owned()).or_default() += 1;
+            }
+        }
+        figures.panics =
+            calls.keys().filter(|symbol| Outside::of(symbol) == Outside::Panic).count();
+        let nothing_is_claimed = takes_slices && self.profile == Profile::Dev;
+        let evidence = Evidence {
+            name: name.to_owned(),
+            takes_slices,
+            figures,
+            calls: calls.into_iter().collect(),
+            violations: if nothing_is_claimed { vec![] } else { violations.into_iter().collect() },
+        };
+        (evidence, walk.trigonometry)
+    }
+
+    /// What in one function stands in the claim's way.
+    fn judge(&self, place: usize, takes_slices: bool, violations: &mut BTreeSet<Violation>) {
+        let (listing, here) = (&self.listings[place], self.name(place).to_owned());
+        let jumps = if takes_slices { 0 } else { listing.conditional_jumps };
+        if jumps > 0 {
+            violations.insert(Violation::Jumps { count: jumps, place: here.clone() });
+        }
+        if listing.indirect > 0 {
+            violations.insert(Violation::Indirect { count: listing.indirect, place: here.clone() });
+        }
+        if listing.traps > 0 {
+            violations.insert(Violation::Traps { count: listing.traps, place: here.clone() });
+        }
+        for called in &listing.calls {
+            let Referred::Outside(symbol) = called else { continue };
+            let (symbol, place) = (symbol.clone(), here.clone());
+            match Outside::of(&symbol) {
+                Outside::Circular => {}
+                Outside::Memory if takes_slices || self.profile == Profile::Dev => {}
+                Outside::Panic => _ = violations.insert(Violation::Panic { symbol, place }),
+                Outside::Memory | Outside::Other => {
+                    _ = violations.insert(Violation::Call { symbol, place });
+                }
+            }
+        }
+    }
+
+    /// The functions of the object file that one calls.
+    fn called(&self, place: usize) -> impl Iterator<Item = usize> {
+        self.listings[place].calls.iter().filter_map(|called| match called {
+            Referred::Function(place) => Some(*place),
+            _ => None,
+        })
+    }
+
+    /// All functions that one reaches, in the order in which they are found. In dev the runtime's
+    /// trigonometry is not entered from outside.
+    fn walk(&self, root: usize) -> Walk {
+        let (stack, recurs) = self.stack(root);
+        let enters = self.profile == Profile::Release || self.is_trigonometry(root);
+        let mut walk = Walk { functions: vec![root], trigonometry: vec![], stack, recurs };
+        let mut next = 0;
+        while let Some(place) = walk.functions.get(next) {
+            next += 1;
+            for callee in self.called(*place).collect::<Vec<_>>() {
+                let is_trigonometry = self.is_trigonometry(callee);
+                if is_trigonometry && !walk.trigonometry.contains(&callee) {
+                    walk.trigonometry.push(callee);
+                }
+                if (enters || !is_trigonometry) && !walk.functions.contains(&callee) {
+                    walk.functions.push(callee);
+                }
+            }
+        }
+        walk
+    }
+
+    /// The stack of the deepest chain of calls, and whether a function calls itself.
+    fn stack(&self, root: usize) -> (u64, bool) {
+        // Each function twice: when it is entered, and when all that it calls is known.
+        let mut pending = vec![(root, false)];
+        let (mut stacks, mut open) = (BTreeMap::<usize, u64>::new(), BTreeSet::new());
+        let mut recurs = false;
+        while let Some((place, is_done)) = pending.pop() {
+            if is_done {
+                open.remove(&place);
+                let deepest = self.called(place).filter_map(|callee| stacks.get(&callee)).max();
+                stacks.insert(place, self.listings[place].frame + deepest.unwrap_or(&0));
+            } else if !stacks.contains_key(&place) && open.insert(place) {
+                pending.push((place, true));
+                for callee in self.called(place) {
+                    recurs |= open.contains(&callee);
+                    pending.push((callee, false));
+                }
+            }
+        }
+        (stacks.get(&root).copied().unwrap_or_default(), recurs)
+    }
+}
+
+/// What a function reaches.
+struct Walk {
+    /// The functions that are looked into, itself first.
+    functions: Vec<usize>,
+    /// Those of the runtime for sines and cosines.
+    trigonometry: Vec<usize>,
+    stack: u64,
+    recurs: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_build::File;
+
+    use super::*;
+    use crate::{Compiler, Probe};
+
+    /// A module that breaks the claim in every way, and functions that keep it.
+    const BROKEN: &str = r#"
+        pub struct Model { k: [f64; 4] }
+        unsafe extern "C" { safe fn measure() -> f64; }
+        impl Model {
+            pub fn flat(&self, q: &[f64; 2]) -> f64 { let [a, b] = *q; let [k, ..] = self.k; a * k + b }
+            pub fn through(&self, q: &[f64; 2]) -> f64 { helper(self.flat(q)) }
+            pub fn bounds(&self, index: usize) -> f64 { self.k[index] }
+            pub fn jumps(&self, q: &[f64; 2]) -> f64 {
+                let mut x = q[0]; while x < q[1] { x = x * x + 1.0; } x
+            }
+            pub fn calls(&self) -> f64 { measure() }
+            pub fn recurs(&self, n: u32) -> u64 {
+                if n < 2 { 1 } else { self.recurs(n - 1) ^ self.recurs(n - 2) }
+            }
+            pub fn by_value(&self, f: fn(f64) -> f64) -> f64 { 1.0 + f(2.0) }
+            pub fn many(&self, q: &[f64]) -> f64 { let mut x = 0.0; for q in q { x += q; } x }
+        }
+        #[inline(never)] fn helper(x: f64) -> f64 { x + 1.0 }
+    "#;
+
+    fn broken(profile: Profile) -> Module {
+        let file = |path: &str, text: &str| File { path: path.to_owned(), text: text.to_owned() };
+        let files =
+            vec![file("src/model.rs", BROKEN), file("src/runtime/mod.rs", "//! No runtime.")];
+        let probe = Probe::of_files(files, false).unwrap();
+        let object = Compiler::default().compile(&probe, profile).unwrap();
+        Module::of(&object, &probe.roots, profile).unwrap()
+    }
+
+    #[test]
+    fn each_violation_is_named() {
+        for profile in [Profile::Dev, Profile::Release] {
+            let module = broken(profile);
+            let of = |name: &str| -> &Evidence {
+                module
+                    .functions
+                    .iter()
+                    .find(|found| found.name == format!("Model::{name}"))
+                    .unwrap()
+            };
+            let has = |name: &str, is: fn(&Violation) -> bool| {
+                let found = &of(name).violations;
+                assert!(found.iter().any(is), "{name}, {}: {found:?}", profile.name());
+            };
+            assert_eq!(of("flat").violations, []);
+            assert_eq!((of("through").violations.len(), of("flat").figures.panics), (0, 0));
+            has(
+                "bounds",
+                |found| matches!(found, Violation::Panic { symbol, .. } if symbol.contains("bounds")),
+            );
+            has("jumps", |found| matches!(found, Violation::Jumps { .. }));
+            has(
+                "calls",
+                |found| matches!(found, Violation::Call { symbol, .. } if symbol == "measure"),
+            );
+            has("recurs", |found| *found == Violation::Recursion);
+            has("by_value", |found| matches!(found, Violation::Indirect { count: 1, .. }));
+            assert_eq!(of("many").violations, []);
+            assert!(of("many").figures.conditional_jumps > 0);
+            assert_eq!(of("bounds").figures.panics, 1);
+        }
+    }
+
+    #[test]
+    fn callees_are_counted_once_and_stacks_add_up() {
+        let module = broken(Profile::Dev);
+        let [flat, through] = ["Model::flat", "Model::through"]
+            .map(|name| module.functions.iter().find(|found| found.name == name).unwrap().figures);
+        assert_eq!((flat.functions, through.functions), (1, 3));
+        assert!(through.instructions > flat.instructions && through.bytes > flat.bytes);
+        assert!(through.stack >= through.frame + flat.stack);
+    }
+}

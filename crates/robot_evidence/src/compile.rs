@@ -1,0 +1,141 @@
+//! The user's compiler.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use crate::error::Error;
+use crate::probe::{CRATE, Probe, ROOT_FILE};
+
+/// Lines of the compiler's messages that are shown.
+const SHOWN_LINES: usize = 12;
+
+/// How the code is compiled: as Cargo does by default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Profile {
+    /// `cargo build`: no optimisation, overflow checks, debug assertions.
+    Dev,
+    /// `cargo build --release`: opt-level 3.
+    Release,
+}
+
+impl Profile {
+    /// Cargo's name of the profile.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Profile::Dev => "dev",
+            Profile::Release => "release",
+        }
+    }
+
+    /// What it says to the compiler.
+    #[must_use]
+    pub fn flags(self) -> &'static [&'static str] {
+        match self {
+            Profile::Dev => &["-Copt-level=0", "-Cdebug-assertions=on", "-Coverflow-checks=on"],
+            Profile::Release => &["-Copt-level=3"],
+        }
+    }
+}
+
+/// A compiler and what it compiles for.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Compiler {
+    /// The compiler; without it the variable `RUSTC`, or `rustc`.
+    pub rustc: Option<PathBuf>,
+    /// The target; the compiler's own machine without it.
+    pub target: Option<String>,
+    /// The processor of that target; the plainest without it.
+    pub cpu: Option<String>,
+}
+
+impl Compiler {
+    /// `rustc 1.95.0 (…) for x86_64-unknown-linux-gnu`
+    ///
+    /// # Errors
+    ///
+    /// A compiler that does not start.
+    pub fn description(&self) -> Result<String, Error> {
+        let output = self.run(Command::new(self.path()).arg("-vV"))?;
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let version = text.lines().next().unwrap_or_default();
+        let host = text.lines().find_map(|line| line.strip_prefix("host: ")).unwrap_or_default();
+        let target = self.target.as_deref().unwrap_or(host);
+        let cpu = self.cpu.as_ref().map(|cpu| format!(", {cpu}")).unwrap_or_default();
+        Ok(format!("{version} for {target}{cpu}"))
+    }
+
+    /// The object file of a crate.
+    pub(crate) fn compile(&self, probe: &Probe, profile: Profile) -> Result<Vec<u8>, Error> {
+        let folder = tempfile::tempdir()?;
+        for file in &probe.files {
+            let path = folder.path().join(&file.path);
+            if let Some(parent) = path.parent() {
+                std::fs::create_dir_all(parent)?;
+            }
+            std::fs::write(path, &file.text)?;
+        }
+        let mut command = Command::new(self.path());
+        // One unit, so that one file has all the code.
+        command.args([
+            "--crate-type=lib",
+            "--edition=2024",
+            "-Ccodegen-units=1",
+            "--cap-lints=allow",
+        ]);
+        command.args(["--crate-name", CRATE]).args(profile.flags());
+        if probe.needs_std {
+            command.args(["--cfg", "feature=\"std\""]);
+        }
+        if let Some(target) = &self.target {
+            command.args(["--target", target]);
+        }
+        if let Some(cpu) = &self.cpu {
+            command.arg(format!("-Ctarget-cpu={cpu}"));
+        }
+        command.args(["--emit=obj", "--out-dir"]).arg(folder.path());
+        let output = self.run(command.arg(folder.path().join(ROOT_FILE)))?;
+        if !output.status.success() {
+            return Err(self.refused(&output, folder.path()));
+        }
+        Ok(std::fs::read(folder.path().join(CRATE).with_extension("o"))?)
+    }
+
+    fn path(&self) -> PathBuf {
+        let variable = || std::env::var_os("RUSTC").filter(|value| !value.is_empty());
+        let found = self.rustc.clone().or_else(|| variable().map(PathBuf::from));
+        found.unwrap_or_else(|| PathBuf::from("rustc"))
+    }
+
+    fn run(&self, command: &mut Command) -> Result<Output, Error> {
+        command
+            .output()
+            .map_err(|error| Error::NoCompiler { path: self.path(), reason: error.to_string() })
+    }
+
+    fn refused(&self, output: &Output, folder: &Path) -> Error {
+        let messages =
+            String::from_utf8_lossy(&output.stderr).replace(&*folder.to_string_lossy(), "");
+        let lines: Vec<&str> = messages.lines().take(SHOWN_LINES).collect();
+        Error::Compiler {
+            path: self.path(),
+            target: self.target.clone().unwrap_or_else(|| "this machine".to_owned()),
+            messages: lines.join("\n"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_compiler_is_an_error_with_a_remedy() {
+        let compiler =
+            Compiler { rustc: Some(PathBuf::from("/nowhere/rustc")), ..Compiler::default() };
+        let message = compiler.description().unwrap_err().to_string();
+        for part in ["/nowhere/rustc", "needs `rustc`", "--rustc"] {
+            assert!(message.contains(part), "{message}");
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! What the compiler makes of generated code.
+//!
+//! [`prove`] compiles a robot's functions with the user's own `rustc`, in the way Cargo's profiles
+//! do, reads the object file and holds it against the claim of the generator: **no conditional
+//! jump, no panic, and no call but that of the sines and cosines**. What stands in the claim's way
+//! is named, a [`Violation`] each.
+//!
+//! | | dev | release |
+//! |---|---|---|
+//! | generated code and what it calls of `core` | flat | flat |
+//! | the runtime's sines and cosines | a call that is not looked into: it loops over the angles | flat |
+//! | sines and cosines of the standard library | calls of `sin`, `cos` | calls of `sincos` or such |
+//! | copies of arrays | may call `memcpy` | none |
+//! | batches, which take slices | shown, nothing claimed | a loop over the states, no panic |
+//!
+//! This is the one part of the project that starts another program. Everything but [`prove`] works
+//! on bytes: [`Module::of`] reads an object file wherever it comes from.
+
+mod claim;
+mod compile;
+mod error;
+mod listing;
+mod object_file;
+mod probe;
+mod thumb;
+mod x86;
+
+pub use claim::{Evidence, Figures, Violation};
+pub use compile::{Compiler, Profile};
+pub use error::Error;
+pub use probe::{Probe, Root};
+
+use object_file::Object;
+use robot_build::{Options, Source};
+
+/// What the functions of one object file are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Module {
+    /// The profile under which it was compiled.
+    pub profile: Profile,
+    /// Each public function, in the order of the source.
+    pub functions: Vec<Evidence>,
+    /// The runtime's functions of sine and cosine that are in the object, whatever is claimed of
+    /// them.
+    pub trigonometry: Vec<Evidence>,
+}
+
+impl Module {
+    /// Reads the functions `roots` of an object file.
+    ///
+    /// # Errors
+    ///
+    /// An object file that cannot be read or is for another processor; one without a root.
+    pub fn of(bytes: &[u8], roots: &[Root], profile: Profile) -> Result<Module, Error> {
+        let object = Object::parse(bytes)?;
+        claim::module(&object, roots, profile)
+    }
+
+    /// Everything that stands in the claim's way, with the function it was found in.
+    pub fn violations(&self) -> impl Iterator<Item = (&str, &Violation)> {
+        self.functions.iter().flat_map(|function| {
+            function.violations.iter().map(|violation| (function.name.as_str(), violation))
+        })
+    }
+}
+
+/// Compiles a robot's functions under each profile and reads what the compiler made of them.
+///
+/// # Errors
+///
+/// Everything that is wrong with the robot file or the options; no compiler, or one that refuses;
+/// a processor that this crate cannot read.
+pub fn prove(
+    source: &Source,
+    options: &Options,
+    compiler: &Compiler,
+    profiles: &[Profile],
+) -> Result<Vec<Module>, Error> {
+    let probe = Probe::new(source, options)?;
+    let compiled = |profile: &Profile| {
+        let object = compiler.compile(&probe, *profile)?;
+        Module::of(&object, &probe.roots, *profile)
+    };
+    profiles.iter().map(compiled).collect()
+}

@@ -1,0 +1,125 @@
+//! The crate that is compiled: a robot's code, the runtime, and a table of the public functions.
+
+use robot_build::{File, Options, Source, Trigonometry, package};
+use syn::{FnArg, ImplItem, Item, ItemFn, Signature, Type, Visibility};
+
+use crate::error::Error;
+
+/// The name of the compiled crate.
+pub(crate) const CRATE: &str = "probe";
+/// The file of its root.
+pub(crate) const ROOT_FILE: &str = "src/probe.rs";
+
+/// The symbol of the table of all public functions' addresses.
+pub(crate) const TABLE: &str = "ROBOT_FUNCTIONS";
+
+/// A public function of generated code.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Root {
+    /// Its path in the module: `Model::inverse_dynamics`.
+    pub path: String,
+    /// Whether it takes slices, and so loops.
+    pub takes_slices: bool,
+}
+
+/// A crate of generated code whose every public function is compiled.
+#[derive(Clone, Debug)]
+pub struct Probe {
+    /// The files.
+    pub(crate) files: Vec<File>,
+    /// Whether the code needs the standard library.
+    pub(crate) needs_std: bool,
+    /// The public functions that are not generic, in the order of the source.
+    pub roots: Vec<Root>,
+}
+
+impl Probe {
+    /// The crate that `robot-symbolic crate` writes, with another root.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the robot file or the options.
+    pub fn new(source: &Source, options: &Options) -> Result<Probe, Error> {
+        let files = package::package(source, options)?;
+        Probe::of_files(files, options.trigonometry == Trigonometry::Standard)
+    }
+
+    /// A crate of a module `model` and a module `runtime`.
+    pub(crate) fn of_files(mut files: Vec<File>, needs_std: bool) -> Result<Probe, Error> {
+        let model = files.iter().find(|file| file.path == "src/model.rs");
+        let roots = model.map(|file| roots(&file.text)).transpose()?.unwrap_or_default();
+        files.push(File { path: ROOT_FILE.to_owned(), text: root_text(&roots) });
+        Ok(Probe { files, needs_std, roots })
+    }
+}
+
+/// Functions for inlining are compiled where their addresses are taken; the table tells which is
+/// which where the compiler keeps one of several that are alike.
+fn root_text(roots: &[Root]) -> String {
+    let addresses = roots.iter().map(|root| format!("    model::{} as *const (),\n", root.path));
+    let (count, addresses) = (roots.len(), addresses.collect::<String>());
+    format!(
+        "#![no_std]\npub mod model;\npub mod runtime;\n\
+         pub struct Table(pub [*const (); {count}]);\n\
+         unsafe impl Sync for Table {{}}\n\
+         #[unsafe(no_mangle)]\npub static {TABLE}: Table = Table([\n{addresses}]);\n"
+    )
+}
+
+/// The public functions of a file that are not generic.
+fn roots(text: &str) -> Result<Vec<Root>, Error> {
+    let file = syn::parse_file(text)
+        .map_err(|error| Error::Object(format!("the generated code is no Rust: {error}")))?;
+    let mut roots = vec![];
+    for item in file.items {
+        match item {
+            Item::Impl(item) if item.trait_.is_none() => {
+                let Type::Path(ty) = &*item.self_ty else { continue };
+                let Some(ty) = ty.path.get_ident() else { continue };
+                for method in &item.items {
+                    if let ImplItem::Fn(method) = method {
+                        roots.extend(root(&method.vis, &method.sig, &format!("{ty}::")));
+                    }
+                }
+            }
+            Item::Fn(ItemFn { vis, sig, .. }) => roots.extend(root(&vis, &sig, "")),
+            _ => {}
+        }
+    }
+    Ok(roots)
+}
+
+fn root(visibility: &Visibility, signature: &Signature, prefix: &str) -> Option<Root> {
+    let is_public = matches!(visibility, Visibility::Public(_));
+    if !is_public || !signature.generics.params.is_empty() {
+        return None;
+    }
+    let is_slice = |argument: &FnArg| match argument {
+        FnArg::Typed(argument) => match &*argument.ty {
+            Type::Reference(reference) => matches!(&*reference.elem, Type::Slice(_)),
+            _ => false,
+        },
+        FnArg::Receiver(_) => false,
+    };
+    Some(Root {
+        path: format!("{prefix}{}", signature.ident),
+        takes_slices: signature.inputs.iter().any(is_slice),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn public_functions_that_are_not_generic_are_roots() {
+        let text = "impl Model { pub const fn new() -> Model { Model } fn hidden() {} \
+             pub fn many(&self, q: &[[f64; 2]]) {} pub fn generic<T>(x: T) {} }\n\
+             impl Default for Model { fn default() -> Model { Model } }\n\
+             pub fn free(q: &[f64; 2]) {}";
+        let found = roots(text).unwrap();
+        let found: Vec<_> = found.iter().map(|root| (&*root.path, root.takes_slices)).collect();
+        assert_eq!(found, [("Model::new", false), ("Model::many", true), ("free", false)]);
+        assert!(roots("fn {").is_err());
+    }
+}
