@@ -79,7 +79,7 @@ impl Arguments {
         let wrong: Vec<String> = self
             .allow
             .iter()
-            .filter(|code| title(code).is_none())
+            .filter(|code| code::page(code).is_none())
             .map(|code| unknown(code))
             .collect();
         if !wrong.is_empty() {
@@ -166,19 +166,14 @@ fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
-fn title(code: &str) -> Option<&'static str> {
-    code::TABLE.iter().find(|(known, _)| *known == code).map(|(_, title)| *title)
-}
-
 fn unknown(wanted: &str) -> String {
     let known: Vec<&str> = code::TABLE.iter().map(|(code, _)| *code).collect();
     text::unknown("code", wanted, &known)
 }
 
 fn explain(wanted: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-    let wanted = wanted.to_uppercase();
-    let Some(title) = title(&wanted) else {
-        return Err(Failure::Usage(vec![unknown(&wanted)]));
+    let Some(page) = code::page(&wanted.to_uppercase()) else {
+        return Err(Failure::Usage(vec![unknown(wanted)]));
     };
-    Ok(writeln!(terminal.output, "{wanted}: {title}")?)
+    Ok(terminal.output.write_all(page.as_bytes())?)
 }

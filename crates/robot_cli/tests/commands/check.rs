@@ -83,6 +83,13 @@ fn json_has_an_object_for_each_diagnostic() {
 }
 
 #[test]
+fn codes_are_explained() {
+    let page = output(&["check", "--explain", "r0608"], "");
+    assert!(page.starts_with("# R0608: ") && page.contains("```toml"), "{page}");
+    assert!(complaint(2, &["check", "--explain", "R0698"], "").contains("no code `R0698`"));
+}
+
+#[test]
 fn notes_are_lines() {
     let shown = run(&["check", &robot("planar_2r")]);
     assert_eq!(shown.errors, "");

@@ -1,4 +1,4 @@
-//! The stable codes of diagnostics.
+//! The stable codes of diagnostics. Each has a page, docs/diagnostics/CODE.md.
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {
@@ -6,6 +6,17 @@ macro_rules! codes {
 
         /// Every code with its title, in order.
         pub const TABLE: &[(&str, &str)] = &[$(($code, $title)),*];
+
+        /// The page of a code, in Markdown: why it matters, an example, what to do.
+        #[must_use]
+        pub fn page(code: &str) -> Option<&'static str> {
+            match code {
+                $($code => Some(include_str!(
+                    concat!("../../../../docs/diagnostics/", $code, ".md")
+                )),)*
+                _ => None,
+            }
+        }
     };
 }
 

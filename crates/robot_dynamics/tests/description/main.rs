@@ -6,6 +6,7 @@ mod broken;
 mod dh;
 mod hostile;
 mod meaning;
+mod pages;
 
 use robot_dynamics::description::{Described, read_toml};
 use robot_dynamics::diagnostic::Diagnostics;
