@@ -9,4 +9,5 @@ mod forms;
 mod generated_crate;
 mod include_macro;
 mod package;
+mod payload;
 mod reference;

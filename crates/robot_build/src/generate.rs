@@ -1,10 +1,12 @@
 //! From the text of a robot file to the text of a Rust module.
 
-use robot_codegen::backend::rust::{self, ConstantItem, ConstantValue, RustOptions, Wrapping};
+use robot_codegen::backend::rust::{
+    self, ConstantItem, ConstantValue, RustOptions, Setter, SetterArgument, Wrapping,
+};
 use robot_codegen::{FunctionCounts, Module};
 use robot_dynamics::diagnostic::{Diagnostics, Source};
 use robot_dynamics::mechanism::Snap;
-use robot_dynamics::model::Robot;
+use robot_dynamics::model::{Payload, Robot};
 use sha2::{Digest, Sha256};
 
 use crate::error::Errors;
@@ -74,6 +76,7 @@ pub(crate) fn rust_text(
         batch: options.batch,
         wrapping,
         constants: constants(&programs.robot),
+        setters: programs.robot.payload.iter().map(with_payload).collect(),
         ..RustOptions::default()
     };
     let code = rust::generate(&programs.module, &options)
@@ -97,6 +100,33 @@ pub(crate) fn header(source: &Source) -> String {
 pub(crate) fn file_name(source: &Source) -> &str {
     let separators = ['/', '\\'];
     source.name.rsplit(separators).next().unwrap_or(&source.name)
+}
+
+/// `with_payload(mass, center_of_mass, inertia)`.
+fn with_payload(payload: &Payload) -> Setter {
+    let Payload { mass, center_of_mass, inertia } = payload;
+    let argument = |name: &str, doc: &str, unit: &str, parameters: &[String]| SetterArgument {
+        name: name.to_owned(),
+        doc: doc.to_owned(),
+        unit: unit.to_owned(),
+        parameters: parameters.to_vec(),
+    };
+    let center = "centre of mass in the carrying frame, as the robot file has it";
+    let tensor =
+        "xx, yy, zz, xy, xz, yz of its tensor about the centre of mass, axes of that frame";
+    Setter {
+        name: "with_payload".to_owned(),
+        doc: vec![
+            "With a rigid body carried, in place of any other.".to_owned(),
+            String::new(),
+            "The constructor takes it into the link's own inertia: calls cost the same.".to_owned(),
+        ],
+        arguments: vec![
+            argument("mass", "mass of the body", "kg", std::slice::from_ref(mass)),
+            argument("center_of_mass", center, "m", center_of_mass),
+            argument("inertia", tensor, "kg m^2", inertia),
+        ],
+    }
 }
 
 fn constants(robot: &Robot) -> Vec<ConstantItem> {

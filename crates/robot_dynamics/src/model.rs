@@ -24,6 +24,19 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Named frames fixed to links or to the base: tips, flanges, merged links.
     pub frames: Vec<Frame>,
+    /// The body that the robot may carry, where the file has one: it is a body of its link too.
+    pub payload: Option<Payload>,
+}
+
+/// The names of the parameters of a body that is to be set at run time, all of them 0 by default.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Payload {
+    /// Mass, kg.
+    pub mass: String,
+    /// Centre of mass in the carrying frame of the file, m.
+    pub center_of_mass: [String; 3],
+    /// Tensor about the centre of mass, axes of that frame: xx, yy, zz, xy, xz, yz, kg m².
+    pub inertia: [String; 6],
 }
 
 /// A symbol of the robot file.

@@ -48,6 +48,7 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
         coordinates,
         links,
         frames,
+        payload: None,
     }
 }
 

@@ -1,10 +1,11 @@
 //! The robot from the links in order: fixed links merge into those that carry them.
 
-use super::draft::{Draft, DraftFrame, DraftLink, Parent};
+use super::draft::{Draft, DraftFrame, DraftLink, DraftPayload, Parent};
 use super::locations::{DroppedBody, FrameLocation, Locations, ParameterLocation};
 use super::mimic::{self, Following};
+use super::payload;
 use super::placement::without_rests;
-use super::reader::Reader;
+use super::reader::{Named, Reader};
 use crate::model::{Coordinate, Frame, Joint, JointKind, Link, Parameter, Placement, Robot};
 
 /// The moving link that carries a link of the file, and the link's own frame in the carrier's.
@@ -35,6 +36,7 @@ pub(super) fn robot(
         coordinates: Vec::new(),
         links: Vec::new(),
         frames: Vec::new(),
+        payload: None,
     };
     let mut locations = Locations {
         name: draft.name.span,
@@ -61,6 +63,14 @@ pub(super) fn robot(
     for frame in draft.frames {
         let on = parent(&frame.parent, &carried);
         push_frame(&mut robot, &mut locations, frame, on);
+    }
+    if let Some(DraftPayload { parent: on, placement, place }) = draft.payload {
+        let Carried { by, frame } = parent(&on, &carried);
+        let carrier = by.and_then(|by| {
+            Some((robot.links.get_mut(by)?, &mut locations.links.get_mut(by)?.bodies))
+        });
+        let named = Named { name: "payload".to_owned(), span: place };
+        robot.payload = payload::attach(reader, carrier, frame.then(&placement), &named);
     }
     (robot, locations)
 }

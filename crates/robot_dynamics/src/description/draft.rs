@@ -18,6 +18,7 @@ pub(super) struct Draft {
     pub(super) gravity_place: Option<Span>,
     pub(super) links: Vec<DraftLink>,
     pub(super) frames: Vec<DraftFrame>,
+    pub(super) payload: Option<DraftPayload>,
 }
 
 /// Upon what a link or frame stands.
@@ -76,4 +77,13 @@ pub(super) struct DraftFrame {
     pub(super) placement: Placement,
     pub(super) wrench: Option<Wrench>,
     pub(super) places: FrameLocation,
+}
+
+/// What the robot may carry.
+#[derive(Clone)]
+pub(super) struct DraftPayload {
+    pub(super) parent: Parent,
+    /// From the parent's frame to that of the payload's figures.
+    pub(super) placement: Placement,
+    pub(super) place: Span,
 }

@@ -1,4 +1,5 @@
-//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips and frames.
+//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips, frames and
+//! `[payload]`.
 
 use robot_symbolic::{Formula, Rational};
 use toml::de::DeValue;
@@ -11,7 +12,7 @@ use super::placement::zero;
 use super::reader::{Named, Reader};
 use super::table::Table;
 use super::value::quantity;
-use super::{dh, frames, link, parameters, syntax, tree};
+use super::{dh, frames, link, parameters, payload, syntax, tree};
 use crate::diagnostic::{Diagnostic, Span, code};
 
 /// The format that this reader reads.
@@ -31,11 +32,12 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     if !format(reader, &mut root) {
         return None;
     }
-    let parameters = parameters::read(reader, &mut root);
+    let mut parameters = parameters::read(reader, &mut root);
     let head = head(reader, &mut root);
     let mut dh = dh::read(reader, &mut root);
     let (links, complete) = links(reader, &mut root, &mut dh);
     let frames = frames::read(reader, &mut root, links.len());
+    let payload = payload::read(reader, &mut root, &links, &frames, &mut parameters);
     root.finish(reader);
     if let Some(dh) = dh {
         dh.finish(reader);
@@ -45,8 +47,8 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
         return None;
     }
     let Head { name, description, gravity, gravity_place } = head;
-    let mut draft = Draft { name, description, gravity, gravity_place, links, frames };
-    let order = tree::order(reader, &mut draft.links, &mut draft.frames)?;
+    let mut draft = Draft { name, description, gravity, gravity_place, links, frames, payload };
+    let order = tree::order(reader, &mut draft)?;
     Some(Lowered { draft, order, parameters })
 }
 

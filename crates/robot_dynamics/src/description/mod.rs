@@ -27,6 +27,7 @@ mod mimic;
 mod names;
 mod options;
 mod parameters;
+mod payload;
 pub(crate) mod physics;
 mod placement;
 mod reader;

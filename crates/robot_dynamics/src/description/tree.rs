@@ -2,23 +2,21 @@
 
 use std::collections::BTreeSet;
 
-use super::draft::{DraftFrame, DraftLink, Parent};
+use super::draft::{Draft, DraftFrame, DraftLink, Parent};
 use super::limits::MAX_JOINTS;
 use super::names::Registry;
 use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};
 
 /// Checks names and parents. The links' new order, as indices, where they form a tree.
-pub(super) fn order(
-    reader: &mut Reader<'_>,
-    links: &mut [DraftLink],
-    frames: &mut [DraftFrame],
-) -> Option<Vec<usize>> {
+pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<usize>> {
+    let Draft { links, frames, payload, .. } = draft;
     names(reader, links, frames);
     let known: Vec<Named> = links.iter().map(|link| link.name.clone()).collect();
     let mut complete = true;
     let parents = links.iter_mut().map(|link| &mut link.parent);
-    for parent in parents.chain(frames.iter_mut().map(|frame| &mut frame.parent)) {
+    let parents = parents.chain(frames.iter_mut().map(|frame| &mut frame.parent));
+    for parent in parents.chain(payload.iter_mut().map(|payload| &mut payload.parent)) {
         complete &= resolve(reader, parent, &known);
     }
     if !complete {

@@ -225,7 +225,7 @@ fn the_examples_of_the_reference_are_right() {
     let page = std::fs::read_to_string(path).unwrap();
     let examples: Vec<_> =
         page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    assert_eq!(examples.len(), 3);
+    assert_eq!(examples.len(), 4);
     for example in examples {
         let described = read(example);
         assert!(described.warnings.is_empty(), "{}", described.warnings);

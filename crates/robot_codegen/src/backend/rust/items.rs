@@ -193,7 +193,7 @@ fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &
 }
 
 /// Arithmetic is `const`; the functions of the runtime are not.
-fn is_const(program: &Program) -> bool {
+pub(super) fn is_const(program: &Program) -> bool {
     let called =
         |operation: &Operation| matches!(operation, Operation::Call(..) | Operation::MulAdd(..));
     !program.operations().iter().any(called)

@@ -16,6 +16,7 @@ mod options;
 mod outputs;
 mod parts;
 mod scope;
+mod setters;
 mod syntax;
 mod variables;
 
@@ -25,7 +26,9 @@ use syn::{Item, parse_quote};
 
 pub use self::doc::sanitise as markdown;
 pub use self::namer::identifier;
-pub use self::options::{ConstantItem, ConstantValue, RustOptions, Scalar, Wrapping};
+pub use self::options::{
+    ConstantItem, ConstantValue, RustOptions, Scalar, Setter, SetterArgument, Wrapping,
+};
 use self::scope::Scope;
 use crate::error::Errors;
 use crate::module::Module;
@@ -99,6 +102,10 @@ pub fn generate(module: &Module, options: &RustOptions) -> Result<RustModule, Er
     let mut items = items::constants(&mut scope);
     items.extend(items::parameters(&scope));
     items.extend(items::model(&mut scope));
+    if scope.has_parameters() {
+        let is_const = items::is_const(&module.constructor);
+        items.extend(setters::items(&mut scope, is_const));
+    }
     for function in &module.functions {
         items.extend(function::items(&mut scope, function));
     }

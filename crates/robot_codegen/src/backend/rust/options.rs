@@ -26,6 +26,8 @@ pub struct RustOptions {
     pub wrapping: Wrapping,
     /// Further constants of the module, before its types.
     pub constants: Vec<ConstantItem>,
+    /// Methods that set several parameters together.
+    pub setters: Vec<Setter>,
     /// Limits of expressions, blocks and functions.
     pub limits: Limits,
 }
@@ -42,6 +44,7 @@ impl Default for RustOptions {
             batch: None,
             wrapping: Wrapping::Module,
             constants: vec![],
+            setters: vec![],
             limits: Limits::default(),
         }
     }
@@ -77,6 +80,31 @@ pub enum Wrapping {
     ///
     /// [`allowed_lints`]: super::allowed_lints
     Items,
+}
+
+/// A method of `Parameters` that gives a copy with several of them set, and an associated function
+/// of `Model` of the same name for the nominal parameters, where all of them have nominal values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setter {
+    /// The name.
+    pub name: String,
+    /// Its meaning, a paragraph or line each.
+    pub doc: Vec<String>,
+    /// What it takes.
+    pub arguments: Vec<SetterArgument>,
+}
+
+/// An argument of a [`Setter`]: a number, or an array of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SetterArgument {
+    /// The name.
+    pub name: String,
+    /// Its meaning.
+    pub doc: String,
+    /// Its unit.
+    pub unit: String,
+    /// The parameters that its entries set.
+    pub parameters: Vec<String>,
 }
 
 /// A constant of the printed module.

@@ -50,8 +50,9 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
         gravity_place: None,
         links: connected.links,
         frames: Vec::new(),
+        payload: None,
     };
-    let order = tree::order(reader, &mut draft.links, &mut draft.frames)?;
+    let order = tree::order(reader, &mut draft)?;
     let sources: Vec<&UrdfLink<'_>> =
         connected.sources.iter().filter_map(|index| links.get(*index)).collect();
     masses::add(reader, &mut draft, &order, &sources, options);
