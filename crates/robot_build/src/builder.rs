@@ -114,6 +114,20 @@ impl Builder {
         self
     }
 
+    /// The most operations that a call of any of the functions may take: multiplications, additions
+    /// and divisions. More is an error.
+    pub fn max_operations(mut self, limit: u64) -> Builder {
+        self.options.max_operations = Some(limit);
+        self
+    }
+
+    /// The most bytes of stack that a call of any of the functions may take, as
+    /// [`budget`](crate::budget) estimates it. More is an error.
+    pub fn max_stack(mut self, limit: u64) -> Builder {
+        self.options.max_stack = Some(limit);
+        self
+    }
+
     /// The form of the economical recursion.
     ///
     /// Without it, the plan that `robot-symbolic search` pinned beside the robot file is taken,

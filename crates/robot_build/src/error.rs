@@ -112,6 +112,14 @@ pub enum Error {
         /// The robot file.
         name: String,
     },
+    /// A function that costs more than the options let it.
+    #[error("{name}: {over}; {}", over.remedy())]
+    Budget {
+        /// The robot file.
+        name: String,
+        /// What costs too much.
+        over: crate::budget::Over,
+    },
     /// No robot file at all.
     #[error("no robot file is given; name one or more")]
     NoRobots,

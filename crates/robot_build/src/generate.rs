@@ -9,6 +9,7 @@ use robot_dynamics::mechanism::Snap;
 use robot_dynamics::model::{Payload, Robot};
 use sha2::{Digest, Sha256};
 
+use crate::budget;
 use crate::error::Errors;
 use crate::options::Options;
 use crate::programs::{Programs, programs};
@@ -37,6 +38,7 @@ pub struct Generated {
 /// Everything that is wrong with the file or the options.
 pub fn generate(source: &Source, options: &Options) -> Result<Generated, Errors> {
     let programs = programs(source, options)?;
+    budget::check(&programs, source, options)?;
     let code = rust_text(&programs, source, options, Wrapping::Module)?;
     let Programs { warnings, snapped, module, .. } = programs;
     Ok(Generated {

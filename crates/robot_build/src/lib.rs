@@ -24,6 +24,7 @@
 //! environment and no terminal, so that the builder, the macro `include_robot!` and the command
 //! `robot-symbolic` give the same code.
 
+pub mod budget;
 mod builder;
 mod cargo;
 pub mod check;
@@ -49,7 +50,7 @@ pub use paths::RobotFile;
 pub use pin::{pin_path, pin_text};
 pub use programs::{Programs, programs, programs_of, read};
 pub use robot_codegen::Trigonometry;
-pub use robot_codegen::backend::rust::Scalar;
+pub use robot_codegen::backend::rust::{Scalar, identifier};
 pub use robot_dynamics::diagnostic::Source;
 pub use robot_dynamics::economical::Plan;
 pub use robot_dynamics::functions::FunctionKind;

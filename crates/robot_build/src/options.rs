@@ -68,6 +68,12 @@ pub struct Options {
     pub runtime: String,
     /// The form of the economical recursion; `None` for one that suits most arms, or is searched.
     pub plan: Option<Plan>,
+    /// The most operations that a call of any of the functions may take; those of the robot file's
+    /// budgets hold beside it.
+    pub max_operations: Option<u64>,
+    /// The most bytes of stack that a call of any of the functions may take, as
+    /// [`budget`](crate::budget) estimates it.
+    pub max_stack: Option<u64>,
     /// Whether to search the cheapest form where none is given: a second or so for an arm of seven
     /// joints in an optimised build, and tens of seconds in a build script, which is not.
     pub search: bool,
@@ -88,6 +94,8 @@ impl Default for Options {
             snap: MechanismOptions::SNAP,
             runtime: rust.runtime,
             plan: None,
+            max_operations: None,
+            max_stack: None,
             search: false,
         }
     }

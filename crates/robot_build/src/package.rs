@@ -7,6 +7,7 @@ use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::{self, Wrapping};
 use robot_dynamics::diagnostic::Source;
 
+use crate::budget;
 use crate::check::{CheckValue, check_value};
 use crate::error::Errors;
 use crate::files::File;
@@ -28,10 +29,24 @@ const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 ///
 /// Everything that is wrong with the file or the options.
 pub fn package(source: &Source, options: &Options) -> Result<Vec<File>, Errors> {
+    let programs = programs(source, options)?;
+    budget::check(&programs, source, options)?;
+    package_of(&programs, source, options)
+}
+
+/// As [`package`], for programs that are there already; whatever they cost.
+///
+/// # Errors
+///
+/// Everything that is wrong with the options.
+pub fn package_of(
+    programs: &Programs,
+    source: &Source,
+    options: &Options,
+) -> Result<Vec<File>, Errors> {
     let options = Options { runtime: "crate::runtime".to_owned(), ..options.clone() };
-    let programs = programs(source, &options)?;
-    let checks = checks(source, &programs, &options)?;
-    let parts = Parts { source, options: &options, programs: &programs, checks: &checks };
+    let checks = checks(source, programs, &options)?;
+    let parts = Parts { source, options: &options, programs, checks: &checks };
     let mut files = vec![
         file("Cargo.toml", parts.manifest()),
         file("README.md", readme::readme(&parts)),

@@ -1,7 +1,7 @@
 //! From the text of a robot file to straight-line programs.
 
 use robot_codegen::Module;
-use robot_dynamics::description::{self, Described};
+use robot_dynamics::description::{self, Budget, Described};
 use robot_dynamics::diagnostic::{Diagnostics, Source};
 use robot_dynamics::economical::search::search;
 use robot_dynamics::functions::{Derivation, FunctionKind};
@@ -24,6 +24,8 @@ pub struct Programs {
     pub snapped: Vec<Snap>,
     /// The functions that [`Options::functions`] means.
     pub functions: Vec<FunctionKind>,
+    /// What the file lets the functions cost.
+    pub budgets: Vec<Budget>,
     /// The programs: what the interpreter runs and the backends print.
     pub module: Module,
 }
@@ -43,9 +45,10 @@ pub fn read(source: &Source) -> Result<Described, Errors> {
 ///
 /// Everything that is wrong with the file or the options.
 pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
-    let Described { robot, warnings, .. } = read(source)?;
+    let Described { robot, warnings, budgets, .. } = read(source)?;
     let mut programs = programs_of(robot, &source.name, options)?;
     programs.warnings = warnings;
+    programs.budgets = budgets;
     Ok(programs)
 }
 
@@ -71,5 +74,5 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };
     let warnings = Diagnostics::new(source, vec![]);
-    Ok(Programs { robot, warnings, snapped, functions, module })
+    Ok(Programs { robot, warnings, snapped, functions, budgets: vec![], module })
 }

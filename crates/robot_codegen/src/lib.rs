@@ -13,6 +13,7 @@ pub mod module;
 pub mod passes;
 pub mod program;
 pub mod spec;
+pub mod stack;
 mod stage;
 mod trigonometry;
 

@@ -100,6 +100,13 @@ pub enum Violation {
     },
     /// A function that calls itself, be it through others: its stack has no bound.
     Recursion,
+    /// More stack than the budget of the robot file or the options lets it have.
+    Stack {
+        /// The bytes it takes.
+        bytes: u64,
+        /// The bytes it may take.
+        limit: u64,
+    },
 }
 
 impl fmt::Display for Violation {
@@ -118,6 +125,9 @@ impl fmt::Display for Violation {
                 write!(formatter, "{place} can panic: it calls {symbol}")
             }
             Violation::Call { symbol, place } => write!(formatter, "{place} calls {symbol}"),
+            Violation::Stack { bytes, limit } => {
+                write!(formatter, "it takes {bytes} bytes of stack; its budget is {limit}")
+            }
             Violation::Recursion => {
                 formatter.write_str("it calls itself, so that its stack has no bound")
             }

@@ -31,7 +31,8 @@ pub use error::Error;
 pub use probe::{Probe, Root};
 
 use object_file::Object;
-use robot_build::{Options, Source};
+use robot_build::budget::max_stack;
+use robot_build::{Options, Programs, Source, identifier};
 
 /// What the functions of one object file are.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,10 +77,29 @@ pub fn prove(
     compiler: &Compiler,
     profiles: &[Profile],
 ) -> Result<Vec<Module>, Error> {
-    let probe = Probe::new(source, options)?;
+    let programs = robot_build::programs(source, options)?;
+    let probe = Probe::new(&programs, source, options)?;
     let compiled = |profile: &Profile| {
         let object = compiler.compile(&probe, *profile)?;
-        Module::of(&object, &probe.roots, *profile)
+        let mut module = Module::of(&object, &probe.roots, *profile)?;
+        if *profile == Profile::Release {
+            hold_stack(&mut module, &programs, options);
+        }
+        Ok(module)
     };
     profiles.iter().map(compiled).collect()
+}
+
+/// Holds the stack of each function against its budget.
+fn hold_stack(module: &mut Module, programs: &Programs, options: &Options) {
+    for function in &programs.module.functions {
+        let limit = max_stack(programs, options, &function.name);
+        let path = format!("Model::{}", identifier(&function.name));
+        let found = module.functions.iter_mut().find(|found| found.name == path);
+        if let (Some(limit), Some(found)) = (limit, found)
+            && found.figures.stack > limit
+        {
+            found.violations.push(Violation::Stack { bytes: found.figures.stack, limit });
+        }
+    }
 }

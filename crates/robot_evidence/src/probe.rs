@@ -1,6 +1,6 @@
 //! The crate that is compiled: a robot's code, the runtime, and a table of the public functions.
 
-use robot_build::{File, Options, Source, Trigonometry, package};
+use robot_build::{File, Options, Programs, Source, Trigonometry, package};
 use syn::{FnArg, ImplItem, Item, ItemFn, Signature, Type, Visibility};
 
 use crate::error::Error;
@@ -39,8 +39,8 @@ impl Probe {
     /// # Errors
     ///
     /// Everything that is wrong with the robot file or the options.
-    pub fn new(source: &Source, options: &Options) -> Result<Probe, Error> {
-        let files = package::package(source, options)?;
+    pub fn new(programs: &Programs, source: &Source, options: &Options) -> Result<Probe, Error> {
+        let files = package::package_of(programs, source, options)?;
         Probe::of_files(files, options.trigonometry == Trigonometry::Standard)
     }
 

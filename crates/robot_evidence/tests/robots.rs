@@ -5,8 +5,9 @@
 
 use std::path::{Path, PathBuf};
 
-use robot_build::{Options, RobotFile, Trigonometry};
-use robot_evidence::{Compiler, Evidence, Module, Profile, prove};
+use robot_build::{Functions, Options, RobotFile, Trigonometry, programs};
+use robot_codegen::stack;
+use robot_evidence::{Compiler, Evidence, Module, Profile, Violation, prove};
 
 const PROFILES: [Profile; 2] = [Profile::Dev, Profile::Release];
 
@@ -21,11 +22,34 @@ fn robots() -> Vec<PathBuf> {
     files
 }
 
-fn proved(path: &Path, trigonometry: Trigonometry) -> Vec<Module> {
+/// The options of a build that takes the pinned plan.
+fn options(path: &Path, trigonometry: Trigonometry, functions: Functions) -> Options {
+    let options = Options { trigonometry, functions, ..Options::default() };
+    RobotFile::read(path).unwrap().with_pin(&options).unwrap()
+}
+
+fn proved(path: &Path, options: &Options) -> Vec<Module> {
     let file = RobotFile::read(path).unwrap();
-    let options = Options { trigonometry, ..Options::default() };
-    let options = file.with_pin(&options).unwrap();
-    prove(&file.source, &options, &Compiler::default(), &PROFILES).unwrap()
+    prove(&file.source, options, &Compiler::default(), &PROFILES).unwrap()
+}
+
+/// Asserts that the estimate of the stack is no smaller than what functions take, the runtime's sines
+/// and cosines in dev apart: there they are calls.
+fn assert_estimated(path: &Path, options: &Options, modules: &[Module]) {
+    let file = RobotFile::read(path).unwrap();
+    for function in &programs(&file.source, options).unwrap().module.functions {
+        let estimate = stack::estimate(function, 8) as u64;
+        for module in modules {
+            let frame = |name: &str| {
+                let of_name = |found: &&Evidence| found.name == format!("Model::{name}");
+                module.functions.iter().find(of_name).map_or(0, |found| found.figures.frame)
+            };
+            let name = &function.name;
+            let frames = frame(name) + frame(&format!("{name}_sc"));
+            println!("{} {name} {} {frames} of {estimate}", path.display(), module.profile.name());
+            assert!(frames > 0 && frames <= estimate, "{name}: {frames} > {estimate}");
+        }
+    }
 }
 
 /// Asserts the claim, and that something was read at all.
@@ -47,16 +71,20 @@ fn assert_flat(path: &Path, module: &Module) {
 #[test]
 fn every_robot_is_flat_with_the_standard_library() {
     for path in robots() {
-        for module in proved(&path, Trigonometry::Standard) {
-            assert_flat(&path, &module);
+        let options = options(&path, Trigonometry::Standard, Functions::Usual);
+        let modules = proved(&path, &options);
+        for module in &modules {
+            assert_flat(&path, module);
         }
+        assert_estimated(&path, &options, &modules);
     }
 }
 
 #[test]
 fn every_robot_is_flat_with_the_polynomials() {
     for path in robots() {
-        for module in proved(&path, Trigonometry::Polynomial) {
+        let options = options(&path, Trigonometry::Polynomial, Functions::Usual);
+        for module in proved(&path, &options) {
             assert_flat(&path, &module);
             if module.profile == Profile::Release {
                 let called = module.functions.iter().flat_map(|function| &function.calls);
@@ -64,4 +92,30 @@ fn every_robot_is_flat_with_the_polynomials() {
             }
         }
     }
+}
+
+/// Every function that there is, of an arm whose programs have several blocks.
+#[test]
+fn every_function_is_flat() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/stanford.toml");
+    let options = options(&path, Trigonometry::Standard, Functions::All);
+    let modules = proved(&path, &options);
+    for module in &modules {
+        assert!(module.functions.len() > 30);
+        assert_flat(&path, module);
+    }
+    assert_estimated(&path, &options, &modules);
+}
+
+#[test]
+fn more_stack_than_the_budget_is_a_violation_of_release_builds() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/planar_2r.toml");
+    let options = options(&path, Trigonometry::Standard, Functions::Usual);
+    let [dev, release] =
+        proved(&path, &Options { max_stack: Some(90), ..options }).try_into().unwrap();
+    assert_eq!(dev.violations().count(), 0);
+    let violations: Vec<_> = release.violations().collect();
+    let of_dynamics = violations.iter().find(|(name, _)| *name == "Model::inverse_dynamics");
+    let (_, violation) = of_dynamics.unwrap();
+    assert!(matches!(violation, Violation::Stack { bytes: 91.., limit: 90 }), "{violation}");
 }

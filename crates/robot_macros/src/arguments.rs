@@ -5,8 +5,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
 /// The keys, for messages.
-const KEYS: &str =
-    "functions, snap, scalar, generic, batch, fused, trigonometry, runtime, allow_outside";
+const KEYS: &str = "functions, snap, scalar, generic, batch, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
@@ -67,6 +66,8 @@ impl Arguments {
                 ];
                 self.options.trigonometry = one_of(value, &known)?;
             }
+            "max_operations" => self.options.max_operations = Some(size(value)?),
+            "max_stack" => self.options.max_stack = Some(size(value)?),
             "runtime" => self.options.runtime = text(value)?.value(),
             "allow_outside" => self.allow_outside = boolean(value)?,
             _ => {
@@ -122,7 +123,10 @@ fn boolean(value: &Expr) -> syn::Result<bool> {
     }
 }
 
-fn size(value: &Expr) -> syn::Result<usize> {
+fn size<N>(value: &Expr) -> syn::Result<N>
+where
+    N: std::str::FromStr<Err: std::fmt::Display>,
+{
     match literal(value) {
         Some(Lit::Int(literal)) => literal.base10_parse(),
         _ => Err(syn::Error::new_spanned(value, "expected a whole number")),

@@ -30,6 +30,8 @@ use proc_macro::TokenStream;
 ///     batch = 8,                    // forms `…_batch` over slices of states, in blocks of so many
 ///     fused = true,                 // multiply-adds where the target has the instruction
 ///     trigonometry = "polynomial",  // "standard" without this
+///     max_operations = 300,         // of a call of each function; more is an error
+///     max_stack = 2048,             // bytes, estimated; more is an error
 ///     runtime = "::robot_runtime",
 ///     allow_outside = true,         // the file may lie outside of the package
 /// );

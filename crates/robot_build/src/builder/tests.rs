@@ -209,3 +209,17 @@ fn warnings_go_to_cargo_on_one_line() {
     assert!(warnings[0].starts_with("cargo:warning=robots/a.toml:8:1: "), "{directives}");
     assert!(directives.lines().all(|line| line.starts_with("cargo:")), "{directives}");
 }
+
+#[test]
+fn a_budget_breaks_the_build() {
+    let package = package("budget");
+    fs::write(package.join("arm.toml"), ARM).unwrap();
+    let builder = Builder::new().package_dir(&*package).out_dir("out").emit_directives(false);
+    let error = builder.clone().max_operations(0).max_stack(0).compile(&["arm.toml"]).unwrap_err();
+    for part in ["arm.toml: `inverse_dynamics` takes", "its budget is 0", "raise `max_operations`"]
+    {
+        assert!(error.to_string().contains(part), "{error}");
+    }
+    assert!(!package.join("out").exists());
+    builder.max_operations(100).max_stack(10_000).compile(&["arm.toml"]).unwrap();
+}

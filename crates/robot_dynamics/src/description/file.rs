@@ -1,5 +1,5 @@
-//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips, frames and
-//! `[payload]`.
+//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips, frames, `[payload]`
+//! and budgets.
 
 use robot_symbolic::{Formula, Rational};
 use toml::de::DeValue;
@@ -12,7 +12,7 @@ use super::placement::zero;
 use super::reader::{Named, Reader};
 use super::table::Table;
 use super::value::quantity;
-use super::{dh, frames, link, parameters, payload, syntax, tree};
+use super::{budget, dh, frames, link, parameters, payload, syntax, tree};
 use crate::diagnostic::{Diagnostic, Span, code};
 
 /// The format that this reader reads.
@@ -38,6 +38,7 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     let (links, complete) = links(reader, &mut root, &mut dh);
     let frames = frames::read(reader, &mut root, links.len());
     let payload = payload::read(reader, &mut root, &links, &frames, &mut parameters);
+    let budgets = budget::read(reader, &mut root);
     root.finish(reader);
     if let Some(dh) = dh {
         dh.finish(reader);
@@ -49,7 +50,7 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     let Head { name, description, gravity, gravity_place } = head;
     let mut draft = Draft { name, description, gravity, gravity_place, links, frames, payload };
     let order = tree::order(reader, &mut draft)?;
-    Some(Lowered { draft, order, parameters })
+    Some(Lowered { draft, order, parameters, budgets })
 }
 
 /// Checks `format`; nothing else is read of a file of another format.

@@ -10,6 +10,7 @@
 
 mod assemble;
 mod body;
+mod budget;
 mod compute;
 mod dh;
 mod draft;
@@ -38,6 +39,7 @@ mod tree;
 mod urdf;
 mod value;
 
+pub use budget::{Budget, Limit};
 pub use limits::{MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
 pub use locations::{
     AngleLocation, BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations,
@@ -64,6 +66,8 @@ pub struct Described {
     /// How the reader took what the format leaves open or what is not part of a robot here: notes,
     /// for a file that was not written for this program.
     pub choices: Diagnostics,
+    /// What generated code may cost.
+    pub budgets: Vec<Budget>,
     /// The format of the file.
     pub format: Format,
 }
@@ -163,6 +167,7 @@ struct Lowered {
     draft: Draft,
     order: Vec<usize>,
     parameters: (Vec<Parameter>, Vec<ParameterLocation>),
+    budgets: Vec<Budget>,
 }
 
 fn format_of(name: &str, text: &str) -> Format {
@@ -202,7 +207,9 @@ fn described(
     match built {
         Some((robot, locations, lowered)) if !found.has_errors() => {
             let choices = Diagnostics::new(source, choices);
-            let described = Described { robot, locations, warnings: found, choices, format };
+            let budgets = lowered.budgets.clone();
+            let described =
+                Described { robot, locations, warnings: found, choices, budgets, format };
             Ok((described, lowered))
         }
         _ => Err(found),
@@ -211,7 +218,7 @@ fn described(
 
 /// The robot of a lowered file, where nothing is wrong with it.
 fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(Robot, Locations)> {
-    let Lowered { draft, order, parameters } = lowered;
+    let Lowered { draft, order, parameters, .. } = lowered;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {
         let last = draft.links.last().map(|link| link.places.joint.clone());
         let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves")

@@ -79,4 +79,5 @@ codes! {
     TAKEN_NAME = "R0705", "A name is changed.";
     LEFT_OUT = "R0706", "Something in the file is no part of the robot here.";
     TAKEN_ANGLE = "R0707", "An angle is taken for a multiple of π/2.";
+    BUDGET = "R0801", "A function costs more than its budget.";
 }

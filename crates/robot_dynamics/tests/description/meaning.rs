@@ -1,11 +1,13 @@
 //! What right files mean.
 
+use robot_dynamics::description::{Budget, Limit};
+use robot_dynamics::functions::FunctionKind;
 use robot_dynamics::model::{JointKind, Move, Robot};
 use robot_dynamics::numeric::Mechanism;
 use robot_dynamics::numeric::random::Random;
 use robot_symbolic::{Formula, Rational};
 
-use crate::{arm, read};
+use crate::{arm, errors, read};
 
 fn link(name: &str, more: &str) -> String {
     format!(
@@ -225,9 +227,35 @@ fn the_examples_of_the_reference_are_right() {
     let page = std::fs::read_to_string(path).unwrap();
     let examples: Vec<_> =
         page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
-    assert_eq!(examples.len(), 4);
+    assert_eq!(examples.len(), 5);
     for example in examples {
         let described = read(example);
         assert!(described.warnings.is_empty(), "{}", described.warnings);
     }
+}
+
+#[test]
+fn budgets_name_functions_and_limits() {
+    let text = "[[budget]]\nfunction = \"mass_matrix\"\nmax_operations = 300\n[[budget]]\nmax_stack = 2_048\n";
+    let text = arm(&format!("{}{text}", revolute("1", "")));
+    let found = read(&text).budgets;
+    let limits = |budget: &Budget| {
+        let value = |limit: &Option<Limit>| limit.as_ref().map(|limit| limit.value);
+        (budget.function, value(&budget.max_operations), value(&budget.max_stack))
+    };
+    let found: Vec<_> = found.iter().map(limits).collect();
+    let expected = [(Some(FunctionKind::MassMatrix), Some(300), None), (None, None, Some(2048))];
+    assert_eq!(found, expected);
+
+    let wrong =
+        "[budget]\nfunction = \"mass_matrx\"\nmax_operations = 1.5\nmax_stack = -1\nmax = 2\n";
+    let found = errors(&arm(&format!("{}{wrong}", revolute("1", "")))).to_string();
+    for part in ["did you mean `mass_matrix`?", "`max` is not a key of a budget"] {
+        assert!(found.contains(part), "{found}");
+    }
+    assert_eq!(
+        found.matches("a limit is a whole number that is not negative").count(),
+        2,
+        "{found}"
+    );
 }

@@ -42,7 +42,7 @@ fn the_module_is_the_builders() {
 #[test]
 fn all_wrong_options_are_named() {
     let shown = expanded(quote! {
-        "robots/trttr1.toml", snapp = 1, snap = "x", functions = ["inverse"], scalar = "f16",
+        "robots/trttr1.toml", max_operations = "x", snapp = 1, snap = "x", functions = ["inverse"], scalar = "f16",
         allow_outside = 1, runtime = 3, trigonometry = "none", scalar = "f32", batch = 2.5
     });
     for part in [
@@ -58,7 +58,7 @@ fn all_wrong_options_are_named() {
     ] {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }
-    assert_eq!(shown.matches("compile_error").count(), 9);
+    assert_eq!(shown.matches("compile_error").count(), 10);
     assert!(expanded(quote!(5)).contains("expected the path of a robot file"));
     assert!(expanded(quote!()).contains("expected the path of a robot file"));
 }
@@ -72,4 +72,12 @@ fn what_is_wrong_with_a_file_is_shown_and_the_file_watched() {
     assert!(expanded(quote!("robots/none.toml")).contains("there is no such file"));
     assert!(expanded(quote!("../none.toml")).contains("there is no such file"));
     assert!(expanded(quote!("robots/trttr1.toml", snap = -1)).contains("is no angle"));
+}
+
+#[test]
+fn a_budget_breaks_the_build() {
+    let shown = expanded(quote!("robots/trttr1.toml", max_operations = 10, max_stack = 20));
+    for part in ["operations; its budget is 10", "bytes of stack; its budget is 20"] {
+        assert!(shown.contains(part), "{shown}");
+    }
 }

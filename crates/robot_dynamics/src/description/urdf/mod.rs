@@ -58,7 +58,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
     masses::add(reader, &mut draft, &order, &sources, options);
     report::choices(reader, &root, &draft, &order, &joints, options);
     name?;
-    Some(Lowered { draft, order, parameters: (Vec::new(), Vec::new()) })
+    Some(Lowered { draft, order, parameters: (Vec::new(), Vec::new()), budgets: Vec::new() })
 }
 
 /// The root element, where it is that of URDF.
