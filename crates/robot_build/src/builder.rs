@@ -101,10 +101,10 @@ impl Builder {
         self
     }
 
-    /// Constant angles within `radians` of a multiple of π/2 become that multiple; 10⁻⁹ without
-    /// this.
+    /// Constant angles within `radians` of a multiple of π/2 become that multiple; without this
+    /// what the robot file says with `snap`, or 10⁻⁹.
     pub fn snap(mut self, radians: f64) -> Builder {
-        self.options.snap = radians;
+        self.options.snap = Some(radians);
         self
     }
 

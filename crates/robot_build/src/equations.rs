@@ -19,8 +19,9 @@ pub struct EquationOptions {
     pub kinds: Vec<Kind>,
     /// Whether the driving forces include friction, equations (4)-(5).
     pub friction: bool,
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple.
-    pub snap: f64,
+    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
+    /// for what the robot file says, or 10⁻⁹.
+    pub snap: Option<f64>,
     /// How the equations are written.
     pub notation: Notation,
 }
@@ -40,7 +41,7 @@ impl Default for EquationOptions {
         EquationOptions {
             kinds: vec![Kind::DrivingForce],
             friction: false,
-            snap: MechanismOptions::SNAP,
+            snap: None,
             notation: Notation::Text,
         }
     }
@@ -119,7 +120,7 @@ pub fn equations(source: &Source, options: &EquationOptions) -> Result<Equations
     let described = read(source)?;
     let robot = described.robot;
     let graph = Graph::new();
-    let exact = MechanismOptions { snap: options.snap, ..MechanismOptions::EXACT };
+    let exact = MechanismOptions::EXACT.with_snap(options.snap, &robot);
     let mechanism = Mechanism::new(&robot, &graph, &exact);
     let effects = Effects { wrench: true, friction: options.friction };
     let iterations = newton_euler(&mechanism, effects);

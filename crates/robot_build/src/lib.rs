@@ -38,6 +38,7 @@ pub mod package;
 mod paths;
 mod pin;
 mod programs;
+pub mod snapping;
 mod specification;
 
 pub use builder::{Builder, compile};
@@ -54,3 +55,4 @@ pub use robot_codegen::backend::rust::{Scalar, identifier};
 pub use robot_dynamics::diagnostic::Source;
 pub use robot_dynamics::economical::Plan;
 pub use robot_dynamics::functions::FunctionKind;
+pub use snapping::{Snapping, snapping};

@@ -40,9 +40,6 @@ pub enum Functions {
     Chosen(Vec<FunctionKind>),
 }
 
-/// The largest angle by which snapping may change a rotation, rad.
-const MAX_SNAP: f64 = 0.1;
-
 /// What is generated, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -62,8 +59,9 @@ pub struct Options {
     pub fused: bool,
     /// Where sines and cosines come from.
     pub trigonometry: Trigonometry,
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple.
-    pub snap: f64,
+    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
+    /// for what the robot file says, which is 10⁻⁹ where it says nothing.
+    pub snap: Option<f64>,
     /// The path of the runtime crate or module in generated code.
     pub runtime: String,
     /// The form of the economical recursion; `None` for one that suits most arms, or is searched.
@@ -91,7 +89,7 @@ impl Default for Options {
             batch: rust.batch,
             fused: false,
             trigonometry: rust.trigonometry,
-            snap: MechanismOptions::SNAP,
+            snap: None,
             runtime: rust.runtime,
             plan: None,
             max_operations: None,
@@ -133,8 +131,9 @@ impl Options {
     /// What is wrong with the figures among the options.
     pub(crate) fn check(&self) -> Result<(), Errors> {
         let mut errors = vec![];
-        if !(0.0..=MAX_SNAP).contains(&self.snap) {
-            errors.push(Error::Snap { snap: self.snap.to_string() });
+        let possible = 0.0..=MechanismOptions::MAX_SNAP;
+        if let Some(snap) = self.snap.filter(|snap| !possible.contains(snap)) {
+            errors.push(Error::Snap { snap: snap.to_string() });
         }
         if let Some(states) = self.batch.filter(|states| !(1..=MAX_BATCH).contains(states)) {
             errors.push(Error::Batch { states, most: MAX_BATCH });
@@ -157,8 +156,8 @@ impl Options {
     }
 
     /// How the robot becomes expressions.
-    pub(crate) fn mechanism(&self) -> MechanismOptions {
-        MechanismOptions { snap: self.snap, ..MechanismOptions::ROUNDED }
+    pub(crate) fn mechanism(&self, robot: &Robot) -> MechanismOptions {
+        MechanismOptions::ROUNDED.with_snap(self.snap, robot)
     }
 }
 

@@ -61,13 +61,13 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
     options.check()?;
     let functions = options.functions_of(&robot)?;
     let graph = Graph::new();
-    let searched = || search(&robot, &options.mechanism()).map(|found| found.plan);
+    let searched = || search(&robot, &options.mechanism(&robot)).map(|found| found.plan);
     let given = options.plan.clone();
     let plan = if options.search { given.or_else(searched) } else { given };
     if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
         return Err(Errors::from(Error::Plan { name: name.to_owned() }));
     }
-    let derivation = Derivation::new(&robot, &graph, &options.mechanism(), plan);
+    let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
     let specification = specification::module(&derivation, &functions);
     let module = Module::compile(&specification, &options.codegen())
         .map_err(|errors| Errors::of_code(name, &errors))?;

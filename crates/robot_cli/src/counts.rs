@@ -1,5 +1,6 @@
 //! Operation counts as JSON and text.
 
+use robot_build::{Snapping, snapping::Tried};
 use robot_codegen::{Counts, FunctionCounts};
 use serde_json::{Map, Value, json};
 
@@ -26,4 +27,19 @@ pub(crate) fn json(counts: &FunctionCounts) -> Value {
     let mut object = figures(&counts.call);
     object.insert("constructor".to_owned(), Value::Object(figures(&counts.constructor)));
     Value::Object(object)
+}
+
+/// `{"tolerance": …, "angles": …, "largest_change": …, "operations": …, "larger": […]}`
+pub(crate) fn snapping_json(snapping: &Snapping) -> Value {
+    let one = |tried: &Tried| {
+        json!({
+            "tolerance": tried.tolerance,
+            "angles": tried.snapped.len(),
+            "largest_change": tried.largest().map_or(0.0, |snap| snap.change.abs()),
+            "operations": tried.operations,
+        })
+    };
+    let mut shown = one(&snapping.taken);
+    shown["larger"] = snapping.larger.iter().map(one).collect();
+    shown
 }

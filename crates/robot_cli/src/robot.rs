@@ -18,9 +18,10 @@ use crate::text;
 pub(crate) struct RobotArgument {
     /// The robot file
     file: PathBuf,
-    /// Constant angles this near to a multiple of π/2, in radians, become that multiple
-    #[arg(long, value_name = "RAD", default_value_t = Options::default().snap)]
-    snap: f64,
+    /// Constant angles this near to a multiple of π/2, in radians, become that multiple; without this
+    /// what the robot file says, or 1e-9
+    #[arg(long, value_name = "RAD")]
+    snap: Option<f64>,
 }
 
 impl RobotArgument {
@@ -36,8 +37,8 @@ impl RobotArgument {
         Ok(described)
     }
 
-    /// The snapping tolerance, rad.
-    pub(crate) fn snap(&self) -> f64 {
+    /// The snapping tolerance, rad, where one is given.
+    pub(crate) fn snap(&self) -> Option<f64> {
         self.snap
     }
 

@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
+use robot_build::Snapping;
 use robot_dynamics::diagnostic::{Diagnostics, Style, quote};
+use robot_dynamics::mechanism::Snap;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -94,6 +96,35 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
         }
         text.push_str(line.trim_end());
         text.push('\n');
+    }
+    text
+}
+
+/// What was done to angles near multiples of π/2, and what larger tolerances would do.
+pub(crate) fn snapping(snapping: &Snapping) -> String {
+    let Snapping { taken, larger } = snapping;
+    let mut text = format!(
+        "angles taken for the multiple of π/2 next to them, --snap {:e}: {}",
+        taken.tolerance,
+        taken.snapped.len()
+    );
+    // Writing to a string does not fail.
+    if let Some(Snap { name, angle, change }) = taken.largest() {
+        let change = change.abs();
+        let _ = write!(text, "; the largest change is {change:.1e} rad, of {angle} at {name}");
+    }
+    for tried in larger {
+        let change = tried.largest().map_or(0.0, |snap| snap.change.abs());
+        let saved = match taken.operations.checked_sub(tried.operations) {
+            Some(saved) => format!("{saved} operations of inverse dynamics less"),
+            None => format!("{} operations more", tried.operations - taken.operations),
+        };
+        let _ = write!(
+            text,
+            "\n--snap {:e} would take {}, the largest change {change:.1e} rad: {saved}",
+            tried.tolerance,
+            tried.snapped.len()
+        );
     }
     text
 }

@@ -22,10 +22,18 @@ pub struct MechanismOptions {
 impl MechanismOptions {
     /// The default snapping tolerance, rad.
     pub const SNAP: f64 = 1e-9;
+    /// The largest snapping tolerance, rad.
+    pub const MAX_SNAP: f64 = 0.1;
     /// For print: exact constants.
     pub const EXACT: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: false };
     /// For code: irrational constants as floating-point numbers.
     pub const ROUNDED: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: true };
+
+    /// The same with a tolerance: the one given, else the robot file's, else [`Self::SNAP`].
+    #[must_use]
+    pub fn with_snap(self, given: Option<f64>, robot: &Robot) -> MechanismOptions {
+        MechanismOptions { snap: given.or(robot.snap).unwrap_or(Self::SNAP), ..self }
+    }
 }
 
 /// A robot in symbols.

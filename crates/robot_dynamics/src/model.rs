@@ -16,6 +16,9 @@ pub struct Robot {
     pub description: Option<String>,
     /// Acceleration of gravity in the base frame, m/s²: it points down.
     pub gravity: [Formula; 3],
+    /// Constant angles within this many radians of a multiple of π/2 are meant for that multiple;
+    /// `None` where the file does not say.
+    pub snap: Option<f64>,
     /// The symbols that stay parameters of equations and code, in the file's order.
     pub parameters: Vec<Parameter>,
     /// The generalised coordinates q₁ … qₙ.

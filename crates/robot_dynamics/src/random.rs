@@ -44,6 +44,7 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
         name: "random".to_owned(),
         description: None,
         gravity,
+        snap: None,
         parameters: vec![],
         coordinates,
         links,

@@ -51,7 +51,7 @@ impl Arguments {
     fn set(&mut self, key: &Ident, value: &Expr) -> syn::Result<()> {
         match key.to_string().as_str() {
             "functions" => self.options.functions = functions(value)?,
-            "snap" => self.options.snap = number(value)?,
+            "snap" => self.options.snap = Some(number(value)?),
             "scalar" => {
                 let known = [("f64", Scalar::F64), ("f32", Scalar::F32)];
                 self.options.scalar = one_of(value, &known)?;

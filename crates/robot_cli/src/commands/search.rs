@@ -1,7 +1,7 @@
 //! `search`: the form of the recursion with the fewest operations.
 
 use clap::Args;
-use robot_build::{pin_path, pin_text, write_if_changed};
+use robot_build::{pin_path, pin_text, snapping, write_if_changed};
 use robot_dynamics::economical::search::search;
 use robot_dynamics::economical::{Plan, plan::LinkPlan};
 use robot_dynamics::mechanism::MechanismOptions;
@@ -29,7 +29,7 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let robot = self.robot.read(terminal)?.robot;
-        let options = MechanismOptions { snap: self.robot.snap(), ..MechanismOptions::ROUNDED };
+        let options = MechanismOptions::ROUNDED.with_snap(self.robot.snap(), &robot);
         let Some(found) = search(&robot, &options) else {
             return Err(Failure::input(format!(
                 "{}: a joint axis depends on parameters; the economical recursion has no forms for it",
@@ -48,6 +48,8 @@ impl Arguments {
             let axis = ["x", "y", "z"][component.min(2)];
             writeln!(terminal.output, "\nunit of length: {axis} of the position of link {name}")?;
         }
+        let snapping = snapping(&robot, self.robot.snap(), Some(&found.plan))?;
+        writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
             let path = pin_path(self.robot.path());
             write_if_changed(&path, &pin_text(&self.robot.source()?, &found))?;

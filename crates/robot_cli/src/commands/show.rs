@@ -1,7 +1,7 @@
 //! `show`: what a robot file says.
 
 use clap::Args;
-use robot_build::FunctionKind;
+use robot_build::{FunctionKind, snapping};
 use robot_dynamics::model::{JointKind, Robot};
 
 use crate::Terminal;
@@ -31,6 +31,8 @@ impl Arguments {
             writeln!(output, "{}", text::table(&parameters(robot)))?;
         }
         writeln!(output, "{}", text::table(&functions(robot)))?;
+        let snapping = snapping(robot, self.robot.snap(), None)?;
+        writeln!(output, "{}", text::snapping(&snapping))?;
         for choice in described.choices.iter() {
             writeln!(output, "note: {}", choice.message)?;
         }

@@ -1,7 +1,7 @@
 //! `stats`: the operations of a robot's functions.
 
 use clap::{Args, ValueEnum};
-use robot_build::{Functions, Options, programs};
+use robot_build::{Functions, Options, programs, snapping};
 use robot_codegen::FunctionCounts;
 use serde_json::{Map, Value, json};
 
@@ -57,7 +57,12 @@ impl Arguments {
                     .iter()
                     .map(|(name, counts)| ((*name).to_owned(), counts::json(counts)))
                     .collect();
-                let shown = json!({ "robot": programs.robot.name, "functions": functions });
+                let snapping = snapping(&programs.robot, options.snap, options.plan.as_ref())?;
+                let shown = json!({
+                    "robot": programs.robot.name,
+                    "functions": functions,
+                    "snap": counts::snapping_json(&snapping),
+                });
                 writeln!(terminal.output, "{shown:#}")?;
             }
             Format::Text => write!(terminal.output, "{}", text::table(&rows(&counts)))?,

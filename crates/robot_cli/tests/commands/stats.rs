@@ -63,3 +63,31 @@ fn what_is_wrong_with_a_file_is_shown() {
         assert!(outcome.errors.contains("did you mean `gravity`"), "{}", outcome.errors);
     }
 }
+
+#[test]
+fn what_snapping_changes_is_told() {
+    let text = std::fs::read_to_string(robot("scara")).unwrap();
+    let near = text.replacen(
+        "[[link]]",
+        "[[frame]]\nname = \"near\"\nparent = \"base\"\n\
+        origin = { rpy = [1.5708, 3e-10, 0] }\n\n[[link]]",
+        1,
+    );
+    let path = crate::folder("snap").join("near.toml");
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(&path, near).unwrap();
+    let path = path.to_str().unwrap();
+    let shown = output(&["show", path], "");
+    for part in [
+        "angles taken for the multiple of π/2 next to them, --snap 1e-9: 1; the largest change is 3.0e-10 rad",
+        "--snap 1e-4 would take 2, the largest change 3.7e-6 rad: 0 operations",
+    ] {
+        assert!(shown.contains(part), "{part} is not in {shown}");
+    }
+    let stats: Value = serde_json::from_str(&output(&["stats", path], "")).unwrap();
+    assert_eq!(stats["snap"]["angles"], 1);
+    assert_eq!(stats["snap"]["larger"][0]["angles"], 2);
+    let stats = output(&["stats", path, "--snap", "1e-4"], "");
+    let stats: Value = serde_json::from_str(&stats).unwrap();
+    assert_eq!(stats["snap"]["angles"], 2);
+}

@@ -32,6 +32,7 @@ pub(super) fn robot(
         name: draft.name.name,
         description: draft.description,
         gravity: draft.gravity,
+        snap: draft.snap,
         parameters: parameters.0,
         coordinates: Vec::new(),
         links: Vec::new(),

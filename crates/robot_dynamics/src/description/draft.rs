@@ -16,6 +16,7 @@ pub(super) struct Draft {
     pub(super) description: Option<String>,
     pub(super) gravity: [Formula; 3],
     pub(super) gravity_place: Option<Span>,
+    pub(super) snap: Option<f64>,
     pub(super) links: Vec<DraftLink>,
     pub(super) frames: Vec<DraftFrame>,
     pub(super) payload: Option<DraftPayload>,

@@ -10,10 +10,11 @@ use super::frames::tables;
 use super::names::Kind;
 use super::placement::zero;
 use super::reader::{Named, Reader};
-use super::table::Table;
+use super::table::{Table, Value};
 use super::value::quantity;
 use super::{budget, dh, frames, link, parameters, payload, syntax, tree};
 use crate::diagnostic::{Diagnostic, Span, code};
+use crate::mechanism::MechanismOptions;
 
 /// The format that this reader reads.
 const FORMAT: i64 = 1;
@@ -47,8 +48,9 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     if !complete {
         return None;
     }
-    let Head { name, description, gravity, gravity_place } = head;
-    let mut draft = Draft { name, description, gravity, gravity_place, links, frames, payload };
+    let Head { name, description, gravity, gravity_place, snap } = head;
+    let mut draft =
+        Draft { name, description, gravity, gravity_place, snap, links, frames, payload };
     let order = tree::order(reader, &mut draft)?;
     Some(Lowered { draft, order, parameters, budgets })
 }
@@ -81,6 +83,7 @@ struct Head {
     description: Option<String>,
     gravity: [Formula; 3],
     gravity_place: Option<Span>,
+    snap: Option<f64>,
 }
 
 /// Reads `[robot]`.
@@ -91,6 +94,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
         description: None,
         gravity: [zero(), zero(), Formula::number(&down)],
         gravity_place: None,
+        snap: None,
     };
     let entry = root.require(reader, "robot", "[robot]");
     let Some(mut table) = entry.and_then(|entry| reader.table(entry.value, "[robot]")) else {
@@ -106,8 +110,25 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
         head.gravity = reader.vector(entry.value, what);
         head.gravity_place = Some(entry.value.span());
     }
+    head.snap = table.get("snap").and_then(|entry| snap(reader, entry.value));
     table.finish(reader);
     head
+}
+
+/// `snap = 1e-6`: an angle, rad.
+fn snap(reader: &mut Reader<'_>, value: Value<'_>) -> Option<f64> {
+    let snap = reader.number(value, "an angle in radians, `snap = 1e-6`")?.to_f64();
+    if (0.0..=MechanismOptions::MAX_SNAP).contains(&snap) {
+        return Some(snap);
+    }
+    let most = MechanismOptions::MAX_SNAP;
+    reader.report(
+        Diagnostic::error(code::NUMBER, format!("{snap} rad is no tolerance of angles"))
+            .at(&value.span(), format!("not between 0 and {most}"))
+            .because("angles this near to a multiple of π/2 are taken for that multiple")
+            .help("give a small angle in radians, such as 1e-6, or 0 to change none"),
+    );
+    None
 }
 
 /// Reads every `[[link]]`; whether all of them came through.

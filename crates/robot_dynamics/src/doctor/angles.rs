@@ -21,9 +21,10 @@ const TURN: f64 = TAU + 1e-3;
 const FOUR_TURNS: f64 = 4.0 * TAU + 1e-3;
 
 pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    let snap = MechanismOptions::ROUNDED.with_snap(None, patient.robot).snap;
     for angle in &patient.locations.angles {
         if angle.value.is_constant() {
-            found.extend(placed(angle));
+            found.extend(placed(angle, snap));
         }
     }
     for link in &patient.links {
@@ -40,7 +41,7 @@ pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-fn placed(angle: &AngleLocation) -> Option<Diagnostic> {
+fn placed(angle: &AngleLocation, snap: f64) -> Option<Diagnostic> {
     let value = angle.value.evaluate(|_| f64::NAN);
     if value.abs() > TURN {
         let message = format!("an angle is {value} rad");
@@ -52,11 +53,11 @@ fn placed(angle: &AngleLocation) -> Option<Diagnostic> {
         return None;
     }
     let multiple = multiple(quarters);
-    if miss.abs() <= MechanismOptions::SNAP {
+    if miss.abs() <= snap {
         return Some(
             Diagnostic::note(code::TAKEN_ANGLE, format!("an angle is taken for {multiple}"))
                 .at(&angle.place, format!("off by {} rad", significant(miss)))
-                .because(format!("angles within {:e} rad are snapped", MechanismOptions::SNAP)),
+                .because(format!("angles within {snap:e} rad are snapped")),
         );
     }
     is_rounded(value, quarters, miss).then(|| {
@@ -70,8 +71,8 @@ fn placed(angle: &AngleLocation) -> Option<Diagnostic> {
                 significant(miss.sin().abs())
             ))
             .help(format!(
-                "write all its digits, {}, or in a robot file \"{}\"; where the file cannot be changed, \
-                 `--snap {}` takes it for that",
+                "write all its digits, {}, or in a robot file \"{}\"; where the figure cannot be \
+                 changed, `--snap {}` or `snap` in `[robot]` takes it for that",
                 quarters * FRAC_PI_2,
                 multiple.replace('π', "pi"),
                 tolerance(miss)

@@ -48,6 +48,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
         description: None,
         gravity: [zero(), zero(), Formula::number(&down)],
         gravity_place: None,
+        snap: None,
         links: connected.links,
         frames: Vec::new(),
         payload: None,
