@@ -11,3 +11,4 @@ mod include_macro;
 mod package;
 mod payload;
 mod reference;
+mod single;
