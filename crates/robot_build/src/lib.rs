@@ -24,6 +24,7 @@
 //! environment and no terminal, so that the builder, the macro `include_robot!` and the command
 //! `robot-symbolic` give the same code.
 
+pub mod ablation;
 pub mod budget;
 mod builder;
 mod cargo;

@@ -3,6 +3,7 @@
 use robot_codegen::Module;
 use robot_dynamics::description::{self, Budget, Described};
 use robot_dynamics::diagnostic::{Diagnostics, Source};
+use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::search::search;
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::Snap;
@@ -58,18 +59,33 @@ pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> 
 ///
 /// Everything that is wrong with the options.
 pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Programs, Errors> {
+    programs_under(robot, name, options, &options.codegen())
+}
+
+/// The plan that the options give, or that is searched.
+pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
+    let searched = || search(robot, &options.mechanism(robot)).map(|found| found.plan);
+    let given = options.plan.clone();
+    if options.search { given.or_else(searched) } else { given }
+}
+
+/// As [`programs_of`], with passes of choice.
+pub(crate) fn programs_under(
+    robot: Robot,
+    name: &str,
+    options: &Options,
+    codegen: &robot_codegen::Options,
+) -> Result<Programs, Errors> {
     options.check()?;
     let functions = options.functions_of(&robot)?;
     let graph = Graph::new();
-    let searched = || search(&robot, &options.mechanism(&robot)).map(|found| found.plan);
-    let given = options.plan.clone();
-    let plan = if options.search { given.or_else(searched) } else { given };
+    let plan = plan_of(&robot, options);
     if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
         return Err(Errors::from(Error::Plan { name: name.to_owned() }));
     }
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
     let specification = specification::module(&derivation, &functions);
-    let module = Module::compile(&specification, &options.codegen())
+    let module = Module::compile(&specification, codegen)
         .map_err(|errors| Errors::of_code(name, &errors))?;
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };

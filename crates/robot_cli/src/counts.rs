@@ -21,9 +21,6 @@ pub(crate) const FIGURES: [Figure; 8] = [
 
 /// `{"mul": …, …, "constructor": {"mul": …, …}}`
 pub(crate) fn json(counts: &FunctionCounts) -> Value {
-    let figures = |counts: &Counts| -> Map<String, Value> {
-        FIGURES.iter().map(|(name, figure)| ((*name).to_owned(), json!(figure(counts)))).collect()
-    };
     let mut object = figures(&counts.call);
     object.insert("constructor".to_owned(), Value::Object(figures(&counts.constructor)));
     Value::Object(object)
@@ -42,4 +39,9 @@ pub(crate) fn snapping_json(snapping: &Snapping) -> Value {
     let mut shown = one(&snapping.taken);
     shown["larger"] = snapping.larger.iter().map(one).collect();
     shown
+}
+
+/// `{"mul": …, …}`
+pub(crate) fn figures(counts: &Counts) -> Map<String, Value> {
+    FIGURES.iter().map(|(name, figure)| ((*name).to_owned(), json!(figure(counts)))).collect()
 }

@@ -143,7 +143,8 @@ fn needed_fields(constructor: &Program, function: &Function) -> Vec<bool> {
 /// The counts after a pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PassCounts {
-    /// The name of the pass; `lowered` for the program before any.
+    /// The name of the pass; `as built` for the program before any, `constructor` for what is left when
+    /// the constructor has its part.
     pub pass: &'static str,
     /// The operations in calls after it.
     pub counts: Counts,

@@ -40,7 +40,7 @@ pub struct Function {
     pub angles: Program,
     /// The arithmetic. Loads inputs, fields, and sines and cosines of the angles by their index.
     pub core: Program,
-    /// The operations of `core`, in calls alone, after each pass.
+    /// The operations of `core`, in calls alone, after each pass, in the order in which they ran.
     pub passes: Vec<PassCounts>,
 }
 
@@ -108,7 +108,9 @@ impl Module {
         });
         let constructor = stage::hoist_parameters(programs);
         for function in &mut functions {
-            function.core = passes::finish(&function.core, options);
+            let (core, report) = passes::finish(&function.core, options);
+            function.core = core;
+            function.passes.extend(report);
         }
         Ok(Module {
             name: spec.name.clone(),

@@ -1,8 +1,9 @@
 //! `stats`: the operations of a robot's functions.
 
 use clap::{Args, ValueEnum};
+use robot_build::ablation::{Ablation, ablation};
 use robot_build::{Functions, Options, programs, snapping};
-use robot_codegen::FunctionCounts;
+use robot_codegen::{Counts, FunctionCounts, Module};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -14,16 +15,28 @@ use crate::text;
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic stats robots/puma560.toml --format text
+  robot-symbolic stats robots/puma560.toml --function inverse_dynamics --passes
+  robot-symbolic stats robots/puma560.toml --function inverse_dynamics --options
 
 Subtractions count as additions, changes of sign not at all, a fused multiply-add as both of its
 operations. `other` are absolute values, signs and hyperbolic tangents. What the constructor computes,
-once for each set of parameters, is counted apart.")]
+once for each set of parameters, is counted apart.
+
+With --passes, what is left of each function after each pass; `as built` is what the recursion gives,
+`constructor` what is left for calls. With --options, what each function costs without each option of
+the recursion and without each pass; options act together, so that what they save does not add up.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     /// Functions to count; all that the robot has without this
     #[arg(long = "function", value_name = "NAME", value_delimiter = ',')]
     functions: Vec<String>,
+    /// Show what each pass gave
+    #[arg(long)]
+    passes: bool,
+    /// Show what each option of the recursion and each pass is worth
+    #[arg(long, conflicts_with = "passes")]
+    options: bool,
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
@@ -43,9 +56,15 @@ impl Arguments {
         };
         let source = self.robot.source()?;
         let options = Options { functions, ..self.robot.options()? };
+        if self.options {
+            return self.show(&ablated(&ablation(&source, &options)?), terminal);
+        }
         let programs = programs(&source, &options)?;
         text::warnings(&programs.warnings, terminal)?;
         let module = &programs.module;
+        if self.passes {
+            return self.show(&passes(module), terminal);
+        }
         let counts: Vec<(&str, FunctionCounts)> = module
             .functions
             .iter()
@@ -69,6 +88,81 @@ impl Arguments {
         }
         Ok(())
     }
+}
+
+impl Arguments {
+    /// Counts of functions under titles: a table of all, or an object of lists.
+    fn show(&self, steps: &[Step], terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        match self.format {
+            Format::Json => {
+                let steps: Vec<Value> = steps.iter().map(Step::json).collect();
+                writeln!(terminal.output, "{:#}", Value::Array(steps))?;
+            }
+            Format::Text => {
+                let mut title =
+                    ["function", "step", "M + A + D", "neg"].map(str::to_owned).to_vec();
+                title.extend(counts::FIGURES.iter().map(|(name, _)| (*name).to_owned()));
+                let rows = std::iter::once(title).chain(steps.iter().map(Step::row));
+                write!(terminal.output, "{}", text::table(&rows.collect::<Vec<_>>()))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The counts of a function at a step of the passes, or without an option.
+struct Step {
+    function: String,
+    step: String,
+    counts: Counts,
+}
+
+impl Step {
+    fn row(&self) -> Vec<String> {
+        let figures = counts::FIGURES.iter().map(|(_, figure)| figure(&self.counts).to_string());
+        let operations = self.counts.operations().to_string();
+        let neg = self.counts.neg.to_string();
+        let first = [self.function.clone(), self.step.clone(), operations, neg];
+        first.into_iter().chain(figures).collect()
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "function": self.function,
+            "step": self.step,
+            "operations": self.counts.operations(),
+            "neg": self.counts.neg,
+            "counts": counts::figures(&self.counts),
+        })
+    }
+}
+
+/// What is left of each function after each pass.
+fn passes(module: &Module) -> Vec<Step> {
+    let steps = module.functions.iter().flat_map(|function| {
+        function.passes.iter().map(|pass| Step {
+            function: function.name.clone(),
+            step: pass.pass.to_owned(),
+            counts: pass.counts,
+        })
+    });
+    steps.collect()
+}
+
+/// What each function costs without each option, function after function.
+fn ablated(found: &[Ablation]) -> Vec<Step> {
+    let functions = found.first().map_or(&[][..], |all| all.counts.as_slice());
+    let of = |index: usize| {
+        found.iter().filter_map(move |ablation| {
+            let (function, counts) = ablation.counts.get(index)?;
+            let step = match ablation.without {
+                "none" => "with all".to_owned(),
+                option => format!("without {option}"),
+            };
+            Some(Step { function: function.clone(), step, counts: counts.call })
+        })
+    };
+    (0..functions.len()).flat_map(of).collect()
 }
 
 /// A row for each function, and one for what the constructor does of it.

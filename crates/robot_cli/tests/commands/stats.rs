@@ -91,3 +91,41 @@ fn what_snapping_changes_is_told() {
     let stats: Value = serde_json::from_str(&stats).unwrap();
     assert_eq!(stats["snap"]["angles"], 2);
 }
+
+#[test]
+fn passes_and_options_show_what_they_give() {
+    let file = robot("stanford");
+    let of = |flag: &str| -> Vec<(String, u64)> {
+        let shown = output(&["stats", &file, "--function", "inverse_dynamics", flag], "");
+        let shown: Vec<Value> = serde_json::from_str(&shown).unwrap();
+        let step = |step: &Value| {
+            (step["step"].as_str().unwrap().to_owned(), step["operations"].as_u64().unwrap())
+        };
+        shown.iter().map(step).collect()
+    };
+    let counts: Value = serde_json::from_str(&output(&["stats", &file], "")).unwrap();
+    let counts = &counts["functions"]["inverse_dynamics"];
+    let total = counts["mul"].as_u64().unwrap() + counts["add"].as_u64().unwrap();
+
+    let passes = of("--passes");
+    assert!(
+        passes.is_sorted_by_key(|(_, operations)| std::cmp::Reverse(*operations)),
+        "{passes:?}"
+    );
+    assert_eq!(passes.last(), Some(&("schedule".to_owned(), total)));
+    for pass in
+        ["as built", "value numbering", "factoring", "pair reuse", "resubstitution", "signs"]
+    {
+        assert!(passes.iter().any(|(name, _)| name == pass), "{pass}: {passes:?}");
+    }
+    assert!(passes[0].1 > total);
+
+    let options = of("--options");
+    assert_eq!(options[0], ("with all".to_owned(), total));
+    let without = |name: &str| options.iter().find(|(step, _)| *step == format!("without {name}"));
+    for name in ["origin", "column", "residual", "unit_length", "factoring", "resubstitution"] {
+        assert!(without(name).is_some(), "{name}: {options:?}");
+    }
+    assert!(without("any pass").unwrap().1 > total);
+    assert!(without("column").unwrap().1 > total, "{options:?}");
+}

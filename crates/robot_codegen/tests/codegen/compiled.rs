@@ -6,9 +6,10 @@ use crate::support::{
     self,
     random::{ENTRIES, Random},
 };
-use robot_codegen::backend::rust::{RustOptions, Wrapping, generate};
+use robot_codegen::backend::rust::{RustOptions, Scalar, Wrapping, generate};
 use robot_codegen::program::{Layout, Limits};
-use robot_codegen::{Interpreter, Module, Options};
+use robot_codegen::spec::{FunctionSpec, ModuleSpec};
+use robot_codegen::{Fused, Interpreter, Module, Options};
 use robot_symbolic::Graph;
 
 const STATES: usize = 20;
@@ -105,4 +106,76 @@ fn nothing_generated_is_unused() {
             format!("//! Code.\n#![deny(warnings, unused, missing_docs)]\n#![no_std]\n{code}");
         support::rustc::compile(&format!("unused-{generic}"), &text, &["--crate-type", "lib"]);
     }
+}
+
+/// Without feature `fma` of the target a multiply-add is a product and a sum, as in the interpreter.
+#[test]
+fn fused_code_gives_the_bits_of_the_interpreter() {
+    let mut random = Random(11);
+    let graph = Graph::new();
+    let spec = support::random::module(&graph, &mut random, 300);
+    let options = Options { fused: Fused::WhereTarget, ..Options::default() };
+    let module = Module::compile(&spec, &options).unwrap();
+    assert!(module.counts(&module.functions[0]).call.fused > 10);
+    let states = states(&mut random);
+    let code = generate(&module, &RustOptions::default()).unwrap().to_text();
+    assert!(code.contains("mul_add("));
+    let text = format!("#![deny(warnings)]\n{code}\n{}", main_text(&states));
+    let printed = support::rustc::output_of("fused", &text, &["-O"]);
+    let bits: Vec<u64> = printed.lines().map(|line| line.parse().unwrap()).collect();
+    assert_eq!(bits, interpreted(&module, &states));
+}
+
+#[test]
+fn single_precision_is_near_to_double() {
+    let graph = Graph::new();
+    let module = Module::compile(&support::arm::planar_arm(&graph), &Options::default()).unwrap();
+    let options = RustOptions { scalar: Scalar::F32, ..RustOptions::default() };
+    let code = generate(&module, &options).unwrap().to_text();
+    let inputs = [[0.3, -0.7], [0.5, 1.25], [-1.5, 2.0]];
+    let [q, qd, qdd] = inputs;
+    let text = format!(
+        "#![deny(warnings)]\n{code}\nfn main() {{\n\
+         let tau: [f32; 2] = planar_arm::Model::NOMINAL.inverse_dynamics(&{q:?}, &{qd:?}, &{qdd:?});\n\
+         for tau in tau {{ println!(\"{{tau:?}}\"); }}\n}}\n"
+    );
+    let printed = support::rustc::output_of("single", &text, &["-O"]);
+    let found: Vec<f64> = printed.lines().map(|line| line.parse().unwrap()).collect();
+    let interpreter = Interpreter::new(&module, &[]).unwrap();
+    let given: [(&str, &[f64]); 3] = [("q", &q), ("qd", &qd), ("qdd", &qdd)];
+    let expected = interpreter.call("inverse_dynamics", &given).unwrap()[0].values.clone();
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(&expected) {
+        // A few roundings of single precision, of terms of some tens.
+        assert!((found - expected).abs() < 1e-5 * 40.0, "{found} {expected}");
+        assert_ne!(found, expected);
+    }
+}
+
+#[test]
+fn a_module_without_parameters_has_functions_of_its_own() {
+    let graph = Graph::new();
+    let (q1, q2) = (graph.symbol("q1"), graph.symbol("q2"));
+    let values = vec![q1.sin() * 3 + q2, (q1 + q2).cos() * q2];
+    let spec = ModuleSpec {
+        name: "plain".into(),
+        doc: vec![],
+        parameters: vec![],
+        functions: vec![FunctionSpec {
+            name: "f".into(),
+            doc: vec![],
+            inputs: vec![support::arm::joints("q", "rad")],
+            outputs: vec![support::arm::vector("y", "", values)],
+        }],
+    };
+    let module = Module::compile(&spec, &Options::default()).unwrap();
+    let code = generate(&module, &RustOptions::default()).unwrap().to_text();
+    let main = "fn main() { let q = [0.4, -1.1]; assert_eq!(plain::f(&q), plain::Model.f(&q)); \
+        for y in plain::f(&q) { println!(\"{}\", y.to_bits()); } }";
+    let text = format!("#![deny(warnings)]\n{code}\n{main}\n");
+    let printed = support::rustc::output_of("plain", &text, &["-O"]);
+    let bits: Vec<u64> = printed.lines().map(|line| line.parse().unwrap()).collect();
+    let interpreter = Interpreter::new(&module, &[]).unwrap();
+    let expected = interpreter.call("f", &[("q", &[0.4, -1.1])]).unwrap()[0].values.clone();
+    assert_eq!(bits, expected.into_iter().map(f64::to_bits).collect::<Vec<_>>());
 }

@@ -1,9 +1,10 @@
 //! Tests of the whole: from expressions to programs, numbers and compiled code.
 
 // Helpers of tests fail as tests do.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 mod compiled;
+mod errors;
 mod golden;
 #[path = "../support/mod.rs"]
 mod support;

@@ -8,9 +8,15 @@
 //! numbers.
 //!
 //! A replacement must agree with what it replaces, at every point, to within the rounding of the
-//! evaluation that it replaces; a coincidence at all points would have to be one in 10⁷⁵. Absolute
-//! values, signs and roots are taken for unrelated numbers, so that nothing follows from the sign
-//! that an argument happens to have at the points.
+//! evaluation that it replaces. That is evidence, no proof. Two numbers near 1 that have nothing to do
+//! with each other agree to within such a tolerance by a chance of some 10⁻¹⁵; there are six points, of
+//! which pairs share the values of parameters, so that even where parameters alone decide three are
+//! left: 10⁻⁴⁵, times the millions of pairs that are compared. But the points are fixed, the same for
+//! every program, and values of one program are not unrelated; no bound follows for them. What code
+//! computes is therefore held against independent solvers at other points, by the tests.
+//!
+//! Absolute values, signs and roots are taken for unrelated numbers, so that nothing follows from the
+//! sign that an argument happens to have at the points.
 
 mod cones;
 mod samples;
