@@ -196,17 +196,17 @@ fn nearest<'n>(word: &str, candidates: impl Iterator<Item = &'n str>) -> Option<
         .map(|candidate| {
             let same = candidate.to_lowercase();
             let distance = strsim::damerau_levenshtein(&lower, &same);
-            // A beginning of a longer word is as good as one slip.
-            let distance = match same.starts_with(&lower) && length >= 3 {
+            // A beginning of a longer word is as good as one slip; of several the shortest.
+            let slips = match same.starts_with(&lower) && length >= 3 {
                 true => distance.min(1),
                 false => distance,
             };
-            (distance, candidate)
+            (slips, distance, candidate)
         })
-        .min_by_key(|(distance, _)| *distance)
-        .filter(|(distance, candidate)| {
+        .min_by_key(|(slips, distance, _)| (*slips, *distance))
+        .filter(|(slips, _, candidate)| {
             let longest = candidate.len().max(length);
-            *distance == 0 || (longest > 1 && *distance <= longest.div_ceil(3).min(3))
+            *slips == 0 || (longest > 1 && *slips <= longest.div_ceil(3).min(3))
         })
-        .map(|(_, candidate)| candidate)
+        .map(|(.., candidate)| candidate)
 }
