@@ -1,4 +1,6 @@
-//! LaTeX given for names: whether it only prints a symbol.
+//! LaTeX given for names, from a small grammar: nothing that passes can do more than print a symbol.
+//!
+//! This is the one gate: robot files are held to it when they are read, and print asks it again.
 
 use std::ops::Range;
 
@@ -10,132 +12,246 @@ use super::names::GREEK;
 pub struct LatexNameError {
     /// The offending bytes.
     pub span: Range<usize>,
-    /// What is wrong, and what a name may hold.
-    pub message: String,
+    /// What is wrong.
+    pub message: &'static str,
 }
 
-/// Accents and fonts, which take what follows.
-const ARGUMENT: [&str; 10] =
-    ["dot", "ddot", "bar", "hat", "tilde", "vec", "mathrm", "mathit", "mathbf", "mathcal"];
+const MAX_LENGTH: usize = 64;
+const MAX_DEPTH: usize = 8;
 
-/// Signs that names may hold.
-const SIGNS: [&str; 11] =
-    ["prime", "star", "ast", "ell", "circ", "infty", "parallel", "perp", "pm", "cdot", "nabla"];
+/// Commands that stand for one sign, beside the Greek letters.
+const SIGNS: &[&str] = &[
+    "ell", "star", "ast", "prime", "circ", "bullet", "dagger", "infty", "perp", "parallel", "pm",
+    "cdot", "nabla",
+];
 
-/// The longest LaTeX that a name may have, in bytes.
-const MAX_LENGTH: usize = 200;
+/// Accents and fonts: commands that take a group.
+const ACCENTS: &[&str] = &[
+    "bar",
+    "hat",
+    "tilde",
+    "vec",
+    "dot",
+    "ddot",
+    "check",
+    "breve",
+    "overline",
+    "underline",
+    "widehat",
+    "widetilde",
+    "mathrm",
+    "mathbf",
+    "mathit",
+    "mathsf",
+    "mathcal",
+    "boldsymbol",
+];
 
-/// Whether LaTeX given for a name only prints a symbol: letters, digits, `* ' + - , . ( )`, sub- and
-/// superscripts, balanced braces, Greek letters, accents and fonts.
+/// What the grammar needs to know of the group that it is in.
+#[derive(Clone, Copy, Default)]
+struct Group {
+    start: usize,
+    /// Something that an index may belong to has been seen.
+    base: bool,
+    lower: bool,
+    upper: bool,
+}
+
+/// Whether LaTeX given for a name only prints a symbol: `item*`, where an item is a letter, a digit,
+/// one of `* + - , . ( )`, a Greek letter or another sign, a group `{…}`, or an accent or a font with
+/// its group; after it at most one `_` and one `^`, each followed by an item, or primes for the
+/// latter. At most 64 bytes.
 ///
 /// # Errors
 ///
-/// The first thing that a name may not hold, with its place.
+/// The first place where the text leaves the grammar, and why.
 pub fn check_name(latex: &str) -> Result<(), LatexNameError> {
-    let whole = 0..latex.len();
-    if latex.trim().is_empty() || latex.len() > MAX_LENGTH {
-        return error(whole, "a LaTeX name has 1 to 200 characters");
+    let fault = |span: Range<usize>, message| Err(LatexNameError { span, message });
+    if latex.is_empty() {
+        return fault(0..0, "empty");
     }
-    let (mut open, mut place) = (vec![], 0);
-    while let Some(byte) = latex.as_bytes().get(place) {
-        let start = place;
-        place += 1;
-        match byte {
-            b'\\' => place = command(latex, start)?,
-            b'{' => open.push(start),
-            b'}' if open.pop().is_none() => {
-                return error(start..place, "this `}` closes nothing");
-            }
-            b'_' | b'^' => {
-                let argument = latex.as_bytes().get(place).copied().unwrap_or_default();
-                if !argument.is_ascii_alphanumeric() && !b"{\\*+-".contains(&argument) {
-                    return error(start..place, "expected what is set below or above");
-                }
-            }
-            b'}' | b' ' | b'*' | b'\'' | b'+' | b'-' | b',' | b'.' | b'(' | b')' => {}
-            byte if byte.is_ascii_alphanumeric() => {}
-            _ => {
-                let message =
-                    "a LaTeX name may hold letters, digits, `* ' + - , . ( )`, `_`, `^` and braces";
-                return error(start..latex.ceil_char_boundary(place), message);
-            }
+    if latex.len() > MAX_LENGTH {
+        return fault(0..latex.len(), "longer than 64 bytes");
+    }
+    let mut walk = Walk { latex, groups: vec![Group::default()], waiting: None };
+    let mut position = 0;
+    while position < latex.len() {
+        let end = token_end(latex, position);
+        if let Err(message) = walk.token(position..end) {
+            return fault(position..end, message);
         }
+        position = end;
     }
-    if let Some(start) = open.pop() {
-        return error(start..start + 1, "this `{` is not closed");
+    match (walk.waiting, walk.groups.as_slice()) {
+        (Some((span, message)), _) => fault(span, message),
+        (None, [whole]) if whole.base => Ok(()),
+        (None, [_]) => fault(0..latex.len(), "nothing to print"),
+        (None, [.., open]) => fault(open.start..open.start + 1, "never closed"),
+        (None, []) => Ok(()),
     }
-    if latex.contains('\'') && latex.contains('^') {
-        return error(whole, "a prime is a superscript already; write `^{\\prime …}`");
-    }
-    if repeated_script(latex) {
-        return error(whole, "two superscripts or two subscripts follow each other; use braces");
-    }
-    Ok(())
 }
 
-/// The end of the command that begins at `start`.
-fn command(latex: &str, start: usize) -> Result<usize, LatexNameError> {
-    let rest = latex.get(start + 1..).unwrap_or_default();
-    let letters = rest.bytes().take_while(u8::is_ascii_alphabetic).count();
-    let (name, after) = rest.split_at_checked(letters).unwrap_or_default();
-    let end = start + 1 + letters;
-    if ARGUMENT.contains(&name) {
-        let argument = |c: char| c.is_ascii_alphanumeric() || c == '{' || c == '\\';
-        if !after.trim_start().starts_with(argument) {
-            return error(start..end, "expected what the accent or font is for");
-        }
-    } else if !GREEK.contains(&name) && !SIGNS.contains(&name) {
-        let end = latex.ceil_char_boundary(end.max(start + 2).min(latex.len()));
-        let message = "a LaTeX name may hold Greek letters, accents (\\dot, \\bar, …) and fonts \
-                       (\\mathrm, …), no other commands";
-        return error(start..end, message);
-    }
-    Ok(end)
+/// The way through a text.
+struct Walk<'l> {
+    latex: &'l str,
+    groups: Vec<Group>,
+    /// An accent or an index that waits for its argument, and what is wrong where none comes.
+    waiting: Option<(Range<usize>, &'static str)>,
 }
 
-fn error<T>(span: Range<usize>, message: &str) -> Result<T, LatexNameError> {
-    Err(LatexNameError { span, message: message.to_owned() })
-}
-
-/// Whether `x^a^b` or `x_a_b` occurs, which LaTeX refuses. Braces are balanced.
-fn repeated_script(latex: &str) -> bool {
-    let mut levels = vec![[false; 2]];
-    let mut characters = latex.bytes().peekable();
-    let mut argument = false;
-    while let Some(byte) = characters.next() {
-        let script = match byte {
-            b'^' => Some(0),
-            b'_' => Some(1),
-            _ => None,
+impl Walk<'_> {
+    fn token(&mut self, here: Range<usize>) -> Result<(), &'static str> {
+        let token = self.latex.get(here.clone()).unwrap_or_default();
+        let next = self.latex.as_bytes().get(here.end).copied();
+        let before =
+            here.start.checked_sub(1).and_then(|at| self.latex.as_bytes().get(at)).copied();
+        let depth = self.groups.len();
+        let Some(group) = self.groups.last_mut() else {
+            return Err("closes nothing");
         };
-        match (byte, script, levels.last_mut()) {
-            (_, Some(script), Some(level)) => {
-                if std::mem::replace(&mut level[script], true) {
-                    return true;
+        match token.as_bytes() {
+            [b'{'] => {
+                item(group, self.waiting.take().is_some());
+                if depth > MAX_DEPTH {
+                    return Err("too many groups within groups");
                 }
-                argument = true;
-                continue;
+                self.groups.push(Group { start: here.start, ..Group::default() });
             }
-            (b'{', ..) => {
-                if !argument && let Some(level) = levels.last_mut() {
-                    *level = [false; 2];
+            [b'}'] if self.waiting.is_some() || depth == 1 || !group.base => {
+                return Err("a group ends without content, or closes nothing");
+            }
+            [b'}'] => {
+                self.groups.pop();
+            }
+            [index @ (b'_' | b'^')] => {
+                let taken = if *index == b'_' { &mut group.lower } else { &mut group.upper };
+                if self.waiting.is_some() || *taken || !group.base {
+                    return Err("a second index, or one that belongs to nothing");
                 }
-                levels.push([false; 2]);
+                *taken = true;
+                self.waiting = Some((here, "an index without content"));
             }
-            (b'}', ..) => {
-                levels.pop();
-            }
-            (b'\\', ..) => {
-                while characters.next_if(u8::is_ascii_alphabetic).is_some() {}
-                if !argument && let Some(level) = levels.last_mut() {
-                    *level = [false; 2];
+            // A prime is an upper index, and so are several together.
+            [b'\''] => {
+                let again = before == Some(b'\'');
+                if self.waiting.is_some() || !group.base || (group.upper && !again) {
+                    return Err("a second upper index, or a prime that belongs to nothing");
                 }
+                group.upper = true;
             }
-            (b' ', ..) => continue,
-            (_, _, Some(level)) if !argument => *level = [false; 2],
-            _ => {}
+            [b'\\', name @ ..] if ACCENTS.iter().any(|known| known.as_bytes() == name) => {
+                item(group, self.waiting.take().is_some());
+                if next != Some(b'{') {
+                    return Err("takes a group `{…}`");
+                }
+                self.waiting = Some((here, "takes a group `{…}`"));
+            }
+            [b'\\', name @ ..] => {
+                let known = GREEK.iter().chain(SIGNS).any(|known| known.as_bytes() == name);
+                if !known {
+                    return Err("this command is not allowed");
+                }
+                item(group, self.waiting.take().is_some());
+            }
+            [b' '] if self.waiting.is_none() => {}
+            [byte] if byte.is_ascii_alphanumeric() || b"*+-,.()".contains(byte) => {
+                item(group, self.waiting.take().is_some());
+            }
+            _ => return Err("this character is not allowed"),
         }
-        argument = false;
+        Ok(())
     }
-    false
+}
+
+/// An item of a group: a new base, or the argument of what waited for it.
+fn item(group: &mut Group, argument: bool) {
+    if !argument {
+        group.lower = false;
+        group.upper = false;
+    }
+    group.base = true;
+}
+
+/// The end of the token that begins at `start`: a command, or a character.
+fn token_end(text: &str, start: usize) -> usize {
+    let rest = text.get(start..).unwrap_or_default();
+    let letters = |part: &str| part.bytes().take_while(u8::is_ascii_alphabetic).count();
+    match rest.strip_prefix('\\') {
+        Some(name) if letters(name) > 0 => start + 1 + letters(name),
+        Some(name) => start + 1 + name.chars().next().map_or(0, char::len_utf8),
+        None => start + rest.chars().next().map_or(1, char::len_utf8),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check_name;
+
+    #[test]
+    fn symbols_pass() {
+        for text in [
+            "l_1",
+            "J_x^{*5}",
+            "F_{l_x}^6",
+            "\\theta_{12}",
+            "\\bar{J}_{z}^{*}",
+            "b_5",
+            "q'",
+            "\\mathrm{I}_{xx}",
+            "{J_x}^2",
+            "\\ell_1",
+            "m_{1,2}",
+            "\\alpha\\beta_1",
+            "J _x",
+            "q''_1",
+            "q_1'",
+            "v_(1.5)",
+        ] {
+            assert_eq!(check_name(text), Ok(()), "{text}");
+        }
+    }
+
+    #[test]
+    fn programs_and_errors_do_not() {
+        for text in [
+            "",
+            "\\input{x}",
+            "\\write18{x}",
+            "\\def\\x{y}",
+            "\\catcode",
+            "a_",
+            "a^",
+            "_a",
+            "a_b_c",
+            "a^b^c",
+            "a'^b",
+            "a^b'",
+            "'",
+            "a_'",
+            "{",
+            "}",
+            "{}",
+            "a}{b",
+            "a%b",
+            "$a$",
+            "a&b",
+            "a#1",
+            "a~b",
+            "\\\\",
+            "\\bar x",
+            "\\bar",
+            "a_{}",
+            "a_ b",
+            "\\",
+            "é",
+            "a\nb",
+            "\\^a",
+            "\u{202e}",
+            "{{{{{{{{{{a}}}}}}}}}}",
+            " ",
+        ] {
+            assert!(check_name(text).is_err(), "{text}");
+        }
+        assert!(check_name(&"a".repeat(65)).is_err());
+    }
 }
