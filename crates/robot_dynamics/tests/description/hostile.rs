@@ -1,12 +1,9 @@
 //! Files that mean harm, and files that chance has spoilt: each ends in a message, soon.
 
-use std::fs;
-use std::time::{Duration, Instant};
-
 use robot_dynamics::description::{MAX_BYTES, decode, read_toml};
 use robot_dynamics::diagnostic::code;
-use robot_dynamics::numeric::random::Random;
 
+use crate::hostility::{Spoiler, files, rounds, soon};
 use crate::{arm, errors, read};
 
 const LINK: &str = "
@@ -16,14 +13,9 @@ joint = { type = \"revolute\", axis = \"z\" }
 massless = true
 ";
 
-/// The codes of the errors of a file, which must be found within a few seconds.
+/// The codes of the errors of a file, which must be found soon.
 fn codes(text: &str) -> Vec<&'static str> {
-    let start = Instant::now();
-    let found = errors(text);
-    let rendered = found.to_string();
-    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
-    assert!(rendered.len() < 200_000, "{}", rendered.len());
-    found.iter().map(|diagnostic| diagnostic.code).collect()
+    soon(|| errors(text))
 }
 
 #[test]
@@ -144,18 +136,6 @@ fn figures_at_the_end_of_the_range_are_judged() {
     assert_eq!(codes(&text), [code::NUMBER]);
 }
 
-/// Every file of the project as seed: robots, and broken ones.
-fn seeds() -> [Vec<Vec<u8>>; 2] {
-    ["../../robots", "tests/broken"].map(|folder| {
-        let folder = format!("{}/{folder}", env!("CARGO_MANIFEST_DIR"));
-        let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        let toml = |path: &std::path::PathBuf| path.extension().is_some_and(|end| end == "toml");
-        let mut paths: Vec<_> = paths.filter(toml).collect();
-        paths.sort();
-        paths.iter().map(|path| fs::read(path).unwrap()).collect()
-    })
-}
-
 /// Pieces that have a meaning somewhere.
 const PIECES: &[&str] = &[
     "[",
@@ -215,79 +195,15 @@ const PIECES: &[&str] = &[
     "rows = [{ a = 1 }, { type = \"fixed\" }]\n",
 ];
 
-/// A few random edits of a text.
-fn spoil(random: &mut Random, seeds: &[Vec<Vec<u8>>; 2]) -> Vec<u8> {
-    let seeds = &seeds[random.index(2)];
-    let mut text = seeds[random.index(seeds.len())].clone();
-    for _ in 0..1 + random.index(4) {
-        let at = random.index(text.len() + 1);
-        let most = 1 + random.index(60);
-        let end = (at + random.index(most)).min(text.len());
-        match random.index(6) {
-            0 => drop(text.drain(at..end)),
-            1 => drop(text.splice(at..end, PIECES[random.index(PIECES.len())].bytes())),
-            2 => {
-                let piece = text[at..end].to_vec();
-                let to = random.index(text.len() + 1);
-                drop(text.splice(to..to, piece));
-            }
-            3 if !text.is_empty() => {
-                let at = at.min(text.len() - 1);
-                text[at] ^= 1 << random.index(8);
-            }
-            4 => {
-                let other = &seeds[random.index(seeds.len())];
-                let from = random.index(other.len());
-                let to = (from + random.index(200)).min(other.len());
-                drop(text.splice(at..end, other[from..to].iter().copied()));
-            }
-            _ => text.truncate(text.len() - random.index(20).min(text.len())),
-        }
-    }
-    text
-}
-
-/// Reads spoilt files; whatever is reported must be renderable, in order, and in place.
-fn fuzz(seed: u64, rounds: usize) -> [usize; 2] {
-    let seeds = seeds();
-    let mut random = Random::new(seed);
-    let mut counts = [0; 2];
-    for round in 0..rounds {
-        let bytes = spoil(&mut random, &seeds);
-        let text = String::from_utf8_lossy(&bytes).into_owned();
-        let result = std::panic::catch_unwind(|| match read_toml("arm.toml", &text) {
-            Ok(described) => {
-                assert!(!described.warnings.has_errors());
-                assert!(described.warnings.to_string().is_ascii() || !text.is_ascii());
-                0
-            }
-            Err(found) => {
-                assert!(found.has_errors());
-                for diagnostic in found.iter() {
-                    let labels = diagnostic.primary.iter().chain(&diagnostic.secondary);
-                    for label in labels {
-                        assert!(text.get(label.span.clone()).is_some(), "{diagnostic:?}");
-                    }
-                }
-                assert!(found.to_string().ends_with('\n'));
-                1
-            }
-        });
-        match result {
-            Ok(kind) => counts[kind] += 1,
-            Err(_) => panic!("seed {seed}, round {round}:\n{text}"),
-        }
-    }
-    counts
-}
-
 #[test]
 fn spoilt_files_never_panic() {
-    let rounds = match std::env::var("FUZZ_ROUNDS") {
-        Ok(rounds) => rounds.parse().unwrap(),
-        Err(_) => 2000,
-    };
-    let [right, wrong] = fuzz(20_261_121, rounds);
+    let groups = vec![files("../../robots", "toml"), files("tests/broken", "toml")];
+    let spoiler = Spoiler { groups, pieces: PIECES };
+    let rounds = rounds(2000);
+    let read = |text: &str| read_toml("arm.toml", text);
+    let [right, wrong] = spoiler.run(20_261_121, rounds, read, |text, described| {
+        assert!(described.warnings.to_string().is_ascii() || !text.is_ascii());
+    });
     // Both ways must be walked, or the test is none.
     assert!(right > rounds / 50 && wrong > rounds / 2, "{right} read, {wrong} refused");
 }

@@ -5,6 +5,8 @@
 mod broken;
 mod dh;
 mod hostile;
+#[path = "../hostility/mod.rs"]
+mod hostility;
 mod meaning;
 mod pages;
 

@@ -1,23 +1,15 @@
 //! Files that mean harm, and files that chance has spoilt: each ends in a message, soon.
 
-use std::fs;
-use std::time::{Duration, Instant};
-
-use robot_dynamics::description::{MAX_BYTES, Options, decode, import, read_urdf};
+use robot_dynamics::description::{MAX_BYTES, Options, import, read_urdf};
 use robot_dynamics::diagnostic::code;
-use robot_dynamics::numeric::random::Random;
 
+use crate::errors;
+use crate::hostility::{self, Spoiler};
 use crate::text::{BODY, one_link};
-use crate::{codes, errors};
 
-/// The codes of the errors of a file, which must be found within a few seconds.
+/// The codes of the errors of a file, which must be found soon.
 fn soon(text: &str) -> Vec<&'static str> {
-    let start = Instant::now();
-    let found = errors(text);
-    let rendered = found.to_string();
-    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
-    assert!(rendered.len() < 200_000, "{}", rendered.len());
-    codes(&found)
+    hostility::soon(|| errors(text))
 }
 
 #[test]
@@ -113,20 +105,6 @@ fn hostile_names_stay_text() {
     }
 }
 
-/// Every file of the project as seed: the broken ones, and a sound one.
-fn seeds() -> Vec<Vec<u8>> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/broken");
-    let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut paths: Vec<_> =
-        paths.filter(|path| path.extension().is_some_and(|end| end == "urdf")).collect();
-    paths.sort();
-    assert!(paths.len() >= 20, "{}", paths.len());
-    let mut seeds: Vec<Vec<u8>> = paths.iter().map(|path| fs::read(path).unwrap()).collect();
-    let joint = "<axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"1\"/><dynamics damping=\"1\"/>";
-    seeds.push(one_link(BODY, joint).into_bytes());
-    seeds
-}
-
 /// Pieces that have a meaning somewhere.
 const PIECES: &[&str] = &[
     "<",
@@ -172,49 +150,19 @@ const PIECES: &[&str] = &[
     "link=\"arm\"",
 ];
 
-fn spoil(random: &mut Random, seeds: &[Vec<u8>]) -> Vec<u8> {
-    // The last of them is sound.
-    let which = if random.once_in(2) { seeds.len() - 1 } else { random.index(seeds.len()) };
-    let mut text = seeds[which].clone();
-    for _ in 0..1 + random.index(3) {
-        let at = random.index(text.len() + 1);
-        let most = 1 + random.index(60);
-        let end = (at + random.index(most)).min(text.len());
-        match random.index(4) {
-            0 => drop(text.drain(at..end)),
-            1 => drop(text.splice(at..end, PIECES[random.index(PIECES.len())].bytes())),
-            2 => {
-                let piece = text[at..end].to_vec();
-                let to = random.index(text.len() + 1);
-                drop(text.splice(to..to, piece));
-            }
-            _ if !text.is_empty() => {
-                let at = at.min(text.len() - 1);
-                text[at] ^= 1 << random.index(8);
-            }
-            _ => {}
-        }
-    }
-    text
-}
-
 #[test]
 fn spoilt_files_end_in_a_robot_or_a_message() {
-    let seeds = seeds();
-    let mut random = Random::new(20);
-    let mut read = 0;
-    for _ in 0..20_000 {
-        let Ok(text) = decode("arm.urdf", spoil(&mut random, &seeds)) else { continue };
-        match read_urdf("arm.urdf", &text) {
-            Ok(described) => {
-                read += 1;
-                let import = import("arm.urdf", &text, &Options::default()).unwrap();
-                let again = robot_dynamics::description::read_toml("arm.toml", &import.toml)
-                    .unwrap_or_else(|found| panic!("{text}\n{}\n{found}", import.toml));
-                assert_eq!(again.robot.degrees_of_freedom(), described.robot.degrees_of_freedom());
-            }
-            Err(found) => assert!(found.to_string().contains("arm.urdf"), "{found}"),
-        }
-    }
-    assert!(read > 200, "{read}");
+    let joint = "<axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"1\"/><dynamics damping=\"1\"/>";
+    let sound = one_link(BODY, joint).into_bytes();
+    let groups = vec![vec![sound], hostility::files("tests/broken", "urdf")];
+    let spoiler = Spoiler { groups, pieces: PIECES };
+    let rounds = hostility::rounds(20_000);
+    let read = |text: &str| read_urdf("arm.urdf", text);
+    let [right, wrong] = spoiler.run(20, rounds, read, |text, described| {
+        let import = import("arm.urdf", text, &Options::default()).unwrap();
+        let again = robot_dynamics::description::read_toml("arm.toml", &import.toml)
+            .unwrap_or_else(|found| panic!("{}\n{found}", import.toml));
+        assert_eq!(again.robot.degrees_of_freedom(), described.robot.degrees_of_freedom());
+    });
+    assert!(right > rounds / 100 && wrong > rounds / 2, "{right} read, {wrong} refused");
 }

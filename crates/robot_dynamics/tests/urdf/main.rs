@@ -5,6 +5,8 @@
 
 mod arms;
 mod hostile;
+#[path = "../hostility/mod.rs"]
+mod hostility;
 mod import;
 mod meaning;
 mod text;
