@@ -8,6 +8,7 @@ mod generate;
 mod import;
 mod package;
 mod prove;
+mod schema;
 mod search;
 mod show;
 mod stats;
@@ -38,6 +39,8 @@ pub(crate) enum Command {
     Import(import::Arguments),
     /// Check robot files for errors and likely slips
     Check(check::Arguments),
+    /// Print the JSON schema of robot files, for editors
+    Schema(schema::Arguments),
     /// Show what a robot file says
     Show(show::Arguments),
     /// Show the equations of the robot TRTTR1 and run its generated code
@@ -64,6 +67,7 @@ impl Command {
             Command::Search(arguments) => arguments.run(terminal),
             Command::Import(arguments) => arguments.run(terminal),
             Command::Check(arguments) => arguments.run(terminal),
+            Command::Schema(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
             Command::Demo(arguments) => arguments.run(terminal),
         }

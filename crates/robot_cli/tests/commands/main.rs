@@ -7,7 +7,9 @@ mod code;
 mod equations;
 mod eval;
 mod files;
+mod json_schema;
 mod prove;
+mod schema;
 mod stats;
 mod usage;
 

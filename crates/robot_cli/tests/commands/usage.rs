@@ -2,7 +2,7 @@
 
 use crate::{complaint, output, run};
 
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 11] = [
     "equations",
     "generate",
     "crate",
@@ -11,6 +11,7 @@ const COMMANDS: [&str; 10] = [
     "search",
     "import",
     "check",
+    "schema",
     "show",
     "demo",
 ];

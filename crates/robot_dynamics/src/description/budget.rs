@@ -2,6 +2,7 @@
 
 use super::frames::tables;
 use super::reader::Reader;
+use super::shape::BUDGET;
 use super::table::{Entry, Table};
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::functions::FunctionKind;
@@ -29,7 +30,7 @@ pub struct Limit {
 /// Reads every `[[budget]]`.
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Vec<Budget> {
     let Some(entry) = root.get("budget") else { return Vec::new() };
-    let tables = tables(reader, &entry, "a budget");
+    let tables = tables(reader, &entry, &BUDGET);
     tables.into_iter().map(|table| budget(reader, table)).collect()
 }
 

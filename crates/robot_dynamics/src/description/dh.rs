@@ -3,6 +3,7 @@
 use super::joint;
 use super::placement::{Convention, Row, convention, row};
 use super::reader::Reader;
+use super::shape::{DH_TABLE, DH_TABLE_ROW};
 use super::table;
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::model::JointKind;
@@ -29,7 +30,7 @@ pub(super) struct LinkRow {
 /// Reads the table where the file has it.
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Option<Table> {
     let entry = root.get("dh")?;
-    let mut table = reader.table(entry.value, "a DH table")?;
+    let mut table = reader.table(entry.value, &DH_TABLE)?;
     // The stand-in for a convention that was wrong: the error is reported.
     let convention = convention(reader, &mut table).unwrap_or(Convention::Standard);
     let example = "rows = [{ type = \"revolute\", a = 0, alpha = \"pi/2\", d = 0.5 }]";
@@ -37,7 +38,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Opti
     table.finish(reader);
     let rows = rows?;
     let values = reader.list(rows.value, "a list of rows `{ a = …, alpha = …, d = … }`")?;
-    let tables = values.iter().filter_map(|value| reader.table(value, "a DH row"));
+    let tables = values.iter().filter_map(|value| reader.table(value, &DH_TABLE_ROW));
     let tables: Vec<_> = tables.collect();
     let rows: Vec<LinkRow> =
         tables.into_iter().map(|table| link_row(reader, table, convention)).collect();

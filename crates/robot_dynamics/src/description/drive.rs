@@ -4,6 +4,7 @@ use robot_symbolic::Formula;
 
 use super::joint::by_kind;
 use super::reader::Reader;
+use super::shape::{DRIVE, FRICTION};
 use super::table::{Entry, Table};
 use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, Span, code};
@@ -65,7 +66,7 @@ impl Figures<'_, '_, '_> {
 pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind) -> Friction {
     use Sign::{Any, NotNegative, Positive};
     let mut friction = Friction::none();
-    let Some(table) = reader.table(entry.value, "a friction") else {
+    let Some(table) = reader.table(entry.value, &FRICTION) else {
         return friction;
     };
     let mut figures = Figures { reader, table };
@@ -144,7 +145,7 @@ fn spindle(
 /// Reads `drive`.
 pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind) -> Drive {
     let mut drive = Drive::none();
-    let Some(table) = reader.table(entry.value, "a drive") else {
+    let Some(table) = reader.table(entry.value, &DRIVE) else {
         return drive;
     };
     let mut figures = Figures { reader, table };

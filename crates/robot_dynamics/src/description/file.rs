@@ -10,6 +10,7 @@ use super::frames::tables;
 use super::names::Kind;
 use super::placement::zero;
 use super::reader::{Named, Reader};
+use super::shape::{LINK, ROBOT, ROBOT_FILE};
 use super::table::{Table, Value};
 use super::value::quantity;
 use super::{budget, dh, frames, link, parameters, payload, syntax, tree};
@@ -26,7 +27,7 @@ pub(super) fn lower(reader: &mut Reader<'_>) -> Option<Lowered> {
         reader.found.extend(found);
         return None;
     }
-    lower_tables(reader, Table::new(tables.get_ref(), 0..0, "a robot file"))
+    lower_tables(reader, Table::new(tables.get_ref(), 0..0, &ROBOT_FILE))
 }
 
 fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered> {
@@ -97,7 +98,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
         snap: None,
     };
     let entry = root.require(reader, "robot", "[robot]");
-    let Some(mut table) = entry.and_then(|entry| reader.table(entry.value, "[robot]")) else {
+    let Some(mut table) = entry.and_then(|entry| reader.table(entry.value, &ROBOT)) else {
         return head;
     };
     let name = table.require(reader, "name", "name = \"arm\"");
@@ -144,7 +145,7 @@ fn links(
         reader.wrong_type(entry.value, "a list of links, each headed `[[link]]`");
         return (Vec::new(), false);
     }
-    let tables = tables(reader, &entry, "a link");
+    let tables = tables(reader, &entry, &LINK);
     let count = tables.len();
     let links: Vec<DraftLink> = tables
         .into_iter()

@@ -9,6 +9,7 @@ use super::locations::FrameLocation;
 use super::names::Kind;
 use super::placement::origin_of;
 use super::reader::{Named, Reader};
+use super::shape::{COMPONENT, FRAME, Shape, TIP, WRENCH};
 use super::table::{Entry, Table, Value};
 use crate::diagnostic::{Diagnostic, code};
 use crate::model::{Placement, Wrench};
@@ -17,14 +18,14 @@ use crate::model::{Placement, Wrench};
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>, links: usize) -> Vec<DraftFrame> {
     let mut found = Vec::new();
     if let Some(entry) = root.get("tip") {
-        let tables = tables(reader, &entry, "a tip");
+        let tables = tables(reader, &entry, &TIP);
         let alone = tables.len() == 1;
         for table in tables {
             found.extend(tip(reader, table, links, alone));
         }
     }
     if let Some(entry) = root.get("frame") {
-        for table in tables(reader, &entry, "a frame") {
+        for table in tables(reader, &entry, &FRAME) {
             found.extend(frame(reader, table));
         }
     }
@@ -35,7 +36,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>, links: usize) 
 pub(super) fn tables<'a>(
     reader: &mut Reader<'_>,
     entry: &Entry<'a>,
-    what: &'static str,
+    shape: &'static Shape,
 ) -> Vec<Table<'a>> {
     let values: Vec<Value<'a>> = match entry.value.get_ref() {
         DeValue::Array(values) => values.iter().collect(),
@@ -47,7 +48,7 @@ pub(super) fn tables<'a>(
         reader.report(diagnostic.help("describe one robot in a file"));
         return Vec::new();
     }
-    let tables = values.into_iter().filter_map(|value| reader.table(value, what));
+    let tables = values.into_iter().filter_map(|value| reader.table(value, shape));
     tables.collect()
 }
 
@@ -89,7 +90,7 @@ fn frame(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<DraftFrame> {
     let parent = table.require(reader, "parent", "parent = \"name of a link\"");
     let parent = parent.map(|entry| named_parent(reader, &entry));
     let (placement, origin) = origin(reader, &mut table);
-    if let Some(entry) = table.get("wrench") {
+    if let Some(entry) = table.misplaced("wrench") {
         reader.report(
             Diagnostic::error(code::CONFLICT, "a frame has no wrench")
                 .at(&entry.key, "wrenches act at tips")
@@ -127,7 +128,7 @@ type Component = (String, Option<String>);
 
 /// `{ force = ["Fx", "Fy", "Fz"], moment = ["Mx", "My", "Mz"] }`.
 fn named_wrench(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Wrench> {
-    let mut table = reader.table(value, "a wrench")?;
+    let mut table = reader.table(value, &WRENCH)?;
     let mut names = |key: &'static str, example: &str, expected: &str| {
         let entry = table.require(reader, key, example)?;
         let entries = reader.entries::<3>(entry.value, expected)?;
@@ -161,7 +162,7 @@ fn wrench(force: [Component; 3], moment: [Component; 3]) -> Wrench {
 fn component(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Component> {
     let (value, latex) = match value.get_ref() {
         DeValue::Table(_) => {
-            let mut table = reader.table(value, "a component of a wrench")?;
+            let mut table = reader.table(value, &COMPONENT)?;
             let name = table.require(reader, "name", "name = \"Fx\"");
             let latex = table.get("latex").and_then(|entry| reader.latex(entry.value));
             table.finish(reader);

@@ -7,6 +7,7 @@ use super::locations::BodyLocation;
 use super::physics::{TOLERANCE, Verdict, judge};
 use super::placement::{RPY, zero};
 use super::reader::Reader;
+use super::shape::{INERTIA, POINTS};
 use super::table::{Entry, Table};
 use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, Span, code};
@@ -47,7 +48,7 @@ pub(super) fn read(
     let span = entry.value.span();
     place.inertia = Some(span.clone());
     let mut tensor = Tensor::none();
-    let Some(mut table) = reader.table(entry.value, "an inertia") else {
+    let Some(mut table) = reader.table(entry.value, &INERTIA) else {
         return tensor;
     };
     let unchecked = table.get("unchecked");
@@ -112,8 +113,7 @@ fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
     let Some(entry) = table.get("about") else {
         return false;
     };
-    let words = &["center_of_mass", "origin"];
-    let origin = reader.word(entry.value, "a point of the link", words) == Some("origin");
+    let origin = reader.word(entry.value, "a point of the link", POINTS) == Some("origin");
     if origin && turned {
         reader.report(
             Diagnostic::error(code::CONFLICT, "an inertia about the origin is in link axes")

@@ -10,13 +10,11 @@ use super::locations::LinkLocation;
 use super::names::Kind;
 use super::placement::zero;
 use super::reader::{Named, Reader};
+use super::shape::{AXES, JOINT, JOINT_TYPES, MIMIC};
 use super::table::{Entry, Table, Value};
 use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, code};
 use crate::model::JointKind;
-
-/// The words for the types of joints.
-pub(super) const TYPES: &[&str] = &["revolute", "prismatic", "fixed"];
 
 /// Reads `type`: `Some(None)` for a fixed link, `None` for an error.
 pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<JointKind>> {
@@ -30,7 +28,7 @@ pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<
         );
         return None;
     }
-    Some(match reader.word(entry.value, "a type of joint", TYPES)? {
+    Some(match reader.word(entry.value, "a type of joint", JOINT_TYPES)? {
         "revolute" => Some(JointKind::Revolute),
         "prismatic" => Some(JointKind::Prismatic),
         _ => None,
@@ -82,7 +80,7 @@ pub(super) fn read(
     };
     let Some(entry) = entry else { return joint };
     places.joint = entry.value.span();
-    let Some(mut table) = reader.table(entry.value, "a joint") else {
+    let Some(mut table) = reader.table(entry.value, &JOINT) else {
         return joint;
     };
     if row.is_none() {
@@ -167,8 +165,7 @@ fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
             reader.vector(value, what)
         }
         DeValue::String(_) => {
-            let words = &["x", "y", "z", "-x", "-y", "-z"];
-            let Some(word) = reader.word(value, "a joint axis", words) else {
+            let Some(word) = reader.word(value, "a joint axis", AXES) else {
                 return array::from_fn(|_| Reader::unknown());
             };
             let sign = if word.starts_with('-') { -1 } else { 1 };
@@ -213,7 +210,7 @@ fn limits(reader: &mut Reader<'_>, value: Value<'_>) -> Option<[Rational; 2]> {
 fn mimic(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Mimic> {
     const RATIO: Quantity = Quantity { what: "the ratio", dimension: None };
     const OFFSET: Quantity = Quantity { what: "the offset", dimension: None };
-    let mut table = reader.table(value, "a mimic")?;
+    let mut table = reader.table(value, &MIMIC)?;
     let joint = table
         .require(reader, "joint", "joint = \"name of the joint that leads\"")
         .and_then(|entry| reader.name(entry.value, "a joint", Kind::Label));

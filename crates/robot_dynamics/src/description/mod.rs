@@ -32,6 +32,7 @@ mod payload;
 pub(crate) mod physics;
 mod placement;
 mod reader;
+pub mod shape;
 mod strings;
 mod syntax;
 mod table;

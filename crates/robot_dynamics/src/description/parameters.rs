@@ -7,6 +7,7 @@ use super::limits::MAX_PARAMETERS;
 use super::locations::ParameterLocation;
 use super::names::Kind;
 use super::reader::{Known, Reader};
+use super::shape::PARAMETER;
 use super::strings;
 use super::table::{Table, Value};
 use crate::diagnostic::{Diagnostic, code};
@@ -68,7 +69,7 @@ fn one(reader: &mut Reader<'_>, value: Value<'_>) -> (Parameter, ParameterLocati
             place.value = Some(value.span());
         }
         DeValue::Table(keys) => {
-            let mut table = Table::new(keys, value.span(), "a parameter");
+            let mut table = Table::new(keys, value.span(), &PARAMETER);
             if let Some(entry) = table.get("value") {
                 parameter.value = nominal(reader, entry.value);
                 place.value = Some(entry.value.span());

@@ -7,6 +7,7 @@ use super::link::named_parent;
 use super::locations::{BodyLocation, ParameterLocation};
 use super::names::Kind;
 use super::reader::{Named, Reader};
+use super::shape::PAYLOAD;
 use super::table::Table;
 use crate::diagnostic::{Diagnostic, code};
 use crate::model::{Body, Inertia, Link, Move, Parameter, Payload, Placement};
@@ -25,7 +26,7 @@ pub(super) fn read(
 ) -> Option<DraftPayload> {
     let entry = root.get("payload")?;
     let span = entry.key.clone();
-    let mut table = reader.table(entry.value, "a payload")?;
+    let mut table = reader.table(entry.value, &PAYLOAD)?;
     let last = links.len().checked_sub(1).map_or(Parent::Base, Parent::Link);
     let parent = table.get("parent").map_or(last, |entry| named_parent(reader, &entry));
     table.finish(reader);

@@ -3,6 +3,7 @@
 use robot_symbolic::{Formula, Rational};
 
 use super::reader::Reader;
+use super::shape::{CONVENTIONS, DH_ROW, ORIGIN};
 use super::table::{Entry, Table, Value};
 use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, Span, code};
@@ -74,7 +75,7 @@ pub(super) fn of_link(
 
 /// `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`, each zero where it is left out.
 pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement {
-    let Some(mut table) = reader.table(value, "an origin") else {
+    let Some(mut table) = reader.table(value, &ORIGIN) else {
         return Placement::default();
     };
     let xyz = table
@@ -86,7 +87,7 @@ pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement 
 }
 
 fn dh(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: Option<JointKind>) -> Frames {
-    let Some(mut table) = reader.table(entry.value, "a DH row") else {
+    let Some(mut table) = reader.table(entry.value, &DH_ROW) else {
         return Frames::default();
     };
     let convention = convention(reader, &mut table);
@@ -101,8 +102,7 @@ fn dh(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: Option<JointKind>) -> Fr
 /// The convention, which has no default: the two give different robots.
 pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<Convention> {
     let entry = table.require(reader, "convention", "convention = \"modified\"")?;
-    let words = &["standard", "modified"];
-    match reader.word(entry.value, "a DH convention", words)? {
+    match reader.word(entry.value, "a DH convention", CONVENTIONS)? {
         "standard" => Some(Convention::Standard),
         _ => Some(Convention::Modified),
     }

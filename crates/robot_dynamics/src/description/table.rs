@@ -4,6 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;
+use super::shape::{Presence, Shape};
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 
 /// A value of the file with its place.
@@ -21,18 +22,24 @@ pub(super) struct Table<'a> {
     keys: &'a DeTable<'a>,
     /// The braces of an inline table, or the header of any other.
     pub(super) span: Span,
-    /// What the table is, as messages say it: `a joint`.
-    what: &'static str,
+    shape: &'static Shape,
     known: Vec<&'static str>,
 }
 
 impl<'a> Table<'a> {
-    pub(super) fn new(keys: &'a DeTable<'a>, span: Span, what: &'static str) -> Table<'a> {
-        Table { keys, span, what, known: Vec::new() }
+    pub(super) fn new(keys: &'a DeTable<'a>, span: Span, shape: &'static Shape) -> Table<'a> {
+        Table { keys, span, shape, known: Vec::new() }
     }
 
     /// The value of a key, which is known from now on.
     pub(super) fn get(&mut self, key: &'static str) -> Option<Entry<'a>> {
+        debug_assert!(self.shape.key(key).is_some(), "{} has no `{key}`", self.shape.what);
+        self.misplaced(key)
+    }
+
+    /// The value of a key that has no place in the table, of which more can be said than that it is
+    /// not known.
+    pub(super) fn misplaced(&mut self, key: &'static str) -> Option<Entry<'a>> {
         self.known.push(key);
         self.keys.get_key_value(key).map(|(key, value)| Entry { key: key.span(), value })
     }
@@ -59,10 +66,15 @@ impl<'a> Table<'a> {
         key: &'static str,
         help: &str,
     ) -> Option<Entry<'a>> {
+        debug_assert!(
+            self.shape.key(key).is_some_and(|key| key.presence != Presence::Optional),
+            "`{key}` of {} is optional",
+            self.shape.what
+        );
         let entry = self.get(key);
         if entry.is_none() {
             reader.report(
-                Diagnostic::error(code::MISSING_KEY, format!("{} has no `{key}`", self.what))
+                Diagnostic::error(code::MISSING_KEY, format!("{} has no `{key}`", self.shape.what))
                     .at(&self.span, format!("`{key}` is missing here"))
                     .help(help),
             );
@@ -83,11 +95,11 @@ impl<'a> Table<'a> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "not a key that is known here".to_owned(),
             };
-            let message = format!("`{}` is not a key of {}", quote(name), self.what);
+            let message = format!("`{}` is not a key of {}", quote(name), self.shape.what);
             reader.report(
                 Diagnostic::error(code::UNKNOWN_KEY, message).at(&key.span(), label).help(format!(
                     "the keys of {} are {}",
-                    self.what,
+                    self.shape.what,
                     list(&self.known)
                 )),
             );

@@ -8,6 +8,7 @@ use toml::de::{DeString, DeValue};
 
 use super::locations::AngleLocation;
 use super::reader::Reader;
+use super::shape::Shape;
 use super::strings;
 use super::table::{Table, Value, list};
 use crate::diagnostic::{Diagnostic, Span, code, is_invisible, quote};
@@ -45,11 +46,15 @@ impl Reader<'_> {
         );
     }
 
-    pub(super) fn table<'a>(&mut self, value: Value<'a>, what: &'static str) -> Option<Table<'a>> {
+    pub(super) fn table<'a>(
+        &mut self,
+        value: Value<'a>,
+        shape: &'static Shape,
+    ) -> Option<Table<'a>> {
         match value.get_ref() {
-            DeValue::Table(keys) => Some(Table::new(keys, value.span(), what)),
+            DeValue::Table(keys) => Some(Table::new(keys, value.span(), shape)),
             _ => {
-                self.wrong_type(value, &format!("{what} as a table `{{ … }}`"));
+                self.wrong_type(value, &format!("{} as a table `{{ … }}`", shape.what));
                 None
             }
         }

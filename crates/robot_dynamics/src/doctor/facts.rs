@@ -76,7 +76,8 @@ fn bodies<'d>(link: &'d Link, place: &'d LinkLocation, at: &Evaluation<'_>) -> V
             tensor: pose.rotation * at.tensor(&body.inertia) * pose.rotation.transpose(),
         }
     });
-    bodies.collect()
+    // What nothing is known to be of, such as a payload that is set at run time.
+    bodies.filter(|body| body.mass != 0.0 || body.tensor.norm() != 0.0).collect()
 }
 
 fn points(robot: &Robot, index: usize, at: &Evaluation<'_>) -> Vec<Vector3<f64>> {

@@ -225,8 +225,13 @@ fn locations_point_at_the_text() {
 fn the_examples_of_the_reference_are_right() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/robot-file.md");
     let page = std::fs::read_to_string(path).unwrap();
-    let examples: Vec<_> =
-        page.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap()).collect();
+    let examples: Vec<_> = page
+        .split("```toml\n")
+        .skip(1)
+        .map(|rest| rest.split("```").next().unwrap())
+        // Others show a line of a file.
+        .filter(|example| example.starts_with("format"))
+        .collect();
     assert_eq!(examples.len(), 5);
     for example in examples {
         let described = read(example);

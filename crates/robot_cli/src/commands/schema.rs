@@ -1,0 +1,114 @@
+//! `schema`: the JSON schema of robot files, for editors.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_build::{File, FunctionKind};
+use robot_dynamics::description::shape::{
+    AXES, Content, IDENTIFIER, Key, LABEL, Presence, ROBOT_FILE, Shape,
+};
+use serde_json::{Map, Value, json};
+
+use crate::Terminal;
+use crate::commands::package::deliver;
+use crate::failure::Failure;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic schema -o robot-file.schema.json
+
+An editor with a TOML language server then completes keys, shows what they are for, and underlines what is
+misspelt, in files that begin with the line
+  #:schema ./robot-file.schema.json
+The schema knows keys and kinds of values; what they mean together, `check` tells.")]
+pub(crate) struct Arguments {
+    /// The file to write; standard output without this
+    #[arg(short, long, value_name = "PATH")]
+    output: Option<PathBuf>,
+    /// Compare the file with what would be written
+    #[arg(long, requires = "output")]
+    check: bool,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let text = format!("{:#}\n", document());
+        let Some(path) = &self.output else {
+            return Ok(terminal.output.write_all(text.as_bytes())?);
+        };
+        deliver(path, &[File { path: String::new(), text }], self.check, terminal)
+    }
+}
+
+/// Draft 7, which the editors' TOML language servers know.
+fn document() -> Value {
+    let mut schema = Map::new();
+    schema.insert("$schema".to_owned(), json!("http://json-schema.org/draft-07/schema#"));
+    schema.insert("title".to_owned(), json!("Robot file, format 1"));
+    schema.insert("description".to_owned(), json!(ROBOT_FILE.doc));
+    schema.extend(table(&ROBOT_FILE));
+    Value::Object(schema)
+}
+
+fn table(shape: &Shape) -> Map<String, Value> {
+    let properties: Map<String, Value> =
+        shape.keys.iter().map(|key| (key.name.to_owned(), property(key))).collect();
+    let needed = shape.keys.iter().filter(|key| key.presence == Presence::Needed);
+    let needed: Vec<&str> = needed.map(|key| key.name).collect();
+    let mut schema = Map::new();
+    schema.insert("type".to_owned(), json!("object"));
+    schema.insert("properties".to_owned(), Value::Object(properties));
+    if !needed.is_empty() {
+        schema.insert("required".to_owned(), json!(needed));
+    }
+    schema.insert("additionalProperties".to_owned(), json!(false));
+    schema
+}
+
+fn property(key: &Key) -> Value {
+    let mut schema = Map::new();
+    schema.insert("description".to_owned(), json!(key.doc));
+    if let Value::Object(content) = content(key.content) {
+        schema.extend(content);
+    }
+    Value::Object(schema)
+}
+
+fn content(content: Content) -> Value {
+    let figure = || json!({ "type": ["number", "string"] });
+    let three =
+        |item: Value| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
+    match content {
+        Content::Format => json!({ "const": 1 }),
+        Content::Figure => figure(),
+        Content::Vector => three(figure()),
+        Content::Axis => json!({ "anyOf": [{ "enum": AXES }, three(figure())] }),
+        Content::Number => json!({ "type": "number" }),
+        Content::Limits => {
+            json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 })
+        }
+        Content::Whole => json!({ "type": "integer", "minimum": 0 }),
+        Content::Function => {
+            json!({ "enum": FunctionKind::ALL.iter().map(|kind| kind.name()).collect::<Vec<_>>() })
+        }
+        Content::Boolean => json!({ "type": "boolean" }),
+        Content::Word(words) => json!({ "enum": words }),
+        Content::Text | Content::Parent => json!({ "type": "string" }),
+        Content::Unit | Content::Latex => json!({ "type": "string", "minLength": 1 }),
+        Content::Identifier => json!({ "type": "string", "pattern": IDENTIFIER }),
+        Content::Label => json!({ "type": "string", "pattern": LABEL }),
+        Content::Components(shape) => three(json!({
+            "anyOf": [{ "type": "string", "pattern": IDENTIFIER }, table(shape)],
+        })),
+        Content::Table(shape) => Value::Object(table(shape)),
+        Content::List(shape) => json!({ "type": "array", "items": table(shape) }),
+        Content::OneOrMany(shape) => {
+            json!({ "anyOf": [table(shape), { "type": "array", "items": table(shape) }] })
+        }
+        Content::Parameters(shape) => json!({
+            "type": "object",
+            "propertyNames": { "pattern": IDENTIFIER },
+            "additionalProperties": { "anyOf": [{ "type": "number" }, table(shape)] },
+        }),
+    }
+}
