@@ -1,9 +1,9 @@
-//! Fusing: a product and the sums that alone use it become multiply-adds.
+//! Fusing: a product and the sum that alone uses it become a multiply-add.
 
 use crate::program::{Builder, Operation, Program, Value};
 
-/// Forms a multiply-add of each sum with a product, where every use of the product is a sum: then
-/// the product by itself is needed no more. Changes of sign are part of the instruction.
+/// Forms a multiply-add of each sum with a product that it alone uses. Changes of sign are part of
+/// the instruction.
 ///
 /// Without a fused instruction on the target, not a bit changes.
 #[must_use]
@@ -42,28 +42,43 @@ pub fn run(program: &Program) -> Program {
     super::dead_code::run(&builder.finish(results.collect()))
 }
 
-/// For each value, whether it is a product that sums alone use, not both operands of one sum.
+/// For each value, whether it is a product that one sum alone uses, as one of its operands.
+///
+/// A product of several sums would be multiplied in each, where sums cost as little as products.
 fn fusible(program: &Program) -> Vec<bool> {
-    let is_product = |value: &Value| matches!(program.operation(*value), Operation::Mul(..));
-    let mut fusible: Vec<bool> = program.values().map(|(value, _)| is_product(&value)).collect();
-    for value in program.results() {
-        fusible[value.index()] = false;
-    }
+    let mut fusible = vec![false; program.operations().len()];
+    let uses = program.uses();
     for operation in program.operations() {
-        match *operation {
-            Operation::Add(a, b) | Operation::Sub(a, b) if a != b => {}
-            _ => operation.operands().for_each(|operand| fusible[operand.index()] = false),
+        if let Operation::Add(a, b) | Operation::Sub(a, b) = *operation {
+            for operand in [a, b] {
+                let is_product = matches!(program.operation(operand), Operation::Mul(..));
+                fusible[operand.index()] = is_product && uses[operand.index()] == 1;
+            }
         }
     }
-    // One product alone can be part of the instruction: of two, the second.
+    // One product alone can be part of the instruction: of two the one that is known later, for the
+    // sum need not wait for it.
+    let depths = depths(program);
     for operation in program.operations() {
         if let Operation::Add(a, b) | Operation::Sub(a, b) = *operation
+            && fusible[a.index()]
             && fusible[b.index()]
         {
-            fusible[a.index()] = false;
+            let earlier = if depths[a.index()] > depths[b.index()] { b } else { a };
+            fusible[earlier.index()] = false;
         }
     }
     fusible
+}
+
+/// For each value, how many operations follow each other up to it.
+fn depths(program: &Program) -> Vec<u32> {
+    let mut depths: Vec<u32> = Vec::with_capacity(program.operations().len());
+    for operation in program.operations() {
+        let deepest = operation.operands().map(|operand| depths[operand.index()]).max();
+        depths.push(deepest.map_or(0, |depth| depth + 1));
+    }
+    depths
 }
 
 #[cfg(test)]

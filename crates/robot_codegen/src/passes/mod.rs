@@ -56,7 +56,7 @@ impl Default for Options {
             rounds: 4,
             signs: true,
             fused: Fused::Never,
-            schedule: Schedule::DepthFirst,
+            schedule: Schedule::Throughput,
             cost: Cost::Operations,
         }
     }
@@ -132,7 +132,9 @@ pub(crate) fn finish(program: &Program, options: &Options) -> (Program, Vec<Pass
     let mut runner = Runner { program: program.clone(), cost: options.cost, report: vec![] };
     runner.take("constructor", dead_code::run);
     if options.fused == Fused::WhereTarget {
-        runner.take("product last", product_last::run);
+        if can_put_products_last(&runner.program) {
+            runner.take("product last", product_last::run);
+        }
         runner.take("fusing", fusing::run);
     }
     if options.signs {
@@ -140,6 +142,13 @@ pub(crate) fn finish(program: &Program, options: &Options) -> (Program, Vec<Pass
     }
     runner.take("schedule", |program| schedule::run(&dead_code::run(program), options.schedule));
     (runner.program, runner.report)
+}
+
+/// Whether no result waits longer where sums have their products last: a product then fuses with
+/// what comes before it, but a sum that was a tree is a chain.
+fn can_put_products_last(program: &Program) -> bool {
+    let wait = |program: &Program| schedule::longest_chain(&fusing::run(program));
+    wait(&product_last::run(program)) <= wait(program)
 }
 
 /// The passes for programs off the path of a call.

@@ -1,5 +1,9 @@
 //! Scheduling: the order of statements.
 
+mod throughput;
+
+pub(super) use throughput::longest_chain;
+
 use crate::program::{Operation, Program, Value};
 
 /// The order of statements.
@@ -9,39 +13,72 @@ pub enum Schedule {
     Construction,
     /// Depth first from the results, of two operands first the one that needs more registers, so
     /// that values live briefly.
-    #[default]
     DepthFirst,
+    /// What the results wait for longest comes first, as far as registers last, so that a processor
+    /// finds work while it waits (`schedule/throughput.rs`). Programs too long for one function are ordered
+    /// depth first, so that few values pass from one function to the next.
+    #[default]
+    Throughput,
 }
+
+/// Operations, beyond which [`Schedule::Throughput`] is depth first.
+const LONG: usize = 6000;
 
 /// Orders the statements. Not a bit changes.
 #[must_use]
 pub fn run(program: &Program, schedule: Schedule) -> Program {
     match schedule {
         Schedule::Construction => program.clone(),
-        Schedule::DepthFirst => depth_first(program),
+        Schedule::Throughput if program.operations().len() <= LONG => throughput::run(program),
+        Schedule::DepthFirst | Schedule::Throughput => depth_first(program),
+    }
+}
+
+/// The operations of a program in another order, each after its operands.
+#[derive(Default)]
+struct Reordering {
+    moved: Vec<Option<Value>>,
+    operations: Vec<Operation>,
+}
+
+impl Reordering {
+    fn of(program: &Program) -> Reordering {
+        Reordering { moved: vec![None; program.operations().len()], operations: vec![] }
+    }
+
+    fn has(&self, value: Value) -> bool {
+        self.moved[value.index()].is_some()
+    }
+
+    /// The operation comes next; its operands are there.
+    fn push(&mut self, value: Value, operation: Operation) {
+        let at = |operand: Value| self.moved[operand.index()].unwrap_or(operand);
+        self.operations.push(operation.map(at));
+        self.moved[value.index()] = Some(Value(self.operations.len() as u32 - 1));
+    }
+
+    fn finish(self, program: &Program) -> Program {
+        let results = program.results().iter();
+        let results = results.map(|value| self.moved[value.index()].unwrap_or(*value)).collect();
+        Program::new(self.operations, results)
     }
 }
 
 fn depth_first(program: &Program) -> Program {
     let registers = registers(program);
-    let mut moved: Vec<Option<Value>> = vec![None; registers.len()];
-    let mut operations: Vec<Operation> = vec![];
+    let mut order = Reordering::of(program);
     for result in program.results() {
         let mut pending = vec![*result];
         while let Some(value) = pending.last().copied() {
             let operation = program.operation(value);
             let mut missing: Vec<Value> = vec![];
-            if moved[value.index()].is_none() {
-                missing.extend(
-                    operation.operands().filter(|operand| moved[operand.index()].is_none()),
-                );
+            if !order.has(value) {
+                missing.extend(operation.operands().filter(|operand| !order.has(*operand)));
             }
             if missing.is_empty() {
                 pending.pop();
-                if moved[value.index()].is_none() {
-                    let at = |operand: Value| moved[operand.index()].unwrap_or(operand);
-                    operations.push(operation.map(at));
-                    moved[value.index()] = Some(Value(operations.len() as u32 - 1));
+                if !order.has(value) {
+                    order.push(value, operation);
                 }
             } else {
                 // The last goes first.
@@ -50,9 +87,7 @@ fn depth_first(program: &Program) -> Program {
             }
         }
     }
-    let results = program.results().iter();
-    let results = results.map(|value| moved[value.index()].unwrap_or(*value));
-    Program::new(operations, results.collect())
+    order.finish(program)
 }
 
 /// The registers that each value needs if nothing were shared (Sethi and Ullman 1970).
@@ -74,7 +109,8 @@ mod tests {
 
     #[test]
     fn bits_stay() {
-        assert_same_bits("scheduling", |program| run(program, Schedule::DepthFirst));
+        assert_same_bits("depth first", |program| run(program, Schedule::DepthFirst));
+        assert_same_bits("throughput", |program| run(program, Schedule::Throughput));
     }
 
     #[test]

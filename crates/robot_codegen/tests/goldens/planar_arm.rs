@@ -128,14 +128,14 @@ pub mod planar_arm {
             let [cq1, cq2, c3] = *c;
             let [qd1, qd2] = *qd;
             let [qdd1, qdd2] = *qdd;
-            let t1 = self.k2 * sq2;
-            let t2 = cq2 * self.k2;
-            let t3 = c3 * self.k1;
-            let t4 = t2 + self.k4;
-            let t5 = qdd2 * t4 + (t3 + qdd1 * (t2 * 2.0 + self.k3));
-            let t6 = t5 - t1 * (qd2 * (qd2 + 2.0 * qd1));
-            let t7 = qdd2 * self.k4 + (t3 + qdd1 * t4);
-            [cq1 * self.k5 + t6, t1 * (qd1 * qd1) + t7]
+            let t1 = cq2 * self.k2;
+            let t2 = c3 * self.k1;
+            let t3 = self.k2 * sq2;
+            let t4 = t1 + self.k4;
+            let t5 = qdd2 * self.k4 + (t2 + qdd1 * t4);
+            let t6 = qdd2 * t4 + (t2 + qdd1 * (t1 * 2.0 + self.k3));
+            let t7 = t6 - t3 * (qd2 * (qd2 + 2.0 * qd1));
+            [cq1 * self.k5 + t7, t3 * (qd1 * qd1) + t5]
         }
         /// `inverse_dynamics` of many states, 8 at a time: entry i of each slice is of state i.
         ///
@@ -236,15 +236,15 @@ pub mod planar_arm {
             let [cq1, cq2, c3] = *c;
             let [qd1, qd2] = *qd;
             let [qdd1, qdd2] = *qdd;
-            let t1 = T::from_f64(self.k2) * sq2;
-            let t2 = cq2 * T::from_f64(self.k2);
-            let t3 = c3 * T::from_f64(self.k1);
-            let t4 = t2 + T::from_f64(self.k4);
-            let t5 = qdd2 * t4
-                + (t3 + qdd1 * (t2 * T::from_f64(2.0) + T::from_f64(self.k3)));
-            let t6 = t5 - t1 * (qd2 * (qd2 + T::from_f64(2.0) * qd1));
-            let t7 = qdd2 * T::from_f64(self.k4) + (t3 + qdd1 * t4);
-            [cq1 * T::from_f64(self.k5) + t6, t1 * (qd1 * qd1) + t7]
+            let t1 = cq2 * T::from_f64(self.k2);
+            let t2 = c3 * T::from_f64(self.k1);
+            let t3 = T::from_f64(self.k2) * sq2;
+            let t4 = t1 + T::from_f64(self.k4);
+            let t5 = qdd2 * T::from_f64(self.k4) + (t2 + qdd1 * t4);
+            let t6 = qdd2 * t4
+                + (t2 + qdd1 * (t1 * T::from_f64(2.0) + T::from_f64(self.k3)));
+            let t7 = t6 - t3 * (qd2 * (qd2 + T::from_f64(2.0) * qd1));
+            [cq1 * T::from_f64(self.k5) + t7, t3 * (qd1 * qd1) + t5]
         }
     }
     /// The outputs of mass_matrix.
@@ -277,11 +277,11 @@ pub mod planar_arm {
             let [_] = *s;
             let [cq2] = *c;
             let t1 = cq2 * self.k2;
-            let t2 = t1 * 2.0 + self.k3;
-            let t3 = t1 + self.k4;
+            let t2 = t1 + self.k4;
+            let t3 = t1 * 2.0 + self.k3;
             MassMatrix {
-                m: [[t2, t3], [t3, self.k4]],
-                trace: self.k4 + t2,
+                m: [[t3, t2], [t2, self.k4]],
+                trace: self.k4 + t3,
             }
         }
         /// `mass_matrix` of many states, 8 at a time: entry i of each slice is of state i.
@@ -359,11 +359,11 @@ pub mod planar_arm {
             let [_] = *s;
             let [cq2] = *c;
             let t1 = cq2 * T::from_f64(self.k2);
-            let t2 = t1 * T::from_f64(2.0) + T::from_f64(self.k3);
-            let t3 = t1 + T::from_f64(self.k4);
+            let t2 = t1 + T::from_f64(self.k4);
+            let t3 = t1 * T::from_f64(2.0) + T::from_f64(self.k3);
             MassMatrix {
-                m: [[t2, t3], [t3, T::from_f64(self.k4)]],
-                trace: T::from_f64(self.k4) + t2,
+                m: [[t3, t2], [t2, T::from_f64(self.k4)]],
+                trace: T::from_f64(self.k4) + t3,
             }
         }
     }

@@ -1,0 +1,266 @@
+//! List scheduling (Graham 1969): the order in which a simple processor would start the operations.
+//!
+//! A call waits for chains of dependent operations: without the sines and cosines some 100 cycles for
+//! an arm of six joints, twice the time that its operations need where they overlap. A processor looks
+//! a few hundred instructions ahead, so that work from the other end of a function is out of its
+//! sight. Here the operation whose results are waited for longest starts first.
+//!
+//! The processor of the model starts two products and two sums a cycle. Its figures are those of
+//! current x86-64 and 64-bit ARM cores, rounded; the order is not sensitive to them. While more values
+//! than registers are alive, operations that end the life of others go first.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Reordering;
+use crate::program::{Operation, Program, Value};
+
+/// Products, quotients and calls started in a cycle.
+const PRODUCTS: usize = 2;
+/// Sums and changes of sign started in a cycle.
+const SUMS: usize = 2;
+/// Values alive, from which on those that end lives go first: what 32 registers hold, a few left for
+/// operands from memory.
+const REGISTERS: isize = 28;
+
+/// Cycles from the start of an operation to its value.
+fn latency(operation: Operation) -> u32 {
+    match operation {
+        Operation::Constant(_) | Operation::Load(_) => 0,
+        Operation::Neg(_) => 1,
+        Operation::Add(..) | Operation::Sub(..) | Operation::Mul(..) => 3,
+        Operation::MulAdd(..) => 4,
+        Operation::Div(..) => 13,
+        Operation::Call(..) => 20,
+    }
+}
+
+fn is_sum(operation: Operation) -> bool {
+    matches!(operation, Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_))
+}
+
+/// Cycles from the start of each operation to the last result that waits for it.
+fn heights(program: &Program) -> Vec<u32> {
+    let mut heights = vec![0; program.operations().len()];
+    for (value, operation) in program.values().rev() {
+        let height = heights[value.index()] + latency(operation);
+        heights[value.index()] = height;
+        for operand in operation.operands() {
+            heights[operand.index()] = heights[operand.index()].max(height);
+        }
+    }
+    heights
+}
+
+/// Cycles that the result waited for longest takes, were there room for everything at once.
+pub(in crate::passes) fn longest_chain(program: &Program) -> u32 {
+    heights(program).into_iter().max().unwrap_or(0)
+}
+
+pub(super) fn run(program: &Program) -> Program {
+    let mut list = List::new(program);
+    while !list.is_empty() {
+        list.cycle();
+    }
+    list.order.finish(program)
+}
+
+/// The state of the scheduler.
+struct List<'p> {
+    program: &'p Program,
+    /// Cycles from the start of each operation to the last result that waits for it.
+    height: Vec<u32>,
+    /// The operations that use each value, each once.
+    users: Vec<Vec<Value>>,
+    /// For each operation, the operands that have not started.
+    missing: Vec<usize>,
+    /// For each value, the operations that still need it, and one where it is a result.
+    needed: Vec<usize>,
+    /// The cycle in which the operands of each operation are there.
+    start: Vec<u32>,
+    /// Operations whose operands are there, the one waited for longest first.
+    ready: BTreeSet<(Reverse<u32>, Value)>,
+    /// Operations whose operands have started, by the cycle in which they are there.
+    waiting: BTreeMap<u32, Vec<Value>>,
+    now: u32,
+    alive: isize,
+    order: Reordering,
+}
+
+impl<'p> List<'p> {
+    fn new(program: &'p Program) -> List<'p> {
+        let count = program.operations().len();
+        let mut list = List {
+            program,
+            height: heights(program),
+            users: vec![vec![]; count],
+            missing: vec![0; count],
+            needed: vec![0; count],
+            start: vec![0; count],
+            ready: BTreeSet::new(),
+            waiting: BTreeMap::new(),
+            now: 0,
+            alive: 0,
+            order: Reordering::of(program),
+        };
+        for value in program.results() {
+            list.needed[value.index()] = 1;
+        }
+        for (value, operation) in program.values().rev() {
+            for operand in distinct(operation) {
+                let index = operand.index();
+                list.users[index].push(value);
+                list.needed[index] += 1;
+                list.missing[value.index()] += usize::from(!program.operation(operand).is_leaf());
+            }
+        }
+        for (value, operation) in program.values() {
+            if operation.is_leaf() {
+                list.order.push(value, operation);
+            } else if list.missing[value.index()] == 0 {
+                list.ready.insert((Reverse(list.height[value.index()]), value));
+            }
+        }
+        list
+    }
+
+    fn is_empty(&self) -> bool {
+        self.ready.is_empty() && self.waiting.is_empty()
+    }
+
+    /// Starts what a cycle has room for.
+    fn cycle(&mut self) {
+        while let Some(entry) = self.waiting.first_entry()
+            && *entry.key() <= self.now
+        {
+            for value in entry.remove() {
+                self.ready.insert((Reverse(self.height[value.index()]), value));
+            }
+        }
+        let (mut products, mut sums) = (PRODUCTS, SUMS);
+        while let Some(value) = self.choose(products > 0, sums > 0) {
+            let operation = self.program.operation(value);
+            // Registers are short and nothing frees one: what is under way may.
+            let under_way = products + sums < PRODUCTS + SUMS || !self.waiting.is_empty();
+            if under_way && self.alive >= REGISTERS && self.growth(operation) > 0 {
+                break;
+            }
+            if is_sum(operation) {
+                sums -= 1;
+            } else {
+                products -= 1;
+            }
+            self.begin(value, operation);
+        }
+        self.now += 1;
+    }
+
+    /// The operation to start next, of those that have room.
+    fn choose(&self, products: bool, sums: bool) -> Option<Value> {
+        let candidates = self.ready.iter().map(|(_, value)| *value);
+        let mut candidates = candidates
+            .filter(|value| if is_sum(self.program.operation(*value)) { sums } else { products });
+        if self.alive < REGISTERS {
+            return candidates.next();
+        }
+        // Of equals the first, which is waited for longest.
+        candidates.min_by_key(|value| self.growth(self.program.operation(*value)).max(0))
+    }
+
+    /// By how much the number of values alive grows where an operation starts.
+    fn growth(&self, operation: Operation) -> isize {
+        let ends = distinct(operation).filter(|operand| {
+            self.needed[operand.index()] == 1 && !self.program.operation(*operand).is_leaf()
+        });
+        1 - ends.count() as isize
+    }
+
+    fn begin(&mut self, value: Value, operation: Operation) {
+        self.ready.remove(&(Reverse(self.height[value.index()]), value));
+        self.alive += self.growth(operation);
+        for operand in distinct(operation) {
+            self.needed[operand.index()] -= 1;
+        }
+        self.order.push(value, operation);
+        let there = self.now + latency(operation);
+        for user in std::mem::take(&mut self.users[value.index()]) {
+            let index = user.index();
+            self.start[index] = self.start[index].max(there);
+            self.missing[index] -= 1;
+            if self.missing[index] == 0 {
+                self.waiting.entry(self.start[index]).or_default().push(user);
+            }
+        }
+    }
+}
+
+/// The operands of an operation, each once.
+fn distinct(operation: Operation) -> impl Iterator<Item = Value> {
+    let operands: Vec<Value> = operation.operands().collect();
+    let first = operands.clone();
+    operands
+        .into_iter()
+        .enumerate()
+        .filter(move |(index, operand)| !first[..*index].contains(operand))
+        .map(|(_, operand)| operand)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Builder, Source};
+
+    /// The sum of two chains of products, one twice as long, built one after the other.
+    fn two_chains() -> Program {
+        let mut builder = Builder::new();
+        let x = builder.load(Source::Input(0));
+        let mut chain = |source: u32, length: usize| {
+            let mut value = builder.load(Source::Input(source));
+            for _ in 0..length {
+                value = builder.mul(value, x);
+            }
+            value
+        };
+        let (short, long) = (chain(1, 10), chain(2, 20));
+        let sum = builder.add(short, long);
+        builder.finish(vec![sum])
+    }
+
+    #[test]
+    fn the_longest_chain_is_that_of_the_latencies() {
+        assert_eq!(longest_chain(&two_chains()), 20 * 3 + 3);
+    }
+
+    #[test]
+    fn the_longer_chain_starts_first_and_the_shorter_fills_its_gaps() {
+        let program = run(&two_chains());
+        let products = program.values().filter(|(_, operation)| !operation.is_leaf());
+        let height = heights(&program);
+        let first: Vec<u32> = products.map(|(value, _)| height[value.index()]).take(4).collect();
+        assert_eq!(first, [63, 33, 60, 30]);
+    }
+
+    #[test]
+    fn few_values_live_where_many_could() {
+        // A hundred products of two loads each, summed from the first to the last: all could start
+        // at once, and then would wait for their turn.
+        let mut builder = Builder::new();
+        let mut sum = builder.load(Source::Input(0));
+        for index in 0..100 {
+            let [x, y] = [2 * index + 1, 2 * index + 2].map(|i| builder.load(Source::Input(i)));
+            let product = builder.mul(x, y);
+            sum = builder.add(sum, product);
+        }
+        let program = run(&builder.finish(vec![sum]));
+        let mut last: Vec<usize> = (0..program.operations().len()).collect();
+        for (value, operation) in program.values() {
+            operation.operands().for_each(|operand| last[operand.index()] = value.index());
+        }
+        let alive = |at: usize| {
+            let values = program.values().filter(|(_, operation)| !operation.is_leaf());
+            values.filter(|(value, _)| value.index() <= at && last[value.index()] > at).count()
+        };
+        let most = (0..last.len()).map(alive).max().unwrap();
+        assert!(most as isize <= REGISTERS + 2, "{most}");
+    }
+}
