@@ -1,5 +1,6 @@
 use super::*;
 use crate::diagnostic::code;
+use crate::numeric::random::Random;
 
 fn codes(text: &str) -> Vec<&'static str> {
     check("arm.toml", text, &Options::default()).found.iter().map(|one| one.code).collect()
@@ -132,4 +133,54 @@ fn joints_that_move_nothing_are_told() {
     // A point on the axis.
     let point = "mass = 1\ncenter_of_mass = [0, 0, 1]\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
     assert_eq!(codes(&format!("{text}{point}")), [code::MOVES_NOTHING, code::POINT_MASS]);
+}
+
+/// A link of that length with a body that lies in `[from, to]` along it, of a rectangular section,
+/// uniform; its tensor about the centre of mass or, wrongly, the origin.
+fn beam(
+    length: f64,
+    [from, to]: [f64; 2],
+    [width, height]: [f64; 2],
+    density: f64,
+    about_origin: bool,
+) -> String {
+    let own = to - from;
+    let (mass, center) = (density * own * width * height, (from + to) / 2.0);
+    let moment = |a: f64, b: f64| mass * (a * a + b * b) / 12.0;
+    let steiner = if about_origin { mass * center * center } else { 0.0 };
+    let (xx, yy, zz) =
+        (moment(width, height), moment(own, height) + steiner, moment(own, width) + steiner);
+    let figures = format!(
+        "mass = {mass:?}\ncenter_of_mass = [{center:?}, 0, 0]\n\
+         inertia = {{ xx = {xx:?}, yy = {yy:?}, zz = {zz:?} }}"
+    );
+    arm(&figures).replace("xyz = [0.4, 0, 0]", &format!("xyz = [{length:?}, 0, 0]"))
+}
+
+/// What is uniform, of matter, and lies between the ends of its link gives no warning, whatever its
+/// shape.
+#[test]
+fn bodies_on_their_links_are_passed() {
+    let mut random = Random::new(5);
+    for round in 0..500 {
+        let length = random.uniform(0.05, 1.5);
+        let section = [random.uniform(0.01, 0.3), random.uniform(0.01, 0.3)];
+        let (first, second) = (random.uniform(0.0, length), random.uniform(0.0, length));
+        let ends = [first.min(second), first.max(second) + 0.001];
+        let text = beam(length, ends, section, random.uniform(200.0, 9000.0), false);
+        let found = check("arm.toml", &text, &Options::default()).found;
+        assert!(found.is_empty(), "seed 5, round {round}:\n{text}\n{found}");
+    }
+}
+
+/// Rods thinner than a seventh of their length.
+#[test]
+fn slender_bodies_with_tensors_about_the_origin_are_told() {
+    let mut random = Random::new(6);
+    for round in 0..200 {
+        let length = random.uniform(0.1, 1.5);
+        let section = [0, 1].map(|_| length * random.uniform(0.01, 1.0 / 7.0));
+        let text = beam(length, [0.0, length], section, random.uniform(200.0, 9000.0), true);
+        assert_eq!(codes(&text), [code::ABOUT_ORIGIN], "seed 6, round {round}:\n{text}");
+    }
 }
