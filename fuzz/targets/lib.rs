@@ -3,6 +3,7 @@
 use robot_codegen::backend::rust::{self, RustOptions};
 use robot_dynamics::description::{Described, Options, import, read_toml};
 use robot_dynamics::diagnostic::Diagnostics;
+use robot_dynamics::doctor::{Examination, examine};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
 use robot_symbolic::print::latex::{LatexStyle, Trigonometry, to_latex_limited};
@@ -28,9 +29,14 @@ pub fn show(found: &Diagnostics) {
     }
 }
 
-/// Takes some accepted robots on: into symbols, through the paper's iterations, to text and LaTeX;
+/// Has every accepted robot examined, and takes some on: into symbols, through the paper's iterations,
+/// to text and LaTeX;
 /// few of them to generated Rust, which is parsed again.
 pub fn follow(text: &str, described: &Described) {
+    let Examination { found, choices } = examine(described);
+    for told in [&found, &choices].into_iter().filter(|told| !told.is_empty()) {
+        show(told);
+    }
     let robot = &described.robot;
     if robot.links.len() > MAX_LINKS || !chosen(text.as_bytes(), 16) {
         return;
