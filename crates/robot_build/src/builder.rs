@@ -87,6 +87,13 @@ impl Builder {
         self
     }
 
+    /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`,
+    /// on which the package must depend. Without this there is none.
+    pub fn parallel(mut self, parallel: bool) -> Builder {
+        self.options.parallel = parallel;
+        self
+    }
+
     /// Whether products and sums become multiply-adds, which round once on a target that has the
     /// instruction and are a product and a sum elsewhere. Without this they do not, and the code
     /// gives the same bits on every target.

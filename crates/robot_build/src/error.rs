@@ -50,6 +50,9 @@ pub enum Error {
         /// The largest that there is.
         most: usize,
     },
+    /// Threads without states to share among them.
+    #[error("`parallel` is about batches: choose their size too, with `batch`")]
+    ParallelWithoutBatch,
     /// What the code generator refuses.
     #[error("{name}: {error}")]
     Code {

@@ -1,7 +1,7 @@
 //! From the text of a robot file to the text of a Rust module.
 
 use robot_codegen::backend::rust::{
-    self, ConstantItem, ConstantValue, RustOptions, Setter, SetterArgument, Wrapping,
+    self, ConstantItem, ConstantValue, Parallel, RustOptions, Setter, SetterArgument, Wrapping,
 };
 use robot_codegen::{FunctionCounts, Module};
 use robot_dynamics::diagnostic::{Diagnostics, Source};
@@ -76,6 +76,11 @@ pub(crate) fn rust_text(
         scalar: options.scalar,
         generic: options.generic,
         batch: options.batch,
+        parallel: match (options.parallel, wrapping) {
+            (false, _) => Parallel::No,
+            (true, Wrapping::Module) => Parallel::Yes,
+            (true, Wrapping::Items) => Parallel::WithFeature,
+        },
         wrapping,
         constants: constants(&programs.robot),
         setters: programs.robot.payload.iter().map(with_payload).collect(),

@@ -53,6 +53,9 @@ pub struct Options {
     /// The number of states in a block of the forms `…_batch` over slices of states; `None` for no
     /// such forms.
     pub batch: Option<usize>,
+    /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`: a
+    /// dependency of the crate around the code, an optional one of a whole generated crate.
+    pub parallel: bool,
     /// Whether products and sums become multiply-adds, which round once on a target that has the
     /// instruction (the runtime's `FUSED`) and are a product and a sum elsewhere. Without this the
     /// code gives the same bits on every target.
@@ -87,6 +90,7 @@ impl Default for Options {
             scalar: rust.scalar,
             generic: rust.generic,
             batch: rust.batch,
+            parallel: false,
             fused: false,
             trigonometry: rust.trigonometry,
             snap: None,
@@ -137,6 +141,9 @@ impl Options {
         }
         if let Some(states) = self.batch.filter(|states| !(1..=MAX_BATCH).contains(states)) {
             errors.push(Error::Batch { states, most: MAX_BATCH });
+        }
+        if self.parallel && self.batch.is_none() {
+            errors.push(Error::ParallelWithoutBatch);
         }
         Errors::check(errors, ())
     }

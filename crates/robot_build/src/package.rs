@@ -20,7 +20,8 @@ const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 
 /// The files of a crate that holds a robot's functions, in a fixed order.
 ///
-/// The crate has no dependencies: the runtime's modules are part of it. It is `no_std` where
+/// The crate has no dependencies: the runtime's modules are part of it. Only with
+/// [`Options::parallel`] it has an optional one, `rayon`, for a feature of that name. It is `no_std` where
 /// [`Options::trigonometry`] is the polynomials'; its feature `std` adds fused multiply-add and the
 /// processor's square root. With the standard library's sine and cosine, `std` is a default feature
 /// and needed. [`Options::runtime`] is without effect.
@@ -102,6 +103,13 @@ impl Parts<'_> {
     fn manifest(&self) -> String {
         let (name, robot) = (self.name(), &self.programs.robot.name);
         let default = if self.needs_std() { "default = [\"std\"]\n" } else { "" };
+        let (feature, dependency) = match self.options.parallel {
+            true => (
+                "# Batches over threads.\nrayon = [\"dep:rayon\"]\n",
+                "\n[dependencies]\nrayon = { version = \"1.11\", optional = true }\n",
+            ),
+            false => ("", ""),
+        };
         format!(
             "# {}\n\n\
              [package]\n\
@@ -114,7 +122,7 @@ impl Parts<'_> {
              publish = false\n\n\
              [features]\n\
              {default}# Fused multiply-add and square root by the standard library.\n\
-             std = []\n",
+             std = []\n{feature}{dependency}",
             header(self.source)
         )
     }

@@ -71,6 +71,9 @@ pub(crate) struct CodeArguments {
     /// Add to each function a form `…_batch` over slices of states, computed in blocks of so many
     #[arg(long, value_name = "STATES", require_equals = true)]
     batch: Option<Option<usize>>,
+    /// Add to each batch a form `…_batch_parallel` over the threads of the crate rayon
+    #[arg(long, requires = "batch")]
+    parallel: bool,
     /// Multiply and add in one instruction where the target has it: it rounds once
     #[arg(long)]
     fused: bool,
@@ -115,10 +118,19 @@ impl CodeArguments {
             [] => Functions::Usual,
             names => functions(names)?,
         };
-        let &CodeArguments { generic, batch, fused, .. } = self;
+        let &CodeArguments { generic, batch, parallel, fused, .. } = self;
         let batch = batch.map(|states| states.unwrap_or(DEFAULT_BATCH));
         let trigonometry = trigonometry.into();
-        Ok(Options { functions, scalar, generic, batch, fused, trigonometry, ..robot.options()? })
+        Ok(Options {
+            functions,
+            scalar,
+            generic,
+            batch,
+            parallel,
+            fused,
+            trigonometry,
+            ..robot.options()?
+        })
     }
 }
 

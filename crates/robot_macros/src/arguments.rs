@@ -5,7 +5,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
 /// The keys, for messages.
-const KEYS: &str = "functions, snap, scalar, generic, batch, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
+const KEYS: &str = "functions, snap, scalar, generic, batch, parallel, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
@@ -58,6 +58,7 @@ impl Arguments {
             }
             "generic" => self.options.generic = boolean(value)?,
             "batch" => self.options.batch = Some(size(value)?),
+            "parallel" => self.options.parallel = boolean(value)?,
             "fused" => self.options.fused = boolean(value)?,
             "trigonometry" => {
                 let known = [

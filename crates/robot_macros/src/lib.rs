@@ -28,6 +28,7 @@ use proc_macro::TokenStream;
 ///     scalar = "f32",               // "f64" without this
 ///     generic = true,               // forms `…_generic` over any scalar of the runtime, lanes too
 ///     batch = 8,                    // forms `…_batch` over slices of states, in blocks of so many
+///     parallel = true,              // forms `…_batch_parallel` over the threads of the crate rayon
 ///     fused = true,                 // multiply-adds where the target has the instruction
 ///     trigonometry = "polynomial",  // "standard" without this
 ///     max_operations = 300,         // of a call of each function; more is an error

@@ -138,6 +138,8 @@ fn wrong_options_are_errors() {
         shown.contains("Pendulum has no function `inverse_dynamics_wrench`: the robot has no tip")
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("no functions are chosen"));
+    let shown = message(&builder(&package).parallel(true), &["robots/a.toml"]);
+    assert!(shown.contains("`batch`"), "{shown}");
     for states in [0, 65] {
         let shown = message(&builder(&package).batch(states), &["robots/a.toml"]);
         assert!(shown.contains("choose 1 to 64"), "{shown}");

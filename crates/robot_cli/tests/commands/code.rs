@@ -50,6 +50,9 @@ fn options_reach_the_code() {
     let shown = output(&["generate", &file, "--batch=4"], "");
     assert!(shown.contains("as_chunks::<4>"));
     assert!(!shown.contains("mul_add") && !shown.contains("_generic"));
+    let shown = output(&["generate", &file, "--batch", "--parallel"], "");
+    assert!(shown.contains("::rayon::join") && !shown.contains("feature = \"rayon\""));
+    assert!(complaint(2, &["generate", &file, "--parallel"], "").contains("--batch"));
     let shown = complaint(1, &["generate", &file, "--batch=0"], "");
     assert!(shown.contains("choose 1 to 64"), "{shown}");
     let shown = complaint(2, &["generate", &file, "--function", "a,link_wrench"], "");

@@ -11,11 +11,15 @@ use syn::{Expr, ImplItem, Pat, Stmt, Type, parse_quote};
 use super::doc;
 use super::function::Methods;
 use super::items::derived;
+use super::options::Parallel;
 use super::outputs;
 use super::scope::used_inputs;
 use super::syntax;
 use super::variables::Variables;
 use crate::trigonometry::Trigonometry;
+
+/// As many blocks one thread computes at least: some microseconds of work.
+const GRAIN: usize = 32;
 
 /// The slices that the method takes.
 struct Slices {
@@ -59,14 +63,19 @@ impl Methods<'_, '_> {
         let plain = self.names.plain.clone();
         let batch = derived(&mut self.scope.methods, &plain, "batch");
         let block = derived(&mut self.scope.methods, &plain, "block");
-        vec![self.over_slices(&slices, &batch, &block), self.of_block(slices, &block)]
+        let mut methods = vec![self.over_slices(&slices, &batch, &block)];
+        if self.scope.options.parallel != Parallel::No {
+            methods.push(self.over_threads(&slices, lanes, &batch));
+        }
+        methods.push(self.of_block(slices, &block));
+        methods
     }
 
     fn slices(&self, lanes: usize) -> Slices {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
         // The variables of the methods.
-        for word in ["count", "result", "circular", "to", "from"] {
+        for word in ["count", "half", "result", "circular", "to", "from"] {
             variables.namer.name(word);
         }
         let scalar = self.number.ty();
@@ -133,6 +142,54 @@ impl Methods<'_, '_> {
                 #(for (to, from) in #output_rests.iter_mut().zip(#states) {
                     *to = from;
                 })*
+                count
+            }
+        }
+    }
+
+    /// Halves the slices until little is left, for as many threads as there are. Halves begin where
+    /// blocks do, so that each state is computed as it is by one thread.
+    fn over_threads(&mut self, slices: &Slices, lanes: usize, batch: &Ident) -> ImplItem {
+        let parallel = derived(&mut self.scope.methods, batch, "parallel");
+        let (inputs, input_types) = columns(slices.inputs.iter().map(|(name, ty, _)| (name, ty)));
+        let (outputs, output_types) =
+            columns(slices.outputs.iter().map(|(name, ty, _)| (name, ty)));
+        let mut namer = slices.variables.namer.clone();
+        let mut rests = |names: &[&Ident]| -> Vec<Ident> {
+            names.iter().map(|name| derived(&mut namer, name, "rest")).collect()
+        };
+        let (input_rests, output_rests) = (rests(&inputs), rests(&outputs));
+        let (count, block) = (slices.shortest(), &slices.lanes);
+        let grain = Literal::usize_unsuffixed(GRAIN.saturating_mul(lanes.max(1)));
+        let feature = self.scope.options.parallel == Parallel::WithFeature;
+        let condition = feature.then(|| quote!(#[cfg(feature = "rayon")]));
+        let docs = doc::attributes(&[
+            format!("[`Model::{batch}`] over the threads of rayon's pool: the same bits."),
+            String::new(),
+            format!("Short slices, of up to {grain} states, stay with the caller's thread."),
+        ]);
+        parse_quote! {
+            #(#docs)*
+            #condition
+            pub fn #parallel(
+                &self,
+                #(#inputs: &[#input_types],)*
+                #(#outputs: &mut [#output_types],)*
+            ) -> usize {
+                let count = #count;
+                if count <= #grain {
+                    return self.#batch(#(#inputs,)* #(#outputs),*);
+                }
+                let half = (count / 2).next_multiple_of(#block);
+                #(let #inputs = #inputs.get(..count).unwrap_or_default();)*
+                #(let #outputs = #outputs.get_mut(..count).unwrap_or_default();)*
+                #(let (#inputs, #input_rests) = #inputs.split_at_checked(half).unwrap_or_default();)*
+                #(let (#outputs, #output_rests) =
+                    #outputs.split_at_mut_checked(half).unwrap_or_default();)*
+                ::rayon::join(
+                    || self.#parallel(#(#inputs,)* #(#outputs),*),
+                    || self.#parallel(#(#input_rests,)* #(#output_rests),*),
+                );
                 count
             }
         }

@@ -27,7 +27,7 @@ use syn::{Item, parse_quote};
 pub use self::doc::sanitise as markdown;
 pub use self::namer::identifier;
 pub use self::options::{
-    ConstantItem, ConstantValue, RustOptions, Scalar, Setter, SetterArgument, Wrapping,
+    ConstantItem, ConstantValue, Parallel, RustOptions, Scalar, Setter, SetterArgument, Wrapping,
 };
 use self::scope::Scope;
 use crate::error::Errors;

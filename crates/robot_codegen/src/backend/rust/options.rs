@@ -22,6 +22,8 @@ pub struct RustOptions {
     /// Whether each function has a form `…_batch` over slices of states, computed in blocks of so
     /// many, which LLVM turns into vectors; 8 is a good number.
     pub batch: Option<usize>,
+    /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`.
+    pub parallel: Parallel,
     /// What stands around the items.
     pub wrapping: Wrapping,
     /// Further constants of the module, before its types.
@@ -42,6 +44,7 @@ impl Default for RustOptions {
             scalar: Scalar::F64,
             generic: false,
             batch: None,
+            parallel: Parallel::No,
             wrapping: Wrapping::Module,
             constants: vec![],
             setters: vec![],
@@ -67,6 +70,18 @@ impl Scalar {
             Scalar::F32 => parse_quote!(f32),
         }
     }
+}
+
+/// Whether batches are computed by several threads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Parallel {
+    /// By the caller's alone.
+    #[default]
+    No,
+    /// By those of `rayon`, which the crate around the code depends on.
+    Yes,
+    /// The same where the crate around the code has its feature `rayon`.
+    WithFeature,
 }
 
 /// What stands around the items of a module.
