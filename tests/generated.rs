@@ -85,7 +85,9 @@ impl Case {
             _ => (true, true),
         };
         if kind == FunctionKind::LinkWrenches {
-            let links = self.solver.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
+            let mut links = self.solver.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
+            // The solver has gyroscopic rotors as links behind those of the robot.
+            links.truncate(self.programs.robot.links.len());
             let forces =
                 links.iter().flat_map(|l| l.contact_force.iter().copied().collect::<Vec<_>>());
             let moments =

@@ -49,7 +49,8 @@ fn references(robot: &Robot, random: &mut numeric::random::Random) -> Vec<Refere
                 let torques = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
                 torques.iter().copied().collect()
             },
-            link_wrenches: links.iter().flat_map(torsor).flatten().collect(),
+            // The solver has gyroscopic rotors as links behind those of the robot.
+            link_wrenches: links[..robot.links.len()].iter().flat_map(torsor).flatten().collect(),
             state,
         }
     };

@@ -100,6 +100,10 @@ pub struct MechanismLink<'g> {
     pub friction: MechanismFriction<'g>,
     /// Inertia of the drive reflected to the joint: armature + N² × rotor inertia, kg m² or kg.
     pub reflected_inertia: Expr<'g>,
+    /// N × rotor inertia where the drive is gyroscopic and its carrier, the parent link, moves; 0
+    /// otherwise. The rotor's angular momentum against its carrier is this times the joint's
+    /// velocity, about the joint axis: kg m² per rad or m of the joint.
+    pub rotor_coupling: Expr<'g>,
 }
 
 /// Friction in symbols; see [`crate::model::Friction`].
@@ -173,6 +177,12 @@ impl<'g> MechanismLink<'g> {
         } else {
             self.rotation
         }
+    }
+
+    /// Unit vector of the joint axis in parent components.
+    #[must_use]
+    pub fn axis_in_parent(&self) -> Vector<'g> {
+        self.rotation * self.axis
     }
 
     /// The origin of the link's frame, the joint's motion included, in parent components: r̄ᵢⁱ⁻¹.

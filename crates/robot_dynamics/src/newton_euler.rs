@@ -10,7 +10,7 @@
 
 use robot_symbolic::Expr;
 
-use crate::mechanism::{Mechanism, MechanismFriction};
+use crate::mechanism::{Mechanism, MechanismFriction, MechanismLink};
 use crate::model::JointKind;
 use crate::quantity::{Kind, Quantity, Symbol};
 use crate::unit::Dimension;
@@ -77,7 +77,9 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
     for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
         // (2): the torsor projected on the joint axis, with the drive's own inertia.
         let contact = if link.is_revolute() { wrench.moment } else { wrench.force };
-        let mut force = contact.dot(link.axis) + link.reflected_inertia * link.acceleration;
+        let mut force = contact.dot(link.axis)
+            + link.reflected_inertia * link.acceleration
+            + rotor_torque(link, &motions);
         if effects.friction {
             force += friction(&link.friction, link.kind, link.axis, wrench.force, link.velocity);
         }
@@ -162,10 +164,26 @@ fn inward<'g>(
         wrenches[index] = wrenches[index].plus(own);
         if let Some(parent) = link.parent {
             let handed = wrenches[index].seen_from(motion.rotation, motion.origin);
-            wrenches[parent] = wrenches[parent].plus(handed);
+            let rotor = LinkWrench { force: zero, moment: rotor_moment(link, &motions[parent]) };
+            wrenches[parent] = wrenches[parent].plus(handed).plus(rotor);
         }
     }
     wrenches
+}
+
+/// What a gyroscopic rotor asks of the link that carries it, beside what it would ask locked: the
+/// rate of its angular momentum J N q̇ a, with the joint axis a fixed to the carrier.
+fn rotor_moment<'g>(link: &MechanismLink<'g>, carrier: &LinkMotion<'g>) -> Vector<'g> {
+    let axis = link.axis_in_parent();
+    let turning = carrier.angular_velocity.cross(axis) * link.velocity;
+    (axis * link.acceleration + turning) * link.rotor_coupling
+}
+
+/// What a gyroscopic rotor asks of its joint while its carrier turns: J N a · ε of the carrier.
+fn rotor_torque<'g>(link: &MechanismLink<'g>, motions: &[LinkMotion<'g>]) -> Expr<'g> {
+    let carrier = link.parent.map(|parent| motions[parent].angular_acceleration);
+    let zero = link.rotor_coupling.graph().zero();
+    carrier.map_or(zero, |epsilon| link.axis_in_parent().dot(epsilon) * link.rotor_coupling)
 }
 
 impl<'g> LinkWrench<'g> {

@@ -222,7 +222,7 @@ impl Draw<'_> {
             armature: Figure(self.between(0, 300)).formula(1000),
             rotor_inertia: Figure(self.between(0, 30)).formula(100_000),
             gear_ratio: self.figure(30).formula(1),
-            gyroscopic: false,
+            gyroscopic: self.random.once_in(2),
         }
     }
 }

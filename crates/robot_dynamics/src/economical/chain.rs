@@ -49,6 +49,8 @@ pub(crate) struct ChainLink<'g> {
     pub(crate) inertia: PseudoInertia<'g>,
     /// Reflected inertia of the drive, kg m² or kg.
     pub(crate) reflected_inertia: Expr<'g>,
+    /// Angular momentum of a gyroscopic rotor per joint velocity, kg m² or kg m.
+    pub(crate) rotor_coupling: Expr<'g>,
 }
 
 impl<'g> ChainLink<'g> {
@@ -249,6 +251,7 @@ fn assemble<'g>(
             translation,
             inertia: inertias[index].clean(),
             reflected_inertia: link.reflected_inertia,
+            rotor_coupling: link.rotor_coupling,
         }
     });
     Chain {
@@ -266,6 +269,16 @@ impl<'g> Chain<'g> {
     /// The links whose parent is `link`.
     pub(crate) fn children(&self, link: usize) -> impl Iterator<Item = usize> {
         (link + 1..self.links.len()).filter(move |child| self.links[*child].parent == Some(link))
+    }
+
+    /// A joint's position, velocity or acceleration in rad or m, from that in the unit of length.
+    pub(crate) fn in_metres(&self, link: &ChainLink<'g>, motion: Expr<'g>) -> Expr<'g> {
+        if link.is_revolute() { motion } else { motion * self.unit }
+    }
+
+    /// Whether any link carries a gyroscopic rotor.
+    pub(crate) fn is_gyroscopic(&self) -> bool {
+        self.links.iter().any(|link| !link.rotor_coupling.is_zero())
     }
 
     /// Whether a coordinate moves this joint and no other.

@@ -39,21 +39,30 @@ pub struct TorqueDerivatives<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// The derivatives of the driving forces at the accelerations q̈.
+    /// The derivatives of the driving forces at the accelerations q̈; `None` where a drive is
+    /// gyroscopic, whose momentum composites do not hold.
     #[must_use]
-    pub fn torque_derivatives(&self) -> TorqueDerivatives<'g> {
-        self.torque_derivatives_of(&self.chain)
+    pub fn torque_derivatives(&self) -> Option<TorqueDerivatives<'g>> {
+        let holds = !self.chain.is_gyroscopic();
+        holds.then(|| self.torque_derivatives_of(&self.chain))
     }
 
-    /// The derivatives at other accelerations than the symbols q̈, one per coordinate.
+    /// The derivatives at other accelerations than the symbols q̈, one per coordinate; `None` as in
+    /// [`Recursion::torque_derivatives`].
     #[must_use]
-    pub fn torque_derivatives_at(&self, accelerations: &[Expr<'g>]) -> TorqueDerivatives<'g> {
+    pub fn torque_derivatives_at(
+        &self,
+        accelerations: &[Expr<'g>],
+    ) -> Option<TorqueDerivatives<'g>> {
+        if self.chain.is_gyroscopic() {
+            return None;
+        }
         let mut chain = self.chain.clone();
         for link in &mut chain.links {
             let unit = if link.is_revolute() { chain.graph.one() } else { chain.unit };
             link.motion[2] = accelerations[link.coordinate] * link.ratio / unit;
         }
-        self.torque_derivatives_of(&chain)
+        Some(self.torque_derivatives_of(&chain))
     }
 
     fn torque_derivatives_of(&self, chain: &Chain<'g>) -> TorqueDerivatives<'g> {
@@ -95,9 +104,13 @@ impl<'g> Recursion<'g> {
         TorqueDerivatives { positions, velocities }
     }
 
-    /// C(q, q̇) by Christoffel symbols: C q̇ is what velocities ask for, and Ṁ − 2 C is skew.
+    /// C(q, q̇) by Christoffel symbols: C q̇ is what velocities ask for, and Ṁ − 2 C is skew. `None`
+    /// as in [`Recursion::torque_derivatives`].
     #[must_use]
-    pub fn coriolis_matrix(&self) -> SquareMatrix<'g> {
+    pub fn coriolis_matrix(&self) -> Option<SquareMatrix<'g>> {
+        if self.chain.is_gyroscopic() {
+            return None;
+        }
         let mut chain = self.chain.clone();
         for link in &mut chain.links {
             link.motion[2] = chain.graph.zero();
@@ -108,7 +121,7 @@ impl<'g> Recursion<'g> {
         let shares = Shares::new(&ways, &motions);
         let mut matrix = SquareMatrix::zero(chain.graph, chain.degrees_of_freedom);
         self.each_pair(&ways, &motions, &shares, &mut matrix);
-        matrix
+        Some(matrix)
     }
 
     /// Adds ⟨Ẑᵢ, Ẏ P + Ẑⱼ B⟩ for all pairs of joints, times the factor of the motions.

@@ -47,9 +47,12 @@ impl<'g> Recursion<'g> {
             // ∫ (v + ω × r)² dm
             let mixed = omega.cross(Vector(h)).dot(velocity) * 2 + velocity.dot(velocity) * m;
             twice += of_second(link.inertia.second, omega) + mixed;
-            let rate =
-                if link.is_revolute() { link.motion[1] } else { link.motion[1] * chain.unit };
+            let rate = chain.in_metres(link, link.motion[1]);
             twice += link.reflected_inertia * (rate * rate);
+            if let Some(parent) = link.parent {
+                // J N q̇ a · ω of the carrier
+                twice += link.rotor_coupling * rate * own[parent].dot(link.axis) * 2;
+            }
         }
         twice / 2
     }

@@ -5,7 +5,7 @@
 
 use robot_symbolic::Expr;
 
-use super::chain::Chain;
+use super::chain::{Chain, ChainLink};
 use super::outward::LinkState;
 use super::plan::LinkPlan;
 use crate::vector::{Matrix, Vector};
@@ -48,7 +48,8 @@ pub(crate) fn inward<'g>(
             let reflected = link.reflected_inertia * chain.unit * state.rate;
             forces[index].0[2] / chain.unit + reflected
         };
-        torques[link.coordinate] += torque * link.ratio;
+        let (rotor_torque, rotor_moment) = rotor(chain, link, states, state.rate);
+        torques[link.coordinate] += (torque + rotor_torque) * link.ratio;
 
         let posture = &state.posture;
         let turned = posture.group_turn.forward(moments[index]);
@@ -57,7 +58,7 @@ pub(crate) fn inward<'g>(
         let Some(parent) = link.parent else { continue };
         let handed = link.rotation.forward(posture.turn.forward(forces[index]));
         forces[parent] = forces[parent] + handed;
-        moments[parent] = moments[parent] + posture.origin.cross(handed);
+        moments[parent] = moments[parent] + posture.origin.cross(handed) + rotor_moment;
         if posture.group == index {
             let Vector([x, y, _]) = across[index];
             let about_axis = moments[index].0[2];
@@ -68,6 +69,24 @@ pub(crate) fn inward<'g>(
         }
     }
     torques
+}
+
+/// What a gyroscopic rotor asks of its joint, J N a · ε, and of the link that carries it,
+/// J N (q̈ a + q̇ ω × a), with ω and ε of the carrier.
+fn rotor<'g>(
+    chain: &Chain<'g>,
+    link: &ChainLink<'g>,
+    states: &[LinkState<'g>],
+    rate: Expr<'g>,
+) -> (Expr<'g>, Vector<'g>) {
+    let Some(parent) = link.parent.filter(|_| !link.rotor_coupling.is_zero()) else {
+        return (chain.graph.zero(), Vector::zero(chain.graph));
+    };
+    let carrier = &states[parent];
+    let torque = link.rotor_coupling * carrier.angular_acceleration.dot(link.axis);
+    let momentum = |motion| link.rotor_coupling * chain.in_metres(link, motion);
+    let turning = carrier.angular_velocity.cross(link.axis) * momentum(link.motion[1]);
+    (torque, link.axis * momentum(rate) + turning)
 }
 
 /// What a link's own inertia asks for: F = m a + U h, and the moment about its origin.

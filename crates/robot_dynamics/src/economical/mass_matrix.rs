@@ -19,7 +19,10 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
     let composites = composites(&ways);
     let mut matrix = SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom);
     for (index, link) in chain.links.iter().enumerate() {
-        let wrench = inertial_wrench(&composites[index], &ways.joint_twist(index));
+        let mut wrench = inertial_wrench(&composites[index], &ways.joint_twist(index));
+        // The parent feels a gyroscopic rotor; the joint itself has its reflected inertia alone.
+        wrench.moment.0[2] += link.rotor_coupling;
+        let felt = if link.is_revolute() { link.rotor_coupling } else { chain.graph.zero() };
         let mut traveller = Traveller::from_home(index, wrench);
         for encounter in encounters(&ways, index, plans[index].meeting) {
             traveller.go_to(&ways, encounter.place);
@@ -33,7 +36,7 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
             let coupled = if twice { coupled * 2 } else { coupled };
             matrix.add(link.coordinate, inner.coordinate, coupled);
         }
-        let reflected = link.reflected_inertia * link.ratio * link.ratio;
+        let reflected = (link.reflected_inertia - felt) * link.ratio * link.ratio;
         matrix.add(link.coordinate, link.coordinate, reflected);
     }
     matrix

@@ -2,15 +2,14 @@
 
 use robot_symbolic::{Expr, differentiate};
 
-use super::{Derivation, Function, FunctionKind, Output};
+use super::{Derivation, Function, FunctionKind, Output, inverse_dynamics};
+use crate::economical::Recursion;
 use crate::matrix::SquareMatrix;
 
 /// C(q, q̇) by Christoffel symbols.
 pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
-    let matrix = match &derivation.recursion {
-        Some(recursion) => recursion.coriolis_matrix(),
-        None => half_velocity_slopes(derivation),
-    };
+    let composite = derivation.recursion.as_ref().and_then(Recursion::coriolis_matrix);
+    let matrix = composite.unwrap_or_else(|| half_velocity_slopes(derivation));
     let output = Output::new(
         "coriolis_matrix",
         "The Coriolis matrix, row by row",
@@ -29,7 +28,7 @@ pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'
 
 /// ½ ∂τ/∂q̇, for C q̇ is a quadratic form in q̇ with the Christoffel symbols for coefficients.
 fn half_velocity_slopes<'g>(derivation: &Derivation<'_, 'g>) -> SquareMatrix<'g> {
-    let bias = derivation.paper_torques(false, &["qdd"]);
+    let bias = inverse_dynamics::bias_torques(derivation);
     let slopes = differentiate::forward(&bias, &derivation.coordinate_symbols("qd"));
     let halves: Vec<Expr<'g>> = slopes.into_iter().flatten().map(|slope| slope / 2).collect();
     SquareMatrix::from_rows(halves, bias.len())

@@ -33,9 +33,7 @@ fn matrix_output<'g>(name: &str, doc: &str, unit: &str, matrix: &SquareMatrix<'g
 /// torques, whichever needs the fewest operations.
 fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
     let (torques, composite) = match &derivation.recursion {
-        Some(recursion) => {
-            (recursion.inverse_dynamics(false), Some(recursion.torque_derivatives()))
-        }
+        Some(recursion) => (recursion.inverse_dynamics(false), recursion.torque_derivatives()),
         None => (derivation.paper_torques(false, &[]), None),
     };
     let symbols: Vec<Expr<'g>> =
@@ -67,10 +65,10 @@ fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
 /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
 pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let accelerations = forward_dynamics::accelerations(derivation, false);
-    let torques = match &derivation.recursion {
-        Some(recursion) => recursion.torque_derivatives_at(&accelerations),
-        None => at(derivation, cheapest(derivation), &accelerations),
-    };
+    let recursion = derivation.recursion.as_ref();
+    let torques = recursion
+        .and_then(|recursion| recursion.torque_derivatives_at(&accelerations))
+        .unwrap_or_else(|| at(derivation, cheapest(derivation), &accelerations));
     let graph = derivation.mechanism.graph;
     let matrix = mass_matrix::matrix(derivation);
     let order = matrix.order();

@@ -37,11 +37,16 @@ pub(super) fn inverse_dynamics<'g>(
 }
 
 /// C(q, q̇) q̇ + g(q).
-pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
-    let torques = match &derivation.recursion {
+pub(super) fn bias_torques<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
+    match &derivation.recursion {
         Some(recursion) => recursion.bias(false),
         None => derivation.paper_torques(false, &["qdd"]),
-    };
+    }
+}
+
+/// The function [`FunctionKind::Bias`].
+pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let torques = bias_torques(derivation);
     derivation.of_kind(
         FunctionKind::Bias,
         &["The driving forces at zero accelerations, C(q, q̇) q̇ + g(q): what gravity, Coriolis and \

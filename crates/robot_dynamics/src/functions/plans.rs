@@ -37,9 +37,11 @@ fn objective<'g>(
     let derivation =
         Derivation { robot, mechanism: mechanism.clone(), recursion: Some(recursion.clone()) };
     let values = |kind: FunctionKind| -> Vec<Expr<'g>> {
-        if kind == FunctionKind::InverseDynamicsDerivatives {
+        if kind == FunctionKind::InverseDynamicsDerivatives
             // The other ways to them are tried once, when the plan is found.
-            let TorqueDerivatives { positions, velocities } = recursion.torque_derivatives();
+            && let Some(TorqueDerivatives { positions, velocities }) =
+                recursion.torque_derivatives()
+        {
             return [positions.rows(), velocities.rows()].concat();
         }
         let functions = derivation.functions(kind).into_iter();

@@ -69,7 +69,9 @@ impl<'g> Lowering<'g, '_> {
         let motion = |prefix: &str| ratio * self.graph.symbol(&format!("{prefix}{number}"));
         let (mass, center_of_mass, inertia) = self.bodies(&link.name, &link.bodies);
         let drive = &link.drive;
-        let gear_ratio = self.value(&drive.gear_ratio);
+        let (rotor_inertia, gear_ratio) =
+            (self.value(&drive.rotor_inertia), self.value(&drive.gear_ratio));
+        let coupled = drive.gyroscopic && link.parent.is_some();
         MechanismLink {
             parent: link.parent,
             rotation,
@@ -86,7 +88,8 @@ impl<'g> Lowering<'g, '_> {
             inertia,
             friction: self.friction(&link.friction),
             reflected_inertia: self.value(&drive.armature)
-                + self.value(&drive.rotor_inertia) * gear_ratio * gear_ratio,
+                + rotor_inertia * gear_ratio * gear_ratio,
+            rotor_coupling: if coupled { rotor_inertia * gear_ratio } else { self.graph.zero() },
         }
     }
 

@@ -12,7 +12,8 @@ use crate::model;
 impl Mechanism {
     /// The robot with its parameters at the values that `value` gives by name.
     ///
-    /// Frames keep the order of [`model::Robot::frames`].
+    /// Links and frames keep the order of [`model::Robot`]; gyroscopic rotors follow the links, each
+    /// as a link of its own without mass that turns with its joint's coordinate.
     ///
     /// # Errors
     ///
@@ -23,9 +24,17 @@ impl Mechanism {
         value: &dyn Fn(&str) -> f64,
     ) -> Result<Self, NumericError> {
         let at = Evaluation { value };
+        let mut links: Vec<Link> = robot.links.iter().map(|link| at.link(link)).collect();
+        for link in &robot.links {
+            if let (true, Some(carrier)) = (link.drive.gyroscopic, link.parent) {
+                let rotor = at.rotor(link, carrier);
+                take_from(&mut links[carrier], &rotor);
+                links.push(rotor);
+            }
+        }
         Mechanism::new(
             at.vector(&robot.gravity),
-            robot.links.iter().map(|link| at.link(link)).collect(),
+            links,
             robot.frames.iter().map(|frame| at.frame(frame)).collect(),
         )
     }
@@ -38,6 +47,12 @@ impl Mechanism {
     pub fn nominal(robot: &model::Robot) -> Result<Self, NumericError> {
         Mechanism::from_robot(robot, &|name| nominal_value(robot, name))
     }
+}
+
+/// Takes the locked rotor out of its carrier's inertia, of which the file has it as a part.
+fn take_from(carrier: &mut Link, rotor: &Link) {
+    let rotation = rotor.placement.rotation;
+    carrier.inertia -= rotation * rotor.inertia * rotation.transpose();
 }
 
 /// The nominal value of a parameter; NaN where it has none.
@@ -95,12 +110,33 @@ impl Evaluation<'_> {
         let (mass, centre, inertia) = self.bodies(&link.bodies);
         let drive = &link.drive;
         let turns = self.number(&drive.gear_ratio);
+        // A gyroscopic rotor with a carrier that moves is a link of its own.
+        let locked = drive.gyroscopic && link.parent.is_some();
+        let reflected =
+            if locked { 0.0 } else { turns * turns * self.number(&drive.rotor_inertia) };
         Link {
-            rotor_inertia: self.number(&drive.armature)
-                + turns * turns * self.number(&drive.rotor_inertia),
+            rotor_inertia: self.number(&drive.armature) + reflected,
             friction: self.friction(&link.friction),
             ..Link::new(link.parent, self.pose(&link.placement), joint, mass, centre, inertia)
         }
+    }
+
+    /// The rotor of a joint: it turns about the joint axis, N times as fast as the joint, and has
+    /// inertia about that axis alone.
+    fn rotor(&self, link: &model::Link, carrier: usize) -> Link {
+        let (joint, drive) = (&link.joint, &link.drive);
+        let turns = self.number(&drive.gear_ratio);
+        let axis = self.vector(&joint.axis).normalize();
+        let motion = Joint {
+            kind: JointKind::Revolute,
+            axis,
+            coordinate: joint.coordinate,
+            ratio: turns * self.number(&joint.ratio),
+            offset: 0.0,
+        };
+        let inertia = axis * axis.transpose() * self.number(&drive.rotor_inertia);
+        let placement = self.pose(&link.placement);
+        Link::new(Some(carrier), placement, motion, 0.0, Vector3::zeros(), inertia)
     }
 
     /// Mass, centre of mass and central inertia of rigidly connected bodies.
