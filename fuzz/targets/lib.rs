@@ -99,16 +99,20 @@ pub fn harmless_latex(latex: &str) {
         "newcommand",
         "begin",
     ];
+    const SIGNS: [char; 7] = ['#', '$', '%', '&', '_', '{', '}'];
     let mut depth = 0_i32;
-    for (place, letter) in latex.char_indices() {
+    let mut rest = latex;
+    while let Some(letter) = rest.chars().next() {
+        rest = &rest[letter.len_utf8()..];
         match letter {
             '{' => depth += 1,
             '}' => depth -= 1,
-            '%' | '$' | '#' | '~' => panic!("{letter} in {latex}"),
+            '%' | '$' | '#' | '~' | '&' => panic!("{letter} in {latex}"),
             '\\' => {
-                let rest = &latex[place + 1..];
                 let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
                 assert!(!HARM.contains(&&rest[..end]), "{latex}");
+                // An escaped sign is no more than itself.
+                rest = &rest[end.max(usize::from(rest.starts_with(SIGNS)))..];
             }
             _ => assert!(letter.is_ascii() && !letter.is_ascii_control(), "{latex:?}"),
         }

@@ -11,9 +11,10 @@ fuzz_target!(|text: &str| {
         robot_fuzz::harmless_latex(text);
     }
     let (latex, name) = text.split_once('\n').unwrap_or((text, text));
-    if robot_fuzz::chosen(text.as_bytes(), 2) {
+    robot_fuzz::harmless_latex(&symbol_latex(name));
+    if robot_fuzz::chosen(text.as_bytes(), 4) {
         in_toml(name, latex);
-    } else {
+    } else if robot_fuzz::chosen(name.as_bytes(), 4) {
         in_urdf(name);
     }
 });
