@@ -5,7 +5,7 @@
 mod common;
 
 use common::{evaluate, largest_difference, magnitude};
-use robot_build::{FunctionKind, Options, programs_of};
+use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -49,7 +49,7 @@ fn hold(what: &str, seed: u64, found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64
 
 fn interpreted(robot: &Robot, states: &[State]) -> Vec<Vec<f64>> {
     let kind = FunctionKind::InverseDynamicsWrench;
-    let options = Options { functions: Some(vec![kind]), ..Options::default() };
+    let options = Options { functions: Functions::Chosen(vec![kind]), ..Options::default() };
     let programs = programs_of(robot.clone(), "tree", &options).unwrap();
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
     let run = |state: &State| {
