@@ -7,10 +7,17 @@ use robot_dynamics::newton_euler::{Effects, newton_euler};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_symbolic::print::latex::{LatexStyle, LatexTerm, Trigonometry, polynomial_terms};
 use robot_symbolic::print::{TooLarge, default_rank};
-use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions, View};
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, View};
 
 use crate::error::{Error, Errors};
 use crate::programs::read;
+
+/// What an expansion may cost: a second or two, and more terms than anybody reads.
+const LIMITS: PolynomialOptions = PolynomialOptions {
+    angle_sums: AngleSums::Expand,
+    max_terms: 500_000,
+    max_products: 10_000_000,
+};
 
 /// Which equations, and how they are written.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,8 +138,7 @@ pub fn equations(source: &Source, options: &EquationOptions) -> Result<Equations
         name: source.name.clone(),
         reason: reason.to_string(),
     };
-    let polynomials = Polynomial::of_all(&values, &PolynomialOptions::default())
-        .map_err(|error| failed(&error))?;
+    let polynomials = Polynomial::of_all(&values, &LIMITS).map_err(|error| failed(&error))?;
     let writer = Writer::new(&robot, options.notation);
     let mut list = vec![];
     for (quantity, polynomial) in quantities.iter().zip(&polynomials) {

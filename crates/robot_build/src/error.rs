@@ -61,6 +61,19 @@ pub enum Error {
         /// What is wrong.
         error: robot_codegen::Error,
     },
+    /// Functions of more expressions than code is made of.
+    #[error(
+        "{name}: the functions are {nodes} expressions, at most {limit} become code; choose fewer \
+         functions, or give figures as numbers where the file has long expressions"
+    )]
+    TooLarge {
+        /// The robot file.
+        name: String,
+        /// The expressions of the functions.
+        nodes: usize,
+        /// How many there may be.
+        limit: usize,
+    },
     /// Equations that cannot be written out.
     #[error("{name}: {reason}")]
     Equations {

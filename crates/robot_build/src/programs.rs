@@ -14,6 +14,10 @@ use crate::error::{Error, Errors};
 use crate::options::Options;
 use crate::specification;
 
+/// Functions of more expressions than this do not become code. The usual ones of 64 joints about
+/// skew axes are some tens of thousands.
+const MAX_NODES: usize = 500_000;
+
 /// A robot and the programs of its functions.
 #[derive(Clone, Debug)]
 pub struct Programs {
@@ -85,6 +89,11 @@ pub(crate) fn programs_under(
     }
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
     let specification = specification::module(&derivation, &functions);
+    let nodes = graph.len();
+    if nodes > MAX_NODES {
+        let limit = MAX_NODES;
+        return Err(Errors::from(Error::TooLarge { name: name.to_owned(), nodes, limit }));
+    }
     let module = Module::compile(&specification, codegen)
         .map_err(|errors| Errors::of_code(name, &errors))?;
     let snapped = derivation.mechanism.snapped.clone();
