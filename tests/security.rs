@@ -67,7 +67,7 @@ fn a_mebibyte_of_expressions_ends_in_code_or_a_message() {
         let sum: String = (1..=products).map(|k| format!(" + a*sin(b + {k})^2")).collect();
         source(format!("{head}{sum}\"\n"))
     };
-    for products in [2_000, 20_000] {
+    for products in [9_000, 20_000] {
         let file = wide(products);
         assert!(file.text.len() <= MAX_BYTES);
         let what = format!("a sum of {products} products");

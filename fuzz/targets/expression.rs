@@ -7,8 +7,8 @@ use robot_symbolic::print::latex::{LatexStyle, Trigonometry, to_latex_limited};
 use robot_symbolic::{Formula, Graph, print};
 
 /// Nodes of an expression that is printed or expanded.
-const MAX_NODES: usize = 200;
-const MAX_SIZE: u64 = 10_000;
+const MAX_NODES: usize = 80;
+const MAX_SIZE: u64 = 500;
 
 fuzz_target!(|text: &str| {
     if let Err(error) = Formula::parse_with_dots(text) {
@@ -31,12 +31,13 @@ fuzz_target!(|text: &str| {
     if let Ok(latex) = to_latex_limited(expr, &LatexStyle::new(Trigonometry::Short), MAX_SIZE) {
         robot_fuzz::harmless_latex(&latex);
     }
-    let options = PolynomialOptions {
-        max_terms: 1_000,
-        max_products: 10_000,
-        ..PolynomialOptions::default()
-    };
+    // Expansions take long where they are long.
+    if !robot_fuzz::chosen(text.as_bytes(), 8) {
+        return;
+    }
+    let options =
+        PolynomialOptions { max_terms: 100, max_products: 500, ..PolynomialOptions::default() };
     if let Ok(polynomial) = Polynomial::of(expr, &options) {
-        assert!(polynomial.len() <= 1_000);
+        assert!(polynomial.len() <= 100);
     }
 });

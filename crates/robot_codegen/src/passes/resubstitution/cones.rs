@@ -1,8 +1,12 @@
 //! How many operations depend on a value alone.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use crate::program::{Operation, Program, Stage, Value};
+
+/// How many values the queries may visit, after which nothing gains: each query on a sum of n terms may
+/// visit all of them, and n queries n² values. Robots of 64 joints stay far below.
+const MAX_VISITS: u64 = 30_000_000;
 
 /// The operations of a program under replacement, with their uses.
 pub(super) struct Cones {
@@ -11,6 +15,8 @@ pub(super) struct Cones {
     early: Vec<bool>,
     /// How often what is needed uses each value. The queries change it and change it back.
     uses: RefCell<Vec<usize>>,
+    /// The values that queries have visited.
+    visits: Cell<u64>,
 }
 
 impl Cones {
@@ -25,6 +31,7 @@ impl Cones {
             costs: program.values().map(cost).collect(),
             uses: RefCell::new(program.uses().into_iter().map(|uses| uses as usize).collect()),
             early,
+            visits: Cell::new(0),
         }
     }
 
@@ -44,10 +51,10 @@ impl Cones {
     }
 
     /// The operations that would go if the value were computed from other operands at a cost; 0
-    /// where none would.
+    /// where none would, or where it would take too long to say.
     pub(super) fn gain(&self, value: Value, operands: &[Value], cost: usize) -> usize {
         let mut uses = self.uses.borrow_mut();
-        if uses[value.index()] == 0 {
+        if uses[value.index()] == 0 || self.visits.get() > MAX_VISITS {
             return 0;
         }
         let added: usize = operands.iter().map(|operand| self.hold(*operand, &mut uses)).sum();
@@ -95,6 +102,7 @@ impl Cones {
     fn release(&self, value: Value, uses: &mut [usize]) -> usize {
         let (mut pending, mut cost) = (vec![value], 0);
         while let Some(value) = pending.pop() {
+            self.visits.set(self.visits.get() + 1);
             uses[value.index()] -= 1;
             if uses[value.index()] == 0 {
                 cost += self.costs[value.index()];
@@ -108,6 +116,7 @@ impl Cones {
     fn hold(&self, value: Value, uses: &mut [usize]) -> usize {
         let (mut pending, mut cost) = (vec![value], 0);
         while let Some(value) = pending.pop() {
+            self.visits.set(self.visits.get() + 1);
             uses[value.index()] += 1;
             if uses[value.index()] == 1 {
                 cost += self.costs[value.index()];
@@ -115,5 +124,30 @@ impl Cones {
             }
         }
         cost
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::{Builder, Source};
+
+    #[test]
+    fn queries_on_a_long_sum_end() {
+        let mut b = Builder::new();
+        let x = b.load(Source::Input(0));
+        let mut sum = x;
+        for number in 1..=40_000 {
+            let factor = b.constant(1.0 + f64::from(number) / 7.0);
+            let term = b.mul(factor, x);
+            sum = b.add(sum, term);
+        }
+        let program = b.finish(vec![sum]);
+        let cones = Cones::new(&program);
+        assert_eq!(cones.size(sum), 80_000);
+        let sizes: Vec<usize> = program.values().map(|(value, _)| cones.size(value)).collect();
+        // 40,000 queries of up to 160,000 visits each would be 3.2 thousand million.
+        assert!(cones.visits.get() <= MAX_VISITS + 400_000, "{}", cones.visits.get());
+        assert_eq!(sizes.last(), Some(&0));
     }
 }
