@@ -80,12 +80,16 @@ fn largest(found: &[f64], expected: &Value) -> f64 {
     found.iter().zip(&expected).fold(0.0, |worst, (a, b)| worst.max((a - b).abs()))
 }
 
-fn agrees(name: &str) {
+/// The fixture of an arm: its figures, and states with what Pinocchio makes of them.
+fn fixture(name: &str) -> Value {
     let path = format!("../../tests/fixtures/oracle/{name}.json");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    let fixture: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    let text = urdf(name, &fixture["mechanism"]);
-    let robot = read(&text).robot;
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn agrees(name: &str, text: &str) {
+    let fixture = fixture(name);
+    let robot = read(text).robot;
     let mechanism = Mechanism::nominal(&robot).unwrap();
     let states = fixture["states"].as_array().unwrap();
     assert!(states.len() >= 8);
@@ -107,7 +111,7 @@ fn agrees(name: &str) {
             assert!(worst <= 1e-9, "{name}: {body} is off by {worst:e}");
         }
     }
-    let toml = import("arm.urdf", &text, &Options::default()).unwrap().toml;
+    let toml = import("arm.urdf", text, &Options::default()).unwrap().toml;
     let again = read_toml("arm.toml", &toml).unwrap_or_else(|found| panic!("{found}"));
     assert!(again.warnings.is_empty(), "{}", again.warnings);
     assert_eq!(difference(&robot, &again.robot), 0.0, "{name}");
@@ -116,6 +120,18 @@ fn agrees(name: &str) {
 #[test]
 fn arms_with_published_figures_agree_with_pinocchio() {
     for name in ["ur5", "panda", "iiwa", "puma560", "stanford", "scara"] {
-        agrees(name);
+        agrees(name, &urdf(name, &fixture(name)["mechanism"]));
+    }
+}
+
+/// The files themselves, where they lie beside the project.
+#[test]
+fn files_beside_the_project_agree_with_pinocchio() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/urdf");
+    for name in ["ur5", "panda", "iiwa", "puma560", "stanford", "scara"] {
+        if let Ok(text) = std::fs::read_to_string(folder.join(format!("{name}.urdf"))) {
+            agrees(name, &text);
+            println!("{name}.urdf agrees");
+        }
     }
 }
