@@ -1,0 +1,105 @@
+//! Writes the robots for the other contenders, and times the generated code as they are timed.
+//!
+//! ```text
+//! calls models FOLDER      FOLDER/<robot>.txt for each robot of the comparison
+//! calls time NAME          a line of JSON for each figure, NAME before "standard" or "polynomial"
+//! ```
+
+mod robot_data;
+mod timing;
+
+use std::error::Error;
+use std::hint::black_box;
+
+use calls::{BATCH, Calls, Name, Random, STATES};
+
+use crate::timing::nanoseconds;
+
+/// The robots of the comparison: those whose figures are numbers.
+const ROBOTS: [&str; 6] = ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"];
+
+/// The functions of the comparison.
+const FUNCTIONS: [&str; 7] = [
+    "inverse_dynamics",
+    "mass_matrix",
+    "forward_dynamics",
+    "inverse_dynamics_derivatives",
+    "forward_dynamics_derivatives",
+    "bias",
+    "gravity",
+];
+
+/// Prints figures; `compiled` says for which machine.
+struct Timer {
+    compiled: String,
+}
+
+impl Timer {
+    fn report(&self, (robot, sine, function): Name, suffix: &str, ns: f64) {
+        let compiled = &self.compiled;
+        println!(
+            r#"{{"peer": "{compiled} {sine}", "robot": "{robot}", "function": "{function}{suffix}", "ns": {ns:.2}}}"#
+        );
+    }
+}
+
+impl Calls for Timer {
+    fn call<I: Copy, R>(
+        &mut self,
+        name: Name,
+        inputs: impl Fn(&mut Random) -> I,
+        call: impl Fn(&I) -> R,
+        waits: impl Fn(&mut I) -> &mut [f64],
+        first: impl Fn(&R) -> f64,
+    ) {
+        if !ROBOTS.contains(&name.0) || !FUNCTIONS.contains(&name.2) {
+            return;
+        }
+        let mut random = Random::default();
+        let states: Vec<I> = (0..STATES).map(|_| inputs(&mut random)).collect();
+        let throughput = nanoseconds(STATES, |i| {
+            black_box(call(&states[i]));
+        });
+        self.report(name, "", throughput);
+        let mut previous = 0.0;
+        let latency = nanoseconds(STATES, |i| {
+            let mut state = states[i];
+            waits(&mut state).iter_mut().for_each(|number| *number += previous * 0.0);
+            previous = first(&black_box(call(&state)));
+        });
+        self.report(name, " latency", latency);
+    }
+
+    fn batch<const N: usize>(
+        &mut self,
+        name: Name,
+        call: impl Fn(&[[f64; N]], &[[f64; N]], &[[f64; N]], &mut [[f64; N]]),
+    ) {
+        if !ROBOTS.contains(&name.0) {
+            return;
+        }
+        let mut random = Random::default();
+        let [q, qd, qdd, mut tau] =
+            [(); 4].map(|()| (0..BATCH).map(|_| random.array()).collect::<Vec<_>>());
+        let ns = nanoseconds(1, |_| {
+            call(black_box(&q), black_box(&qd), black_box(&qdd), &mut tau);
+            black_box(&tau);
+        });
+        self.report(name, "", ns / BATCH as f64);
+    }
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        ["models", folder] => {
+            for robot in ROBOTS {
+                let path = format!("{}/../../robots/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
+                std::fs::write(format!("{folder}/{robot}.txt"), robot_data::of_file(robot, &path)?)?;
+            }
+        }
+        ["time", name] => calls::all(&mut Timer { compiled: (*name).to_owned() }),
+        _ => return Err("calls models FOLDER | calls time NAME".into()),
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+"""The tables of docs/performance.md from the lines of a run.   table.py RESULTS.jsonl
+
+A figure is the median over the rounds; a ratio is the geometric mean over four robots.
+"""
+
+import json
+import math
+import platform
+import statistics
+import subprocess
+import sys
+from collections import defaultdict
+
+ROBOTS = ["puma560", "ur5", "iiwa", "panda"]
+FUNCTIONS = [
+    "inverse_dynamics",
+    "mass_matrix",
+    "forward_dynamics",
+    "inverse_dynamics_derivatives",
+    "forward_dynamics_derivatives",
+    "bias",
+    "gravity",
+    "regressor",
+    "pose_and_jacobian",
+]
+PEERS = ["pinocchio", "casadi"]
+OURS = ["native standard", "native polynomial"]
+
+
+def read(path):
+    figures, errors = defaultdict(list), {}
+    for line in open(path):
+        row = json.loads(line)
+        if "ns" in row:
+            key = (row["peer"], row["robot"], row["function"])
+            figures[key].append(row["ns"])
+            if "error" in row:
+                errors[key] = row["error"]
+    return {key: statistics.median(values) for key, values in figures.items()}, errors
+
+
+def geometric_mean(values):
+    return math.exp(sum(map(math.log, values)) / len(values))
+
+
+def table(heads, rows):
+    print("| " + " | ".join(heads) + " |")
+    print("|---" * len(heads) + "|")
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def command(*words):
+    return subprocess.run(words, capture_output=True, text=True).stdout.splitlines()[0]
+
+
+def main():
+    figures, errors = read(sys.argv[1])
+    processor = next(line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name"))
+    print(f"{processor}, {platform.libc_ver()[0]} {platform.libc_ver()[1]}, {command('rustc', '--version')}, "
+          f"{command('clang++', '--version')}, {command('gcc', '--version')}\n")
+
+    def cell(peer, robot, function):
+        figure = figures.get((peer, robot, function))
+        return "" if figure is None else f"{figure:.0f}" if figure >= 100 else f"{figure:.1f}"
+
+    def ratio(ours, peer, function):
+        pairs = [(figures.get((peer, robot, function)), figures.get((ours, robot, function))) for robot in ROBOTS]
+        if any(None in pair for pair in pairs):
+            return ""
+        return f"{geometric_mean([theirs / own for theirs, own in pairs]):.2f}"
+
+    latencies = [f"{function} latency" for function in FUNCTIONS[:4]]
+    print("How many times faster, geometric mean over " + ", ".join(ROBOTS) + ":\n")
+    heads = ["function"] + [f"{own.split()[1]} / {peer}" for own in OURS for peer in PEERS]
+    rows = []
+    for function in FUNCTIONS + latencies:
+        row = [ratio(own, peer, function) for own in OURS for peer in PEERS]
+        if any(row):
+            rows.append([function] + row)
+    table(heads, rows)
+
+    print("Nanoseconds per call:\n")
+    contenders = sorted({peer for peer, _, _ in figures}, key=lambda peer: (peer in PEERS, peer))
+    for function in FUNCTIONS + latencies:
+        rows = [[robot] + [cell(peer, robot, function) for peer in contenders] for robot in ROBOTS + ["stanford", "scara"]]
+        if any(any(row[1:]) for row in rows):
+            print(f"`{function}`\n")
+            table(["robot"] + contenders, rows)
+
+    batches = [(peer, robot, function) for peer, robot, function in figures if function.endswith("_batch")]
+    if batches:
+        print("Batches of 512 states, nanoseconds per state, and the single call of the same kind over it:\n")
+        rows = []
+        for peer, robot, function in batches:
+            single = figures.get((peer, robot, function.removesuffix("_batch")))
+            figure = figures[peer, robot, function]
+            rows.append([f"{peer}: {function}", robot, f"{figure:.1f}", "" if single is None else f"{single / figure:.2f}"])
+        table(["", "robot", "ns per state", "single / batch"], rows)
+
+    for trigonometry in ["standard", "polynomial"]:
+        pairs = [(figures.get((f"plain {trigonometry}", robot, "inverse_dynamics")),
+                  figures.get((f"native {trigonometry}", robot, "inverse_dynamics"))) for robot in ROBOTS]
+        if not any(None in pair for pair in pairs):
+            mean = geometric_mean([plain / native for plain, native in pairs])
+            print(f"Compiled for any machine of the kind over compiled for this one, {trigonometry} sine: {mean:.2f}")
+    print("\nLargest difference of torques from the numeric solver, relative to the largest torque: "
+          + ", ".join(f"{peer} {max(error for (who, _, _), error in errors.items() if who == peer):.0e}"
+                      for peer in sorted({peer for peer, _, _ in errors})))
+
+
+if __name__ == "__main__":
+    main()
