@@ -157,17 +157,19 @@ pub mod planar_arm {
             let (qdd, qdd_rest) = qdd.as_chunks::<8>();
             let (tau, tau_rest) = tau.as_chunks_mut::<8>();
             for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(tau) {
-                let tau_states = self.inverse_dynamics_block(q, qd, qdd);
-                *tau = tau_states;
+                self.inverse_dynamics_block(q, qd, qdd, tau);
             }
-            let tau_states = self
-                .inverse_dynamics_block(
+            if !tau_rest.is_empty() {
+                let mut tau_states = [[0.0; 2]; 8];
+                self.inverse_dynamics_block(
                     &::robot_runtime::padded_states(q_rest),
                     &::robot_runtime::padded_states(qd_rest),
                     &::robot_runtime::padded_states(qdd_rest),
+                    &mut tau_states,
                 );
-            for (to, from) in tau_rest.iter_mut().zip(tau_states) {
-                *to = from;
+                for (to, from) in tau_rest.iter_mut().zip(tau_states) {
+                    *to = from;
+                }
             }
             count
         }
@@ -177,16 +179,15 @@ pub mod planar_arm {
             q: &[[f64; 2]; 8],
             qd: &[[f64; 2]; 8],
             qdd: &[[f64; 2]; 8],
-        ) -> [[f64; 2]; 8] {
-            let mut tau = [[0.0; 2]; 8];
-            for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(&mut tau) {
+            tau: &mut [[f64; 2]; 8],
+        ) {
+            for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(tau) {
                 let (s, c) = ::robot_runtime::sin_cos_each(
                     &self.inverse_dynamics_angles(q),
                 );
                 let result = self.inverse_dynamics_sc(&s, &c, qd, qdd);
                 *tau = result;
             }
-            tau
         }
         /// Joint torques of a motion.
         ///
@@ -301,17 +302,22 @@ pub mod planar_arm {
             let (m, m_rest) = m.as_chunks_mut::<8>();
             let (trace, trace_rest) = trace.as_chunks_mut::<8>();
             for ((q, m), trace) in q.iter().zip(m).zip(trace) {
-                let (m_states, trace_states) = self.mass_matrix_block(q);
-                *m = m_states;
-                *trace = trace_states;
+                self.mass_matrix_block(q, m, trace);
             }
-            let (m_states, trace_states) = self
-                .mass_matrix_block(&::robot_runtime::padded_states(q_rest));
-            for (to, from) in m_rest.iter_mut().zip(m_states) {
-                *to = from;
-            }
-            for (to, from) in trace_rest.iter_mut().zip(trace_states) {
-                *to = from;
+            if !m_rest.is_empty() {
+                let mut m_states = [[[0.0; 2]; 2]; 8];
+                let mut trace_states = [0.0; 8];
+                self.mass_matrix_block(
+                    &::robot_runtime::padded_states(q_rest),
+                    &mut m_states,
+                    &mut trace_states,
+                );
+                for (to, from) in m_rest.iter_mut().zip(m_states) {
+                    *to = from;
+                }
+                for (to, from) in trace_rest.iter_mut().zip(trace_states) {
+                    *to = from;
+                }
             }
             count
         }
@@ -319,17 +325,16 @@ pub mod planar_arm {
         fn mass_matrix_block(
             &self,
             q: &[[f64; 2]; 8],
-        ) -> ([[[f64; 2]; 2]; 8], [f64; 8]) {
-            let mut m = [[[0.0; 2]; 2]; 8];
-            let mut trace = [0.0; 8];
-            for ((q, m), trace) in q.iter().zip(&mut m).zip(&mut trace) {
+            m: &mut [[[f64; 2]; 2]; 8],
+            trace: &mut [f64; 8],
+        ) {
+            for ((q, m), trace) in q.iter().zip(m).zip(trace) {
                 let [_, q2] = *q;
                 let (s, c) = ::robot_runtime::sin_cos_each(&[q2]);
                 let result = self.mass_matrix_sc(&s, &c);
                 *m = result.m;
                 *trace = result.trace;
             }
-            (m, trace)
         }
         /// mass_matrix.
         ///

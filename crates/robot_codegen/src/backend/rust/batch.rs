@@ -112,7 +112,8 @@ impl Methods<'_, '_> {
         };
         let (used_rests, output_rests) = (with(&used, "rest"), with(&outputs, "rest"));
         let states = with(&outputs, "states");
-        let results = syntax::tuple_pattern(&states);
+        let zeros: Vec<&Expr> = slices.outputs.iter().map(|(_, _, zero)| zero).collect();
+        let rest = output_rests.first();
         let (pattern, blocks) = zip(used.iter().chain(&outputs).map(|name| plain_item(name)));
         let docs = doc::attributes(&[
             format!(
@@ -135,13 +136,18 @@ impl Methods<'_, '_> {
                 #(let (#used, #used_rests) = #used.as_chunks::<#lanes>();)*
                 #(let (#outputs, #output_rests) = #outputs.as_chunks_mut::<#lanes>();)*
                 for #pattern in #blocks {
-                    let #results = self.#block(#(#used),*);
-                    #(*#outputs = #states;)*
+                    self.#block(#(#used,)* #(#outputs),*);
                 }
-                let #results = self.#block(#(&#runtime::padded_states(#used_rests)),*);
-                #(for (to, from) in #output_rests.iter_mut().zip(#states) {
-                    *to = from;
-                })*
+                if !#rest.is_empty() {
+                    #(let mut #states = [#zeros; #lanes];)*
+                    self.#block(
+                        #(&#runtime::padded_states(#used_rests),)*
+                        #(&mut #states),*
+                    );
+                    #(for (to, from) in #output_rests.iter_mut().zip(#states) {
+                        *to = from;
+                    })*
+                }
                 count
             }
         }
@@ -201,30 +207,23 @@ impl Methods<'_, '_> {
         let inputs = slices.inputs.iter().filter(|(_, _, used)| *used);
         let parameters = inputs.map(|(name, ty, _)| quote!(#name: &[#ty; #lanes]));
         let parameters: Vec<TokenStream> = parameters.collect();
-        let blocks: Vec<Type> =
-            slices.outputs.iter().map(|(_, ty, _)| parse_quote!([#ty; #lanes])).collect();
-        let returned: Type = match blocks.as_slice() {
-            [block] => block.clone(),
-            blocks => parse_quote!((#(#blocks),*)),
-        };
-        let zeros = slices.outputs.iter();
-        let zeros = zeros.map(|(name, _, zero)| parse_quote!(let mut #name = [#zero; #lanes];));
-        let mut statements: Vec<Stmt> = zeros.collect();
-        statements.extend(self.loops(&mut slices));
-        let values = slices.output_names().map(syntax::variable).collect();
-        let signature = parse_quote! {
+        let outputs = slices.outputs.iter();
+        let outputs: Vec<TokenStream> =
+            outputs.map(|(name, ty, _)| quote!(#name: &mut [#ty; #lanes])).collect();
+        let statements = self.loops(&mut slices);
+        parse_quote! {
             #[inline(never)]
-            fn #block(&self, #(#parameters),*) -> #returned {}
-        };
-        syntax::with_body(signature, statements, syntax::tuple(values))
+            fn #block(&self, #(#parameters,)* #(#outputs),*) {
+                #(#statements)*
+            }
+        }
     }
 
     /// The loop over the states of a block.
     fn loops(&mut self, slices: &mut Slices) -> Vec<Stmt> {
         let outputs: Vec<Ident> = slices.output_names().cloned().collect();
         let stores = self.stores(&outputs);
-        let to_outputs: Vec<(Pat, Expr)> =
-            outputs.iter().map(|name| (syntax::binding(name), parse_quote!(&mut #name))).collect();
+        let to_outputs: Vec<(Pat, Expr)> = outputs.iter().map(plain_item).collect();
         if self.function.angles.results().is_empty() {
             let items = slices.used().map(plain_item).chain(to_outputs);
             let (pattern, states) = zip(items);
