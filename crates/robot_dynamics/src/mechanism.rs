@@ -125,6 +125,16 @@ pub struct MechanismFriction<'g> {
     pub smoothing: Option<Expr<'g>>,
 }
 
+impl<'g> MechanismFriction<'g> {
+    /// The direction of a velocity: its sign, or the smooth one.
+    pub(crate) fn sign(&self, velocity: Expr<'g>) -> Expr<'g> {
+        match self.smoothing {
+            Some(width) => (velocity / width).tanh(),
+            None => velocity.sign(),
+        }
+    }
+}
+
 /// A named frame in symbols.
 #[derive(Clone, Debug)]
 pub struct MechanismFrame<'g> {

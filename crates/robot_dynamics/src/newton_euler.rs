@@ -207,10 +207,7 @@ pub(crate) fn friction<'g>(
     contact_force: Vector<'g>,
     velocity: Expr<'g>,
 ) -> Expr<'g> {
-    let sign = match figures.smoothing {
-        Some(width) => (velocity / width).tanh(),
-        None => velocity.sign(),
-    };
+    let sign = figures.sign(velocity);
     let mut force = figures.viscous * velocity + figures.offset; // (4)
     if !figures.coulomb.is_zero() {
         let across = axis.cross(contact_force).norm();

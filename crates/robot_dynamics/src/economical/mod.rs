@@ -25,6 +25,7 @@ mod outward;
 pub mod pin;
 pub mod plan;
 mod posture;
+mod regressor;
 mod rotation;
 pub mod search;
 mod spatial;
@@ -41,6 +42,9 @@ pub use kinematics::Pose;
 use outward::{Accelerations, LinkState};
 use plan::LinkPlan;
 pub use plan::Plan;
+pub use regressor::{Column, RegressorColumns};
+pub(crate) use regressor::{unit_rotor, unit_wrenches};
+pub(crate) use spatial::Wrench;
 
 /// The economical recursion of a mechanism under a plan: its links in working frames, with
 /// regrouped inertias.

@@ -41,6 +41,8 @@ pub enum FunctionKind {
     InverseDynamicsDerivatives,
     /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ from q, q̇, τ.
     ForwardDynamicsDerivatives,
+    /// Y of Q = Y π from q, q̇, q̈, with the parameters of links and drives π.
+    Regressor,
 }
 
 impl FunctionKind {
@@ -64,6 +66,7 @@ impl FunctionKind {
         FunctionKind::CoriolisMatrix,
         FunctionKind::InverseDynamicsDerivatives,
         FunctionKind::ForwardDynamicsDerivatives,
+        FunctionKind::Regressor,
     ];
 
     /// The name in code and on the command line.
@@ -88,6 +91,7 @@ impl FunctionKind {
             FunctionKind::CoriolisMatrix => "coriolis_matrix",
             FunctionKind::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
             FunctionKind::ForwardDynamicsDerivatives => "forward_dynamics_derivatives",
+            FunctionKind::Regressor => "regressor",
         }
     }
 

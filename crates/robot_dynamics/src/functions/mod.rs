@@ -15,6 +15,7 @@ mod kinematics;
 mod mass_matrix;
 mod plain;
 mod plans;
+mod regressor;
 
 pub use kind::FunctionKind;
 pub use plans::search_plan;
@@ -153,6 +154,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::CoriolisMatrix => coriolis::coriolis_matrix(self),
             FunctionKind::InverseDynamicsDerivatives => derivatives::inverse_dynamics(self),
             FunctionKind::ForwardDynamicsDerivatives => derivatives::forward_dynamics(self),
+            FunctionKind::Regressor => regressor::regressor(self),
         };
         vec![function]
     }

@@ -4,9 +4,10 @@
 use robot_symbolic::{Expr, walk};
 
 use super::Derivation;
-use crate::economical::Pose;
+use crate::economical::{Column, Pose, RegressorColumns, Wrench, unit_rotor, unit_wrenches};
 use crate::matrix::SymmetricMatrix;
-use crate::mechanism::MechanismFrame;
+use crate::mechanism::{MechanismFrame, MechanismLink};
+use crate::newton_euler::{self, Effects, LinkMotion};
 use crate::vector::{Matrix, Vector};
 
 /// The poses of the links' frames.
@@ -105,4 +106,61 @@ pub(super) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> 
         energy -= link.mass * mechanism.gravity.dot(centre);
     }
     energy
+}
+
+/// The shares of the links' inertial parameters and of the rotors in the driving forces.
+pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> RegressorColumns<'g> {
+    let mechanism = &derivation.mechanism;
+    let effects = Effects { wrench: false, friction: false };
+    let motions = newton_euler::newton_euler(mechanism, effects).motions;
+    let of_link = |(index, motion): (usize, &LinkMotion<'g>)| {
+        let (omega, epsilon) = (motion.angular_velocity, motion.angular_acceleration);
+        let spin = Matrix::skew(omega);
+        let tensor = Matrix::skew(epsilon) + spin * spin;
+        let wrenches = unit_wrenches(tensor, omega, epsilon, motion.acceleration, false);
+        wrenches.map(|wrench| column(derivation, &motions, Some(index), wrench))
+    };
+    let of_rotor = |link: &MechanismLink<'g>| {
+        let none = Wrench::zero(mechanism.graph);
+        let Some(carrier) = link.parent.map(|parent| &motions[parent]) else {
+            return column(derivation, &motions, None, none);
+        };
+        let (torque, moment) = unit_rotor(
+            link.axis_in_parent(),
+            [link.velocity, link.acceleration],
+            carrier.angular_velocity,
+            carrier.angular_acceleration,
+        );
+        let mut column = column(derivation, &motions, link.parent, Wrench { moment, ..none });
+        column[link.coordinate] += torque * link.ratio;
+        column
+    };
+    RegressorColumns {
+        links: motions.iter().enumerate().flat_map(of_link).collect(),
+        rotors: mechanism.links.iter().map(of_rotor).collect(),
+    }
+}
+
+/// The shares of a wrench on a link in the driving forces.
+fn column<'g>(
+    derivation: &Derivation<'_, 'g>,
+    motions: &[LinkMotion<'g>],
+    link: Option<usize>,
+    mut wrench: Wrench<'g>,
+) -> Column<'g> {
+    let mechanism = &derivation.mechanism;
+    let mut column = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
+    let mut next = link;
+    while let Some(here) = next {
+        let (link, motion) = (&mechanism.links[here], &motions[here]);
+        let felt = if link.is_revolute() { wrench.moment } else { wrench.force };
+        column[link.coordinate] += felt.dot(link.axis) * link.ratio;
+        let turned = Wrench {
+            force: motion.rotation * wrench.force,
+            moment: motion.rotation * wrench.moment,
+        };
+        wrench = turned.about(motion.origin);
+        next = link.parent;
+    }
+    column
 }

@@ -71,6 +71,7 @@ impl FunctionKind {
                 | FunctionKind::Energies
                 | FunctionKind::CoriolisMatrix
                 | FunctionKind::InverseDynamicsDerivatives
+                | FunctionKind::Regressor
         ) || self.chooses_accelerations()
     }
 
