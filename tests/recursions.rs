@@ -5,10 +5,7 @@
 mod common;
 
 use common::{evaluate, largest_difference, magnitude, robot_files};
-use robot_dynamics::economical::{
-    Plan, Recursion,
-    plan::{Entry, LinkPlan, Origin, Turn},
-};
+use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::model::Robot;
 use robot_dynamics::newton_euler::{Effects, newton_euler};
@@ -57,45 +54,6 @@ fn references(robot: &Robot, random: &mut numeric::random::Random) -> Vec<Refere
     (0..STATES).map(reference).collect()
 }
 
-/// Every option of the economical recursion forced on and off, in a few combinations.
-fn plans(robot: &Robot) -> Vec<(String, Plan)> {
-    let links = robot.links.len();
-    let uniform = |name: &str, link: LinkPlan| (name.to_owned(), Plan::uniform(links, &link));
-    let basic = LinkPlan::BASIC;
-    let mut plans = vec![
-        ("default".to_owned(), Plan::default_for(robot)),
-        uniform("basic", basic.clone()),
-        uniform("angle sums", LinkPlan { angle_sum: true, ..basic.clone() }),
-        uniform("column", LinkPlan { column: true, ..basic.clone() }),
-        uniform(
-            "sums and column",
-            LinkPlan { angle_sum: true, column: true, turn: Turn::File, ..basic.clone() },
-        ),
-        uniform("products", LinkPlan { moment: [true; 3], ..basic.clone() }),
-        uniform("first moment", LinkPlan { turn: Turn::FirstMoment, ..basic.clone() }),
-    ];
-    for origin in [
-        Origin::File,
-        Origin::PreviousNormal,
-        Origin::ZeroXz,
-        Origin::ZeroYz,
-        Origin::MassCentre,
-        Origin::Parent,
-    ] {
-        plans.push(uniform(&format!("{origin:?}"), LinkPlan { origin, ..basic.clone() }));
-    }
-    for (kind, entry) in (0..3).flat_map(|kind| Entry::ALL.map(|entry| (kind, entry))) {
-        let mut link = basic.clone();
-        link.residual[kind] = Some(entry);
-        plans.push(uniform(&format!("residual {kind} {entry:?}"), link));
-    }
-    for link in 0..links {
-        let plan = Plan { unit_length: Some((link, link % 3)), ..plans[0].1.clone() };
-        plans.push((format!("unit of link {link}"), plan));
-    }
-    plans
-}
-
 fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
     let mut random = numeric::random::Random::new(seed);
     let references = references(robot, &mut random);
@@ -123,10 +81,8 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
     hold("the paper's Q", &plain.driving_forces, |reference| &reference.torques);
     hold("the paper's Q with loads", &loaded.driving_forces, |r| &r.torques_with_loads);
     hold("F_l and M_l", &torsors, |reference| &reference.link_wrenches);
-    for (plan_name, plan) in plans(robot) {
-        let torques = Recursion::new(&mechanism, &plan).unwrap().inverse_dynamics(false);
-        hold(&format!("the plan `{plan_name}`"), &torques, |reference| &reference.torques);
-    }
+    let recursion = Recursion::new(&mechanism, &Plan::default_for(robot)).unwrap();
+    hold("the economical Q", &recursion.inverse_dynamics(false), |r| &r.torques);
     worst
 }
 

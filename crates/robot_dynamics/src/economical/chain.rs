@@ -10,9 +10,10 @@ use crate::mechanism::Mechanism;
 use crate::model::JointKind;
 use crate::vector::{Matrix, Vector};
 
-/// Residuals may exceed the robot's own mass, first and second moment by no more than this factor:
-/// beyond it, differences of large numbers would cost digits.
-const RESIDUAL_CAP: f64 = 3.0;
+/// Residuals may exceed the robot's own mass, first and second moment by no more than this factor,
+/// and working frames lie no farther off than this many of its reaches: beyond, differences of large
+/// numbers would cost digits.
+const GROWTH_CAP: f64 = 3.0;
 
 /// A mechanism in working frames.
 #[derive(Clone, Debug)]
@@ -72,6 +73,30 @@ pub(crate) struct Base<'g> {
     /// Those of the links, and of the base: at first nothing.
     inertias: Vec<PseudoInertia<'g>>,
     regrouped: Vec<PseudoInertia<'g>>,
+    limits: Limits,
+}
+
+/// What a plan may not exceed, from the robot's own size.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    /// How far an origin may be shifted along its axis, m.
+    shift: f64,
+    /// Mass, first and second moment of a residual.
+    residual: [f64; 3],
+}
+
+impl Limits {
+    fn of(mechanism: &Mechanism<'_>) -> Limits {
+        let size = |expr: Expr<'_>| expr.as_number().map_or(0.0, |number| number.to_f64().abs());
+        let links = &mechanism.links;
+        let mass: f64 = links.iter().map(|link| size(link.mass)).sum();
+        let lengths = links.iter().flat_map(|link| link.translation.0);
+        let reach = lengths.map(size).sum::<f64>().max(1e-3);
+        Limits {
+            shift: GROWTH_CAP * reach,
+            residual: [0, 1, 2].map(|power| GROWTH_CAP * mass * reach.powi(power)),
+        }
+    }
 }
 
 impl<'g> Base<'g> {
@@ -85,13 +110,14 @@ impl<'g> Base<'g> {
             .collect();
         let mut regrouped = inertias.clone();
         regroup(mechanism, &displacements(mechanism, &file), &mut regrouped);
-        Some(Base { file, inertias, regrouped })
+        Some(Base { file, inertias, regrouped, limits: Limits::of(mechanism) })
     }
 }
 
 /// The mechanism under a plan.
 pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Plan) -> Chain<'g> {
-    let placed = frames::place(mechanism, &plan.links, &base.file, &base.regrouped);
+    let placed =
+        frames::place(mechanism, &plan.links, &base.file, &base.regrouped, base.limits.shift);
     let mut inertias = base.inertias.clone();
     for (inertia, (frame, file)) in inertias.iter_mut().zip(placed.iter().zip(&base.file)) {
         let back = file.axes.transpose();
@@ -99,8 +125,7 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Pla
     }
     let displacements = displacements(mechanism, &placed);
     regroup(mechanism, &displacements, &mut inertias);
-    let limits = residual_limits(mechanism, &displacements);
-    leave_residuals(mechanism, &plan.links, &displacements, &mut inertias, limits);
+    leave_residuals(mechanism, &plan.links, &displacements, &mut inertias, base.limits.residual);
 
     let mut chain = assemble(mechanism, &placed, &displacements, &inertias);
     if let Some((link, component)) = plan.unit_length {
@@ -156,15 +181,6 @@ fn move_inward<'g>(
     let parent = link.parent.unwrap_or(mechanism.links.len());
     let (rotation, origin) = displacements[index];
     inertias[parent] = inertias[parent].plus(moved.seen_from(rotation, origin));
-}
-
-/// What residuals may not exceed: mass, first and second moment of the whole robot.
-fn residual_limits(mechanism: &Mechanism<'_>, displacements: &[Displacement<'_>]) -> [f64; 3] {
-    let size = |expr: Expr<'_>| expr.as_number().map_or(0.0, |number| number.to_f64().abs());
-    let mass: f64 = mechanism.links.iter().map(|link| size(link.mass)).sum();
-    let reach: f64 =
-        displacements.iter().flat_map(|(_, origin)| origin.0).map(size).sum::<f64>().max(1e-3);
-    [0, 1, 2].map(|power| RESIDUAL_CAP * mass * reach.powi(power))
 }
 
 /// Gives back to links, from the tips to the base, what makes an entry of the parent vanish.

@@ -68,12 +68,14 @@ fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     Some(Matrix([x, y, z].map(|axis| axis.0)).transpose())
 }
 
-/// Places the working frames as the plan says, from the base outward.
+/// Places the working frames as the plan says, from the base outward; origins that would lie farther
+/// along their axes than `farthest`, in m, stay where the file has them.
 pub(crate) fn place<'g>(
     mechanism: &Mechanism<'g>,
     plans: &[LinkPlan],
     file: &[WorkingFrame<'g>],
     regrouped: &[PseudoInertia<'g>],
+    farthest: f64,
 ) -> Vec<WorkingFrame<'g>> {
     let mut placed: Vec<WorkingFrame<'g>> = vec![];
     for (index, link) in mechanism.links.iter().enumerate() {
@@ -94,7 +96,8 @@ pub(crate) fn place<'g>(
         let offset = if link.is_revolute() {
             let along =
                 origin_along(plan.origin, link, &file[index], next, previous, &regrouped[index]);
-            along.map(|t| file[index].axes.column(2) * t)
+            let is_near = |t: &Expr<'g>| t.as_number().is_none_or(|t| t.to_f64().abs() <= farthest);
+            along.filter(is_near).map(|t| file[index].axes.column(2) * t)
         } else {
             free_origin(plan.origin, link, previous.map(|(_, placed)| placed))
         };

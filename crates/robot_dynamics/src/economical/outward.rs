@@ -12,8 +12,9 @@ use super::posture::{Posture, postures};
 use super::rotation::Plane;
 use crate::vector::{Matrix, Vector};
 
-/// Levers shorter than this, in the chain's unit of length, bring nothing to rest.
-const MIN_REACH: f64 = 1e-2;
+/// Levers shorter than this, in the chain's unit of length, bring nothing to rest: the accelerations
+/// that they would take cost digits.
+const MIN_REACH: f64 = 5e-2;
 
 /// The frame shared by a group of links whose joint axes are parallel: before any of their joints
 /// turns it.
