@@ -1,6 +1,5 @@
 //! Batches over threads give the bytes of batches on one.
 #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
-#![allow(clippy::possible_missing_comma, reason = "the code of a macro stands on one line")]
 
 robot_macros::include_robot!(
     "robots/ur5.toml",

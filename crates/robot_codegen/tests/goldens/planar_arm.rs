@@ -11,6 +11,7 @@
     clippy::excessive_precision,
     clippy::large_types_passed_by_value,
     clippy::many_single_char_names,
+    clippy::possible_missing_comma,
     clippy::similar_names,
     clippy::suboptimal_flops,
     clippy::too_many_arguments,
