@@ -126,3 +126,28 @@ impl Number {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use quote::ToTokens;
+
+    use super::*;
+
+    fn literal(scalar: Scalar, value: f64) -> String {
+        let runtime: syn::Path = parse_quote!(::robot_runtime);
+        let number = Number::scalar(scalar, &runtime, Trigonometry::Standard);
+        number.constant(value).to_token_stream().to_string().replace(' ', "")
+    }
+
+    /// To the last bit: tests of generated code allow for the roundings of many operations.
+    #[test]
+    fn constants_are_the_nearest_numbers_of_the_type() {
+        let values = [0.1, 1.0 / 3.0, 9.81, 16_777_217.0, 1e-30, 3.0e38, 2.5e-7];
+        for value in values.into_iter().flat_map(|value| [value, -value]) {
+            let (double, single) = (literal(Scalar::F64, value), literal(Scalar::F32, value));
+            assert_eq!(double.parse::<f64>().unwrap(), value, "{double}");
+            assert_eq!(single.parse::<f32>().unwrap(), value as f32, "{single}");
+            assert!(single.len() <= double.len(), "{single} {double}");
+        }
+    }
+}
