@@ -25,6 +25,7 @@ pub fn pin_path(robot: &Path) -> PathBuf {
 pub fn pin_text(source: &Source, found: &Found) -> String {
     let pin = Pin {
         fingerprint: fingerprint(source),
+        measure: found.measure,
         operations: found.operations,
         plan: found.plan.clone(),
     };
@@ -68,6 +69,7 @@ fn fingerprint(source: &Source) -> String {
 #[cfg(test)]
 mod tests {
     use robot_dynamics::economical::Plan;
+    use robot_dynamics::economical::search::Measure;
 
     use super::*;
 
@@ -87,7 +89,13 @@ mod tests {
 
         let robot = crate::read(&file.source).unwrap().robot;
         let plan = Plan { unit_length: Some((0, 1)), ..Plan::default_for(&robot) };
-        let found = Found { plan: plan.clone(), operations: 7, tried: 1 };
+        let found = Found {
+            plan: plan.clone(),
+            measure: Measure::Operations,
+            operations: 7,
+            instructions: 5,
+            tried: 1,
+        };
         std::fs::write(pin_path(&path), pin_text(&file.source, &found)).unwrap();
         assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));
 

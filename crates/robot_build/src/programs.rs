@@ -4,7 +4,7 @@ use robot_codegen::Module;
 use robot_dynamics::description::{self, Budget, Described};
 use robot_dynamics::diagnostic::{Diagnostics, Source};
 use robot_dynamics::economical::Plan;
-use robot_dynamics::economical::search::search;
+use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::Snap;
 use robot_dynamics::model::Robot;
@@ -68,7 +68,8 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
 
 /// The plan that the options give, or that is searched.
 pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
-    let searched = || search(robot, &options.mechanism(robot)).map(|found| found.plan);
+    let measure = if options.fused { Measure::Instructions } else { Measure::Operations };
+    let searched = || search(robot, &options.mechanism(robot), measure).map(|found| found.plan);
     let given = options.plan.clone();
     if options.search { given.or_else(searched) } else { given }
 }

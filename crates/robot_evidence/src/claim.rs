@@ -168,6 +168,8 @@ struct Reader<'o> {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Outside {
     Circular,
+    /// Fills with zeros: a large result of which most is 0 starts with one.
+    Zeros,
     Memory,
     Panic,
     Other,
@@ -179,10 +181,9 @@ impl Outside {
         let plain = symbol.trim_start_matches("__aeabi_").trim_start_matches('_');
         if CIRCULAR.contains(&symbol) {
             Outside::Circular
-        } else if ["memcpy", "memset", "memmove", "memclr"]
-            .iter()
-            .any(|name| plain.starts_with(name))
-        {
+        } else if ["memset", "memclr"].iter().any(|name| plain.starts_with(name)) {
+            Outside::Zeros
+        } else if ["memcpy", "memmove"].iter().any(|name| plain.starts_with(name)) {
             Outside::Memory
         } else if panics.iter().any(|part| symbol.contains(part)) {
             Outside::Panic
@@ -269,7 +270,7 @@ impl Reader<'_> {
             let Referred::Outside(symbol) = called else { continue };
             let (symbol, place) = (symbol.clone(), here.clone());
             match Outside::of(&symbol) {
-                Outside::Circular => {}
+                Outside::Circular | Outside::Zeros => {}
                 Outside::Memory if takes_slices || self.profile == Profile::Dev => {}
                 Outside::Panic => _ = violations.insert(Violation::Panic { symbol, place }),
                 Outside::Memory | Outside::Other => {

@@ -11,6 +11,7 @@
 //! | the runtime's sines and cosines | a call that is not looked into: it loops over the angles | flat |
 //! | sines and cosines of the standard library | calls of `sin`, `cos` | calls of `sincos` or such |
 //! | copies of arrays | may call `memcpy` | none |
+//! | zeros of large results, such as the regressor's | may call `memset` | may call `memset` |
 //! | batches, which take slices | shown, nothing claimed | a loop over the states, no panic |
 //!
 //! This is the one part of the project that starts another program. Everything but [`prove`] works

@@ -16,6 +16,9 @@ pub struct Operations {
     pub trigonometric: usize,
     /// Square roots, absolute values, signs and hyperbolic tangents.
     pub other: usize,
+    /// Sums and differences with a product that nothing else uses: each can be one instruction with
+    /// it, a multiply-add.
+    pub fusible: usize,
 }
 
 impl Operations {
@@ -23,6 +26,12 @@ impl Operations {
     #[must_use]
     pub fn flops(&self) -> usize {
         self.multiplications + self.additions
+    }
+
+    /// Multiplications and additions where each fusible pair is one multiply-add.
+    #[must_use]
+    pub fn instructions(&self) -> usize {
+        self.flops() - self.fusible
     }
 }
 
@@ -41,7 +50,17 @@ pub fn operations(roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operat
                 node => node.operands().any(|operand| varies[operand.index()]),
             };
         }
-        for id in visit(nodes, roots(), |id| varies[id.index()]) {
+        let needed = visit(nodes, roots(), |id| varies[id.index()]);
+        let uses = uses(nodes, roots(), &needed);
+        let fuses = |id: Id| {
+            let id = unsigned(nodes, id);
+            let is_product = matches!(nodes[id.index()], Node::Mul(..));
+            is_product && varies[id.index()] && uses[id.index()] == 1
+        };
+        for id in needed {
+            if let Node::Add(a, b) | Node::Sub(a, b) = nodes[id.index()] {
+                count.fusible += usize::from(fuses(a) || fuses(b));
+            }
             match nodes[id.index()] {
                 Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Neg(_) => {}
                 Node::Mul(..) => count.multiplications += 1,
@@ -53,6 +72,25 @@ pub fn operations(roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operat
         }
     });
     count
+}
+
+/// How often each node is an operand of `needed` nodes or a root; a change of sign is part of its use.
+fn uses(nodes: &[Node], roots: impl Iterator<Item = Id>, needed: &[Id]) -> Vec<u32> {
+    let mut uses = vec![0; nodes.len()];
+    let users = needed.iter().map(|id| nodes[id.index()]);
+    let users = users.filter(|node| !matches!(node, Node::Neg(_)));
+    for id in users.flat_map(|node| node.operands()).chain(roots) {
+        uses[unsigned(nodes, id).index()] += 1;
+    }
+    uses
+}
+
+/// The node without its changes of sign.
+fn unsigned(nodes: &[Node], mut id: Id) -> Id {
+    while let Node::Neg(inner) = nodes[id.index()] {
+        id = inner;
+    }
+    id
 }
 
 /// The nodes below `roots` for which `enter` holds, operands first.
@@ -84,5 +122,19 @@ mod tests {
         let count = operations(&roots, |symbol| symbol.index() == 0);
         assert_eq!((count.multiplications, count.additions, count.trigonometric), (2, 1, 1));
         assert_eq!(operations(&roots, |_| false).flops(), 6);
+    }
+
+    #[test]
+    fn a_product_fuses_with_the_sum_that_alone_uses_it() {
+        let g = Graph::new();
+        let [a, b, c, d] = ["a", "b", "c", "d"].map(|name| g.symbol(name));
+        let count = |roots: &[crate::Expr<'_>]| operations(roots, |_| false);
+        assert_eq!(count(&[a * b + c]).instructions(), 1);
+        assert_eq!(count(&[c - a * b]).instructions(), 1);
+        // Of two products one.
+        assert_eq!(count(&[a * b + c * d]).instructions(), 2);
+        // Used twice, or a result itself.
+        assert_eq!(count(&[a * b + c, a * b + d]).instructions(), 3);
+        assert_eq!(count(&[a * b + c, -(a * b)]).instructions(), 2);
     }
 }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use robot_build::{pin_path, pin_text, snapping, write_if_changed};
-use robot_dynamics::economical::search::search;
+use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::economical::{Plan, plan::LinkPlan};
 use robot_dynamics::mechanism::MechanismOptions;
 
@@ -21,6 +21,10 @@ where builds find it: they do not search. After a change of the robot file, sear
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
+    /// Minimise instructions, a product and the sum that alone uses it as one: for code generated with
+    /// --fused, on targets that multiply and add in one instruction
+    #[arg(long)]
+    fused: bool,
     /// Show what is found and pin nothing
     #[arg(long)]
     dry_run: bool,
@@ -30,7 +34,8 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let robot = self.robot.read(terminal)?.robot;
         let options = MechanismOptions::ROUNDED.with_snap(self.robot.snap(), &robot);
-        let Some(found) = search(&robot, &options) else {
+        let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
+        let Some(found) = search(&robot, &options, measure) else {
             return Err(Failure::input(format!(
                 "{}: a joint axis depends on parameters; the economical recursion has no forms for it",
                 robot.name
@@ -38,8 +43,8 @@ impl Arguments {
         };
         writeln!(
             terminal.output,
-            "{}: {} multiplications and additions, the best of {} forms\n",
-            robot.name, found.operations, found.tried
+            "{}: {} multiplications and additions, {} with multiply-adds; the best of {} forms\n",
+            robot.name, found.operations, found.instructions, found.tried
         )?;
         let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
         write!(terminal.output, "{}", text::table(&rows(&found.plan, &names)))?;

@@ -5,12 +5,15 @@ use std::fmt::Write as _;
 use serde::Deserialize;
 
 use super::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
+use super::search::Measure;
 
 /// A plan with what it was searched for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
     /// Identifies the text of the robot file; a pin with another is stale.
     pub fingerprint: String,
+    /// What the search minimised.
+    pub measure: Measure,
     /// The multiplications and additions of inverse dynamics under the plan.
     pub operations: usize,
     /// The plan.
@@ -70,6 +73,9 @@ const RATES: [(&str, FreeRate); 6] = [
     ("next_y", FreeRate::NextY),
 ];
 
+const MEASURES: [(&str, Measure); 2] =
+    [("operations", Measure::Operations), ("instructions", Measure::Instructions)];
+
 impl Pin {
     /// The text, TOML.
     #[must_use]
@@ -80,6 +86,9 @@ impl Pin {
         );
         // Writing to a string does not fail.
         let _ = writeln!(text, "format = 1\nfingerprint = \"{}\"", self.fingerprint);
+        if self.measure == Measure::Instructions {
+            text.push_str("measure = \"instructions\"\n");
+        }
         let _ = writeln!(text, "operations = {}", self.operations);
         if let Some((link, component)) = self.plan.unit_length {
             let _ = writeln!(text, "unit_length = [{link}, {component}]");
@@ -105,6 +114,10 @@ impl Pin {
         let unit_length = raw.unit_length.map(|[link, component]| (link, component));
         Ok(Pin {
             fingerprint: raw.fingerprint,
+            measure: raw
+                .measure
+                .as_deref()
+                .map_or(Ok(Measure::Operations), |name| value_of(&MEASURES, name))?,
             operations: raw.operations,
             plan: Plan { links, unit_length },
         })
@@ -150,6 +163,8 @@ fn value_of<T: Copy>(table: &[(&'static str, T)], name: &str) -> Result<T, PinEr
 struct RawPin {
     format: u32,
     fingerprint: String,
+    /// Operations where it is not said.
+    measure: Option<String>,
     operations: usize,
     unit_length: Option<[usize; 2]>,
     #[serde(default)]
@@ -217,7 +232,10 @@ mod tests {
             ..LinkPlan::BASIC
         });
         let plan = Plan { links: links.collect(), unit_length: Some((3, 1)) };
-        let pin = Pin { fingerprint: "ab12".to_owned(), operations: 239, plan };
+        let fingerprint = "ab12".to_owned();
+        let pin = Pin { fingerprint, measure: Measure::Operations, operations: 239, plan };
+        assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin.clone()));
+        let pin = Pin { measure: Measure::Instructions, ..pin };
         assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin));
     }
 
@@ -225,6 +243,7 @@ mod tests {
     fn other_text_is_no_pin() {
         let pin = Pin {
             fingerprint: String::new(),
+            measure: Measure::Operations,
             operations: 0,
             plan: Plan { links: vec![LinkPlan::BASIC], unit_length: None },
         };

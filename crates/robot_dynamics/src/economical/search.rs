@@ -4,7 +4,7 @@
 //! that a plan's cost is what the code will have. A plan is taken only where its torques agree with
 //! those of the paper's iterations at test states.
 
-use robot_symbolic::{Expr, Graph, SymbolId, operations, walk};
+use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use super::Recursion;
 use super::chain::Base;
@@ -22,13 +22,37 @@ const DESCENTS: usize = 2;
 /// Plans after which no new descent begins.
 const MAX_TRIES: usize = 3000;
 
+/// What a search minimises.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    /// Multiplications and additions.
+    #[default]
+    Operations,
+    /// The same where each product and the sum that alone uses it are one multiply-add: for targets
+    /// that have the instruction, and code that uses it.
+    Instructions,
+}
+
+impl Measure {
+    fn of(self, count: &Operations) -> usize {
+        match self {
+            Measure::Operations => count.flops(),
+            Measure::Instructions => count.instructions(),
+        }
+    }
+}
+
 /// What a search found.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The cheapest plan.
     pub plan: Plan,
-    /// Its multiplications and additions, sines and cosines apart.
+    /// What was minimised.
+    pub measure: Measure,
+    /// The plan's multiplications and additions, sines and cosines apart.
     pub operations: usize,
+    /// The same, fusible pairs counted once.
+    pub instructions: usize,
     /// How many plans were generated and counted.
     pub tried: usize,
 }
@@ -63,12 +87,12 @@ pub struct Scope {
     pub free: bool,
 }
 
-/// Searches the plan with the fewest multiplications and additions for inverse dynamics.
+/// Searches the cheapest plan for inverse dynamics.
 ///
 /// The robot's parameters are free: what depends on them alone costs nothing. `None` where the
 /// economical recursion does not apply (a joint axis that depends on parameters).
 #[must_use]
-pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
+pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Option<Found> {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, options);
     let base = Base::new(&mechanism)?;
@@ -77,6 +101,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions) -> Option<Found> {
     let torques: ObjectiveOf<'_, '_> =
         &|recursion| Objective::of(recursion.inverse_dynamics(false));
     let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
+    search.measure = measure;
     Some(search.run(Scope { motions: true, composites: false, free: false }))
 }
 
@@ -137,6 +162,7 @@ struct Search<'m, 'g> {
     parameters: Vec<SymbolId>,
     states: Vec<Vec<f64>>,
     reference: Vec<Vec<f64>>,
+    measure: Measure,
     tried: usize,
 }
 
@@ -155,7 +181,8 @@ impl<'m, 'g> Search<'m, 'g> {
         let states: Vec<Vec<f64>> =
             (0..4).map(|state| test_state(state, graph.symbol_count())).collect();
         let reference = states.iter().map(|state| evaluate(reference, state)).collect();
-        Search { mechanism, base, objective, parameters, states, reference, tried: 0 }
+        let measure = Measure::Operations;
+        Search { mechanism, base, objective, parameters, states, reference, measure, tried: 0 }
     }
 
     /// The best of the descents from the cheapest of a few plans, and of further descents from
@@ -166,11 +193,11 @@ impl<'m, 'g> Search<'m, 'g> {
             ranked.push((self.cost(&start), start));
         }
         ranked.sort_by_key(|(cost, _)| *cost);
-        let (mut operations, mut plan) = ranked[0].clone();
+        let (mut best, mut plan) = ranked[0].clone();
         for (cost, start) in ranked.into_iter().take(DESCENTS) {
             let found = self.descend(scope, start, cost);
-            if found.0 < operations {
-                (operations, plan) = found;
+            if found.0 < best {
+                (best, plan) = found;
             }
         }
         // Out of a dead end by a few changes at random, from there downhill again.
@@ -179,11 +206,14 @@ impl<'m, 'g> Search<'m, 'g> {
             let kicked = self.kick(scope, &plan, &mut steps);
             let cost = self.cost(&kicked);
             let (cost, candidate) = self.descend(scope, kicked, cost);
-            if cost <= operations && self.better(&candidate, operations + 1).is_some() {
-                (operations, plan) = (cost, candidate);
+            if cost <= best && self.better(&candidate, best + 1).is_some() {
+                (best, plan) = (cost, candidate);
             }
         }
-        Found { plan, operations, tried: self.tried }
+        let tried = self.tried;
+        let count = self.operations(&self.candidate(&plan).counted);
+        let (operations, instructions) = (count.flops(), count.instructions());
+        Found { plan, measure: self.measure, operations, instructions, tried }
     }
 
     /// A plan with a few options changed.
@@ -198,24 +228,24 @@ impl<'m, 'g> Search<'m, 'g> {
         kicked
     }
 
-    fn candidate(&mut self, plan: &Plan) -> Objective<'g> {
-        self.tried += 1;
+    fn candidate(&self, plan: &Plan) -> Objective<'g> {
         (self.objective)(&Recursion::from_base(self.mechanism, self.base, plan))
     }
 
     fn cost(&mut self, plan: &Plan) -> usize {
-        let candidate = self.candidate(plan);
-        self.count(&candidate.counted)
+        self.tried += 1;
+        self.measure.of(&self.operations(&self.candidate(plan).counted))
     }
 
-    fn count(&self, roots: &[Expr<'g>]) -> usize {
-        operations(roots, |symbol| self.parameters.contains(&symbol)).flops()
+    fn operations(&self, roots: &[Expr<'g>]) -> Operations {
+        operations(roots, |symbol| self.parameters.contains(&symbol))
     }
 
     /// The cost where it is below a bound and the values are right.
     fn better(&mut self, plan: &Plan, bound: usize) -> Option<usize> {
+        self.tried += 1;
         let candidate = self.candidate(plan);
-        let cost = self.count(&candidate.counted);
+        let cost = self.measure.of(&self.operations(&candidate.counted));
         (cost < bound && self.is_accurate(&candidate.checked)).then_some(cost)
     }
 
