@@ -79,7 +79,7 @@ fn uses(nodes: &[Node], roots: impl Iterator<Item = Id>, needed: &[Id]) -> Vec<u
     let mut uses = vec![0; nodes.len()];
     let users = needed.iter().map(|id| nodes[id.index()]);
     let users = users.filter(|node| !matches!(node, Node::Neg(_)));
-    for id in users.flat_map(|node| node.operands()).chain(roots) {
+    for id in users.flat_map(Node::operands).chain(roots) {
         uses[unsigned(nodes, id).index()] += 1;
     }
     uses
