@@ -16,7 +16,7 @@ use crate::programs::read;
 const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 500_000,
-    max_products: 10_000_000,
+    max_products: 4_000_000,
 };
 
 /// Which equations, and how they are written.
