@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::{evaluate, largest_difference, magnitude, robot_files};
+use common::{evaluate, largest_difference, magnitude, robot_files, with_free_axes};
 use nalgebra::DMatrix;
 use robot_dynamics::economical::{
     Plan, Recursion,
@@ -12,14 +12,14 @@ use robot_dynamics::economical::{
 };
 use robot_dynamics::functions::{Derivation, FunctionKind, search_plan};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::{Parameter, Robot};
+use robot_dynamics::model::Robot;
 use robot_dynamics::numeric::{
     self,
     random::{Random, Recipe, State},
 };
 use robot_dynamics::random;
 use robot_symbolic::differentiate::{forward, reverse};
-use robot_symbolic::{Expr, Formula, Graph, Rational, operations};
+use robot_symbolic::{Expr, Graph, operations};
 
 const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;
@@ -280,14 +280,7 @@ fn three_ways_to_the_derivatives_agree_with_the_numeric_solver() {
 fn functions_of_robots_with_free_axes_agree_with_the_numeric_solver() {
     let mut worst = [0.0; KINDS.len()];
     for seed in 3000..3008 {
-        let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(1 + seed as usize % 4) };
-        let mut robot = random::robot(&mut Random::new(seed), &recipe);
-        for (number, link) in (1..).zip(&mut robot.links) {
-            let name = format!("lean{number}");
-            link.joint.axis[1] = Formula::symbol(&name);
-            let value = Rational::new(number, 7);
-            robot.parameters.push(Parameter { name, value, unit: None, latex: None, doc: None });
-        }
+        let robot = with_free_axes(seed);
         let graph = Graph::new();
         let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
         assert!(derivation.recursion.is_none());

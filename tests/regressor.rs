@@ -3,10 +3,10 @@
 
 mod common;
 
-use common::{evaluate, largest_difference, magnitude, robot_files};
+use common::{evaluate, largest_difference, magnitude, robot_files, with_free_axes};
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::{Parameter, Robot};
+use robot_dynamics::model::Robot;
 use robot_dynamics::numeric::{
     self, LINK_PARAMETERS,
     random::{Random, Recipe, State},
@@ -130,14 +130,7 @@ fn regressors_of_robots_with_parameters() {
 #[test]
 fn regressors_of_robots_with_free_axes() {
     for seed in 3000..3008 {
-        let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(1 + seed as usize % 4) };
-        let mut robot = random::robot(&mut Random::new(seed), &recipe);
-        for (number, link) in (1..).zip(&mut robot.links) {
-            let name = format!("lean{number}");
-            link.joint.axis[1] = Formula::symbol(&name);
-            let value = Rational::new(number, 7);
-            robot.parameters.push(Parameter { name, value, unit: None, latex: None, doc: None });
-        }
+        let robot = with_free_axes(seed);
         check(&robot, seed, "free axes");
     }
 }

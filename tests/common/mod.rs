@@ -4,9 +4,13 @@
 pub mod energy;
 
 use robot_dynamics::description::read_toml;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric;
-use robot_symbolic::{Expr, walk};
+use robot_dynamics::model::{Parameter, Robot};
+use robot_dynamics::numeric::{
+    self,
+    random::{Random, Recipe},
+};
+use robot_dynamics::random;
+use robot_symbolic::{Expr, Formula, Rational, walk};
 
 /// The robot files of the project, by name.
 pub fn robot_files() -> Vec<(String, String)> {
@@ -37,6 +41,19 @@ pub fn read(name: &str, text: &str) -> Robot {
         Ok(described) => described.robot,
         Err(diagnostics) => panic!("{diagnostics}"),
     }
+}
+
+/// A random tree whose joint axes depend on parameters: no working frames can be chosen for it.
+pub fn with_free_axes(seed: u64) -> Robot {
+    let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(1 + seed as usize % 4) };
+    let mut robot = random::robot(&mut Random::new(seed), &recipe);
+    for (number, link) in (1..).zip(&mut robot.links) {
+        let name = format!("lean{number}");
+        link.joint.axis[1] = Formula::symbol(&name);
+        let value = Rational::new(number, 7);
+        robot.parameters.push(Parameter { name, value, unit: None, latex: None, doc: None });
+    }
+    robot
 }
 
 /// Nominal parameter values by name.

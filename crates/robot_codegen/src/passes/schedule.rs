@@ -35,7 +35,6 @@ pub fn run(program: &Program, schedule: Schedule) -> Program {
 }
 
 /// The operations of a program in another order, each after its operands.
-#[derive(Default)]
 struct Reordering {
     moved: Vec<Option<Value>>,
     operations: Vec<Operation>,
