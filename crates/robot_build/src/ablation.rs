@@ -2,6 +2,7 @@
 //! out.
 
 use robot_codegen::{FunctionCounts, Resubstitution};
+use robot_dynamics::description::Described;
 use robot_dynamics::diagnostic::Source;
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
@@ -60,7 +61,8 @@ fn each(plan: &mut Plan, change: fn(&mut LinkPlan)) {
 ///
 /// Everything that is wrong with the file or the options.
 pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Errors> {
-    let robot = read(source)?.robot;
+    let Described { robot, code, .. } = read(source)?;
+    let options = &options.or_of_file(&code);
     let plan = plan_of(&robot, options).unwrap_or_else(|| Plan::default_for(&robot));
     let counted = |without, plan: Plan, codegen: &robot_codegen::Options| -> Result<_, Errors> {
         let options = Options { plan: Some(plan), search: false, ..options.clone() };

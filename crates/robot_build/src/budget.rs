@@ -10,7 +10,7 @@ use std::fmt;
 use robot_codegen::backend::rust::Scalar;
 use robot_codegen::module::Function;
 use robot_codegen::stack;
-use robot_dynamics::description::Limit;
+use robot_dynamics::description::{Budget, Limit};
 use robot_dynamics::diagnostic::{Diagnostic, Diagnostics, Source, code};
 use robot_dynamics::functions::FunctionKind;
 
@@ -143,10 +143,14 @@ fn limits<'p>(
     programs: &'p Programs,
     function: &str,
 ) -> impl Iterator<Item = (Option<&'p Limit>, Option<&'p Limit>)> {
-    let kind = kind(function);
-    let budgets = programs.budgets.iter();
-    let budgets =
-        budgets.filter(move |budget| budget.function.is_none() || budget.function == kind);
+    let bundle = programs.bundles.iter().find(|bundle| bundle.name == function);
+    let known = || kind(function).map(FunctionKind::name);
+    let named = bundle.map(|bundle| bundle.name.as_str()).or_else(known);
+    let is_of = move |budget: &&Budget| match &budget.function {
+        Some(function) => named == Some(function.as_str()),
+        None => true,
+    };
+    let budgets = programs.budgets.iter().filter(is_of);
     budgets.map(|budget| (budget.max_operations.as_ref(), budget.max_stack.as_ref()))
 }
 

@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::Scalar;
 use robot_dynamics::economical::Plan;
+use robot_dynamics::functions::Bundle;
 
 use crate::cargo::{self, Directives};
 use crate::error::{Error, Errors};
 use crate::files::write_if_changed;
 use crate::generate::{Generated, generate};
-use crate::options::{Options, functions_named};
+use crate::options::{Options, functions_named, kinds_named};
 use crate::paths::{RobotFile, robot_files};
 use crate::pin::pin_path;
 
@@ -47,6 +48,7 @@ pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
 pub struct Builder {
     options: Options,
     functions: Option<Vec<String>>,
+    bundles: Vec<(String, Vec<String>)>,
     out_dir: Option<PathBuf>,
     package_dir: Option<PathBuf>,
     allow_outside: bool,
@@ -59,10 +61,26 @@ impl Builder {
         Builder::default()
     }
 
-    /// The functions to generate, by name; `"all"` for all that the robot has. Without this those of
-    /// [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that it has.
+    /// The functions to generate, by name; `"all"` for all that the robot has.
+    ///
+    /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; where it
+    /// chooses none, those of [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that the robot has.
     pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
         self.functions = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// A function of that name that computes several functions, given by name, in one call, and their
+    /// common work once: a bundle. Call it again for another.
+    ///
+    /// Where there are bundles and no [`Builder::functions`], there are bundles alone.
+    pub fn bundle(
+        mut self,
+        name: impl Into<String>,
+        functions: impl IntoIterator<Item = impl Into<String>>,
+    ) -> Builder {
+        let functions = functions.into_iter().map(Into::into).collect();
+        self.bundles.push((name.into(), functions));
         self
     }
 
@@ -215,6 +233,10 @@ impl Builder {
         let mut options = self.options.clone();
         if let Some(names) = &self.functions {
             options.functions = functions_named(names)?;
+        }
+        for (name, functions) in &self.bundles {
+            let functions = kinds_named(functions)?;
+            options.bundles.push(Bundle { name: name.clone(), functions });
         }
         let (mut modules, mut errors) = (vec![], vec![]);
         for path in paths {

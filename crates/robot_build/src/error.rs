@@ -4,9 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use robot_dynamics::diagnostic::{Diagnostics, quote};
-use robot_dynamics::functions::FunctionKind;
-
-use crate::options::ALL_FUNCTIONS;
+use robot_dynamics::functions::{ALL_FUNCTIONS, FunctionKind};
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -30,6 +28,14 @@ pub enum Error {
     UnknownFunction {
         /// The name.
         function: String,
+    },
+    /// A bundle that is none.
+    #[error("the bundle `{}`: {reason}", quote(bundle))]
+    Bundle {
+        /// Its name.
+        bundle: String,
+        /// What is wrong with it.
+        reason: String,
     },
     /// An empty list of functions.
     #[error("no functions are chosen; name some, or leave the choice out for all that there are")]

@@ -2,8 +2,9 @@
 
 use robot_codegen::backend::rust::{RustOptions, Scalar};
 use robot_codegen::{Cost, Fused, Trigonometry};
+use robot_dynamics::description::{Code, MAX_BUNDLES, check_bundle_name};
 use robot_dynamics::economical::Plan;
-use robot_dynamics::functions::FunctionKind;
+use robot_dynamics::functions::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::model::Robot;
 
@@ -18,9 +19,6 @@ pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::LinkWrenches,
 ];
 
-/// The word for all functions where functions are named.
-pub const ALL_FUNCTIONS: &str = "all";
-
 /// The states that a block of a batch holds where no other number is given: two or four vector
 /// registers of `f64` on most processors.
 pub const DEFAULT_BATCH: usize = 8;
@@ -28,23 +26,15 @@ pub const DEFAULT_BATCH: usize = 8;
 /// The most states that a block of a batch holds: its arrays lie on the stack.
 const MAX_BATCH: usize = 64;
 
-/// Which functions are generated.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Functions {
-    /// Those of [`DEFAULT_FUNCTIONS`] that the robot has.
-    #[default]
-    Usual,
-    /// All that the robot has.
-    All,
-    /// These; one that the robot lacks is an error.
-    Chosen(Vec<FunctionKind>),
-}
-
 /// What is generated, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The functions.
+    /// The functions, each by itself. [`Functions::Usual`] without bundles means what the robot file
+    /// chooses with `[code]`, and where that chooses nothing, [`DEFAULT_FUNCTIONS`].
     pub functions: Functions,
+    /// Functions in one call that shares their work; where [`Options::functions`] are the usual
+    /// ones, there are bundles alone.
+    pub bundles: Vec<Bundle>,
     /// The number type of the functions.
     pub scalar: Scalar,
     /// Whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
@@ -87,6 +77,7 @@ impl Default for Options {
         let rust = RustOptions::default();
         Options {
             functions: Functions::Usual,
+            bundles: vec![],
             scalar: rust.scalar,
             generic: rust.generic,
             batch: rust.batch,
@@ -104,37 +95,76 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The functions to generate for a robot.
+    /// With the functions that a robot file chooses, where these options choose none.
+    pub(crate) fn or_of_file(&self, code: &Code) -> Options {
+        if self.functions != Functions::Usual || !self.bundles.is_empty() {
+            return self.clone();
+        }
+        let Code { functions, bundles } = code.clone();
+        Options { functions, bundles, ..self.clone() }
+    }
+
+    /// The functions to generate for a robot, and the bundles.
     ///
     /// # Errors
     ///
     /// Each chosen function that the robot lacks, with the reason.
-    pub(crate) fn functions_of(&self, robot: &Robot) -> Result<Vec<FunctionKind>, Errors> {
-        let chosen = match &self.functions {
-            Functions::Usual => {
-                let usual = DEFAULT_FUNCTIONS.into_iter();
-                return Ok(usual.filter(|kind| kind.missing_in(robot).is_none()).collect());
-            }
-            Functions::All => return Ok(FunctionKind::of(robot)),
-            Functions::Chosen(chosen) => chosen,
+    pub(crate) fn functions_of(
+        &self,
+        robot: &Robot,
+    ) -> Result<(Vec<FunctionKind>, Vec<Bundle>), Errors> {
+        let has = |kind: &FunctionKind| kind.missing_in(robot).is_none();
+        let functions = match &self.functions {
+            Functions::Usual if !self.bundles.is_empty() => vec![],
+            Functions::Usual => DEFAULT_FUNCTIONS.into_iter().filter(has).collect(),
+            Functions::All => FunctionKind::of(robot),
+            Functions::Chosen(chosen) => once(chosen),
         };
-        let missing = chosen.iter().filter_map(|kind| {
+        let of_bundle = |bundle: &Bundle| {
+            let Bundle { name, functions } = bundle;
+            Bundle { name: name.clone(), functions: once(functions) }
+        };
+        let bundles: Vec<Bundle> = self.bundles.iter().map(of_bundle).collect();
+        let named = functions.iter().chain(bundles.iter().flat_map(|bundle| &bundle.functions));
+        let mut named: Vec<FunctionKind> = once(named);
+        named.retain(|kind| !has(kind));
+        let missing = named.into_iter().filter_map(|kind| {
             let why = kind.missing_in(robot)?;
             Some(Error::MissingFunction { function: kind.name(), robot: robot.name.clone(), why })
         });
-        Errors::check(missing.collect(), ())?;
-        let mut functions: Vec<FunctionKind> = vec![];
-        for kind in chosen {
-            if !functions.contains(kind) {
-                functions.push(*kind);
-            }
-        }
-        Ok(functions)
+        Errors::check(missing.collect(), (functions, bundles))
     }
 
-    /// What is wrong with the figures among the options.
-    pub(crate) fn check(&self) -> Result<(), Errors> {
+    /// What is wrong with bundles, whatever the robot.
+    fn wrong_bundles(&self) -> Vec<Error> {
         let mut errors = vec![];
+        for (index, bundle) in self.bundles.iter().enumerate() {
+            let mut report = |reason: String| {
+                errors.push(Error::Bundle { bundle: bundle.name.clone(), reason });
+            };
+            if let Err(reason) = check_bundle_name(&bundle.name) {
+                report(format!("it cannot have this name: {reason}"));
+            }
+            if self.bundles.iter().take(index).any(|earlier| earlier.is_alike(bundle)) {
+                report(
+                    "the name is another bundle's, or differs in case or underscores alone"
+                        .to_owned(),
+                );
+            }
+            if bundle.functions.is_empty() {
+                report("it has no functions; name some".to_owned());
+            }
+        }
+        if let Some(last) = self.bundles.get(MAX_BUNDLES) {
+            let reason = format!("there are at most {MAX_BUNDLES}; put more functions into one");
+            errors.push(Error::Bundle { bundle: last.name.clone(), reason });
+        }
+        errors
+    }
+
+    /// What is wrong with the options, whatever the robot.
+    pub(crate) fn check(&self) -> Result<(), Errors> {
+        let mut errors = self.wrong_bundles();
         let possible = 0.0..=MechanismOptions::MAX_SNAP;
         if let Some(snap) = self.snap.filter(|snap| !possible.contains(snap)) {
             errors.push(Error::Snap { snap: snap.to_string() });
@@ -168,6 +198,17 @@ impl Options {
     }
 }
 
+/// The functions in their order, each once.
+fn once<'f>(functions: impl IntoIterator<Item = &'f FunctionKind>) -> Vec<FunctionKind> {
+    let mut found: Vec<FunctionKind> = vec![];
+    for kind in functions {
+        if !found.contains(kind) {
+            found.push(*kind);
+        }
+    }
+    found
+}
+
 /// The functions of those names; [`ALL_FUNCTIONS`] among them means all.
 ///
 /// # Errors
@@ -177,14 +218,24 @@ pub(crate) fn functions_named(names: &[String]) -> Result<Functions, Errors> {
     if names.is_empty() {
         return Err(Errors::from(Error::NoFunctions));
     }
+    let (all, names): (Vec<_>, Vec<_>) =
+        names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
+    let kinds = kinds_named(&names)?;
+    Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
+}
+
+/// The functions of those names.
+///
+/// # Errors
+///
+/// Each name that is no function's.
+pub(crate) fn kinds_named(names: &[String]) -> Result<Vec<FunctionKind>, Errors> {
     let (mut kinds, mut errors) = (vec![], vec![]);
     for name in names {
         match FunctionKind::from_name(name) {
             Some(kind) => kinds.push(kind),
-            None if name == ALL_FUNCTIONS => {}
             None => errors.push(Error::UnknownFunction { function: name.clone() }),
         }
     }
-    let all = names.iter().any(|name| name == ALL_FUNCTIONS);
-    Errors::check(errors, if all { Functions::All } else { Functions::Chosen(kinds) })
+    Errors::check(errors, kinds)
 }

@@ -5,7 +5,7 @@ use robot_dynamics::description::{self, Budget, Described};
 use robot_dynamics::diagnostic::{Diagnostics, Source};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::search::{Measure, search};
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::{Bundle, Derivation, FunctionKind};
 use robot_dynamics::mechanism::Snap;
 use robot_dynamics::model::Robot;
 use robot_symbolic::Graph;
@@ -27,8 +27,10 @@ pub struct Programs {
     pub warnings: Diagnostics,
     /// The constant angles that were taken for multiples of π/2.
     pub snapped: Vec<Snap>,
-    /// The functions that [`Options::functions`] means.
+    /// The functions that were wanted, each by itself.
     pub functions: Vec<FunctionKind>,
+    /// The functions that were wanted in one call.
+    pub bundles: Vec<Bundle>,
     /// What the file lets the functions cost.
     pub budgets: Vec<Budget>,
     /// The programs: what the interpreter runs and the backends print.
@@ -50,8 +52,8 @@ pub fn read(source: &Source) -> Result<Described, Errors> {
 ///
 /// Everything that is wrong with the file or the options.
 pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
-    let Described { robot, warnings, budgets, .. } = read(source)?;
-    let mut programs = programs_of(robot, &source.name, options)?;
+    let Described { robot, warnings, code, budgets, .. } = read(source)?;
+    let mut programs = programs_of(robot, &source.name, &options.or_of_file(&code))?;
     programs.warnings = warnings;
     programs.budgets = budgets;
     Ok(programs)
@@ -82,14 +84,14 @@ pub(crate) fn programs_under(
     codegen: &robot_codegen::Options,
 ) -> Result<Programs, Errors> {
     options.check()?;
-    let functions = options.functions_of(&robot)?;
+    let (functions, bundles) = options.functions_of(&robot)?;
     let graph = Graph::new();
     let plan = plan_of(&robot, options);
     if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
         return Err(Errors::from(Error::Plan { name: name.to_owned() }));
     }
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
-    let specification = specification::module(&derivation, &functions);
+    let specification = specification::module(&derivation, &functions, &bundles);
     let nodes = graph.len();
     if nodes > MAX_NODES {
         let limit = MAX_NODES;
@@ -100,5 +102,6 @@ pub(crate) fn programs_under(
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };
     let warnings = Diagnostics::new(source, vec![]);
-    Ok(Programs { robot, warnings, snapped, functions, budgets: vec![], module })
+    let budgets = vec![];
+    Ok(Programs { robot, warnings, snapped, functions, bundles, budgets, module })
 }

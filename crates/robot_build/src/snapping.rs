@@ -1,13 +1,13 @@
 //! What taking angles near multiples of π/2 for them changes, and what it saves.
 
 use robot_dynamics::economical::Plan;
-use robot_dynamics::functions::FunctionKind;
+use robot_dynamics::functions::{FunctionKind, Functions};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions, Snap};
 use robot_dynamics::model::Robot;
 use robot_symbolic::Graph;
 
 use crate::error::Errors;
-use crate::options::{Functions, Options};
+use crate::options::Options;
 use crate::programs::programs_of;
 
 /// Tolerances that are tried besides the one that is taken, rad.

@@ -1,7 +1,7 @@
 //! A robot's functions as the code generator takes them.
 
 use robot_codegen::spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
-use robot_dynamics::functions::{Derivation, Function, FunctionKind, Input, Output};
+use robot_dynamics::functions::{Bundle, Derivation, Function, FunctionKind, Input, Output};
 use robot_dynamics::model::{Parameter, Robot};
 
 use crate::conventions::CONVENTIONS;
@@ -10,6 +10,7 @@ use crate::conventions::CONVENTIONS;
 pub(crate) fn module<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[FunctionKind],
+    bundles: &[Bundle],
 ) -> ModuleSpec<'g> {
     let robot = derivation.robot;
     ModuleSpec {
@@ -19,6 +20,7 @@ pub(crate) fn module<'g>(
         functions: functions
             .iter()
             .flat_map(|kind| derivation.functions(*kind))
+            .chain(bundles.iter().map(|bundle| derivation.bundle(bundle)))
             .map(function)
             .collect(),
     }
@@ -45,7 +47,7 @@ fn parameter(parameter: &Parameter) -> ParameterSpec {
 }
 
 fn function(function: Function<'_>) -> FunctionSpec<'_> {
-    let Function { kind: _, name, doc, inputs, outputs } = function;
+    let Function { name, doc, inputs, outputs } = function;
     FunctionSpec {
         name,
         doc,

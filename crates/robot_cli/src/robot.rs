@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_build::{
-    ALL_FUNCTIONS, DEFAULT_BATCH, FunctionKind, Functions, Options, RobotFile, Scalar, Source,
-    Trigonometry,
+    ALL_FUNCTIONS, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, RobotFile, Scalar,
+    Source, Trigonometry,
 };
 use robot_dynamics::description::Described;
 
@@ -59,9 +59,12 @@ impl RobotArgument {
 #[derive(Args)]
 pub(crate) struct CodeArguments {
     /// Functions to generate, several with commas between; `all` for all that the robot has. Without
-    /// this inverse dynamics in its forms and the wrenches in the joints
+    /// this and --bundle those of the robot file's [code]; where it names none, inverse dynamics in its
+    /// forms and the wrenches in the joints
     #[arg(long = "function", value_name = "NAME", value_delimiter = ',')]
     functions: Vec<String>,
+    #[command(flatten)]
+    bundles: BundleArguments,
     /// The number type of the functions
     #[arg(long, value_enum, default_value_t = ScalarName::F64)]
     scalar: ScalarName,
@@ -77,6 +80,34 @@ pub(crate) struct CodeArguments {
     /// Multiply and add in one instruction where the target has it: it rounds once
     #[arg(long)]
     fused: bool,
+}
+
+/// Functions in one call.
+#[derive(Args)]
+pub(crate) struct BundleArguments {
+    /// A function that computes several in one call, and their common work once; may stand several
+    /// times
+    #[arg(long = "bundle", value_name = "NAME=FUNCTION,…", value_parser = bundle)]
+    bundles: Vec<(String, Vec<String>)>,
+}
+
+/// `dynamics=mass_matrix,bias`
+fn bundle(text: &str) -> Result<(String, Vec<String>), String> {
+    let expected = "expected NAME=FUNCTION,…, such as dynamics=mass_matrix,bias";
+    let (name, functions) = text.split_once('=').ok_or(expected)?;
+    let functions = functions.split(',').map(|name| name.trim().to_owned());
+    Ok((name.trim().to_owned(), functions.collect()))
+}
+
+impl BundleArguments {
+    /// The bundles, their functions known.
+    pub(crate) fn bundles(&self) -> Result<Vec<Bundle>, Failure> {
+        let mut bundles = vec![];
+        for (name, functions) in &self.bundles {
+            bundles.push(Bundle { name: name.clone(), functions: kinds(functions, &[])? });
+        }
+        Ok(bundles)
+    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -123,6 +154,7 @@ impl CodeArguments {
         let trigonometry = trigonometry.into();
         Ok(Options {
             functions,
+            bundles: self.bundles.bundles()?,
             scalar,
             generic,
             batch,
@@ -136,18 +168,22 @@ impl CodeArguments {
 
 /// The functions of those names.
 pub(crate) fn functions(names: &[String]) -> Result<Functions, Failure> {
+    let (all, names): (Vec<_>, Vec<_>) =
+        names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
+    let kinds = kinds(&names, &[ALL_FUNCTIONS])?;
+    Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
+}
+
+/// The functions of those names; `more` are words that might have stood among them.
+fn kinds(names: &[String], more: &[&str]) -> Result<Vec<FunctionKind>, Failure> {
     let (mut kinds, mut wrong) = (vec![], vec![]);
-    for name in names.iter().filter(|name| *name != ALL_FUNCTIONS) {
+    for name in names {
         match FunctionKind::from_name(name) {
             Some(kind) => kinds.push(kind),
-            None => wrong.push(unknown_function(name, &[ALL_FUNCTIONS])),
+            None => wrong.push(unknown_function(name, more)),
         }
     }
-    if !wrong.is_empty() {
-        return Err(Failure::Usage(wrong));
-    }
-    let all = names.iter().any(|name| name == ALL_FUNCTIONS);
-    Ok(if all { Functions::All } else { Functions::Chosen(kinds) })
+    if wrong.is_empty() { Ok(kinds) } else { Err(Failure::Usage(wrong)) }
 }
 
 /// What is said of a name that is no function's nor one of some further words.

@@ -1,11 +1,11 @@
 //! The arguments of `include_robot!`.
 
-use robot_build::{ALL_FUNCTIONS, FunctionKind, Functions, Options, Scalar, Trigonometry};
+use robot_build::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions, Options, Scalar, Trigonometry};
 use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
 /// The keys, for messages.
-const KEYS: &str = "functions, snap, scalar, generic, batch, parallel, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
+const KEYS: &str = "functions, bundles, snap, scalar, generic, batch, parallel, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
@@ -29,12 +29,13 @@ impl Parse for Arguments {
             }
             let key: Ident = input.parse()?;
             input.parse::<Token![=]>()?;
-            let value: Expr = input.parse()?;
-            let result = if seen.contains(&key) {
-                Err(syn::Error::new(key.span(), format!("`{key}` is given twice")))
+            let result = if key == "bundles" {
+                arguments.set_bundles(input.parse()?)
             } else {
-                arguments.set(&key, &value)
+                arguments.set(&key, &input.parse()?)
             };
+            let twice = || syn::Error::new(key.span(), format!("`{key}` is given twice"));
+            let result = if seen.contains(&key) { Err(twice()) } else { result };
             if let Err(error) = result {
                 match &mut errors {
                     Some(errors) => errors.combine(error),
@@ -48,6 +49,15 @@ impl Parse for Arguments {
 }
 
 impl Arguments {
+    fn set_bundles(&mut self, Bundles(bundles): Bundles) -> syn::Result<()> {
+        let known: Vec<(&str, FunctionKind)> = names().collect();
+        for (name, value) in bundles {
+            let functions = list(&value, &known)?;
+            self.options.bundles.push(Bundle { name: name.to_string(), functions });
+        }
+        Ok(())
+    }
+
     fn set(&mut self, key: &Ident, value: &Expr) -> syn::Result<()> {
         match key.to_string().as_str() {
             "functions" => self.options.functions = functions(value)?,
@@ -80,7 +90,37 @@ impl Arguments {
     }
 }
 
+/// `{ dynamics = ["mass_matrix", "bias"], … }`
+struct Bundles(Vec<(Ident, Expr)>);
+
+impl Parse for Bundles {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Bundles> {
+        let content;
+        syn::braced!(content in input);
+        let bundle = |input: ParseStream<'_>| {
+            let name = input.parse()?;
+            input.parse::<Token![=]>()?;
+            Ok((name, input.parse()?))
+        };
+        let bundles = content.parse_terminated(bundle, Token![,])?;
+        Ok(Bundles(bundles.into_iter().collect()))
+    }
+}
+
 fn functions(value: &Expr) -> syn::Result<Functions> {
+    let known = names().map(|(name, kind)| (name, Some(kind)));
+    let chosen = list(value, &known.chain([(ALL_FUNCTIONS, None)]).collect::<Vec<_>>())?;
+    let chosen: Option<Vec<FunctionKind>> = chosen.into_iter().collect();
+    Ok(chosen.map_or(Functions::All, Functions::Chosen))
+}
+
+/// The functions by their names.
+fn names() -> impl Iterator<Item = (&'static str, FunctionKind)> {
+    FunctionKind::ALL.iter().map(|kind| (kind.name(), *kind))
+}
+
+/// A list of functions, not an empty one.
+fn list<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<Vec<T>> {
     let Expr::Array(array) = value else {
         return Err(syn::Error::new_spanned(
             value,
@@ -90,15 +130,7 @@ fn functions(value: &Expr) -> syn::Result<Functions> {
     if array.elems.is_empty() {
         return Err(syn::Error::new_spanned(value, "no functions are chosen"));
     }
-    let known: Vec<(&str, Option<FunctionKind>)> = FunctionKind::ALL
-        .iter()
-        .map(|kind| (kind.name(), Some(*kind)))
-        .chain([(ALL_FUNCTIONS, None)])
-        .collect();
-    let chosen: Vec<Option<FunctionKind>> =
-        array.elems.iter().map(|element| one_of(element, &known)).collect::<syn::Result<_>>()?;
-    let chosen: Option<Vec<FunctionKind>> = chosen.into_iter().collect();
-    Ok(chosen.map_or(Functions::All, Functions::Chosen))
+    array.elems.iter().map(|element| one_of(element, known)).collect()
 }
 
 fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {

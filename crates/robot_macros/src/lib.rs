@@ -23,7 +23,8 @@ use proc_macro::TokenStream;
 /// ```ignore
 /// include_robot!(
 ///     "robots/trttr1.toml",
-///     functions = ["inverse_dynamics", "mass_matrix"], // ["all"] for all; the usual ones without this
+///     functions = ["inverse_dynamics", "mass_matrix"], // ["all"] for all; the file's without this
+///     bundles = { dynamics = ["mass_matrix", "bias"] }, // several functions in one call
 ///     snap = 1e-8,                  // rad; constant angles this near to π/2 · n become that
 ///     scalar = "f32",               // "f64" without this
 ///     generic = true,               // forms `…_generic` over any scalar of the runtime, lanes too

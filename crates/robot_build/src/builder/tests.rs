@@ -138,6 +138,10 @@ fn wrong_options_are_errors() {
         shown.contains("Pendulum has no function `inverse_dynamics_wrench`: the robot has no tip")
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("no functions are chosen"));
+    let shown = message(&builder(&package).bundle("both", ["bia"]), &["robots/a.toml"]);
+    assert!(shown.contains("no function `bia`; there are"), "{shown}");
+    let shown = message(&builder(&package).bundle("bias", ["bias"]), &["robots/a.toml"]);
+    assert!(shown.contains("the bundle `bias`: it cannot have this name"), "{shown}");
     let shown = message(&builder(&package).parallel(true), &["robots/a.toml"]);
     assert!(shown.contains("`batch`"), "{shown}");
     for states in [0, 65] {

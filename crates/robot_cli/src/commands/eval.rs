@@ -5,9 +5,12 @@ mod output;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use robot_build::{FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs};
+use robot_build::{
+    Bundle, FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs,
+};
 use robot_codegen::module::Function;
 use robot_codegen::{Interpreter, OutputValues};
+use robot_dynamics::description::Described;
 use robot_dynamics::model::Robot;
 
 use crate::Terminal;
@@ -31,7 +34,7 @@ from the straight-line program that the generated code prints.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// The function
+    /// The function, or a bundle of the robot file's [code]
     #[arg(long, value_name = "NAME")]
     function: String,
     /// The file with the states; `-` for standard input
@@ -65,12 +68,15 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = self.robot.source()?;
-        let robot = robot_build::read(&source)?.robot;
-        let kind = self.kind(&robot)?;
+        let Described { robot, code, .. } = robot_build::read(&source)?;
+        let bundles = code.bundles.into_iter().filter(|bundle| bundle.name == self.function);
+        let bundles: Vec<Bundle> = bundles.collect();
+        let kind = if bundles.is_empty() { Some(self.kind(&robot)?) } else { None };
         let mut wrong = self.wrong_settings(&robot);
         let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
-        let kind = with_wrench(kind, &robot, &states, &mut wrong);
-        let options = Options { functions: Functions::Chosen(vec![kind]), ..self.robot.options()? };
+        let kind = kind.map(|kind| with_wrench(kind, &robot, &states, &mut wrong));
+        let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
+        let options = Options { functions, bundles, ..self.robot.options()? };
         let programs = programs(&source, &options)?;
         text::warnings(&programs.warnings, terminal)?;
         let results = self.results(&source, &programs, &states, wrong)?;

@@ -16,6 +16,7 @@ use crate::text;
   robot-symbolic generate robots/trttr1.toml -o src/trttr1.rs
   robot-symbolic generate robots/trttr1.toml -o src/trttr1.rs --check
   robot-symbolic generate robots/ur5.toml --function all --batch --fused
+  robot-symbolic generate robots/ur5.toml --bundle dynamics=mass_matrix,bias
 
 The file holds one module, named after the robot in lower case; it calls the crate robot_runtime.
 With --check nothing is written: the exit code is 1 where the file is out of date.")]

@@ -74,6 +74,16 @@ fn property(key: &Key) -> Value {
     Value::Object(schema)
 }
 
+/// The names of functions, and a word for all of them.
+fn functions(all: Option<&'static str>) -> Vec<&'static str> {
+    FunctionKind::ALL.iter().map(|kind| kind.name()).chain(all).collect()
+}
+
+/// A list of some of those words, each once.
+fn list(words: &[&str]) -> Value {
+    json!({ "type": "array", "items": { "enum": words }, "minItems": 1, "uniqueItems": true })
+}
+
 fn content(content: Content) -> Value {
     let figure = || json!({ "type": ["number", "string"] });
     let three =
@@ -89,8 +99,15 @@ fn content(content: Content) -> Value {
         }
         Content::Whole => json!({ "type": "integer", "minimum": 0 }),
         Content::Function => {
-            json!({ "enum": FunctionKind::ALL.iter().map(|kind| kind.name()).collect::<Vec<_>>() })
+            let bundle = json!({ "type": "string", "pattern": IDENTIFIER });
+            json!({ "anyOf": [{ "enum": functions(None) }, bundle] })
         }
+        Content::Functions(all) => list(&functions(all)),
+        Content::Bundles => json!({
+            "type": "object",
+            "propertyNames": { "pattern": IDENTIFIER },
+            "additionalProperties": list(&functions(None)),
+        }),
         Content::Boolean => json!({ "type": "boolean" }),
         Content::Word(words) => json!({ "enum": words }),
         Content::Text | Content::Parent => json!({ "type": "string" }),

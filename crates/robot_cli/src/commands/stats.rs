@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::counts;
 use crate::failure::Failure;
-use crate::robot::{RobotArgument, functions};
+use crate::robot::{BundleArguments, RobotArgument, functions};
 use crate::text;
 
 #[derive(Args)]
@@ -17,6 +17,7 @@ use crate::text;
   robot-symbolic stats robots/puma560.toml --format text
   robot-symbolic stats robots/puma560.toml --function inverse_dynamics --passes
   robot-symbolic stats robots/puma560.toml --function inverse_dynamics --options
+  robot-symbolic stats robots/puma560.toml --function mass_matrix,bias --bundle both=mass_matrix,bias
 
 Subtractions count as additions, changes of sign not at all, a fused multiply-add as both of its
 operations. `other` are absolute values, signs and hyperbolic tangents. What the constructor computes,
@@ -28,9 +29,12 @@ the recursion and without each pass; options act together, so that what they sav
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Functions to count; all that the robot has without this
+    /// Functions to count; without this and --bundle all that the robot has, and the bundles of the
+    /// robot file's [code]
     #[arg(long = "function", value_name = "NAME", value_delimiter = ',')]
     functions: Vec<String>,
+    #[command(flatten)]
+    bundles: BundleArguments,
     /// Show what each pass gave
     #[arg(long)]
     passes: bool,
@@ -50,12 +54,15 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let functions = match self.functions.as_slice() {
-            [] => Functions::All,
-            names => functions(names)?,
-        };
         let source = self.robot.source()?;
-        let options = Options { functions, ..self.robot.options()? };
+        let (functions, bundles) = match (self.functions.as_slice(), self.bundles.bundles()?) {
+            ([], bundles) if bundles.is_empty() => {
+                (Functions::All, robot_build::read(&source)?.code.bundles)
+            }
+            ([], bundles) => (Functions::Usual, bundles),
+            (names, bundles) => (functions(names)?, bundles),
+        };
+        let options = Options { functions, bundles, ..self.robot.options()? };
         if self.options {
             return self.show(&ablated(&ablation(&source, &options)?), terminal);
         }

@@ -96,3 +96,23 @@ fn files_of_a_crate_out_of_date_are_all_named() {
     let other = [&check[..], &["--function", "link_wrenches"]].concat();
     assert!(complaint(1, &other, "").contains("model.rs"));
 }
+
+#[test]
+fn bundles_are_functions_of_their_own() {
+    let robot = robot("planar_2r");
+    let generate = |bundle| vec!["generate", &robot, "--bundle", bundle];
+    let code = output(&generate("dynamics=mass_matrix,bias"), "");
+    for part in ["pub struct Dynamics {", "pub mass_matrix: [[f64; 2]; 2]", "-> Dynamics"] {
+        assert!(code.contains(part), "{part} is not in\n{code}");
+    }
+    assert!(!code.contains("fn inverse_dynamics("), "{code}");
+    for (bundle, part) in [
+        ("dynamics", "such as dynamics=mass_matrix,bias"),
+        ("dynamics=mass_matrx", "Did you mean `mass_matrix`?"),
+    ] {
+        let shown = complaint(2, &generate(bundle), "");
+        assert!(shown.contains(part), "{shown}");
+    }
+    let shown = complaint(1, &generate("bias=mass_matrix"), "");
+    assert!(shown.contains("the bundle `bias`: it cannot have this name"), "{shown}");
+}

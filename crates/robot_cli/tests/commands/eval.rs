@@ -195,3 +195,21 @@ fn functions_of_a_frame_are_called_by_their_names() {
     let shown = complaint(2, &arguments("jacobian_knee"), &states);
     assert!(shown.contains("there is no function `jacobian_knee`"), "{shown}");
 }
+
+#[test]
+fn bundles_of_the_file_are_called_by_their_names() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let path = crate::folder("eval-bundles").join("arm.toml");
+    let code = "\n[code]\nbundles = { both = [\"mass_matrix\", \"bias\"] }\n";
+    std::fs::write(&path, format!("{text}{code}")).unwrap();
+    let states = json!([{"q": [0.3, 0.5], "qd": [1, 2]}]).to_string();
+    let call = |function: &str| -> Value {
+        let arguments = ["eval", path.to_str().unwrap(), "--function", function, "--states", "-"];
+        serde_json::from_str(&output(&arguments, &states)).unwrap()
+    };
+    let (both, mass, bias) = (call("both"), call("mass_matrix"), call("bias"));
+    assert_eq!(both[0]["mass_matrix"], mass[0]["mass_matrix"]);
+    assert_eq!(both[0]["bias"], bias[0]["tau"]);
+    let shown = output(&["stats", path.to_str().unwrap(), "--format", "text"], "");
+    assert!(shown.lines().any(|line| line.starts_with("both ")), "{shown}");
+}

@@ -76,6 +76,10 @@ fn holds(
         }
         ("minItems", Value::Array(values)) => values.len() >= count(),
         ("maxItems", Value::Array(values)) => values.len() <= count(),
+        ("uniqueItems", Value::Array(values)) => {
+            let is_first = |(index, value): (usize, &Value)| !values[..index].contains(value);
+            values.iter().enumerate().all(is_first)
+        }
         ("minimum", Value::Number(number)) => number.as_f64() >= rule.as_f64(),
         ("minLength", Value::String(text)) => text.chars().count() >= count(),
         ("pattern", Value::String(text)) => {
@@ -89,6 +93,7 @@ fn holds(
             | "items"
             | "minItems"
             | "maxItems"
+            | "uniqueItems"
             | "minimum"
             | "minLength"
             | "pattern",

@@ -5,13 +5,13 @@ use super::reader::Reader;
 use super::shape::BUDGET;
 use super::table::{Entry, Table};
 use crate::diagnostic::{Diagnostic, Span, code};
-use crate::functions::FunctionKind;
+use crate::functions::{Bundle, FunctionKind};
 
 /// What a function of generated code may cost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// The function; `None` for every one that is generated.
-    pub function: Option<FunctionKind>,
+    /// The name of the function or bundle; `None` for every one that is generated.
+    pub function: Option<String>,
     /// The most operations of a call: multiplications, additions and divisions.
     pub max_operations: Option<Limit>,
     /// The most bytes of stack of a call.
@@ -27,18 +27,23 @@ pub struct Limit {
     pub place: Span,
 }
 
-/// Reads every `[[budget]]`.
-pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Vec<Budget> {
+/// Reads every `[[budget]]`; those of bundles name one of the file.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    root: &mut Table<'_>,
+    bundles: &[Bundle],
+) -> Vec<Budget> {
     let Some(entry) = root.get("budget") else { return Vec::new() };
+    let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
+    let names: Vec<&str> = kinds.chain(bundles.iter().map(|one| one.name.as_str())).collect();
     let tables = tables(reader, &entry, &BUDGET);
-    tables.into_iter().map(|table| budget(reader, table)).collect()
+    tables.into_iter().map(|table| budget(reader, table, &names)).collect()
 }
 
-fn budget(reader: &mut Reader<'_>, mut table: Table<'_>) -> Budget {
-    let function = table.get("function").and_then(|entry| {
-        let names: Vec<&'static str> = FunctionKind::ALL.iter().map(|kind| kind.name()).collect();
-        FunctionKind::from_name(reader.word(entry.value, "a function", &names)?)
-    });
+fn budget(reader: &mut Reader<'_>, mut table: Table<'_>, names: &[&str]) -> Budget {
+    let function = table
+        .get("function")
+        .and_then(|entry| reader.word(entry.value, "a function", names).map(str::to_owned));
     let max_operations = table.get("max_operations").and_then(|entry| limit(reader, &entry));
     let max_stack = table.get("max_stack").and_then(|entry| limit(reader, &entry));
     table.finish(reader);

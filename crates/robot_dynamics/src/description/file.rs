@@ -1,5 +1,5 @@
-//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips, frames, `[payload]`
-//! and budgets.
+//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips, frames, `[payload]`,
+//! `[code]` and budgets.
 
 use robot_symbolic::{Formula, Rational};
 use toml::de::DeValue;
@@ -13,7 +13,7 @@ use super::reader::{Named, Reader};
 use super::shape::{LINK, ROBOT, ROBOT_FILE};
 use super::table::{Table, Value};
 use super::value::quantity;
-use super::{budget, dh, frames, link, parameters, payload, syntax, tree};
+use super::{budget, dh, frames, link, parameters, payload, syntax, tree, wanted};
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::mechanism::MechanismOptions;
 
@@ -40,7 +40,8 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     let (links, complete) = links(reader, &mut root, &mut dh);
     let frames = frames::read(reader, &mut root, links.len());
     let payload = payload::read(reader, &mut root, &links, &frames, &mut parameters);
-    let budgets = budget::read(reader, &mut root);
+    let wanted = wanted::read(reader, &mut root);
+    let budgets = budget::read(reader, &mut root, &wanted.code.bundles);
     root.finish(reader);
     if let Some(dh) = dh {
         dh.finish(reader);
@@ -53,7 +54,7 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     let mut draft =
         Draft { name, description, gravity, gravity_place, snap, links, frames, payload };
     let order = tree::order(reader, &mut draft)?;
-    Some(Lowered { draft, order, parameters, budgets })
+    Some(Lowered { draft, order, parameters, wanted, budgets })
 }
 
 /// Checks `format`; nothing else is read of a file of another format.

@@ -8,6 +8,8 @@ pub const MAX_JOINTS: usize = 64;
 pub const MAX_LINKS: usize = 512;
 /// A robot of more parameters than this is refused.
 pub const MAX_PARAMETERS: usize = 4096;
+/// More bundles than this are refused: each is a function as long as all of its own.
+pub const MAX_BUNDLES: usize = 16;
 /// Elements of XML nested deeper than this are refused.
 pub(super) const MAX_DEPTH: usize = 64;
 /// An element of XML with more attributes than this is refused.

@@ -39,14 +39,16 @@ mod table;
 mod tree;
 mod urdf;
 mod value;
+mod wanted;
 
 pub use budget::{Budget, Limit};
-pub use limits::{MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
+pub use limits::{MAX_BUNDLES, MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
 pub use locations::{
     AngleLocation, BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations,
     ParameterLocation,
 };
 pub use options::{Format, Options};
+pub use wanted::{Code, check_bundle_name};
 
 use std::path::Path;
 
@@ -54,6 +56,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, code};
 use crate::model::{Parameter, Robot};
 use draft::Draft;
 use reader::Reader;
+use wanted::Wanted;
 
 /// What a robot file gives.
 #[derive(Clone, Debug)]
@@ -67,6 +70,8 @@ pub struct Described {
     /// How the reader took what the format leaves open or what is not part of a robot here: notes,
     /// for a file that was not written for this program.
     pub choices: Diagnostics,
+    /// Which functions are generated where the caller names none.
+    pub code: Code,
     /// What generated code may cost.
     pub budgets: Vec<Budget>,
     /// The format of the file.
@@ -168,6 +173,7 @@ struct Lowered {
     draft: Draft,
     order: Vec<usize>,
     parameters: (Vec<Parameter>, Vec<ParameterLocation>),
+    wanted: Wanted,
     budgets: Vec<Budget>,
 }
 
@@ -208,9 +214,10 @@ fn described(
     match built {
         Some((robot, locations, lowered)) if !found.has_errors() => {
             let choices = Diagnostics::new(source, choices);
-            let budgets = lowered.budgets.clone();
+            let (code, budgets) = (lowered.wanted.code.clone(), lowered.budgets.clone());
+            let warnings = found;
             let described =
-                Described { robot, locations, warnings: found, choices, budgets, format };
+                Described { robot, locations, warnings, choices, code, budgets, format };
             Ok((described, lowered))
         }
         _ => Err(found),
@@ -219,7 +226,7 @@ fn described(
 
 /// The robot of a lowered file, where nothing is wrong with it.
 fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(Robot, Locations)> {
-    let Lowered { draft, order, parameters, .. } = lowered;
+    let Lowered { draft, order, parameters, wanted, .. } = lowered;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {
         let last = draft.links.last().map(|link| link.places.joint.clone());
         let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves")
@@ -235,6 +242,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(R
     if reader.failed() {
         return None;
     }
+    wanted.check(reader, &robot);
     if format == Format::Toml {
         unused(reader);
         no_effect(reader, &locations);

@@ -111,7 +111,7 @@ impl Reader<'_> {
     }
 }
 
-fn is_identifier(text: &str) -> bool {
+pub(super) fn is_identifier(text: &str) -> bool {
     let mut bytes = text.bytes();
     let first = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
     text.len() <= MAX_NAME

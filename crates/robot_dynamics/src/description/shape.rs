@@ -3,6 +3,8 @@
 //! The reader asks a table for no key that its shape does not have, and the JSON schema of the
 //! format is made of the same shapes.
 
+use crate::functions::ALL_FUNCTIONS;
+
 /// A table of the file.
 #[derive(Debug)]
 pub struct Shape {
@@ -55,8 +57,12 @@ pub enum Content {
     Limits,
     /// A whole number that is not negative.
     Whole,
-    /// The name of a function of generated code.
+    /// The name of a function of generated code, or of a bundle of the file.
     Function,
+    /// A list of functions; a word for all of them where that is said.
+    Functions(Option<&'static str>),
+    /// A table whose keys are identifiers, behind each a list of functions.
+    Bundles,
     /// `true` or `false`.
     Boolean,
     /// One of these words.
@@ -86,8 +92,9 @@ pub enum Content {
 }
 
 use Content::{
-    Axis, Boolean, Components, Figure, Format, Function, Identifier, Label, Latex, Limits, List,
-    Number, OneOrMany, Parameters, Parent, Table, Text, Unit, Vector, Whole, Word,
+    Axis, Boolean, Bundles, Components, Figure, Format, Function, Functions, Identifier, Label,
+    Latex, Limits, List, Number, OneOrMany, Parameters, Parent, Table, Text, Unit, Vector, Whole,
+    Word,
 };
 
 /// Types of joints.
@@ -133,6 +140,7 @@ pub static ROBOT_FILE: Shape = Shape {
         key("tip", OneOrMany(&TIP), "Frames that exert a wrench on their surroundings."),
         key("frame", OneOrMany(&FRAME), "Named frames."),
         key("payload", Table(&PAYLOAD), "A body that the robot may carry, set at run time."),
+        key("code", Table(&CODE), "Which functions are generated where the caller names none."),
         key("budget", OneOrMany(&BUDGET), "What generated code may cost."),
     ],
 };
@@ -346,6 +354,20 @@ pub static PAYLOAD: Shape = Shape {
     what: "a payload",
     doc: "A body that the robot may carry, whose figures are set at run time.",
     keys: &[key("parent", Parent, "A link, tip or frame; the last link where it is left out.")],
+};
+
+/// `[code]`.
+pub static CODE: Shape = Shape {
+    what: "[code]",
+    doc: "Which functions are generated where the caller names none.",
+    keys: &[
+        key(
+            "functions",
+            Functions(Some(ALL_FUNCTIONS)),
+            "Functions, each by itself; \"all\" for all that the robot has.",
+        ),
+        key("bundles", Bundles, "Functions in one call that shares their work, by its name."),
+    ],
 };
 
 /// `[[budget]]`.

@@ -152,12 +152,12 @@ impl Reader<'_> {
     }
 
     /// One of the words; `what` is what they choose between.
-    pub(super) fn word(
+    pub(super) fn word<'n>(
         &mut self,
         value: Value<'_>,
         what: &str,
-        words: &[&'static str],
-    ) -> Option<&'static str> {
+        words: &[&'n str],
+    ) -> Option<&'n str> {
         let text = self.string(value, &format!("{what}, one of {}", list(words)))?;
         let found = words.iter().copied().find(|word| word == text);
         if found.is_none() {

@@ -80,4 +80,5 @@ codes! {
     LEFT_OUT = "R0706", "Something in the file is no part of the robot here.";
     TAKEN_ANGLE = "R0707", "An angle is taken for a multiple of π/2.";
     BUDGET = "R0801", "A function costs more than its budget.";
+    LACKING = "R0802", "A function is asked for that the robot lacks.";
 }

@@ -4,6 +4,7 @@
 //! parameters alone is shared among them. Torques come from the economical recursion; whatever
 //! needs the forces between links comes from the paper's iterations.
 
+mod bundle;
 mod coriolis;
 mod derivatives;
 mod energies;
@@ -17,6 +18,7 @@ mod plain;
 mod plans;
 mod regressor;
 
+pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
 pub use kind::FunctionKind;
 pub use plans::search_plan;
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
@@ -26,12 +28,11 @@ use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::model::{JointKind, Parameter, Robot};
 use crate::newton_euler::{self, Effects};
 
-/// A function of a robot.
+/// A function of a robot, or several in one.
 #[derive(Clone, Debug)]
 pub struct Function<'g> {
-    /// Which function it is.
-    pub kind: FunctionKind,
-    /// Its name: the kind's, with that of a frame where there are functions of several frames.
+    /// Its name: the kind's, with that of a frame where there are functions of several frames; a
+    /// bundle's.
     pub name: String,
     /// What it computes, in paragraphs: convention, frames, source.
     pub doc: Vec<String>,
@@ -168,7 +169,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         outputs: Vec<Output<'g>>,
     ) -> Function<'g> {
         let doc = doc.iter().map(|&paragraph| paragraph.to_owned()).collect();
-        Function { kind, name: kind.name().to_owned(), doc, inputs, outputs }
+        Function { name: kind.name().to_owned(), doc, inputs, outputs }
     }
 
     /// The inputs of those names, each with an element per coordinate.

@@ -1,7 +1,8 @@
 //! What right files mean.
 
-use robot_dynamics::description::{Budget, Limit};
-use robot_dynamics::functions::FunctionKind;
+use robot_dynamics::description::{Budget, Code, Limit, MAX_BUNDLES, check_bundle_name};
+use robot_dynamics::diagnostic::code;
+use robot_dynamics::functions::{FunctionKind, Functions};
 use robot_dynamics::model::{JointKind, Move, Robot};
 use robot_dynamics::numeric::Mechanism;
 use robot_dynamics::numeric::random::Random;
@@ -232,7 +233,7 @@ fn the_examples_of_the_reference_are_right() {
         // Others show a line of a file.
         .filter(|example| example.starts_with("format"))
         .collect();
-    assert_eq!(examples.len(), 5);
+    assert_eq!(examples.len(), 6);
     for example in examples {
         let described = read(example);
         assert!(described.warnings.is_empty(), "{}", described.warnings);
@@ -246,10 +247,10 @@ fn budgets_name_functions_and_limits() {
     let found = read(&text).budgets;
     let limits = |budget: &Budget| {
         let value = |limit: &Option<Limit>| limit.as_ref().map(|limit| limit.value);
-        (budget.function, value(&budget.max_operations), value(&budget.max_stack))
+        (budget.function.clone(), value(&budget.max_operations), value(&budget.max_stack))
     };
     let found: Vec<_> = found.iter().map(limits).collect();
-    let expected = [(Some(FunctionKind::MassMatrix), Some(300), None), (None, None, Some(2048))];
+    let expected = [(Some("mass_matrix".to_owned()), Some(300), None), (None, None, Some(2048))];
     assert_eq!(found, expected);
 
     let wrong =
@@ -263,4 +264,61 @@ fn budgets_name_functions_and_limits() {
         2,
         "{found}"
     );
+}
+
+#[test]
+fn code_names_functions_and_bundles() {
+    let of = |table: &str| read(&arm(&format!("{}{table}", revolute("1", ""))));
+    assert_eq!(of("").code, Code::default());
+    assert_eq!(of("[code]\n").code, Code::default());
+    let all = of("[code]\nfunctions = [\"all\"]\n").code;
+    assert_eq!(all.functions, Functions::All);
+    let found = of("[code]\nfunctions = [\"bias\", \"gravity\"]\n\
+         bundles = { both = [\"mass_matrix\", \"bias\"], one = [\"gravity\"] }\n\
+         [budget]\nfunction = \"both\"\n");
+    assert_eq!(found.budgets[0].function.as_deref(), Some("both"));
+    let Code { functions, bundles } = found.code;
+    assert_eq!(functions, Functions::Chosen(vec![FunctionKind::Bias, FunctionKind::Gravity]));
+    let names: Vec<&str> = bundles.iter().map(|bundle| bundle.name.as_str()).collect();
+    assert_eq!(names, ["both", "one"]);
+    assert_eq!(bundles[0].functions, [FunctionKind::MassMatrix, FunctionKind::Bias]);
+}
+
+#[test]
+fn bundles_have_names_of_their_own() {
+    let taken = [
+        "mass_matrix",
+        "MassMatrix",
+        "massmatrix",
+        "jacobian_tip",
+        "bias_sc",
+        "x_generic",
+        "my_batch",
+        "x_batch_parallel",
+        "x_block",
+        "model",
+        "with_payload",
+        "new",
+        "all",
+        "parameters",
+        "fn",
+        "q1",
+    ];
+    for name in taken {
+        assert!(check_bundle_name(name).is_err(), "{name}");
+        let table = format!("[code]\nbundles = {{ {name} = [\"bias\"] }}\n");
+        let found = errors(&arm(&format!("{}{table}", revolute("1", ""))));
+        assert_eq!(found.iter().next().unwrap().code, code::RESERVED, "{found}");
+    }
+    for name in ["dynamics", "bias_and_gravity", "Control", "forward_dynamics_and_more"] {
+        assert_eq!(check_bundle_name(name), Ok(()));
+    }
+    assert!(check_bundle_name("a-b").is_err());
+    let alike = "[code]\nbundles = { one_two = [\"bias\"], OneTwo = [\"bias\"] }\n";
+    let found = errors(&arm(&format!("{}{alike}", revolute("1", ""))));
+    assert_eq!(found.iter().next().unwrap().code, code::ALIKE, "{found}");
+    let many: Vec<String> = (0..=MAX_BUNDLES).map(|n| format!("b{n} = [\"bias\"]")).collect();
+    let many = format!("[code.bundles]\n{}\n", many.join("\n"));
+    let found = errors(&arm(&format!("{}{many}", revolute("1", ""))));
+    assert_eq!(found.iter().next().unwrap().code, code::LIMIT, "{found}");
 }

@@ -22,6 +22,8 @@ fn the_module_is_the_builders() {
         .batch(4)
         .fused(true)
         .functions(["inverse_dynamics_wrench"])
+        .bundle("dynamics", ["mass_matrix", "bias"])
+        .bundle("rest", ["gravity"])
         .compile(&["robots/trttr1.toml"])
         .unwrap();
     let built = std::fs::read_to_string(out.join("trttr1.rs")).unwrap();
@@ -29,6 +31,7 @@ fn the_module_is_the_builders() {
     let built: TokenStream = built.parse().unwrap();
     let expanded = expanded(quote! {
         "robots/trttr1.toml", functions = ["inverse_dynamics_wrench"], snap = 1e-7,
+        bundles = { dynamics = ["mass_matrix", "bias"], rest = ["gravity"] },
         generic = true, batch = 4, fused = true,
     });
     let rest = expanded.strip_prefix(&built.to_string()).unwrap();
@@ -72,6 +75,15 @@ fn what_is_wrong_with_a_file_is_shown_and_the_file_watched() {
     assert!(expanded(quote!("robots/none.toml")).contains("there is no such file"));
     assert!(expanded(quote!("../none.toml")).contains("there is no such file"));
     assert!(expanded(quote!("robots/trttr1.toml", snap = -1)).contains("is no angle"));
+}
+
+#[test]
+fn wrong_bundles_are_named() {
+    let of = |bundles| expanded(quote!("robots/trttr1.toml", bundles = #bundles));
+    assert!(of(quote!({ load = [] })).contains("no functions are chosen"));
+    assert!(of(quote!({ load = ["biass"] })).contains("expected one of \\\"inverse_dynamics\\\""));
+    assert!(of(quote!({ bias = ["bias"] })).contains("it cannot have this name"));
+    assert!(of(quote!(["bias"])).contains("expected curly braces"));
 }
 
 #[test]

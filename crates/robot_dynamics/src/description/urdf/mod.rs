@@ -23,6 +23,7 @@ use super::limits::MAX_LINKS;
 use super::options::Options;
 use super::placement::zero;
 use super::reader::{Named, Reader};
+use super::wanted::Wanted;
 use super::{Lowered, tree};
 use crate::diagnostic::{Diagnostic, code, quote};
 use element::{Element, JOINT, ROBOT};
@@ -59,7 +60,8 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
     masses::add(reader, &mut draft, &order, &sources, options);
     report::choices(reader, &root, &draft, &order, &joints, options);
     name?;
-    Some(Lowered { draft, order, parameters: (Vec::new(), Vec::new()), budgets: Vec::new() })
+    let parameters = (Vec::new(), Vec::new());
+    Some(Lowered { draft, order, parameters, wanted: Wanted::default(), budgets: Vec::new() })
 }
 
 /// The root element, where it is that of URDF.

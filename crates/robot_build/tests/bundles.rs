@@ -1,0 +1,133 @@
+//! Functions that the robot file chooses, and functions in one call.
+
+#![allow(clippy::unwrap_used)]
+
+use robot_build::{Bundle, FunctionKind, Functions, Options, Source, generate, programs};
+use robot_codegen::Interpreter;
+
+const ROBOT: &str = include_str!("../../../robots/trttr1.toml");
+
+fn source(more: &str) -> Source {
+    Source { name: "arm.toml".to_owned(), text: format!("{ROBOT}\n{more}") }
+}
+
+fn bundle(name: &str, functions: &[FunctionKind]) -> Bundle {
+    Bundle { name: name.to_owned(), functions: functions.to_vec() }
+}
+
+fn names(source: &Source, options: &Options) -> Vec<String> {
+    let functions = programs(source, options).unwrap().module.functions;
+    functions.into_iter().map(|function| function.name).collect()
+}
+
+#[test]
+fn the_file_chooses_where_the_caller_does_not() {
+    let both = "bundles = { both = [\"mass_matrix\", \"bias\"] }\n";
+    let singly = source("[code]\nfunctions = [\"bias\", \"gravity\"]\n");
+    let together = source(&format!("[code]\nfunctions = [\"gravity\"]\n{both}"));
+    let alone = source(&format!("[code]\n{both}"));
+    let usual = Options::default();
+    assert_eq!(names(&singly, &usual), ["bias", "gravity"]);
+    assert_eq!(names(&together, &usual), ["gravity", "both"]);
+    assert_eq!(names(&alone, &usual), ["both"]);
+    assert!(names(&source("[code]\n"), &usual).contains(&"inverse_dynamics".to_owned()));
+
+    let functions = Functions::Chosen(vec![FunctionKind::MassMatrix]);
+    let named = Options { functions, ..Options::default() };
+    assert_eq!(names(&together, &named), ["mass_matrix"]);
+    let bundles = vec![bundle("one", &[FunctionKind::Gravity])];
+    assert_eq!(names(&together, &Options { bundles, ..Options::default() }), ["one"]);
+    let all = Options { functions: Functions::All, ..Options::default() };
+    let of_file = source("[code]\nfunctions = [\"all\"]\n");
+    assert_eq!(names(&of_file, &usual), names(&source(""), &all));
+}
+
+#[test]
+fn a_bundle_gives_what_its_functions_give() {
+    let kinds = FunctionKind::ALL;
+    let bundles = vec![bundle("everything", kinds)];
+    let options = Options { functions: Functions::All, bundles, ..Options::default() };
+    let module = programs(&source(""), &options).unwrap().module;
+    let interpreter = Interpreter::new(&module, &[]).unwrap();
+    let (everything, single) = module.functions.split_last().unwrap();
+    let entries = |input: usize, count: usize| -> Vec<f64> {
+        (0..count).map(|entry| (1.7 * (entry + 5 * input) as f64 + 0.3).sin()).collect()
+    };
+    let inputs = everything.inputs.iter().enumerate();
+    let inputs: Vec<(&str, Vec<f64>)> = inputs
+        .map(|(index, input)| (input.name.as_str(), entries(index, input.symbols.len())))
+        .collect();
+    let call = |function: &robot_codegen::module::Function| {
+        let takes = |name: &str| function.inputs.iter().any(|input| input.name == name);
+        let given = inputs.iter().filter(|(name, _)| takes(name));
+        let given: Vec<(&str, &[f64])> =
+            given.map(|(name, entries)| (*name, entries.as_slice())).collect();
+        interpreter.call(&function.name, &given).unwrap()
+    };
+    let expected: Vec<_> = single.iter().flat_map(call).collect();
+    let found = call(everything);
+    assert_eq!((found.len(), single.len()), (expected.len(), kinds.len()));
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_eq!(found.values.len(), expected.values.len());
+        let size = expected.values.iter().fold(1e-3_f64, |size, value| size.max(value.abs()));
+        for (found, expected) in found.values.iter().zip(&expected.values) {
+            let error = (found - expected).abs() / size;
+            assert!(error < 1e-11, "{found} for {expected}");
+        }
+    }
+    // Poses of links and of frames would have the same names.
+    let fields: Vec<&str> = everything.outputs.iter().map(|output| output.name.as_str()).collect();
+    for field in ["bias", "gravity", "force", "frame_poses_rotation", "forward_kinematics_position"]
+    {
+        assert!(fields.contains(&field), "{field} is not in {fields:?}");
+    }
+    // Work is shared: all in one cost less than each by itself.
+    let operations = |function| module.counts(function).call.operations();
+    let apart: usize = single.iter().map(operations).sum();
+    let together = operations(everything);
+    assert!(together * 10 < apart * 8, "{together} in one, {apart} apart");
+}
+
+#[test]
+fn budgets_hold_bundles_by_their_names() {
+    let code = "[code]\nbundles = { bias_and_more = [\"bias\", \"mass_matrix\"] }\n";
+    let budget = |function: &str, most: u64| {
+        let text = format!("[[budget]]\nfunction = \"{function}\"\nmax_operations = {most}\n");
+        source(&format!("{code}{text}"))
+    };
+    let module = programs(&source(code), &Options::default()).unwrap().module;
+    let cost = module.counts(&module.functions[0]).call.operations() as u64;
+    generate(&budget("bias_and_more", cost), &Options::default()).unwrap();
+    // The bundle is no form of the function with which its name begins.
+    generate(&budget("bias", 0), &Options::default()).unwrap();
+    let error = generate(&budget("bias_and_more", cost - 1), &Options::default()).unwrap_err();
+    let stated = format!("`bias_and_more` takes {cost} operations; its budget is {}", cost - 1);
+    assert!(error.to_string().contains(&stated), "{error}");
+}
+
+#[test]
+fn wrong_bundles_of_the_caller_are_errors() {
+    let kinds = [FunctionKind::Bias];
+    let bundles = vec![
+        bundle("mass_matrix", &kinds),
+        bundle("a-b", &kinds),
+        bundle("twice", &kinds),
+        bundle("Twice", &kinds),
+        bundle("empty", &[]),
+    ];
+    let error = programs(&source(""), &Options { bundles, ..Options::default() }).unwrap_err();
+    assert_eq!(error.as_slice().len(), 4, "{error}");
+    for part in [
+        "the bundle `mass_matrix`: it cannot have this name: this is the name of a function",
+        "the bundle `a-b`: it cannot",
+        "the bundle `Twice`: the name is another bundle's",
+        "the bundle `empty`: it has no functions",
+    ] {
+        assert!(error.to_string().contains(part), "{part} is not in {error}");
+    }
+    let arm = include_str!("../../../robots/planar_2r.toml").to_owned();
+    let arm = Source { name: "arm.toml".to_owned(), text: arm };
+    let bundles = vec![bundle("load", &[FunctionKind::InverseDynamicsFriction])];
+    let error = programs(&arm, &Options { bundles, ..Options::default() }).unwrap_err();
+    assert!(error.to_string().contains("has no function `inverse_dynamics_friction`"), "{error}");
+}
