@@ -42,18 +42,48 @@ fn the_file_chooses_where_the_caller_does_not() {
     assert_eq!(names(&of_file, &usual), names(&source(""), &all));
 }
 
+/// Functions in one call, and how much of their operations apart they may take, in percent.
+const SETS: [(&[FunctionKind], usize); 6] = {
+    use FunctionKind::{
+        Bias, CoriolisMatrix, Energies, ForwardDynamics, Gravity, InverseDynamics,
+        InverseDynamicsDerivatives, MassMatrix,
+    };
+    [
+        (FunctionKind::ALL, 75),
+        (&[MassMatrix, Bias, InverseDynamics], 75),
+        (&[CoriolisMatrix, Gravity, Bias], 85),
+        (&[MassMatrix, Energies], 85),
+        (&[CoriolisMatrix, InverseDynamicsDerivatives], 80),
+        (&[MassMatrix, Bias, ForwardDynamics], 65),
+    ]
+};
+
 #[test]
-fn a_bundle_gives_what_its_functions_give() {
-    let kinds = FunctionKind::ALL;
-    let bundles = vec![bundle("everything", kinds)];
-    let options = Options { functions: Functions::All, bundles, ..Options::default() };
-    let module = programs(&source(""), &options).unwrap().module;
+fn a_bundle_gives_what_its_functions_give_for_less() {
+    let puma = include_str!("../../../robots/puma560.toml").to_owned();
+    let puma = Source { name: "puma560.toml".to_owned(), text: puma };
+    for source in [source(""), puma] {
+        for (kinds, percent) in SETS {
+            let robot = robot_build::read(&source).unwrap().robot;
+            let has = |kind: &FunctionKind| kind.missing_in(&robot).is_none();
+            let kinds: Vec<FunctionKind> = kinds.iter().copied().filter(has).collect();
+            hold(&source, &kinds, percent);
+        }
+    }
+}
+
+/// Holds functions in one call against the same functions apart.
+fn hold(source: &Source, kinds: &[FunctionKind], percent: usize) {
+    let functions = Functions::Chosen(kinds.to_vec());
+    let bundles = vec![bundle("together", kinds)];
+    let options = Options { functions, bundles, ..Options::default() };
+    let module = programs(source, &options).unwrap().module;
     let interpreter = Interpreter::new(&module, &[]).unwrap();
-    let (everything, single) = module.functions.split_last().unwrap();
+    let (together, apart) = module.functions.split_last().unwrap();
     let entries = |input: usize, count: usize| -> Vec<f64> {
         (0..count).map(|entry| (1.7 * (entry + 5 * input) as f64 + 0.3).sin()).collect()
     };
-    let inputs = everything.inputs.iter().enumerate();
+    let inputs = together.inputs.iter().enumerate();
     let inputs: Vec<(&str, Vec<f64>)> = inputs
         .map(|(index, input)| (input.name.as_str(), entries(index, input.symbols.len())))
         .collect();
@@ -64,28 +94,33 @@ fn a_bundle_gives_what_its_functions_give() {
             given.map(|(name, entries)| (*name, entries.as_slice())).collect();
         interpreter.call(&function.name, &given).unwrap()
     };
-    let expected: Vec<_> = single.iter().flat_map(call).collect();
-    let found = call(everything);
-    assert_eq!((found.len(), single.len()), (expected.len(), kinds.len()));
+    let expected: Vec<_> = apart.iter().flat_map(call).collect();
+    let found = call(together);
+    assert_eq!((found.len(), apart.len()), (expected.len(), kinds.len()));
     for (found, expected) in found.iter().zip(&expected) {
         assert_eq!(found.values.len(), expected.values.len());
         let size = expected.values.iter().fold(1e-3_f64, |size, value| size.max(value.abs()));
-        for (found, expected) in found.values.iter().zip(&expected.values) {
-            let error = (found - expected).abs() / size;
-            assert!(error < 1e-11, "{found} for {expected}");
+        for (value, expected) in found.values.iter().zip(&expected.values) {
+            let error = (value - expected).abs() / size;
+            assert!(error < 1e-11, "{}: {value} for {expected}", found.name);
         }
     }
-    // Poses of links and of frames would have the same names.
-    let fields: Vec<&str> = everything.outputs.iter().map(|output| output.name.as_str()).collect();
+    let operations = |function| module.counts(function).call.operations();
+    let (sum, all): (usize, usize) = (apart.iter().map(operations).sum(), operations(together));
+    assert!(all * 100 < sum * percent, "{kinds:?}: {all} together, {sum} apart");
+}
+
+#[test]
+fn outputs_of_one_name_are_told_apart() {
+    let bundles = vec![bundle("everything", FunctionKind::ALL)];
+    let options = Options { bundles, ..Options::default() };
+    let module = programs(&source(""), &options).unwrap().module;
+    let outputs = module.functions[0].outputs.iter();
+    let fields: Vec<&str> = outputs.map(|output| output.name.as_str()).collect();
     for field in ["bias", "gravity", "force", "frame_poses_rotation", "forward_kinematics_position"]
     {
         assert!(fields.contains(&field), "{field} is not in {fields:?}");
     }
-    // Work is shared: all in one cost less than each by itself.
-    let operations = |function| module.counts(function).call.operations();
-    let apart: usize = single.iter().map(operations).sum();
-    let together = operations(everything);
-    assert!(together * 10 < apart * 8, "{together} in one, {apart} apart");
 }
 
 #[test]

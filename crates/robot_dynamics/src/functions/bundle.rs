@@ -1,6 +1,6 @@
 //! Which functions are wanted: each by itself, and several in one call that shares their work.
 
-use super::{Derivation, Function, FunctionKind, Input, Output};
+use super::{Derivation, Function, FunctionKind, Input, Output, sharing};
 
 /// Which functions are generated, each by itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -63,15 +63,17 @@ fn fold(name: &str) -> String {
 }
 
 impl<'g> Derivation<'_, 'g> {
-    /// Derives the functions of a bundle in one: expressions that they share are computed once.
+    /// Derives the functions of a bundle in one: expressions that they share are computed once, and
+    /// where it is cheaper one function is made of others, such as τ = M q̈ + C q̇ + g.
     ///
     /// The output of a function that has one is named after the function. Of functions with several
     /// outputs each keeps its name; where two functions have the same, the function's name stands
     /// before it.
     #[must_use]
     pub fn bundle(&self, bundle: &Bundle) -> Function<'g> {
-        let functions: Vec<Function<'g>> =
-            bundle.functions.iter().flat_map(|kind| self.functions(*kind)).collect();
+        let functions = bundle.functions.iter().flat_map(|kind| self.functions(*kind));
+        let mut functions: Vec<Function<'g>> = functions.collect();
+        sharing::share(self, &mut functions);
         let names: Vec<String> =
             functions.iter().map(|function| format!("`{}`", function.name)).collect();
         let mut doc = vec![format!(

@@ -17,6 +17,7 @@ mod mass_matrix;
 mod plain;
 mod plans;
 mod regressor;
+mod sharing;
 
 pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
 pub use kind::FunctionKind;

@@ -1,0 +1,123 @@
+//! Functions of a bundle by way of other functions of it, where that is cheaper.
+
+use robot_symbolic::Expr;
+
+use super::{Derivation, Function, FunctionKind};
+use crate::matrix::SymmetricMatrix;
+
+/// Another way to the first output of a function; `None` where the bundle lacks what it starts from.
+type Way = for<'g> fn(&Derivation<'_, 'g>, &[Function<'g>]) -> Option<Vec<Expr<'g>>>;
+
+/// The ways, in an order in which each starts from what is settled.
+const WAYS: [(FunctionKind, Way); 5] = [
+    (FunctionKind::CoriolisMatrix, coriolis_matrix),
+    (FunctionKind::Bias, bias),
+    (FunctionKind::InverseDynamics, inverse_dynamics),
+    (FunctionKind::ForwardDynamics, forward_dynamics),
+    (FunctionKind::Energies, kinetic_energy),
+];
+
+/// Takes each other way under which the functions together need fewer operations.
+pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Function<'g>]) {
+    let cost = |functions: &[Function<'g>]| {
+        let outputs = functions.iter().flat_map(|function| &function.outputs);
+        let roots: Vec<Expr<'g>> =
+            outputs.flat_map(|output| output.values.iter().copied()).collect();
+        derivation.operations(&roots).flops()
+    };
+    let mut least = cost(functions);
+    for (kind, way) in WAYS {
+        let Some(mut values) = way(derivation, functions) else { continue };
+        let Some(index) = functions.iter().position(|one| one.name == kind.name()) else {
+            continue;
+        };
+        swap(functions, index, &mut values);
+        let operations = cost(functions);
+        if operations < least {
+            least = operations;
+        } else {
+            swap(functions, index, &mut values);
+        }
+    }
+}
+
+/// Exchanges the values of a function's first output.
+fn swap<'g>(functions: &mut [Function<'g>], index: usize, values: &mut Vec<Expr<'g>>) {
+    if let Some(output) = functions.get_mut(index).and_then(|one| one.outputs.first_mut()) {
+        std::mem::swap(&mut output.values, values);
+    }
+}
+
+/// The values of an output of a function, where the bundle has it.
+fn values<'f, 'g>(
+    functions: &'f [Function<'g>],
+    kind: FunctionKind,
+    output: usize,
+) -> Option<&'f [Expr<'g>]> {
+    let function = functions.iter().find(|function| function.name == kind.name())?;
+    Some(&function.outputs.get(output)?.values)
+}
+
+/// ½ ∂τ/∂q̇: C q̇ is a quadratic form in q̇, its coefficients the Christoffel symbols.
+fn coriolis_matrix<'g>(
+    _: &Derivation<'_, 'g>,
+    functions: &[Function<'g>],
+) -> Option<Vec<Expr<'g>>> {
+    let slopes = values(functions, FunctionKind::InverseDynamicsDerivatives, 1)?;
+    Some(slopes.iter().map(|slope| *slope / 2).collect())
+}
+
+/// C q̇ + g.
+fn bias<'g>(derivation: &Derivation<'_, 'g>, functions: &[Function<'g>]) -> Option<Vec<Expr<'g>>> {
+    let matrix = values(functions, FunctionKind::CoriolisMatrix, 0)?;
+    let gravity = values(functions, FunctionKind::Gravity, 0)?;
+    Some(sum(&product(matrix, &derivation.coordinate_symbols("qd")), gravity))
+}
+
+/// M q̈ + C q̇ + g.
+fn inverse_dynamics<'g>(
+    derivation: &Derivation<'_, 'g>,
+    functions: &[Function<'g>],
+) -> Option<Vec<Expr<'g>>> {
+    let matrix = values(functions, FunctionKind::MassMatrix, 0)?;
+    let bias = values(functions, FunctionKind::Bias, 0)?;
+    Some(sum(&product(matrix, &derivation.coordinate_symbols("qdd")), bias))
+}
+
+/// The solution of M q̈ = τ − C q̇ − g.
+fn forward_dynamics<'g>(
+    derivation: &Derivation<'_, 'g>,
+    functions: &[Function<'g>],
+) -> Option<Vec<Expr<'g>>> {
+    let rows = values(functions, FunctionKind::MassMatrix, 0)?;
+    let bias = values(functions, FunctionKind::Bias, 0)?;
+    let mut matrix = SymmetricMatrix::zero(derivation.mechanism.graph, bias.len());
+    for (row, entries) in rows.chunks(bias.len().max(1)).enumerate() {
+        for (column, entry) in entries.iter().enumerate().skip(row) {
+            matrix.set(row, column, *entry);
+        }
+    }
+    let forces = derivation.coordinate_symbols("tau");
+    Some(matrix.solve(forces.iter().zip(bias).map(|(force, bias)| *force - *bias).collect()))
+}
+
+/// ½ q̇ᵀ M q̇.
+fn kinetic_energy<'g>(
+    derivation: &Derivation<'_, 'g>,
+    functions: &[Function<'g>],
+) -> Option<Vec<Expr<'g>>> {
+    let matrix = values(functions, FunctionKind::MassMatrix, 0)?;
+    let rates = derivation.coordinate_symbols("qd");
+    let twice = product(&product(matrix, &rates), &rates);
+    Some(twice.into_iter().map(|twice| twice / 2).collect())
+}
+
+/// A matrix, stored row by row, times a vector.
+fn product<'g>(matrix: &[Expr<'g>], vector: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let row = |row: &[Expr<'g>]| row.iter().zip(vector).map(|(a, b)| *a * *b).reduce(|a, b| a + b);
+    matrix.chunks(vector.len().max(1)).filter_map(row).collect()
+}
+
+fn sum<'g>(left: &[Expr<'g>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    left.iter().zip(right).map(|(a, b)| *a + *b).collect()
+}
