@@ -37,6 +37,16 @@ impl From<Error> for Failure {
     }
 }
 
+impl From<robot_simulation::Error> for Failure {
+    fn from(error: robot_simulation::Error) -> Failure {
+        match error {
+            robot_simulation::Error::Robot(errors) => Failure::Robot(errors),
+            robot_simulation::Error::Input(messages) => Failure::Input(messages),
+            other => Failure::input(other.to_string()),
+        }
+    }
+}
+
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
         Failure::Stream(error)

@@ -6,7 +6,10 @@
 mod commands;
 mod counts;
 mod failure;
+mod files;
+mod progress;
 mod robot;
+mod settings;
 mod states;
 mod text;
 
@@ -46,7 +49,7 @@ pub struct Terminal<'a> {
     pub output: &'a mut dyn Write,
     /// Standard error.
     pub errors: &'a mut dyn Write,
-    /// Whether standard error shows colours.
+    /// Whether standard error is a terminal: it shows colours and progress.
     pub colours: bool,
 }
 

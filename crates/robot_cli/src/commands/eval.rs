@@ -15,7 +15,9 @@ use robot_dynamics::model::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::files;
 use crate::robot::{RobotArgument, TrigonometryName, unknown_function};
+use crate::settings::Settings;
 use crate::states::{Layout, State, WRENCH};
 use crate::text;
 
@@ -40,9 +42,8 @@ pub(crate) struct Arguments {
     /// The file with the states; `-` for standard input
     #[arg(long, value_name = "FILE")]
     states: PathBuf,
-    /// A parameter's value in place of the nominal one
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
-    settings: Vec<(String, f64)>,
+    #[command(flatten)]
+    settings: Settings,
     /// Where sines and cosines come from
     #[arg(long, value_enum, default_value_t = TrigonometryName::Standard)]
     trigonometry: TrigonometryName,
@@ -57,14 +58,6 @@ enum Format {
     Csv,
 }
 
-/// `M5=2.5`
-fn setting(text: &str) -> Result<(String, f64), String> {
-    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as M5=2.5")?;
-    let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    let number = number.ok_or_else(|| format!("`{}` is not a number", value.trim()))?;
-    Ok((name.trim().to_owned(), number))
-}
-
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = self.robot.source()?;
@@ -72,7 +65,7 @@ impl Arguments {
         let bundles = code.bundles.into_iter().filter(|bundle| bundle.name == self.function);
         let bundles: Vec<Bundle> = bundles.collect();
         let kind = if bundles.is_empty() { Some(self.kind(&robot)?) } else { None };
-        let mut wrong = self.wrong_settings(&robot);
+        let mut wrong = self.settings.wrong(&robot);
         let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
         let kind = kind.map(|kind| with_wrench(kind, &robot, &states, &mut wrong));
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
@@ -121,16 +114,7 @@ impl Arguments {
         terminal: &mut Terminal<'_>,
         wrong: &mut Vec<String>,
     ) -> Result<Vec<State>, Failure> {
-        let (mut name, mut bytes) = (self.states.display().to_string(), vec![]);
-        if name == "-" {
-            name = "standard input".to_owned();
-            terminal.input.read_to_end(&mut bytes)?;
-        } else {
-            bytes = std::fs::read(&self.states)
-                .map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
-        }
-        let text = String::from_utf8(bytes)
-            .map_err(|error| Failure::input(format!("{name} is not UTF-8 text: {error}")))?;
+        let (name, text) = files::read(&self.states, terminal)?;
         let (states, found) = layout.read(&text);
         wrong.extend(found.into_iter().map(|message| format!("{name}: {message}")));
         Ok(states)
@@ -149,13 +133,11 @@ impl Arguments {
         if !wrong.is_empty() {
             return Err(Failure::Input(wrong));
         }
-        let settings: Vec<(&str, f64)> =
-            self.settings.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let failed = |errors: robot_codegen::Errors| {
             let errors = errors.as_slice().iter();
             Failure::Input(errors.map(|error| format!("{}: {error}", source.name)).collect())
         };
-        let interpreter = Interpreter::new(&programs.module, &settings)
+        let interpreter = Interpreter::new(&programs.module, &self.settings.pairs())
             .map_err(failed)?
             .with_trigonometry(Trigonometry::from(self.trigonometry));
         let mut results = vec![];
@@ -168,27 +150,6 @@ impl Arguments {
             results.push(outputs);
         }
         if wrong.is_empty() { Ok(results) } else { Err(Failure::Input(wrong)) }
-    }
-
-    /// Parameters that there are not, that are set twice, or that have no value.
-    fn wrong_settings(&self, robot: &Robot) -> Vec<String> {
-        let mut wrong = vec![];
-        let parameters = &robot.parameters;
-        let known: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        for (index, (name, _)) in self.settings.iter().enumerate() {
-            if !known.contains(&name.as_str()) {
-                wrong.push(format!("--set: {}", text::unknown("parameter", name, &known)));
-            } else if self.settings[..index].iter().any(|(earlier, _)| earlier == name) {
-                wrong.push(format!("--set: `{name}` is set twice"));
-            }
-        }
-        for parameter in parameters.iter().filter(|parameter| parameter.value.is_none()) {
-            let name = &parameter.name;
-            if self.settings.iter().all(|(set, _)| set != name) {
-                wrong.push(format!("`{name}` has no nominal value: give one, --set {name}=…"));
-            }
-        }
-        wrong
     }
 }
 

@@ -11,6 +11,7 @@ mod prove;
 mod schema;
 mod search;
 mod show;
+mod simulate;
 mod stats;
 
 use clap::Subcommand;
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     Crate(package::Arguments),
     /// Compute a function of a robot at given states
     Eval(eval::Arguments),
+    /// Simulate the motion of a robot: the motion law q(t), its torques and energies
+    Simulate(simulate::Arguments),
     /// Count the operations of a robot's functions
     Stats(stats::Arguments),
     /// Compile a robot's code and read what the compiler made of it
@@ -62,6 +65,7 @@ impl Command {
             Command::Generate(arguments) => arguments.run(terminal),
             Command::Crate(arguments) => arguments.run(terminal),
             Command::Eval(arguments) => arguments.run(terminal),
+            Command::Simulate(arguments) => arguments.run(terminal),
             Command::Stats(arguments) => arguments.run(terminal),
             Command::Prove(arguments) => arguments.run(terminal),
             Command::Search(arguments) => arguments.run(terminal),

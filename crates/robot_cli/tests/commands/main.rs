@@ -10,6 +10,7 @@ mod files;
 mod json_schema;
 mod prove;
 mod schema;
+mod simulate;
 mod stats;
 mod usage;
 

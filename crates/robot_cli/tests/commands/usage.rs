@@ -2,11 +2,12 @@
 
 use crate::{complaint, output, run};
 
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "equations",
     "generate",
     "crate",
     "eval",
+    "simulate",
     "stats",
     "search",
     "import",

@@ -1,0 +1,154 @@
+//! `simulate`: the motion law of a robot.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_build::{Functions, Options, Programs};
+use robot_dynamics::model::{Friction, Robot};
+use robot_simulation::{
+    Energies, Motion, RobotProgram, SimulationOptions, State, Table, Torques, simulate,
+};
+use robot_symbolic::Formula;
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::files;
+use crate::progress::Progress;
+use crate::robot::RobotArgument;
+use crate::settings::Settings;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic simulate robots/planar_2r.toml --time 10 --q0 1.5,0.5 -o motion.csv
+  robot-symbolic simulate robots/puma560.toml --torque \"2 = -40*(q2 - 0.5) - 8*qd2\" --time 3
+  robot-symbolic simulate robots/planar_2r.toml --torques motion.csv --time 10
+
+The output is CSV: t, q, qd, qdd, tau and the energies, in s, rad or m, N m or N, and J; numbers read
+back to the last bit. Expressions know t, q1 …, qd1 … and the robot's parameters. A file of torques
+has the columns t and tau1 …; between its lines torques are linear in t.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// How long to simulate, s
+    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    time: f64,
+    /// The time between lines of the output, s
+    #[arg(long, value_name = "S", default_value_t = 0.01)]
+    step: f64,
+    /// The error that a step may make in a component y of q and qd: TOLERANCE (1 + |y|)
+    #[arg(long, default_value_t = 1e-9)]
+    tolerance: f64,
+    /// The most steps of the integrator
+    #[arg(long, value_name = "STEPS", default_value_t = SimulationOptions::default().max_steps)]
+    max_steps: usize,
+    /// The positions at the start, with commas between, rad or m; without this 0
+    #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', allow_hyphen_values = true)]
+    q0: Option<Vec<f64>>,
+    /// The velocities at the start, rad/s or m/s; without this 0
+    #[arg(long, value_name = "QD1,QD2,…", value_delimiter = ',', allow_hyphen_values = true)]
+    qd0: Option<Vec<f64>>,
+    /// The torque or force of a joint, by number or name; joints without one are not driven
+    #[arg(long = "torque", value_name = "JOINT=EXPRESSION")]
+    torque: Vec<String>,
+    /// A CSV file of torques; `-` for standard input
+    #[arg(long, value_name = "FILE", conflicts_with = "torque")]
+    torques: Option<PathBuf>,
+    /// With the friction that the robot file gives
+    #[arg(long)]
+    friction: bool,
+    /// Take tanh(qd / WIDTH) for the sign of a velocity in dry friction that has no smoothing, rad/s
+    /// or m/s
+    #[arg(long, value_name = "WIDTH", requires = "friction")]
+    smoothing: Option<f64>,
+    #[command(flatten)]
+    settings: Settings,
+    /// The CSV file to write; without this standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let mut robot = self.robot.read(terminal)?.robot;
+        let wrong = self.settings.wrong(&robot);
+        if !wrong.is_empty() {
+            return Err(Failure::Input(wrong));
+        }
+        self.smooth(&mut robot)?;
+        let functions = Functions::Chosen(RobotProgram::functions(self.friction));
+        let options = Options { functions, ..self.robot.options()? };
+        let name = self.robot.path().display().to_string();
+        let programs = robot_build::programs_of(robot, &name, &options)?;
+        let program = RobotProgram::new(&programs, &self.settings.pairs(), self.friction)?;
+        let motion = self.motion(&programs, &program, terminal)?;
+        let energies = motion.energies(&program)?;
+        let csv = motion.table(&energies).csv();
+        match &self.output {
+            None => terminal.output.write_all(csv.as_bytes())?,
+            Some(path) => {
+                files::write(path, csv.as_bytes())?;
+                writeln!(terminal.output, "{}", summary(&motion, &energies))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn motion(
+        &self,
+        programs: &Programs,
+        program: &RobotProgram<'_>,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<Motion, Failure> {
+        let torques = self.torques(&programs.robot, terminal)?;
+        let zeros = || vec![0.0; programs.robot.degrees_of_freedom()];
+        let given = |values: &Option<Vec<f64>>| values.clone().unwrap_or_else(zeros);
+        let start = State { q: given(&self.q0), qd: given(&self.qd0) };
+        let &Arguments { time: duration, step, tolerance, max_steps, .. } = self;
+        let options = SimulationOptions { duration, step, tolerance, max_steps };
+        let mut progress = Progress::new(terminal);
+        let mut heard = |t: f64| progress.show(|| format!("{t:.3} s of {duration} s"));
+        Ok(simulate(program, &torques, &start, &options, &mut heard)?)
+    }
+
+    fn torques(&self, robot: &Robot, terminal: &mut Terminal<'_>) -> Result<Torques, Failure> {
+        let Some(path) = &self.torques else {
+            return Ok(Torques::from_expressions(robot, &self.settings.pairs(), &self.torque)?);
+        };
+        let (name, text) = files::read(path, terminal)?;
+        let table = Table::read(&name, &text)?;
+        Ok(Torques::from_table(robot, &name, &table, self.time)?)
+    }
+
+    /// Gives dry friction that has a sharp sign a smooth one, where that is asked for.
+    fn smooth(&self, robot: &mut Robot) -> Result<(), Failure> {
+        let Some(width) = self.smoothing else {
+            return Ok(());
+        };
+        let formula = Formula::parse(&width.to_string()).ok().filter(|_| width > 0.0);
+        let Some(formula) = formula else {
+            return Err(Failure::Usage(vec![format!(
+                "--smoothing is {width}; it must be a positive velocity"
+            )]));
+        };
+        for link in &mut robot.links {
+            if link.friction != Friction::none() && link.friction.smoothing.is_none() {
+                link.friction.smoothing = Some(formula.clone());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a motion came to, in a line.
+fn summary(motion: &Motion, energies: &Energies) -> String {
+    let ends = |values: &[f64]| {
+        let (first, last) = (values.first().copied(), values.last().copied());
+        (first.unwrap_or_default(), last.unwrap_or_default())
+    };
+    let ((_, end), (before, after)) = (ends(&motion.t), ends(&energies.total));
+    format!(
+        "{end} s in {} steps, {} lines; energy from {before} J to {after} J",
+        motion.steps,
+        motion.t.len()
+    )
+}

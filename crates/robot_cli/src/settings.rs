@@ -1,0 +1,50 @@
+//! Parameters that a command sets.
+
+use clap::Args;
+use robot_dynamics::model::Robot;
+
+use crate::text;
+
+/// Parameters' values in place of the nominal ones.
+#[derive(Args)]
+pub(crate) struct Settings {
+    /// A parameter's value in place of the nominal one
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
+    settings: Vec<(String, f64)>,
+}
+
+/// `M5=2.5`
+fn setting(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as M5=2.5")?;
+    let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let number = number.ok_or_else(|| format!("`{}` is not a number", value.trim()))?;
+    Ok((name.trim().to_owned(), number))
+}
+
+impl Settings {
+    /// Names and values.
+    pub(crate) fn pairs(&self) -> Vec<(&str, f64)> {
+        self.settings.iter().map(|(name, value)| (name.as_str(), *value)).collect()
+    }
+
+    /// Parameters that there are not, that are set twice, or that have no value.
+    pub(crate) fn wrong(&self, robot: &Robot) -> Vec<String> {
+        let mut wrong = vec![];
+        let parameters = &robot.parameters;
+        let known: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        for (index, (name, _)) in self.settings.iter().enumerate() {
+            if !known.contains(&name.as_str()) {
+                wrong.push(format!("--set: {}", text::unknown("parameter", name, &known)));
+            } else if self.settings[..index].iter().any(|(earlier, _)| earlier == name) {
+                wrong.push(format!("--set: `{name}` is set twice"));
+            }
+        }
+        for parameter in parameters.iter().filter(|parameter| parameter.value.is_none()) {
+            let name = &parameter.name;
+            if self.settings.iter().all(|(set, _)| set != name) {
+                wrong.push(format!("`{name}` has no nominal value: give one, --set {name}=…"));
+            }
+        }
+        wrong
+    }
+}

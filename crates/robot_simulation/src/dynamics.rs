@@ -1,0 +1,67 @@
+//! What moves, and what drives it.
+
+use crate::error::Cause;
+
+/// Positions and velocities of the n coordinates: rad and rad/s, or m and m/s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// q.
+    pub q: Vec<f64>,
+    /// q̇.
+    pub qd: Vec<f64>,
+}
+
+/// Forward dynamics: what accelerates under driving forces.
+pub trait Dynamics {
+    /// n, the number of coordinates.
+    fn degrees_of_freedom(&self) -> usize;
+
+    /// The n accelerations q̈ (rad/s² or m/s²) under the n driving forces τ (N m or N).
+    ///
+    /// # Errors
+    ///
+    /// Where the state has none. Values that are not finite are an error as well; the caller looks.
+    fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause>;
+}
+
+/// Driving forces over time.
+pub trait TorqueLaw {
+    /// The n driving forces τ (N m or N) at the time t (s).
+    fn torques(&self, t: f64, state: &State) -> Vec<f64>;
+
+    /// Times, rising, at which the forces or their slopes jump. The integrator steps onto each: no
+    /// step goes over a corner.
+    fn corners(&self) -> &[f64] {
+        &[]
+    }
+}
+
+/// Any function of time and state.
+impl<F: Fn(f64, &State) -> Vec<f64>> TorqueLaw for F {
+    fn torques(&self, t: f64, state: &State) -> Vec<f64> {
+        self(t, state)
+    }
+}
+
+/// The dynamics of n coordinates that a function gives, such as generated code: q̈ from state and τ.
+pub fn from_fn<F: Fn(&State, &[f64]) -> Vec<f64>>(
+    degrees_of_freedom: usize,
+    accelerations: F,
+) -> impl Dynamics {
+    FromFn { degrees_of_freedom, accelerations }
+}
+
+struct FromFn<F> {
+    degrees_of_freedom: usize,
+    accelerations: F,
+}
+
+impl<F: Fn(&State, &[f64]) -> Vec<f64>> Dynamics for FromFn<F> {
+    fn degrees_of_freedom(&self) -> usize {
+        self.degrees_of_freedom
+    }
+
+    fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause> {
+        Ok((self.accelerations)(state, tau))
+    }
+}

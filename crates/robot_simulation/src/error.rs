@@ -1,0 +1,92 @@
+//! Why there is no motion.
+
+use std::fmt;
+
+/// Why there is no motion, or no picture of one.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The robot, or a function that it lacks.
+    #[error(transparent)]
+    Robot(#[from] robot_build::Errors),
+    /// Parameters of the robot.
+    #[error(transparent)]
+    Program(#[from] robot_codegen::Errors),
+    /// Inputs: everything that is wrong with them, a message each.
+    #[error("{}", .0.join("\n"))]
+    Input(Vec<String>),
+    /// The integration ended before its time.
+    #[error("the motion ends at t = {t} s: {cause}")]
+    Stopped {
+        /// The time that was reached, s.
+        t: f64,
+        /// Why it was the last.
+        cause: Cause,
+    },
+    /// The plot could not be drawn.
+    #[error("the plot cannot be drawn: {0}")]
+    Plot(String),
+}
+
+impl Error {
+    /// One wrong input.
+    pub(crate) fn input(message: impl Into<String>) -> Error {
+        Error::Input(vec![message.into()])
+    }
+
+    /// `value` where there are no messages.
+    pub(crate) fn check<T>(messages: Vec<String>, value: T) -> Result<T, Error> {
+        if messages.is_empty() { Ok(value) } else { Err(Error::Input(messages)) }
+    }
+}
+
+/// Why an integration ended before its time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Cause {
+    /// Steps became so small that time stands still.
+    StepSize,
+    /// The accelerations have no finite value.
+    Accelerations,
+    /// The driving forces have no finite value.
+    Torques,
+    /// Friction that depends on the load has no acceleration that agrees with it.
+    Friction,
+    /// So many steps were not enough.
+    Steps(usize),
+    /// What the integrator or the interpreter says.
+    Other(String),
+}
+
+/// The usual reason for small steps.
+const SHARP: &str = "Where a joint with dry friction comes to rest, a sharp sign of its velocity \
+                     holds the integrator up: give the friction a smooth one (`smoothing`)";
+
+impl fmt::Display for Cause {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Cause::StepSize => write!(
+                formatter,
+                "the steps became too small. {SHARP}; else look for forces that jump, or ask for a \
+                 coarser tolerance"
+            ),
+            Cause::Accelerations => formatter.write_str(
+                "the accelerations have no finite value. Either the mass matrix is singular (a \
+                 coordinate moves no mass) or the motion has run away",
+            ),
+            Cause::Torques => formatter.write_str(
+                "the driving forces have no finite value there; look for a division by zero or the \
+                 root of a negative number in their expressions",
+            ),
+            Cause::Friction => formatter.write_str(
+                "no acceleration agrees with the dry friction that it causes by its load; look at \
+                 the coefficients `coulomb` of the joints",
+            ),
+            Cause::Steps(limit) => write!(
+                formatter,
+                "{limit} steps were not enough. {SHARP}; else allow more, or a coarser tolerance"
+            ),
+            Cause::Other(words) => formatter.write_str(words),
+        }
+    }
+}

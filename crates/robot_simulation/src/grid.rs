@@ -1,0 +1,57 @@
+//! Times of output.
+
+use crate::error::Error;
+
+/// More samples than this are refused: a table of them would fill the memory.
+const MAX_SAMPLES: f64 = 1e7;
+
+/// 0, step, 2 step, … up to the duration, and the duration itself where no step falls on it; s.
+///
+/// # Errors
+///
+/// A duration or step that is not positive, and too many samples.
+pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
+    let mut wrong = vec![];
+    for (name, value) in [("duration", duration), ("output step", step)] {
+        if !(value.is_finite() && value > 0.0) {
+            wrong.push(format!("the {name} is {value} s; it must be positive"));
+        }
+    }
+    Error::check(wrong, ())?;
+    // A step that falls short of the end by rounding alone is the end.
+    let whole = (duration / step * (1.0 + 1e-12)).floor();
+    if whole > MAX_SAMPLES {
+        let message = format!("{whole} samples are more than {MAX_SAMPLES}; take a larger step");
+        return Err(Error::input(message));
+    }
+    let mut times: Vec<f64> = (0..=whole as usize).map(|index| index as f64 * step).collect();
+    match times.last_mut() {
+        Some(last) if duration - *last <= 1e-9 * step => *last = duration,
+        _ => times.push(duration),
+    }
+    Ok(times)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::times;
+
+    #[test]
+    fn the_end_is_always_there_and_once() {
+        assert_eq!(times(1.0, 0.25).unwrap(), [0.0, 0.25, 0.5, 0.75, 1.0]);
+        assert_eq!(times(1.0, 0.4).unwrap(), [0.0, 0.4, 0.8, 1.0]);
+        assert_eq!(times(0.3, 1.0).unwrap(), [0.0, 0.3]);
+        // 10 / 0.1 and 0.3 / 0.1 are rounded up and down.
+        for (duration, step, count) in [(10.0, 0.1, 101), (0.3, 0.1, 4), (0.7, 0.1, 8)] {
+            let times = times(duration, step).unwrap();
+            assert_eq!((times.len(), times.last()), (count, Some(&duration)));
+        }
+    }
+
+    #[test]
+    fn what_is_no_grid_is_refused() {
+        let shown = times(-1.0, f64::NAN).unwrap_err().to_string();
+        assert_eq!(shown.lines().count(), 2, "{shown}");
+        assert!(times(1e9, 1e-9).unwrap_err().to_string().contains("samples"));
+    }
+}

@@ -1,0 +1,36 @@
+//! Motions of robots.
+//!
+//! [`simulate`] integrates the motion law q(t), the direct problem (7) of the paper, over any
+//! [`Dynamics`]: the interpreted program of a robot ([`RobotProgram`]), generated code or a closure.
+//! Both
+//! give series over time, which [`Table`] writes as CSV.
+//!
+//! ```
+//! use robot_simulation::{SimulationOptions, State, Torques, from_fn, simulate};
+//!
+//! // A pendulum of length 1 m.
+//! let pendulum = from_fn(1, |state, tau| vec![tau[0] - 9.81 * state.q[0].sin()]);
+//! let start = State { q: vec![0.5], qd: vec![0.0] };
+//! let options = SimulationOptions { duration: 2.0, ..SimulationOptions::default() };
+//! let motion = simulate(&pendulum, &Torques::none(1), &start, &options, &mut |_| {})?;
+//! assert_eq!(motion.t.last(), Some(&2.0));
+//! # Ok::<(), robot_simulation::Error>(())
+//! ```
+
+mod dynamics;
+mod error;
+mod expressions;
+mod grid;
+mod motion;
+mod program;
+mod simulation;
+mod table;
+mod torques;
+
+pub use dynamics::{Dynamics, State, TorqueLaw, from_fn};
+pub use error::{Cause, Error};
+pub use motion::{Energies, Motion};
+pub use program::RobotProgram;
+pub use simulation::{SimulationOptions, simulate};
+pub use table::Table;
+pub use torques::Torques;

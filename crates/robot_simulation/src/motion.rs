@@ -1,0 +1,74 @@
+//! Motions: what a simulation gives.
+
+use crate::dynamics::State;
+use crate::error::Error;
+use crate::program::RobotProgram;
+use crate::table::Table;
+
+/// A motion: a sample for each time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// t, s, rising.
+    pub t: Vec<f64>,
+    /// q and q̇.
+    pub states: Vec<State>,
+    /// q̈, rad/s² or m/s².
+    pub qdd: Vec<Vec<f64>>,
+    /// The driving forces τ, N m or N.
+    pub tau: Vec<Vec<f64>>,
+    /// The steps that the integrator took, rejected ones too.
+    pub steps: usize,
+}
+
+/// The energies of a motion, J, a sample for each time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Energies {
+    /// ½ q̇ᵀ M q̇.
+    pub kinetic: Vec<f64>,
+    /// That of the weight.
+    pub potential: Vec<f64>,
+    /// Their sum.
+    pub total: Vec<f64>,
+}
+
+impl Motion {
+    pub(crate) fn push(&mut self, t: f64, state: State, qdd: Vec<f64>, tau: Vec<f64>) {
+        self.t.push(t);
+        self.states.push(state);
+        self.qdd.push(qdd);
+        self.tau.push(tau);
+    }
+
+    /// The energies along the motion.
+    ///
+    /// # Errors
+    ///
+    /// A program of another number of coordinates.
+    pub fn energies(&self, program: &RobotProgram<'_>) -> Result<Energies, Error> {
+        let mut energies = Energies::default();
+        for state in &self.states {
+            let [kinetic, potential] = program.energies(state)?;
+            energies.kinetic.push(kinetic);
+            energies.potential.push(potential);
+            energies.total.push(kinetic + potential);
+        }
+        Ok(energies)
+    }
+
+    /// The columns t, q1 …, qd1 …, qdd1 …, tau1 …, kinetic, potential, energy.
+    #[must_use]
+    pub fn table(&self, energies: &Energies) -> Table {
+        let q: Vec<&[f64]> = self.states.iter().map(|state| state.q.as_slice()).collect();
+        let qd: Vec<&[f64]> = self.states.iter().map(|state| state.qd.as_slice()).collect();
+        let mut table = Table::default();
+        table.push("t", self.t.clone());
+        table.push_numbered("q", &q);
+        table.push_numbered("qd", &qd);
+        table.push_numbered("qdd", &self.qdd);
+        table.push_numbered("tau", &self.tau);
+        table.push("kinetic", energies.kinetic.clone());
+        table.push("potential", energies.potential.clone());
+        table.push("energy", energies.total.clone());
+        table
+    }
+}

@@ -1,0 +1,216 @@
+//! Driving forces over time: none, expressions, tables.
+
+use std::collections::BTreeMap;
+
+use robot_dynamics::diagnostic::quote;
+use robot_dynamics::model::Robot;
+use robot_symbolic::Formula;
+
+use crate::dynamics::{State, TorqueLaw};
+use crate::error::Error;
+use crate::expressions;
+use crate::table::{Table, check_times};
+
+/// Driving forces over time, N m or N.
+#[derive(Clone, Debug)]
+pub struct Torques(Law);
+
+#[derive(Clone, Debug)]
+enum Law {
+    /// A formula for each coordinate, and what their names mean.
+    Formulas { formulas: Vec<Formula>, meanings: BTreeMap<String, Meaning> },
+    /// Samples for each coordinate over time.
+    Samples { t: Vec<f64>, columns: Vec<Vec<f64>> },
+}
+
+/// What a name in a formula stands for.
+#[derive(Clone, Copy, Debug)]
+enum Meaning {
+    Time,
+    Position(usize),
+    Velocity(usize),
+    Value(f64),
+}
+
+impl Torques {
+    /// No driving forces on so many coordinates.
+    #[must_use]
+    pub fn none(degrees_of_freedom: usize) -> Torques {
+        let zero = Formula::number(&robot_symbolic::Rational::ZERO);
+        let formulas = vec![zero; degrees_of_freedom];
+        Torques(Law::Formulas { formulas, meanings: BTreeMap::new() })
+    }
+
+    /// Expressions such as `2 = -5*qd2 + sin(t)`: a coordinate, by its number or its joint's name,
+    /// and a formula in t (s), q1 …, qd1 … and the robot's parameters. A coordinate without one is
+    /// not driven. `parameters` are those that are not to have their nominal values.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the texts.
+    pub fn from_expressions(
+        robot: &Robot,
+        parameters: &[(&str, f64)],
+        texts: &[impl AsRef<str>],
+    ) -> Result<Torques, Error> {
+        let count = robot.degrees_of_freedom();
+        let meanings = meanings(robot, parameters);
+        let mut formulas: Vec<Option<Formula>> = vec![None; count];
+        let mut wrong = vec![];
+        let known = "t, q1 …, qd1 … and the robot's parameters";
+        for text in texts {
+            let found =
+                expressions::assignment(text.as_ref(), |name| meanings.contains_key(name), known);
+            let (name, formula) = match found {
+                Ok(found) => found,
+                Err(message) => {
+                    wrong.push(format!("torque {message}"));
+                    continue;
+                }
+            };
+            match coordinate(robot, name).and_then(|index| formulas.get_mut(index)) {
+                Some(Some(_)) => wrong.push(format!("torque `{}` is given twice", quote(name))),
+                Some(place) => *place = Some(formula),
+                None => wrong.push(unknown_coordinate(robot, name)),
+            }
+        }
+        let zero = Formula::number(&robot_symbolic::Rational::ZERO);
+        let formulas = formulas.into_iter().map(|one| one.unwrap_or_else(|| zero.clone()));
+        let formulas = formulas.collect();
+        Error::check(wrong, Torques(Law::Formulas { formulas, meanings }))
+    }
+
+    /// Samples: the column t (s), rising, and one `tau1` … for each coordinate that is driven; other
+    /// columns are those of a motion, and not read. Between samples the forces are linear in t, at
+    /// the ends and beyond they stay at the last value; `duration` (s) must lie within the samples.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the table; `source` is its name in messages.
+    pub fn from_table(
+        robot: &Robot,
+        source: &str,
+        table: &Table,
+        duration: f64,
+    ) -> Result<Torques, Error> {
+        let mut wrong = check_times(source, table);
+        let t = table.column("t").unwrap_or_default();
+        if let (Some(first), Some(last)) = (t.first(), t.last())
+            && (*first > 0.0 || *last < duration)
+        {
+            wrong.push(format!(
+                "{source}: the torques go from {first} s to {last} s; the motion from 0 s to \
+                 {duration} s"
+            ));
+        }
+        let count = robot.degrees_of_freedom();
+        let names: Vec<String> = (1..=count).map(|number| format!("tau{number}")).collect();
+        if names.iter().all(|name| table.column(name).is_none()) {
+            wrong.push(format!(
+                "{source}: there is no column of torques; there can be {}",
+                names.join(", ")
+            ));
+        }
+        let known = |name: &str| names.iter().any(|known| known == name) || is_of_motion(name);
+        for name in table.names().filter(|name| !known(name)) {
+            let name = quote(name);
+            wrong.push(format!("{source}: there is no coordinate for the column `{name}`"));
+        }
+        let column =
+            |name: &String| table.column(name).map_or_else(|| vec![0.0; t.len()], <[f64]>::to_vec);
+        let columns = names.iter().map(column).collect();
+        Error::check(wrong, Torques(Law::Samples { t: t.to_vec(), columns }))
+    }
+
+    /// Whether no coordinate is ever driven.
+    #[must_use]
+    pub fn are_zero(&self) -> bool {
+        match &self.0 {
+            Law::Formulas { formulas, .. } => formulas
+                .iter()
+                .all(|formula| formula.as_number().is_some_and(|number| number.to_f64() == 0.0)),
+            Law::Samples { columns, .. } => columns.iter().flatten().all(|value| *value == 0.0),
+        }
+    }
+}
+
+impl TorqueLaw for Torques {
+    fn torques(&self, t: f64, state: &State) -> Vec<f64> {
+        match &self.0 {
+            Law::Formulas { formulas, meanings } => {
+                let value = |name: &str| match meanings.get(name) {
+                    Some(Meaning::Time) => t,
+                    Some(Meaning::Position(index)) => at(&state.q, *index),
+                    Some(Meaning::Velocity(index)) => at(&state.qd, *index),
+                    Some(Meaning::Value(value)) => *value,
+                    None => f64::NAN,
+                };
+                formulas.iter().map(|formula| formula.evaluate(value)).collect()
+            }
+            Law::Samples { t: times, columns } => {
+                columns.iter().map(|column| linear(times, column, t)).collect()
+            }
+        }
+    }
+
+    fn corners(&self) -> &[f64] {
+        match &self.0 {
+            Law::Formulas { .. } => &[],
+            Law::Samples { t, .. } => t,
+        }
+    }
+}
+
+fn at(values: &[f64], index: usize) -> f64 {
+    values.get(index).copied().unwrap_or(f64::NAN)
+}
+
+/// The value at `t`, linear between samples.
+fn linear(times: &[f64], values: &[f64], t: f64) -> f64 {
+    let after = times.partition_point(|time| *time <= t);
+    let before = after.saturating_sub(1);
+    match (times.get(before), times.get(after), values.get(before), values.get(after)) {
+        (Some(t0), Some(t1), Some(v0), Some(v1)) if before < after => {
+            v0 + (v1 - v0) * ((t - t0) / (t1 - t0))
+        }
+        (_, _, Some(value), _) => *value,
+        _ => f64::NAN,
+    }
+}
+
+/// The columns of a motion beside its torques.
+fn is_of_motion(name: &str) -> bool {
+    let numbered = |prefix: &str| {
+        let number = name.strip_prefix(prefix);
+        number.is_some_and(|number| number.parse::<usize>().is_ok())
+    };
+    matches!(name, "t" | "kinetic" | "potential" | "energy")
+        || ["q", "qd", "qdd"].into_iter().any(numbered)
+}
+
+fn meanings(robot: &Robot, parameters: &[(&str, f64)]) -> BTreeMap<String, Meaning> {
+    let values = expressions::parameters(robot, parameters).into_iter();
+    let mut meanings: BTreeMap<String, Meaning> =
+        values.map(|(name, value)| (name, Meaning::Value(value))).collect();
+    meanings.insert("t".to_owned(), Meaning::Time);
+    for index in 0..robot.degrees_of_freedom() {
+        meanings.insert(format!("q{}", index + 1), Meaning::Position(index));
+        meanings.insert(format!("qd{}", index + 1), Meaning::Velocity(index));
+    }
+    meanings
+}
+
+/// The coordinate of that number, from 1, or of that joint.
+fn coordinate(robot: &Robot, name: &str) -> Option<usize> {
+    let by_joint = robot.coordinates.iter().position(|coordinate| coordinate.joint == name);
+    let number = name.parse::<usize>().ok().filter(|number| *number <= robot.degrees_of_freedom());
+    by_joint.or_else(|| number?.checked_sub(1))
+}
+
+fn unknown_coordinate(robot: &Robot, name: &str) -> String {
+    let joints: Vec<&str> =
+        robot.coordinates.iter().map(|coordinate| coordinate.joint.as_str()).collect();
+    let (name, joints) = (quote(name), joints.join(", "));
+    let count = robot.degrees_of_freedom();
+    format!("torque `{name}` is of no coordinate; there are 1 to {count}, by joints {joints}")
+}

@@ -1,0 +1,130 @@
+//! Driving forces, and what is said of wrong input.
+
+use robot_simulation::{
+    Cause, Error, RobotProgram, SimulationOptions, State, Table, TorqueLaw, Torques, from_fn,
+    simulate,
+};
+
+use crate::{compiled, motion, rest, robot_file};
+
+fn state() -> State {
+    State { q: vec![0.5, -1.0], qd: vec![2.0, 3.0] }
+}
+
+#[test]
+fn expressions_know_time_state_and_parameters() {
+    let programs = compiled(&robot_file("planar_2r"), false);
+    let robot = &programs.robot;
+    let texts = ["2 = -5*qd1 + sin(t)*q2", "1 = m1*g*t"];
+    let torques = Torques::from_expressions(robot, &[("m1", 2.0)], &texts).unwrap();
+    let found = torques.torques(0.5, &state());
+    assert_eq!(found, [2.0 * 9.81 * 0.5, -10.0 - 0.5_f64.sin()]);
+    assert!(!torques.are_zero());
+    let zero = Torques::from_expressions(robot, &[], &["1 = 0"]).unwrap();
+    assert!(zero.are_zero() && Torques::none(2).are_zero());
+    assert_eq!(zero.torques(1.0, &state()), [0.0, 0.0]);
+
+    let texts = ["1 = sin(", "3 = 1", "1 = 2", "1 = 3", "2 = tau1", "7", "elbow = 1"];
+    let shown = Torques::from_expressions(robot, &[], &texts).unwrap_err().to_string();
+    let lines: Vec<&str> = shown.lines().collect();
+    assert_eq!(lines.len(), 6, "{shown}");
+    assert!(lines[0].starts_with("torque `1 = sin(`: "), "{shown}");
+    assert_eq!(
+        lines[1..],
+        [
+            "torque `3` is of no coordinate; there are 1 to 2, by joints 1, 2",
+            "torque `1` is given twice",
+            "torque `2 = tau1`: `tau1` is not known here; there are t, q1 …, qd1 … and the robot's \
+             parameters",
+            "torque `7` is no assignment; write NAME = EXPRESSION",
+            "torque `elbow` is of no coordinate; there are 1 to 2, by joints 1, 2",
+        ]
+    );
+}
+
+#[test]
+fn tables_are_linear_between_samples() {
+    let programs = compiled(&robot_file("planar_2r"), false);
+    let robot = &programs.robot;
+    let table = Table::read("a.csv", "tau2,t,q1\n1,0,9\n3,1,9\n-1,3,9\n").unwrap();
+    let torques = Torques::from_table(robot, "a.csv", &table, 3.0).unwrap();
+    for (t, expected) in [(0.0, 1.0), (0.25, 1.5), (1.0, 3.0), (2.0, 1.0), (3.0, -1.0)] {
+        assert_eq!(torques.torques(t, &state()), [0.0, expected], "{t}");
+    }
+    assert_eq!(torques.corners(), [0.0, 1.0, 3.0]);
+
+    let table = Table::read("a.csv", "t,tau3,q1\n0,1,0\n2,1,0\n1,2,0\n").unwrap();
+    let shown = Torques::from_table(robot, "a.csv", &table, 3.0).unwrap_err().to_string();
+    let expected = [
+        "a.csv: the time does not rise at row 3 under the header",
+        "a.csv: the torques go from 0 s to 1 s; the motion from 0 s to 3 s",
+        "a.csv: there is no column of torques; there can be tau1, tau2",
+        "a.csv: there is no coordinate for the column `tau3`",
+    ];
+    assert_eq!(shown.lines().collect::<Vec<_>>(), expected);
+}
+
+/// A force that jumps is met at the jump: 1 N on 1 kg from 0.5 s to 0.5 s + 1 ms.
+#[test]
+fn no_step_goes_over_a_corner() {
+    let mass = from_fn(1, |_, tau| tau.to_vec());
+    let programs = compiled(crate::PENDULUM, false);
+    let csv = "t,tau1\n0,0\n0.5,0\n0.5005,1\n0.501,0\n10,0\n";
+    let table = Table::read("pulse", csv).unwrap();
+    let pulse = Torques::from_table(&programs.robot, "pulse", &table, 10.0).unwrap();
+    let options = SimulationOptions { step: 5.0, ..SimulationOptions::default() };
+    let motion = simulate(&mass, &pulse, &rest(&[0.0]), &options, &mut |_| {}).unwrap();
+    let velocity = motion.states.last().unwrap().qd[0];
+    assert!((velocity - 0.0005).abs() < 1e-12, "{velocity}");
+}
+
+#[test]
+fn options_and_states_are_checked_at_once() {
+    let free = from_fn(2, |_, tau| tau.to_vec());
+    let run = |start: &State, options: SimulationOptions| {
+        simulate(&free, &Torques::none(2), start, &options, &mut |_| {}).unwrap_err().to_string()
+    };
+    let start = State { q: vec![0.0], qd: vec![f64::NAN, 0.0] };
+    let options = SimulationOptions { tolerance: 0.0, ..SimulationOptions::default() };
+    let expected = [
+        "the tolerance is 0; it must lie between 1e-14 and 0.1",
+        "the start has 1 entries of q, not 2",
+        "the start has entries of qd that are not finite",
+    ];
+    assert_eq!(run(&start, options).lines().collect::<Vec<_>>(), expected);
+    let options = SimulationOptions { duration: 0.0, ..SimulationOptions::default() };
+    assert_eq!(run(&rest(&[0.0; 2]), options), "the duration is 0 s; it must be positive");
+}
+
+#[test]
+fn motions_that_cannot_go_on_say_why() {
+    let stop = |law: fn(f64) -> f64, q: f64| {
+        // A singular mass matrix at q = 1.
+        let dynamics = from_fn(1, |state, tau| vec![tau[0] / (1.0 - state.q[0]).max(0.0).sqrt()]);
+        let torques = move |t: f64, _: &State| vec![law(t)];
+        let options = SimulationOptions { max_steps: 5000, ..SimulationOptions::default() };
+        let error = simulate(&dynamics, &torques, &rest(&[q]), &options, &mut |_| {}).unwrap_err();
+        let Error::Stopped { t, cause } = error else { panic!("{error}") };
+        (t, cause)
+    };
+    assert_eq!(stop(|_| 1.0, 1.0), (0.0, Cause::Accelerations));
+    assert_eq!(stop(|_| f64::NAN, 0.0), (0.0, Cause::Torques));
+    let (t, cause) = stop(|t| 1.0 / (1.0_f64 - t).max(0.0).sqrt(), 0.0);
+    assert!(t > 0.5 && t <= 1.0, "{t}");
+    assert!(matches!(cause, Cause::Torques | Cause::Accelerations), "{cause}");
+    let few = SimulationOptions { max_steps: 10, ..SimulationOptions::default() };
+    let free = from_fn(1, |_, tau| tau.to_vec());
+    let error = simulate(&free, &Torques::none(1), &rest(&[0.0]), &few, &mut |_| {}).unwrap_err();
+    let Error::Stopped { cause, .. } = error else { panic!("{error}") };
+    assert_eq!(cause, Cause::Steps(10));
+}
+
+#[test]
+fn programs_must_have_the_functions() {
+    let programs = compiled(&robot_file("trttr1"), false);
+    let error = RobotProgram::new(&programs, &[], true).unwrap_err().to_string();
+    assert!(error.contains("inverse_dynamics_friction"), "{error}");
+    assert!(RobotProgram::new(&programs, &[("M9", 1.0)], false).is_err());
+    let program = RobotProgram::new(&programs, &[("M5", 1.0)], false).unwrap();
+    motion(&program, &Torques::none(5), &rest(&[0.0; 5]), 0.1, 1e-6, 0.1);
+}
