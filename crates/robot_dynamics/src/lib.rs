@@ -3,6 +3,8 @@
 //! A robot file is read by [`description`] into a checked [`model::Robot`]; [`mechanism`] puts it
 //! into symbols; the recursions turn it into equations of motion, every quantity a named expression.
 
+pub mod base_parameters;
+mod body;
 pub mod description;
 pub mod diagnostic;
 pub mod doctor;

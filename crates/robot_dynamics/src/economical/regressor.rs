@@ -1,14 +1,12 @@
 //! The driving forces as linear functions of the links' inertial parameters.
 //!
-//! A link's ten parameters are m, h = m c, and the inertia tensor I about the origin of a frame, in
-//! the order m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz. A unit of each asks for a wrench,
-//! which goes inward to meet the joints. Not all ten have to go: what a joint cannot tell from the
+//! A unit of each of a link's ten parameters ([`crate::body`]) asks for a wrench, which goes inward to meet the joints. Not all ten have to go: what a joint cannot tell from the
 //! parent's own (for a rotation about z the mass and the moments along z, for a translation the
 //! whole tensor) makes the same share as the parent's parameters that it is equal to. That is the
 //! regrouping of Khalil and Dombre (Modeling, Identification and Control of Robots, section 9.4) read
 //! backwards: it saves columns here where there it removes them.
 
-use robot_symbolic::{Expr, Graph};
+use robot_symbolic::Expr;
 
 use super::Recursion;
 use super::chain::ChainLink;
@@ -17,16 +15,11 @@ use super::outward::{self, Accelerations, LinkState};
 use super::plan::{LinkPlan, Origin, Plan, Turn};
 use super::rotation::Plane;
 use super::spatial::{Ways, Wrench};
+use crate::body::{Body, FIRST_MOMENT, TENSOR};
 use crate::mechanism::Mechanism;
 use crate::numeric::LINK_PARAMETERS;
 use crate::vector::{Matrix, Vector};
 
-/// The place of the first moment's x component among the parameters.
-const FIRST_MOMENT: usize = 1;
-/// The place of I_xx among the parameters.
-const TENSOR: usize = 4;
-/// The entries of the tensor in the order of the parameters.
-const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
 /// The places of the parameters that a rotation about z tells from the parent's, but for I_yy.
 const TOLD_BY_ROTATION: [usize; 7] = [1, 2, 4, 5, 7, 8, 9];
 /// The places of the parameters that a translation tells from the parent's.
@@ -45,83 +38,37 @@ pub struct RegressorColumns<'g> {
     pub rotors: Vec<Column<'g>>,
 }
 
-/// A body by its ten parameters about some origin.
-#[derive(Clone, Copy, Debug)]
-struct Body<'g> {
-    mass: Expr<'g>,
-    first: Vector<'g>,
-    tensor: Matrix<'g>,
+/// A unit of the mass (0), the first moment (1) or the second moment (2) of masses on the line
+/// through `p` along the unit vector `z`, both counted from `p`.
+fn rod<'g>(kind: usize, z: Vector<'g>, p: Vector<'g>) -> Body<'g> {
+    let graph = z.0[0].graph();
+    let (zero, identity) = (graph.zero(), Matrix::identity(graph));
+    match kind {
+        0 => {
+            Body { mass: graph.one(), first: p, tensor: identity * p.dot(p) - Matrix::outer(p, p) }
+        }
+        1 => {
+            let mixed = Matrix::outer(z, p) + Matrix::outer(p, z);
+            Body { mass: zero, first: z, tensor: identity * (z.dot(p) * 2) - mixed }
+        }
+        _ => {
+            Body { mass: zero, first: Vector::zero(graph), tensor: identity - Matrix::outer(z, z) }
+        }
+    }
 }
 
-impl<'g> Body<'g> {
-    /// A unit of one parameter, nothing of the others.
-    fn unit(graph: &'g Graph, parameter: usize) -> Body<'g> {
-        let one_at = |place: usize| graph.integer(i64::from(parameter == place));
-        let entry = |row: usize, column: usize| {
-            let is_it = |(a, b)| (a, b) == (row, column) || (b, a) == (row, column);
-            ENTRIES
-                .iter()
-                .position(|entry| is_it(*entry))
-                .map_or(graph.zero(), |k| one_at(TENSOR + k))
-        };
-        Body {
-            mass: one_at(0),
-            first: Vector([0, 1, 2].map(|k| one_at(FIRST_MOMENT + k))),
-            tensor: Matrix::from_fn(entry),
+/// A body's share in the driving forces, from those of units in the same frame.
+fn share<'g>(body: &Body<'g>, units: &[Column<'g>]) -> Column<'g> {
+    let mut share: Column<'g> = vec![];
+    for (amount, unit) in body.parameters().into_iter().zip(units) {
+        if share.is_empty() {
+            share = vec![amount.graph().zero(); unit.len()];
+        }
+        for (sum, entry) in share.iter_mut().zip(unit) {
+            *sum += amount * *entry;
         }
     }
-
-    /// A unit of the mass (0), the first moment (1) or the second moment (2) of masses on the line
-    /// through `p` along the unit vector `z`, both counted from `p`.
-    fn rod(kind: usize, z: Vector<'g>, p: Vector<'g>) -> Body<'g> {
-        let graph = z.0[0].graph();
-        let (zero, identity) = (graph.zero(), Matrix::identity(graph));
-        match kind {
-            0 => Body {
-                mass: graph.one(),
-                first: p,
-                tensor: identity * p.dot(p) - Matrix::outer(p, p),
-            },
-            1 => {
-                let mixed = Matrix::outer(z, p) + Matrix::outer(p, z);
-                Body { mass: zero, first: z, tensor: identity * (z.dot(p) * 2) - mixed }
-            }
-            _ => Body {
-                mass: zero,
-                first: Vector::zero(graph),
-                tensor: identity - Matrix::outer(z, z),
-            },
-        }
-    }
-
-    /// The same body in the axes that `rotation` takes its components to.
-    fn turned(self, rotation: Matrix<'g>) -> Body<'g> {
-        Body {
-            mass: self.mass,
-            first: rotation * self.first,
-            tensor: rotation * self.tensor * rotation.transpose(),
-        }
-    }
-
-    fn parameters(&self) -> [Expr<'g>; LINK_PARAMETERS] {
-        let (Vector([x, y, z]), Matrix(i)) = (self.first, self.tensor);
-        let [xx, xy, yy, xz, yz, zz] = ENTRIES.map(|(row, column)| i[row][column]);
-        [self.mass, x, y, z, xx, xy, yy, xz, yz, zz]
-    }
-
-    /// The body's share in the driving forces, from those of units in the same frame.
-    fn share(&self, units: &[Column<'g>]) -> Column<'g> {
-        let mut share: Column<'g> = vec![];
-        for (amount, unit) in self.parameters().into_iter().zip(units) {
-            if share.is_empty() {
-                share = vec![amount.graph().zero(); unit.len()];
-            }
-            for (sum, entry) in share.iter_mut().zip(unit) {
-                *sum += amount * *entry;
-            }
-        }
-        share
-    }
+    share
 }
 
 /// The wrenches, about the origin, that move a unit of each parameter with U, ω, ε and the
@@ -196,7 +143,7 @@ impl<'g> Recursion<'g> {
         let of_link = |(link, units): (usize, Vec<Column<'g>>)| {
             let back = chain.frames[link].axes.transpose();
             let body = move |parameter| Body::unit(self.graph(), parameter).turned(back);
-            (0..LINK_PARAMETERS).map(move |parameter| body(parameter).share(&units))
+            (0..LINK_PARAMETERS).map(move |parameter| share(&body(parameter), &units))
         };
         let links = own.unit_columns(&ways, &states).into_iter().enumerate().flat_map(of_link);
         let rotors = (0..chain.links.len()).map(|link| own.rotor_column(&ways, &states, link));
@@ -274,7 +221,7 @@ impl<'g> Recursion<'g> {
 /// The columns of the parameters that the link's joint cannot tell from those of its carrier.
 fn regrouped<'g>(link: &ChainLink<'g>, carrier: &[Column<'g>], own: &mut [Column<'g>]) {
     if link.is_revolute() {
-        let rod = |kind| Body::rod(kind, link.axis, link.translation).share(carrier);
+        let rod = |kind| share(&rod(kind, link.axis, link.translation), carrier);
         own[0] = rod(0);
         own[FIRST_MOMENT + 2] = rod(1);
         // A unit of Σ_zz is one of I_xx and one of I_yy.
@@ -288,6 +235,6 @@ fn regrouped<'g>(link: &ChainLink<'g>, carrier: &[Column<'g>], own: &mut [Column
     let axis = |k| link.rotation.forward(turn.forward(Matrix::identity(graph).column(k))).0;
     let rotation = Matrix([0, 1, 2].map(axis)).transpose();
     for (parameter, column) in own.iter_mut().enumerate().skip(TENSOR) {
-        *column = Body::unit(graph, parameter).turned(rotation).share(carrier);
+        *column = share(&Body::unit(graph, parameter).turned(rotation), carrier);
     }
 }

@@ -1,5 +1,6 @@
 //! The functions that can be derived, and their names.
 
+use crate::base_parameters::out_of_reach;
 use crate::model::Robot;
 
 /// The functions that can be derived.
@@ -43,6 +44,10 @@ pub enum FunctionKind {
     ForwardDynamicsDerivatives,
     /// Y of Q = Y π from q, q̇, q̈, with the parameters of links and drives π.
     Regressor,
+    /// Y of Q = Y β from q, q̇, q̈, with the base parameters β, the fewest that do.
+    RegressorBase,
+    /// β from the robot's parameters alone.
+    BaseParameters,
 }
 
 impl FunctionKind {
@@ -67,6 +72,8 @@ impl FunctionKind {
         FunctionKind::InverseDynamicsDerivatives,
         FunctionKind::ForwardDynamicsDerivatives,
         FunctionKind::Regressor,
+        FunctionKind::RegressorBase,
+        FunctionKind::BaseParameters,
     ];
 
     /// The name in code and on the command line.
@@ -92,6 +99,8 @@ impl FunctionKind {
             FunctionKind::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
             FunctionKind::ForwardDynamicsDerivatives => "forward_dynamics_derivatives",
             FunctionKind::Regressor => "regressor",
+            FunctionKind::RegressorBase => "regressor_base",
+            FunctionKind::BaseParameters => "base_parameters",
         }
     }
 
@@ -127,7 +136,10 @@ impl FunctionKind {
         if needs_friction && !robot.has_friction() {
             return Some("no joint has friction; add `friction` to a link of the file");
         }
-        None
+        match self {
+            FunctionKind::RegressorBase | FunctionKind::BaseParameters => out_of_reach(robot),
+            _ => None,
+        }
     }
 
     /// The functions that a robot has.

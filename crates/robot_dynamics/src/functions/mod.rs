@@ -22,6 +22,7 @@ mod sharing;
 pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
 pub use kind::FunctionKind;
 pub use plans::search_plan;
+pub(crate) use regressor::standard_columns;
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use crate::economical::{Plan, Recursion};
@@ -157,6 +158,8 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::InverseDynamicsDerivatives => derivatives::inverse_dynamics(self),
             FunctionKind::ForwardDynamicsDerivatives => derivatives::forward_dynamics(self),
             FunctionKind::Regressor => regressor::regressor(self),
+            FunctionKind::RegressorBase => return Vec::from_iter(regressor::regressor_base(self)),
+            FunctionKind::BaseParameters => return Vec::from_iter(regressor::base_values(self)),
         };
         vec![function]
     }

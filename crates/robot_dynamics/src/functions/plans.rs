@@ -59,6 +59,7 @@ impl FunctionKind {
                 | FunctionKind::Gravity
                 | FunctionKind::ForwardKinematics
                 | FunctionKind::LinkWrenches
+                | FunctionKind::BaseParameters
         )
     }
 
@@ -72,6 +73,7 @@ impl FunctionKind {
                 | FunctionKind::CoriolisMatrix
                 | FunctionKind::InverseDynamicsDerivatives
                 | FunctionKind::Regressor
+                | FunctionKind::RegressorBase
         ) || self.chooses_accelerations()
     }
 

@@ -1,36 +1,101 @@
-//! The regressor: driving forces as linear functions of the robot's parameters.
+//! The regressors: driving forces as linear functions of the robot's parameters.
 
 use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output, plain};
+use crate::base_parameters::{
+    BaseParameter, BaseParameters, Quantity, StandardParameter, base_parameters,
+    standard_parameters,
+};
 use crate::economical::{Column, RegressorColumns};
 use crate::mechanism::MechanismLink;
 use crate::numeric::LINK_PARAMETERS;
 
 /// Y with Y π = τ.
 pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
-    let recursion = derivation.recursion.as_ref();
-    let RegressorColumns { links: mut columns, rotors } = recursion
-        .and_then(|recursion| recursion.regressor(&derivation.mechanism))
-        .unwrap_or_else(|| plain::regressor(derivation));
-    let mut meanings = vec![];
-    let mechanism = &derivation.mechanism;
-    for ((link, rotor), model) in mechanism.links.iter().zip(rotors).zip(&derivation.robot.links) {
-        for (meaning, column) in drive_columns(link, rotor, mechanism.degrees_of_freedom) {
-            meanings.push(format!("{} {meaning} of `{}`", columns.len(), model.joint.name));
-            columns.push(column);
-        }
-    }
-    let rows = mechanism.degrees_of_freedom;
-    let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
-    let doc: Vec<String> = paragraphs(derivation, &meanings);
-    let doc: Vec<&str> = doc.iter().map(String::as_str).collect();
-    derivation.of_kind(
+    let columns = standard_columns(derivation);
+    let standard = standard_parameters(&derivation.mechanism);
+    let drives = standard.iter().map(|(parameter, _)| *parameter).enumerate();
+    let drives: Vec<String> = drives
+        .filter_map(|(place, parameter)| drive_meaning(derivation, place, parameter))
+        .collect();
+    function(
+        derivation,
         FunctionKind::Regressor,
+        &paragraphs(derivation, &drives),
+        &columns.iter().collect::<Vec<_>>(),
+    )
+}
+
+/// Y over the base parameters.
+pub(super) fn regressor_base<'g>(derivation: &Derivation<'_, 'g>) -> Option<Function<'g>> {
+    let base = base_parameters(derivation)?;
+    let columns = standard_columns(derivation);
+    let kept: Vec<&Column<'g>> =
+        base.base.iter().filter_map(|parameter| columns.get(parameter.column)).collect();
+    let doc = [
+        "The regressor over the base parameters β, the fewest combinations of inertial and drive \
+         parameters that determine the driving forces: they are Y β. Without wrenches, and without the \
+         dry friction that grows with the contact force."
+            .to_owned(),
+        format!(
+            "Its columns are those of the full regressor at {}.",
+            columns_and_names(&base).join(", ")
+        ),
+    ];
+    Some(function(derivation, FunctionKind::RegressorBase, &doc, &kept))
+}
+
+/// β of the base parameters, from the file's parameters.
+pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Function<'g>> {
+    let base = base_parameters(derivation)?;
+    let names: Vec<String> = base.base.iter().map(BaseParameter::name).collect();
+    let names = format!("In the order {}.", names.join(", "));
+    let doc = [
+        "The base parameters β, which times the regressor over them are the driving forces: each an \
+         inertial or drive parameter, with R where others are regrouped under it. XX to ZZ are entries \
+         of a link's inertia tensor about the origin of its frame, MX to MZ its first moment, M its mass; \
+         IA is a drive's reflected inertia, FV, FP and FN its friction, FO its offset, IC the coupling of \
+         its rotor.",
+        &names,
+    ];
+    let values = base.nominal();
+    Some(derivation.of_kind(
+        FunctionKind::BaseParameters,
+        &doc,
+        vec![],
+        vec![Output::new(
+            "base_parameters",
+            "The base parameters",
+            "kg, kg m, kg m²; friction and offsets in N m or N",
+            vec![values.len()],
+            values,
+        )],
+    ))
+}
+
+/// The columns of base parameters in the full regressor, and their names.
+fn columns_and_names(base: &BaseParameters<'_>) -> Vec<String> {
+    let name =
+        |parameter: &BaseParameter<'_>| format!("{} ({})", parameter.column, parameter.name());
+    base.base.iter().map(name).collect()
+}
+
+fn function<'g>(
+    derivation: &Derivation<'_, 'g>,
+    kind: FunctionKind,
+    doc: &[String],
+    columns: &[&Column<'g>],
+) -> Function<'g> {
+    let doc: Vec<&str> = doc.iter().map(String::as_str).collect();
+    let rows = derivation.mechanism.degrees_of_freedom;
+    let values = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
+    derivation.of_kind(
+        kind,
         &doc,
         derivation.coordinate_inputs(["q", "qd", "qdd"]),
         vec![Output::new(
-            "regressor",
+            kind.name(),
             "The regressor, row by row: a row per driving force, a column per parameter",
             "the unit of tau per unit of the parameter",
             vec![rows, columns.len()],
@@ -65,28 +130,52 @@ fn paragraphs(derivation: &Derivation<'_, '_>, drives: &[String]) -> Vec<String>
     paragraphs
 }
 
-/// The columns of the drive parameters that the file gives, and what they are.
-fn drive_columns<'g>(
-    link: &MechanismLink<'g>,
-    rotor: Column<'g>,
-    coordinates: usize,
-) -> Vec<(&'static str, Column<'g>)> {
-    let friction = &link.friction;
-    let graph = link.ratio.graph();
-    let sign = friction.sign(link.velocity);
-    let figures: [(&'static str, Expr<'g>, Expr<'g>); 5] = [
-        ("reflected inertia", link.reflected_inertia, link.acceleration),
-        ("viscous friction", friction.viscous, link.velocity),
-        ("forward friction", friction.coulomb_positive, (sign * sign + sign) / 2),
-        ("backward friction", friction.coulomb_negative, (sign - sign * sign) / 2),
-        ("offset", friction.offset, graph.one()),
-    ];
-    let column = |(meaning, _, share): (&'static str, _, Expr<'g>)| {
-        let mut column = vec![graph.zero(); coordinates];
-        column[link.coordinate] = share * link.ratio;
-        (meaning, column)
+/// What a drive's column is, in words.
+fn drive_meaning(
+    derivation: &Derivation<'_, '_>,
+    place: usize,
+    StandardParameter { link, quantity }: StandardParameter,
+) -> Option<String> {
+    let joint = &derivation.robot.links.get(link)?.joint;
+    let is_drive = !matches!(quantity, Quantity::Link(_));
+    is_drive.then(|| format!("{place} {} of `{}`", quantity.meaning(), joint.name))
+}
+
+/// The columns of the full regressor, one for each of [`standard_parameters`].
+pub(crate) fn standard_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Column<'g>> {
+    let mechanism = &derivation.mechanism;
+    let recursion = derivation.recursion.as_ref();
+    let RegressorColumns { links, rotors } = recursion
+        .and_then(|recursion| recursion.regressor(mechanism))
+        .unwrap_or_else(|| plain::regressor(derivation));
+    let column = |(place, (parameter, _)): (usize, (StandardParameter, Expr<'g>))| {
+        let link = &mechanism.links[parameter.link];
+        match parameter.quantity {
+            Quantity::Link(_) => links[place].clone(),
+            Quantity::RotorCoupling => rotors[parameter.link].clone(),
+            quantity => drive_column(link, quantity, mechanism.degrees_of_freedom),
+        }
     };
-    let given = figures.into_iter().filter(|(_, figure, _)| !figure.is_zero());
-    let coupled = (!link.rotor_coupling.is_zero()).then_some(("rotor coupling", rotor));
-    given.map(column).chain(coupled).collect()
+    standard_parameters(mechanism).into_iter().enumerate().map(column).collect()
+}
+
+/// The column of a drive's quantity that acts on its own joint alone.
+fn drive_column<'g>(
+    link: &MechanismLink<'g>,
+    quantity: Quantity,
+    coordinates: usize,
+) -> Column<'g> {
+    let graph = link.ratio.graph();
+    let sign = link.friction.sign(link.velocity);
+    let share = match quantity {
+        Quantity::ReflectedInertia => link.acceleration,
+        Quantity::ViscousFriction => link.velocity,
+        Quantity::ForwardFriction => (sign * sign + sign) / 2,
+        Quantity::BackwardFriction => (sign - sign * sign) / 2,
+        Quantity::Offset => graph.one(),
+        Quantity::Link(_) | Quantity::RotorCoupling => graph.zero(),
+    };
+    let mut column = vec![graph.zero(); coordinates];
+    column[link.coordinate] = share * link.ratio;
+    column
 }

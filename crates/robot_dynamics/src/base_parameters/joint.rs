@@ -1,0 +1,193 @@
+//! What a joint and the placement before it make of twists and of bodies.
+
+use robot_symbolic::{Expr, Graph};
+
+use super::echelon::Row;
+use super::scalar::Scalar;
+use crate::body::{Body, ENTRIES, FIRST_MOMENT, TENSOR};
+use crate::mechanism::MechanismLink;
+use crate::numeric::LINK_PARAMETERS;
+use crate::vector::{Matrix, Vector};
+
+/// Angular velocity, then the velocity of the point at the origin.
+const TWIST: usize = 6;
+
+/// A linear map by what it makes of units.
+struct Map<'g> {
+    columns: Vec<Row<'g>>,
+}
+
+impl<'g> Map<'g> {
+    fn new<const N: usize>(units: usize, image: impl Fn(usize) -> [Expr<'g>; N]) -> Map<'g> {
+        Map { columns: (0..units).map(|unit| image(unit).map(Scalar::new).to_vec()).collect() }
+    }
+
+    /// What becomes of a vector.
+    fn apply(&self, vector: &[Scalar<'g>]) -> Row<'g> {
+        let mut result: Row<'g> = vec![];
+        for (amount, column) in vector.iter().zip(&self.columns) {
+            if result.is_empty() {
+                result = vec![Scalar::integer(*amount, 0); column.len()];
+            }
+            for (sum, entry) in result.iter_mut().zip(column) {
+                *sum = add_product(*sum, *amount, *entry);
+            }
+        }
+        result
+    }
+
+    /// The function of what comes in that a linear function of what comes out is.
+    fn pull_back(&self, function: &[Scalar<'g>]) -> Row<'g> {
+        let entry = |column: &Row<'g>| dot(function, column);
+        self.columns.iter().map(entry).collect()
+    }
+}
+
+fn add_product<'g>(sum: Scalar<'g>, a: Scalar<'g>, b: Scalar<'g>) -> Scalar<'g> {
+    match (a.is_zero() || b.is_zero(), sum.is_zero()) {
+        (true, _) => sum,
+        (false, true) => a * b,
+        (false, false) => sum + a * b,
+    }
+}
+
+fn dot<'g>(a: &[Scalar<'g>], b: &[Scalar<'g>]) -> Scalar<'g> {
+    let zero = Scalar::integer(a[0], 0);
+    a.iter().zip(b).fold(zero, |sum, (a, b)| add_product(sum, *a, *b))
+}
+
+/// A link's joint in the axes of the link's frame.
+pub(super) struct Joint<'g> {
+    /// The joint's own motion, a unit of it.
+    pub(super) twist: Row<'g>,
+    axis: Row<'g>,
+    /// The twist of the carrier, about this link's origin and in its axes, by that in the carrier's.
+    placement: Map<'g>,
+    /// The rate at which a motion of the joint changes the components of a twist.
+    turning: Map<'g>,
+    /// A body's parameters in the carrier's frame by those in this link's, the joint at 0.
+    carried: Map<'g>,
+    /// The rate at which a motion of the joint changes the parameters of a body.
+    moving: Map<'g>,
+}
+
+impl<'g> Joint<'g> {
+    pub(super) fn new(link: &MechanismLink<'g>) -> Joint<'g> {
+        let graph = link.mass.graph();
+        let (axis, zero) = (link.axis, Vector::zero(graph));
+        let revolute = link.is_revolute();
+        let of_unit = |place: usize| {
+            let unit = |first: usize| {
+                Vector([0, 1, 2].map(|k| graph.integer(i64::from(place == first + k))))
+            };
+            (unit(0), unit(3))
+        };
+        let placement = |place: usize| {
+            let (omega, velocity) = of_unit(place);
+            let back = link.rotation.transpose();
+            twist(back * omega, back * (velocity + omega.cross(link.translation)))
+        };
+        let turning = |place: usize| match (of_unit(place), revolute) {
+            ((omega, velocity), true) => twist(omega.cross(axis), velocity.cross(axis)),
+            ((omega, _), false) => twist(zero, omega.cross(axis)),
+        };
+        let carried = |place: usize| {
+            Body::unit(graph, place).turned(link.rotation).about(link.translation).parameters()
+        };
+        let own = if revolute { twist(axis, zero) } else { twist(zero, axis) };
+        Joint {
+            twist: own.map(Scalar::new).to_vec(),
+            axis: axis.0.map(Scalar::new).to_vec(),
+            placement: Map::new(TWIST, placement),
+            turning: Map::new(TWIST, turning),
+            carried: Map::new(LINK_PARAMETERS, carried),
+            moving: Map::new(LINK_PARAMETERS, |place| moving(graph, revolute, axis, place)),
+        }
+    }
+
+    /// A twist of the carrier about this link's origin, in its axes at joint position 0.
+    pub(super) fn twist_here(&self, twist: &Row<'g>) -> Row<'g> {
+        self.placement.apply(twist)
+    }
+
+    /// The rate of a twist's components with the joint's motion.
+    pub(super) fn turned(&self, twist: &Row<'g>) -> Row<'g> {
+        self.turning.apply(twist)
+    }
+
+    /// The angular velocity about the joint axis.
+    pub(super) fn about_axis(&self, twist: &Row<'g>) -> Scalar<'g> {
+        dot(&self.axis, &twist[..3])
+    }
+
+    /// A linear function of the carrier's parameters as one of this link's; what follows the ten stays.
+    pub(super) fn function_here(&self, function: &Row<'g>) -> Row<'g> {
+        with_rest(self.carried.pull_back(&function[..LINK_PARAMETERS]), function, None)
+    }
+
+    /// The rate of a linear function of parameters with the joint's motion; what follows the ten
+    /// does not change.
+    pub(super) fn rate(&self, function: &Row<'g>) -> Row<'g> {
+        let rate = self.moving.pull_back(&function[..LINK_PARAMETERS]);
+        with_rest(rate, function, Some(Scalar::integer(function[0], 0)))
+    }
+
+    /// The parameters in the carrier's frame of a body of this link, the joint at 0, by place and
+    /// amount of each that is not 0.
+    pub(super) fn moved(&self, parameter: usize) -> impl Iterator<Item = (usize, Scalar<'g>)> + '_ {
+        let column = self.carried.columns.get(parameter).into_iter().flatten();
+        column.copied().enumerate().filter(|(_, entry)| !entry.is_zero())
+    }
+}
+
+/// A row with what follows the ten parameters in `whole`, or with as many of `filling`.
+fn with_rest<'g>(mut row: Row<'g>, whole: &Row<'g>, filling: Option<Scalar<'g>>) -> Row<'g> {
+    let rest = whole.iter().skip(LINK_PARAMETERS);
+    row.extend(rest.map(|entry| filling.unwrap_or(*entry)));
+    row
+}
+
+fn twist<'g>(Vector([a, b, c]): Vector<'g>, Vector([x, y, z]): Vector<'g>) -> [Expr<'g>; TWIST] {
+    [a, b, c, x, y, z]
+}
+
+/// The rate of a unit of a parameter with the joint's motion.
+fn moving<'g>(
+    graph: &'g Graph,
+    revolute: bool,
+    axis: Vector<'g>,
+    place: usize,
+) -> [Expr<'g>; LINK_PARAMETERS] {
+    let Body { mass, first, tensor } = Body::unit(graph, place);
+    let rate = if revolute {
+        let cross = Matrix::skew(axis);
+        let tensor = cross * tensor - tensor * cross;
+        Body { mass: graph.zero(), first: axis.cross(first), tensor }
+    } else {
+        let mixed = Matrix::outer(first, axis) + Matrix::outer(axis, first);
+        let tensor = Matrix::identity(graph) * (first.dot(axis) * 2) - mixed;
+        Body { mass: graph.zero(), first: axis * mass, tensor }
+    };
+    rate.parameters()
+}
+
+/// What two twists make of a body's parameters: m v₁ · v₂ + h · (v₁ × ω₂ + v₂ × ω₁) + ω₁ · I ω₂. With
+/// equal twists it is twice the kinetic energy.
+pub(super) fn energy<'g>(a: &Row<'g>, b: &Row<'g>) -> Row<'g> {
+    let ((w, v), (u, x)) = (a.split_at(3), b.split_at(3));
+    let zero = Scalar::integer(a[0], 0);
+    let mut row = vec![zero; LINK_PARAMETERS];
+    row[0] = dot(v, x);
+    for k in 0..3 {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let cross = |p: &[Scalar<'g>], q: &[Scalar<'g>]| {
+            add_product(add_product(zero, p[i], q[j]), -p[j], q[i])
+        };
+        row[FIRST_MOMENT + k] = cross(v, u) + cross(x, w);
+    }
+    for (place, (i, j)) in ENTRIES.into_iter().enumerate() {
+        let both = add_product(zero, w[i], u[j]);
+        row[TENSOR + place] = if i == j { both } else { add_product(both, w[j], u[i]) };
+    }
+    row
+}

@@ -1,0 +1,110 @@
+//! From the tips inward: what a link's joint tells is kept, the rest goes to the carrier.
+
+use std::collections::BTreeMap;
+
+use super::echelon::{Echelon, Row};
+use super::joint::Joint;
+use super::scalar::Scalar;
+use super::standard::{Quantity, StandardParameter};
+use super::told::DRIVE;
+use crate::body::{FIRST_MOMENT, tensor_place};
+use crate::mechanism::{Mechanism, MechanismLink};
+use crate::numeric::LINK_PARAMETERS;
+
+/// A linear function of the standard parameters: figures by their places.
+pub(super) type Form<'g> = BTreeMap<usize, Scalar<'g>>;
+
+/// A kept parameter: its place among the standard ones, and what is regrouped under it, itself
+/// included.
+pub(super) type Kept<'g> = (usize, Form<'g>);
+
+/// Keeps of the parameters of links, and of the drives' inertias and offsets, as many as are told.
+pub(super) fn regroup<'g>(
+    mechanism: &Mechanism<'g>,
+    joints: &[Joint<'g>],
+    conditions: &[Vec<Row<'g>>],
+    standard: &[StandardParameter],
+) -> Vec<Kept<'g>> {
+    let one = Scalar::new(mechanism.graph.one());
+    // Per link, what has come together at each place.
+    let mut gathered: Vec<Vec<Form<'g>>> =
+        vec![vec![Form::new(); LINK_PARAMETERS + DRIVE.len()]; joints.len()];
+    // Per link, the column of each place where there is one.
+    let mut columns = vec![vec![None; LINK_PARAMETERS + DRIVE.len()]; joints.len()];
+    for (column, parameter) in standard.iter().enumerate() {
+        if is_inertial(parameter.quantity) {
+            let place = parameter.quantity.place();
+            gathered[parameter.link][place].insert(column, one);
+            columns[parameter.link][place] = Some(column);
+        }
+    }
+    let mut kept = vec![];
+    for (index, link) in mechanism.links.iter().enumerate().rev() {
+        let order: Vec<usize> =
+            preference(link).into_iter().filter(|place| columns[index][*place].is_some()).collect();
+        let row = |row: &Row<'g>| order.iter().map(|place| row[*place]).collect();
+        let told = Echelon::of(conditions[index].iter().map(row));
+        // What is not told, as a body without effect but on the carrier.
+        let mut rest = gathered[index].clone();
+        for (pivot, row) in told.rows {
+            let mut regrouped = Form::new();
+            for (figure, place) in row.iter().zip(&order).skip(pivot + 1) {
+                add(&mut regrouped, &gathered[index][*place], *figure);
+            }
+            let place = order[pivot];
+            rest[place] = Form::new();
+            add(&mut rest[place], &regrouped, -one);
+            add(&mut regrouped, &gathered[index][place], one);
+            kept.extend(columns[index][place].map(|column| (column, regrouped)));
+        }
+        let Some(parent) = link.parent else { continue };
+        for (place, form) in rest.iter().take(LINK_PARAMETERS).enumerate() {
+            for (target, amount) in joints[index].moved(place) {
+                add(&mut gathered[parent][target], form, amount);
+            }
+        }
+    }
+    kept
+}
+
+/// Whether the quantity is told by inertia or position; friction is not.
+pub(super) fn is_inertial(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::Link(_)) || DRIVE.contains(&quantity)
+}
+
+/// Adds a multiple of a form.
+pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
+    if factor.is_zero() {
+        return;
+    }
+    for (column, figure) in form {
+        let more = factor * *figure;
+        let total = sum.get(column).map_or(more, |known| *known + more);
+        if total.is_zero() {
+            sum.remove(column);
+        } else {
+            sum.insert(*column, total);
+        }
+    }
+}
+
+/// The places in the order in which they are kept: of those that the driving forces cannot tell
+/// apart, the first. The recursion computes the first seven of a rotation, the first four of a
+/// translation.
+fn preference(link: &MechanismLink<'_>) -> Vec<usize> {
+    let size = |component: usize| Scalar::new(link.axis.0[component]).size();
+    let z = [0, 1].into_iter().fold(2, |best, k| if size(k) > size(best) { k } else { best });
+    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+    let tensor = tensor_place;
+    let first = |component: usize| FIRST_MOMENT + component;
+    let of_tensor = [tensor(z, z), tensor(x, x), tensor(x, y), tensor(x, z), tensor(y, z)];
+    let mut order = if link.is_revolute() {
+        let told = of_tensor.into_iter().chain([first(x), first(y)]);
+        told.chain([tensor(y, y), first(z), 0]).collect()
+    } else {
+        let moments = [0, first(0), first(1), first(2)].into_iter();
+        moments.chain(of_tensor).chain([tensor(y, y)]).collect::<Vec<usize>>()
+    };
+    order.extend(DRIVE.map(Quantity::place));
+    order
+}

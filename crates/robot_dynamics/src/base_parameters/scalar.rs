@@ -1,0 +1,142 @@
+//! Figures whose zeros are known.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use robot_symbolic::{Expr, Polynomial, PolynomialOptions, View, walk};
+
+use crate::numeric::random::Random;
+
+/// Points at which symbols have seeded values.
+const POINTS: usize = 3;
+/// The seed of the symbols' values: a point's number and a symbol's name are added to it.
+const SEED: u64 = 1990;
+/// A difference below this part of what it is the difference of may be 0.
+const NOTICED: f64 = 1e-9;
+/// What an expanded difference may hold before the values at the points decide.
+const EXPANSION: PolynomialOptions = PolynomialOptions {
+    angle_sums: robot_symbolic::AngleSums::Expand,
+    max_terms: 2_000,
+    max_products: 100_000,
+};
+
+/// An expression in constants and parameters, with its values at seeded values of the parameters.
+///
+/// A figure that vanishes is the constant 0. Rational numbers decide that exactly. Of the others, a
+/// sum that is small at all points is 0 where its canonical polynomial is; it is not where that is a
+/// polynomial in parameters with rational coefficients. Where irrational constants occur or the
+/// polynomial would be too large, the values at the points decide.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scalar<'g> {
+    pub(super) expr: Expr<'g>,
+    at: [f64; POINTS],
+}
+
+impl<'g> Scalar<'g> {
+    pub(super) fn new(expr: Expr<'g>) -> Scalar<'g> {
+        let points = [0, 1, 2].map(|point: u64| {
+            expr.evaluate(|symbol| {
+                let name = expr.graph().symbol_name(symbol);
+                let folded = name
+                    .bytes()
+                    .fold(SEED, |seed, byte| seed.wrapping_mul(257).wrapping_add(u64::from(byte)));
+                Random::new(folded.wrapping_add(point)).uniform(0.4, 1.6)
+            })
+        });
+        Scalar { expr, at: points }.settled([1e-3; POINTS])
+    }
+
+    pub(super) fn integer(like: Scalar<'g>, value: i64) -> Scalar<'g> {
+        Scalar { expr: like.expr.graph().integer(value), at: [value as f64; POINTS] }
+    }
+
+    pub(super) fn is_zero(self) -> bool {
+        self.expr.is_zero()
+    }
+
+    /// Whether it is the same at all values of the parameters.
+    pub(super) fn is_constant(self) -> bool {
+        self.expr.as_number().is_some()
+    }
+
+    /// A rough size, for the choice among figures.
+    pub(super) fn size(self) -> f64 {
+        self.at[0].abs()
+    }
+
+    /// The same figure, 0 where it vanishes against `scale`.
+    fn settled(self, scale: [f64; POINTS]) -> Scalar<'g> {
+        let small = self.at.iter().zip(scale).all(|(value, scale)| value.abs() <= NOTICED * scale);
+        let exact = |expr: Expr<'_>| expr.as_number().is_some_and(|n| n.as_rational().is_some());
+        if !small || exact(self.expr) {
+            return self;
+        }
+        match Polynomial::of(self.expr, &EXPANSION) {
+            Ok(polynomial) if !polynomial.is_zero() && is_rational(&polynomial) => {
+                Scalar { expr: polynomial.to_expr(), ..self }
+            }
+            _ => Scalar::integer(self, 0),
+        }
+    }
+}
+
+/// Whether the polynomial is one in symbols with rational coefficients.
+fn is_rational(polynomial: &Polynomial<'_>) -> bool {
+    polynomial.terms().all(|(_, number)| number.as_rational().is_some())
+        && polynomial.atoms().iter().all(|atom| atom.as_symbol().is_some())
+}
+
+/// The canonical form of an expression where it is short and without sums in denominators.
+pub(super) fn tidied(expr: Expr<'_>) -> Expr<'_> {
+    let simple = walk::reachable(&[expr]).len() <= 3;
+    if simple || expr.as_number().is_some() {
+        return expr;
+    }
+    match Polynomial::of(expr, &EXPANSION) {
+        Ok(polynomial) => {
+            let whole = |atom: &Expr<'_>| !matches!(atom.view(), View::Add(..) | View::Sub(..));
+            if polynomial.atoms().iter().all(whole) { polynomial.to_expr() } else { expr }
+        }
+        Err(_) => expr,
+    }
+}
+
+fn pairwise(a: [f64; POINTS], b: [f64; POINTS], of: impl Fn(f64, f64) -> f64) -> [f64; POINTS] {
+    [0, 1, 2].map(|point| of(a[point], b[point]))
+}
+
+impl<'g> Add for Scalar<'g> {
+    type Output = Scalar<'g>;
+    fn add(self, other: Scalar<'g>) -> Scalar<'g> {
+        let sum =
+            Scalar { expr: self.expr + other.expr, at: pairwise(self.at, other.at, f64::add) };
+        sum.settled(pairwise(self.at, other.at, |a, b| a.abs().max(b.abs())))
+    }
+}
+
+impl<'g> Sub for Scalar<'g> {
+    type Output = Scalar<'g>;
+    fn sub(self, other: Scalar<'g>) -> Scalar<'g> {
+        self + -other
+    }
+}
+
+impl<'g> Neg for Scalar<'g> {
+    type Output = Scalar<'g>;
+    fn neg(self) -> Scalar<'g> {
+        Scalar { expr: -self.expr, at: self.at.map(f64::neg) }
+    }
+}
+
+impl<'g> Mul for Scalar<'g> {
+    type Output = Scalar<'g>;
+    fn mul(self, other: Scalar<'g>) -> Scalar<'g> {
+        Scalar { expr: self.expr * other.expr, at: pairwise(self.at, other.at, f64::mul) }
+    }
+}
+
+impl<'g> Div for Scalar<'g> {
+    type Output = Scalar<'g>;
+    fn div(self, other: Scalar<'g>) -> Scalar<'g> {
+        Scalar { expr: self.expr / other.expr, at: pairwise(self.at, other.at, f64::div) }
+    }
+}

@@ -1,0 +1,105 @@
+//! Joints that share a coordinate tell less than joints with one each.
+
+use robot_symbolic::{Expr, Number, SymbolId, walk};
+
+use super::regroup::{Kept, add};
+use super::scalar::Scalar;
+use crate::functions::{Derivation, standard_columns};
+use crate::numeric::random::Random;
+
+/// The seed of the states.
+const SEED: u64 = 19_900_402;
+/// What is left of a column, in parts of it, where it depends on others.
+const DEPENDENT: f64 = 1e-9;
+/// Figures below this are the rounding of 0.
+const ROUNDING: f64 = 1e-10;
+
+/// The kept parameters without those whose columns at seeded states depend on others'.
+pub(super) fn reduced<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Kept<'g>> {
+    let columns = sampled(derivation, kept);
+    let mut basis: Vec<(usize, Vec<f64>)> = vec![];
+    let mut found: Vec<Kept<'g>> = vec![];
+    let mut triangle: Vec<Vec<f64>> = vec![];
+    for (index, column) in columns.iter().enumerate() {
+        let (rest, shares) = orthogonal(column, &basis);
+        let size = norm(column);
+        if norm(&rest) > DEPENDENT * size {
+            let length = norm(&rest);
+            triangle.push(shares.into_iter().chain([length]).collect());
+            basis.push((index, rest.iter().map(|entry| entry / length).collect()));
+            found.push(kept[index].clone());
+            continue;
+        }
+        for (place, figure) in solved(&triangle, shares).into_iter().enumerate() {
+            if figure.abs() > ROUNDING {
+                let figure = derivation.mechanism.graph.number(Number::Real(figure));
+                add(&mut found[place].1, &kept[index].1, Scalar::new(figure));
+            }
+        }
+    }
+    found
+}
+
+/// R x = shares, where R holds the basis columns by column.
+fn solved(triangle: &[Vec<f64>], mut shares: Vec<f64>) -> Vec<f64> {
+    for (column, entries) in triangle.iter().enumerate().rev() {
+        let figure = shares[column] / entries[column];
+        for (row, entry) in entries.iter().take(column).enumerate() {
+            shares[row] -= figure * entry;
+        }
+        shares[column] = figure;
+    }
+    shares
+}
+
+/// What of a column is orthogonal to the basis, and its shares in it; twice, against rounding.
+fn orthogonal(column: &[f64], basis: &[(usize, Vec<f64>)]) -> (Vec<f64>, Vec<f64>) {
+    let (mut rest, mut shares) = (column.to_vec(), vec![0.0; basis.len()]);
+    for _ in 0..2 {
+        for ((_, unit), share) in basis.iter().zip(&mut shares) {
+            let part: f64 = rest.iter().zip(unit).map(|(a, b)| a * b).sum();
+            *share += part;
+            for (entry, other) in rest.iter_mut().zip(unit) {
+                *entry -= part * other;
+            }
+        }
+    }
+    (rest, shares)
+}
+
+fn norm(column: &[f64]) -> f64 {
+    column.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}
+
+/// The columns of the kept parameters at states enough to tell them apart, a few of them at rest.
+fn sampled<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Vec<f64>> {
+    let graph = derivation.mechanism.graph;
+    let all = standard_columns(derivation);
+    let rows = derivation.mechanism.degrees_of_freedom;
+    let entries: Vec<Expr<'g>> = kept.iter().flat_map(|(column, _)| all[*column].clone()).collect();
+    let states = 3 * kept.len() / rows.max(1) + 12;
+    let mut random = Random::new(SEED);
+    let mut columns = vec![vec![]; kept.len()];
+    // Parameters on which no figure depends, such as the widths of smooth signs.
+    let mut values: Vec<f64> =
+        (0..graph.symbol_count()).map(|_| random.uniform(0.5, 1.5)).collect();
+    for state in 0..states {
+        for (name, size) in [("q", 3.0), ("qd", 2.0), ("qdd", 5.0)] {
+            for number in 1..=rows {
+                let rests = name == "qd" && state % 6 == 0;
+                let value = if rests { 0.0 } else { random.uniform(-size, size) };
+                let symbol =
+                    graph.find_symbol(&format!("{name}{number}")).and_then(Expr::as_symbol);
+                if let Some(place) = symbol.and_then(|symbol| values.get_mut(symbol.index())) {
+                    *place = value;
+                }
+            }
+        }
+        let value = |symbol: SymbolId| values.get(symbol.index()).copied().unwrap_or(f64::NAN);
+        let found = walk::evaluate(&entries, value);
+        for (column, part) in columns.iter_mut().zip(found.chunks(rows.max(1))) {
+            column.extend_from_slice(part);
+        }
+    }
+    columns
+}

@@ -1,0 +1,139 @@
+//! The standard parameters: those of the full regressor's columns.
+
+use robot_symbolic::Expr;
+
+use crate::body::Body;
+use crate::mechanism::{Mechanism, MechanismLink};
+use crate::numeric::LINK_PARAMETERS;
+
+/// What is measured of a link or of the drive of its joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quantity {
+    /// One of the link's ten: m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz, with the first
+    /// moment h and the tensor I about the origin of the link's frame, in its axes; kg, kg m, kg m².
+    Link(usize),
+    /// The drive's inertia reflected to the joint, kg m² or kg.
+    ReflectedInertia,
+    /// Viscous friction, N m s/rad or N s/m.
+    ViscousFriction,
+    /// Constant friction forwards, N m or N.
+    ForwardFriction,
+    /// Constant friction backwards, N m or N.
+    BackwardFriction,
+    /// A constant, N m or N.
+    Offset,
+    /// The coupling of a gyroscopic rotor with the link that carries it: its inertia times the gear
+    /// ratio.
+    RotorCoupling,
+}
+
+/// The names of a link's ten parameters, as Khalil and Dombre have them.
+const NAMES: [&str; LINK_PARAMETERS] = ["M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ"];
+
+impl Quantity {
+    /// Those of a drive.
+    pub const DRIVE: [Quantity; 6] = [
+        Quantity::ReflectedInertia,
+        Quantity::ViscousFriction,
+        Quantity::ForwardFriction,
+        Quantity::BackwardFriction,
+        Quantity::Offset,
+        Quantity::RotorCoupling,
+    ];
+
+    /// The name without the number of a link; for inertias those of Khalil and Dombre.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Quantity::Link(place) => NAMES.get(place).copied().unwrap_or_default(),
+            Quantity::ReflectedInertia => "IA",
+            Quantity::ViscousFriction => "FV",
+            Quantity::ForwardFriction => "FP",
+            Quantity::BackwardFriction => "FN",
+            Quantity::Offset => "FO",
+            Quantity::RotorCoupling => "IC",
+        }
+    }
+
+    /// What it is, in words.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Quantity::Link(0) => "mass",
+            Quantity::Link(1..=3) => "first moment",
+            Quantity::Link(_) => "moment of inertia",
+            Quantity::ReflectedInertia => "reflected inertia",
+            Quantity::ViscousFriction => "viscous friction",
+            Quantity::ForwardFriction => "forward friction",
+            Quantity::BackwardFriction => "backward friction",
+            Quantity::Offset => "offset",
+            Quantity::RotorCoupling => "rotor coupling",
+        }
+    }
+
+    /// The place among the quantities that inertias and positions are told by.
+    pub(super) fn place(self) -> usize {
+        match self {
+            Quantity::Link(place) => place,
+            Quantity::RotorCoupling => LINK_PARAMETERS + 1,
+            Quantity::ReflectedInertia => LINK_PARAMETERS + 2,
+            _ => LINK_PARAMETERS,
+        }
+    }
+}
+
+/// A parameter in which the driving forces are linear, and a column of the full regressor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct StandardParameter {
+    /// The link, or the one that the drive moves; an index from 0.
+    pub link: usize,
+    /// What of it.
+    pub quantity: Quantity,
+}
+
+impl StandardParameter {
+    /// The name, such as `ZZ_2`; links count from 1.
+    #[must_use]
+    pub fn name(self) -> String {
+        format!("{}_{}", self.quantity.symbol(), self.link + 1)
+    }
+
+    /// The name in LaTeX.
+    #[must_use]
+    pub fn latex(self) -> String {
+        format!(r"\mathit{{{}}}_{{{}}}", self.quantity.symbol(), self.link + 1)
+    }
+}
+
+/// The standard parameters with their values in the file's parameters, in the order of the full
+/// regressor's columns: ten of each link, then those of the drives that the file gives.
+#[must_use]
+pub fn standard_parameters<'g>(mechanism: &Mechanism<'g>) -> Vec<(StandardParameter, Expr<'g>)> {
+    let links = mechanism.links.iter().enumerate();
+    let of_links = links.clone().flat_map(|(link, symbols)| {
+        let values = Body::of_link(symbols).parameters().into_iter().enumerate();
+        values.map(move |(place, value)| {
+            (StandardParameter { link, quantity: Quantity::Link(place) }, value)
+        })
+    });
+    let of_drives = links.flat_map(|(link, symbols)| {
+        let figures = Quantity::DRIVE.map(|quantity| (quantity, drive_figure(symbols, quantity)));
+        let given = figures.into_iter().filter(|(_, figure)| !figure.is_zero());
+        given.map(move |(quantity, figure)| (StandardParameter { link, quantity }, figure))
+    });
+    of_links.chain(of_drives).collect()
+}
+
+/// A quantity of a link's drive.
+fn drive_figure<'g>(link: &MechanismLink<'g>, quantity: Quantity) -> Expr<'g> {
+    let friction = &link.friction;
+    match quantity {
+        Quantity::Link(_) => link.mass.graph().zero(),
+        Quantity::ReflectedInertia => link.reflected_inertia,
+        Quantity::ViscousFriction => friction.viscous,
+        Quantity::ForwardFriction => friction.coulomb_positive,
+        Quantity::BackwardFriction => friction.coulomb_negative,
+        Quantity::Offset => friction.offset,
+        Quantity::RotorCoupling => link.rotor_coupling,
+    }
+}

@@ -1,0 +1,80 @@
+//! A body by its ten inertial parameters, in which driving forces are linear.
+//!
+//! They are the mass m, the first moment h = m c and the inertia tensor I about the origin of a
+//! frame, in the order m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.
+
+use robot_symbolic::{Expr, Graph};
+
+use crate::mechanism::MechanismLink;
+use crate::numeric::LINK_PARAMETERS;
+use crate::vector::{Matrix, Vector};
+
+/// The place of the first moment's x component among the parameters.
+pub(crate) const FIRST_MOMENT: usize = 1;
+/// The place of I_xx among the parameters.
+pub(crate) const TENSOR: usize = 4;
+/// The entries of the tensor in the order of the parameters.
+pub(crate) const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
+
+/// A body by its ten parameters about some origin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Body<'g> {
+    /// m, kg.
+    pub(crate) mass: Expr<'g>,
+    /// h = m c, kg m.
+    pub(crate) first: Vector<'g>,
+    /// I about the origin, kg m².
+    pub(crate) tensor: Matrix<'g>,
+}
+
+impl<'g> Body<'g> {
+    /// The link's own, about the origin of its frame.
+    pub(crate) fn of_link(link: &MechanismLink<'g>) -> Body<'g> {
+        let centre = link.center_of_mass;
+        let first = centre * link.mass;
+        let identity = Matrix::identity(link.mass.graph());
+        let tensor = link.inertia + identity * first.dot(centre) - Matrix::outer(first, centre);
+        Body { mass: link.mass, first, tensor }
+    }
+
+    /// A unit of one parameter, nothing of the others.
+    pub(crate) fn unit(graph: &'g Graph, parameter: usize) -> Body<'g> {
+        let one_at = |place: usize| graph.integer(i64::from(parameter == place));
+        Body {
+            mass: one_at(0),
+            first: Vector([0, 1, 2].map(|k| one_at(FIRST_MOMENT + k))),
+            tensor: Matrix::from_fn(|row, column| one_at(tensor_place(row, column))),
+        }
+    }
+
+    /// The same body in the axes that `rotation` takes its components to.
+    pub(crate) fn turned(self, rotation: Matrix<'g>) -> Body<'g> {
+        Body {
+            mass: self.mass,
+            first: rotation * self.first,
+            tensor: rotation * self.tensor * rotation.transpose(),
+        }
+    }
+
+    /// The same body about an origin from which its own lies at `arm`.
+    pub(crate) fn about(self, arm: Vector<'g>) -> Body<'g> {
+        let Body { mass, first, tensor } = self;
+        let diagonal = Matrix::identity(mass.graph()) * (first.dot(arm) * 2 + arm.dot(arm) * mass);
+        let mixed = Matrix::outer(first, arm) + Matrix::outer(arm, first);
+        let tensor = tensor + diagonal - mixed - Matrix::outer(arm, arm) * mass;
+        Body { mass, first: first + arm * mass, tensor }
+    }
+
+    /// The parameters in their order.
+    pub(crate) fn parameters(&self) -> [Expr<'g>; LINK_PARAMETERS] {
+        let (Vector([x, y, z]), Matrix(i)) = (self.first, self.tensor);
+        let [xx, xy, yy, xz, yz, zz] = ENTRIES.map(|(row, column)| i[row][column]);
+        [self.mass, x, y, z, xx, xy, yy, xz, yz, zz]
+    }
+}
+
+/// The place of an entry of the tensor among the parameters.
+pub(crate) fn tensor_place(row: usize, column: usize) -> usize {
+    let (row, column) = (row.min(column), row.max(column));
+    TENSOR + row + column * (column + 1) / 2
+}
