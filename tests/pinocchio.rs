@@ -19,9 +19,11 @@ const ARMS: [&str; 6] = ["ur5", "panda", "iiwa", "puma560", "stanford", "scara"]
 /// The files of the project hold angles as multiples of π/2 where the URDF prints eleven digits.
 const TOLERANCE: f64 = 1e-9;
 
-/// The functions whose outputs are values of the oracle: the values of the inputs but q and q̇, and of
-/// the outputs.
-const FUNCTIONS: [(FunctionKind, &[(&str, &str)], &[&str]); 9] = [
+/// A function, the oracle's values of its inputs but q and q̇, and of its outputs.
+type Held = (FunctionKind, &'static [(&'static str, &'static str)], &'static [&'static str]);
+
+/// The functions whose outputs are values of the oracle.
+const FUNCTIONS: [Held; 9] = [
     (FunctionKind::InverseDynamics, &[("qdd", "a")], &["tau"]),
     (FunctionKind::Gravity, &[], &["g"]),
     (FunctionKind::Bias, &[], &["nle"]),
