@@ -80,32 +80,44 @@ impl Equation {
     /// The right side on one line.
     #[must_use]
     pub fn right(&self) -> String {
-        let mut text = String::new();
-        for (place, term) in self.terms.iter().enumerate() {
-            text.push_str(sign(place, term.negative));
-            text.push_str(&term.text);
-        }
-        text
+        joined(&self.terms)
     }
 
     /// The right side on lines about `width` characters wide, broken before signs. A first line
     /// starts with its term, the others with a sign.
     #[must_use]
     pub fn lines(&self, width: usize) -> Vec<String> {
-        let (mut lines, mut line, mut used) = (vec![], String::new(), 0);
-        for (place, term) in self.terms.iter().enumerate() {
-            if !line.is_empty() && used + term.width > width {
-                lines.push(std::mem::take(&mut line));
-                used = 0;
-            }
-            let sign = sign(place, term.negative);
-            line.push_str(if line.is_empty() { sign.trim_start() } else { sign });
-            line.push_str(&term.text);
-            used += term.width + 2;
-        }
-        lines.push(line);
-        lines
+        lines(&self.terms, width)
     }
+}
+
+/// A sum on one line.
+#[must_use]
+pub fn joined(terms: &[LatexTerm]) -> String {
+    let mut text = String::new();
+    for (place, term) in terms.iter().enumerate() {
+        text.push_str(sign(place, term.negative));
+        text.push_str(&term.text);
+    }
+    text
+}
+
+/// A sum on lines about `width` characters wide, as [`Equation::lines`].
+#[must_use]
+pub fn lines(terms: &[LatexTerm], width: usize) -> Vec<String> {
+    let (mut lines, mut line, mut used) = (vec![], String::new(), 0);
+    for (place, term) in terms.iter().enumerate() {
+        if !line.is_empty() && used + term.width > width {
+            lines.push(std::mem::take(&mut line));
+            used = 0;
+        }
+        let sign = sign(place, term.negative);
+        line.push_str(if line.is_empty() { sign.trim_start() } else { sign });
+        line.push_str(&term.text);
+        used += term.width + 2;
+    }
+    lines.push(line);
+    lines
 }
 
 fn sign(place: usize, negative: bool) -> &'static str {
@@ -152,33 +164,40 @@ pub fn equations(source: &Source, options: &EquationOptions) -> Result<Equations
 type Rank = (u8, u8, usize);
 
 /// Writes the equations of a robot.
-struct Writer<'r> {
+pub(crate) struct Writer<'r> {
     robot: &'r Robot,
     notation: Notation,
 }
 
 impl<'r> Writer<'r> {
-    fn new(robot: &'r Robot, notation: Notation) -> Writer<'r> {
+    pub(crate) fn new(robot: &'r Robot, notation: Notation) -> Writer<'r> {
         Writer { robot, notation }
     }
 
     fn equation(&self, symbol: Symbol, polynomial: &Polynomial<'_>) -> Result<Equation, TooLarge> {
         let name = symbol.to_string();
+        let left = match self.notation {
+            Notation::Text => name.clone(),
+            Notation::Latex(_) => left_side(symbol),
+        };
+        Ok(Equation { name, left, terms: self.terms(polynomial)? })
+    }
+
+    /// The terms of a sum; text is one term.
+    pub(crate) fn terms(&self, polynomial: &Polynomial<'_>) -> Result<Vec<LatexTerm>, TooLarge> {
         let rank = |atom: Expr<'_>| self.rank(atom);
-        Ok(match self.notation {
+        match self.notation {
             Notation::Text => {
                 let text = polynomial.to_text_by(rank)?;
                 let width = text.chars().count();
-                let term = LatexTerm { negative: false, text, width };
-                Equation { left: name.clone(), name, terms: vec![term] }
+                Ok(vec![LatexTerm { negative: false, text, width }])
             }
             Notation::Latex(trigonometry) => {
                 let names = |name: &str| self.latex(name);
                 let style = LatexStyle::new(trigonometry).with_names(&names);
-                let terms = polynomial_terms(polynomial, &style, rank)?;
-                Equation { left: left_side(symbol), name, terms }
+                polynomial_terms(polynomial, &style, rank)
             }
-        })
+        }
     }
 
     fn rank(&self, atom: Expr<'_>) -> Rank {

@@ -25,6 +25,7 @@
 //! `robot-symbolic` give the same code.
 
 pub mod ablation;
+pub mod base;
 pub mod budget;
 mod builder;
 mod cargo;

@@ -1,5 +1,6 @@
 //! The commands, a file each.
 
+mod base;
 mod check;
 mod demo;
 mod equations;
@@ -24,6 +25,8 @@ use crate::failure::Failure;
 pub(crate) enum Command {
     /// Print the equations of motion of a robot
     Equations(equations::Arguments),
+    /// Print the base inertial parameters of a robot
+    Base(base::Arguments),
     /// Write the Rust module of a robot
     Generate(generate::Arguments),
     /// Write a whole crate with the functions of a robot
@@ -62,6 +65,7 @@ impl Command {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         match self {
             Command::Equations(arguments) => arguments.run(terminal),
+            Command::Base(arguments) => arguments.run(terminal),
             Command::Generate(arguments) => arguments.run(terminal),
             Command::Crate(arguments) => arguments.run(terminal),
             Command::Eval(arguments) => arguments.run(terminal),

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod base;
 mod check;
 mod code;
 mod equations;

@@ -2,8 +2,9 @@
 
 use crate::{complaint, output, run};
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "equations",
+    "base",
     "generate",
     "crate",
     "eval",

@@ -1,0 +1,68 @@
+//! `base`: the formulas of the base parameters read back and have the values that they print.
+
+use robot_symbolic::Formula;
+use serde_json::Value;
+
+use crate::{complaint, folder, output, robot};
+
+fn base(name: &str) -> Value {
+    serde_json::from_str(&output(&["base", &robot(name), "--format", "json"], "")).unwrap()
+}
+
+#[test]
+fn formulas_and_values_read_back() {
+    for (name, count) in [("puma560", 36), ("trttr1", 20), ("planar_3r", 9)] {
+        let set = base(name);
+        let list = set["base"].as_array().unwrap();
+        assert_eq!(list.len(), count, "{name}");
+        for entry in list {
+            let parse = |text: &Value| Formula::parse(text.as_str().unwrap()).unwrap();
+            parse(&entry["value"]);
+            // A number of its own for each name: the figures are the formula's.
+            let value =
+                |name: &str| name.bytes().fold(0.5, |sum, byte| sum * 0.7 + f64::from(byte));
+            let formula = parse(&entry["formula"]).evaluate(value);
+            let figures = entry["figures"].as_object().unwrap().iter();
+            let sum: f64 =
+                figures.map(|(name, figure)| parse(figure).evaluate(value) * value(name)).sum();
+            assert!((formula - sum).abs() <= 1e-9 * sum.abs(), "{name}: {entry}");
+            let kept =
+                set["standard"][entry["column"].as_u64().unwrap() as usize].as_str().unwrap();
+            assert_eq!(entry["name"].as_str().unwrap().replacen("R_", "_", 1), kept);
+            assert_eq!(entry["figures"][kept], "1");
+        }
+    }
+}
+
+#[test]
+fn lengths_stay_symbols() {
+    let shown = output(&["base", &robot("planar_2r")], "");
+    for line in
+        ["planar_2r: 6 base parameters of 20", "ZZR_1 = ZZ_1 + l1^2*M_2", "MXR_1 = MX_1 + l1*M_2"]
+    {
+        assert!(shown.lines().any(|shown| shown == line), "{line} is not in {shown}");
+    }
+}
+
+#[test]
+fn latex_is_an_environment_of_amsmath() {
+    let shown = output(&["base", &robot("planar_2r"), "--format", "latex"], "");
+    let lines: Vec<&str> = shown.lines().collect();
+    assert_eq!(lines.first(), Some(&r"\begin{align*}"));
+    assert_eq!(lines.last(), Some(&r"\end{align*}"));
+    assert!(
+        shown.contains(r"\mathit{ZZR}_{1} &= \mathit{ZZ}_{1} + l_1^{2} \mathit{M}_{2}"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn what_is_out_of_reach_is_told() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let path = folder("base").join("arm.toml");
+    let (first, second) = text.split_once("name = \"2\"").unwrap();
+    let second = second.replacen("axis = \"z\"", "axis = \"z\", mimic = { joint = \"1\" }", 1);
+    std::fs::write(&path, format!("{first}name = \"2\"{second}")).unwrap();
+    let told = complaint(1, &["base", path.to_str().unwrap()], "");
+    assert!(told.contains("joints share a coordinate"), "{told}");
+}
