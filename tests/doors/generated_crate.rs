@@ -14,6 +14,7 @@ fn command(arguments: &[&str]) -> (u8, String) {
         output: &mut output,
         errors: &mut errors,
         colours: false,
+        progress: false,
     };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
     let code = robot_cli::run(arguments, &mut terminal);

@@ -5,6 +5,7 @@
 
 mod commands;
 mod counts;
+mod delivery;
 mod failure;
 mod files;
 mod progress;
@@ -13,7 +14,7 @@ mod settings;
 mod states;
 mod text;
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io::{Read, Write};
 
 use clap::Parser;
@@ -21,20 +22,29 @@ use clap::error::ErrorKind;
 
 use commands::Command;
 
+/// The name of the command.
+const NAME: &str = "robot-symbolic";
+
 /// Symbolic equations of motion and plain Rust code from robot files.
 ///
 /// Without a command, shows the equations of the robot TRTTR1 and runs its generated code.
 #[derive(Parser)]
 #[command(
-    name = "robot-symbolic",
+    name = NAME,
     version,
     after_help = "Examples:
   robot-symbolic equations robots/trttr1.toml --quantity Q,F_l --format latex
   robot-symbolic eval robots/trttr1.toml --function inverse_dynamics --states states.json
   robot-symbolic crate robots/trttr1.toml -o trttr1
 
-Exit codes: 0 done; 1 the robot file or another input is wrong, or a checked file is out of date;
-2 the command line is wrong."
+Exit codes, of every command:
+  0  done
+  1  the robot file or another input is wrong, or the answer is no: a checked file is out of date, a
+     claim does not hold, two things differ
+  2  the command line is wrong
+
+Results go to standard output, messages to standard error. Colours appear on a terminal only, and not where
+the variable NO_COLOR is set."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -49,12 +59,21 @@ pub struct Terminal<'a> {
     pub output: &'a mut dyn Write,
     /// Standard error.
     pub errors: &'a mut dyn Write,
-    /// Whether standard error is a terminal: it shows colours and progress.
+    /// Whether standard error shows colours: see [`colours`].
     pub colours: bool,
+    /// Whether standard error shows how far a long run has come: on a terminal.
+    pub progress: bool,
+}
+
+/// Whether standard error shows colours: on a terminal, unless the variable `NO_COLOR` is set and not
+/// empty (<https://no-color.org>).
+#[must_use]
+pub fn colours(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
+    is_terminal && no_color.is_none_or(OsStr::is_empty)
 }
 
 /// Runs the command; the first argument is its own name. Gives the exit code: 0 done, 1 an input is
-/// wrong, 2 the command line is wrong.
+/// wrong or the answer is no, 2 the command line is wrong.
 pub fn run(
     arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     terminal: &mut Terminal<'_>,

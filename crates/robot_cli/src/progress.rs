@@ -1,6 +1,7 @@
 //! How far a long run has come, on a terminal.
 
 use std::io::Write;
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
 use crate::Terminal;
@@ -21,7 +22,7 @@ const PAUSE: Duration = Duration::from_millis(100);
 
 impl<'e> Progress<'e> {
     pub(crate) fn new(terminal: &'e mut Terminal<'_>) -> Progress<'e> {
-        let errors = terminal.colours.then_some(&mut *terminal.errors as &mut dyn Write);
+        let errors = terminal.progress.then_some(&mut *terminal.errors as &mut dyn Write);
         Progress { errors, next: Instant::now() + PATIENCE, shown: false }
     }
 
@@ -37,11 +38,67 @@ impl<'e> Progress<'e> {
     }
 }
 
+/// Does work that tells nothing of its progress; shows how long it takes.
+pub(crate) fn watched<T: Send>(
+    what: &str,
+    terminal: &mut Terminal<'_>,
+    work: impl FnOnce() -> T + Send,
+) -> T {
+    if !terminal.progress {
+        return work();
+    }
+    let mut progress = Progress::new(terminal);
+    let start = Instant::now();
+    std::thread::scope(|scope| {
+        let (done, ended) = channel::<()>();
+        let worker = scope.spawn(move || {
+            // Dropped when the work is done, or panics.
+            let _done = done;
+            work()
+        });
+        while ended.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
+            progress.show(|| format!("{what}: {} s", start.elapsed().as_secs()));
+        }
+        worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
 /// The line goes when the run is over.
 impl Drop for Progress<'_> {
     fn drop(&mut self) {
         if let Some(errors) = self.errors.as_mut().filter(|_| self.shown) {
             let _ = write!(errors, "\r\x1b[K").and_then(|()| errors.flush());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is shown of two seconds' work.
+    fn shown(progress: bool) -> String {
+        let (mut output, mut errors) = (vec![], vec![]);
+        let mut terminal = Terminal {
+            input: &mut std::io::empty(),
+            output: &mut output,
+            errors: &mut errors,
+            colours: false,
+            progress,
+        };
+        let answer = watched("thinking", &mut terminal, || {
+            std::thread::sleep(Duration::from_millis(1500));
+            42
+        });
+        assert_eq!((answer, output.len()), (42, 0));
+        String::from_utf8_lossy(&errors).into_owned()
+    }
+
+    #[test]
+    fn long_work_is_told_of_on_a_terminal_alone() {
+        let told = shown(true);
+        assert!(told.starts_with("\r\x1b[Kthinking: 1 s"), "{told:?}");
+        assert!(told.ends_with("\r\x1b[K"), "{told:?}");
+        assert_eq!(shown(false), "");
     }
 }

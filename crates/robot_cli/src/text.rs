@@ -5,35 +5,21 @@ use std::fmt::Write as _;
 use robot_build::Snapping;
 use robot_dynamics::diagnostic::{Diagnostics, Style, quote};
 use robot_dynamics::mechanism::Snap;
+use robot_symbolic::nearest_word;
 
 use crate::Terminal;
 use crate::failure::Failure;
 
 /// `there is no function `invers`; did you mean `inverse`? There are …`
 pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
-    let near =
-        nearest(name, known).map(|near| format!(" Did you mean `{near}`?")).unwrap_or_default();
+    let near = nearest_word(name, known.iter().copied())
+        .map(|near| format!(" Did you mean `{near}`?"))
+        .unwrap_or_default();
     let known = match known {
         [] => "There is none.".to_owned(),
         known => format!("There are {}.", known.join(", ")),
     };
     format!("there is no {what} `{}`.{near} {known}", quote(name))
-}
-
-/// The known name that a misspelt one most likely means.
-fn nearest<'n>(name: &str, known: &[&'n str]) -> Option<&'n str> {
-    if name.chars().count() > 64 {
-        return None;
-    }
-    let lower = name.to_lowercase();
-    let distances = known.iter().map(|near| {
-        let distance = strsim::damerau_levenshtein(&lower, &near.to_lowercase());
-        // Among those equally near, the one with the same first letter.
-        (distance, near.chars().next() != name.chars().next(), *near)
-    });
-    let nearest = distances.min_by_key(|(distance, other, _)| (*distance, *other));
-    let (distance, _, near) = nearest?;
-    (distance <= near.len().div_ceil(3).min(3)).then_some(near)
 }
 
 /// Shows the warnings of a robot file.

@@ -56,6 +56,7 @@ pub mod print;
 mod random;
 mod rational;
 pub mod rules;
+mod spelling;
 mod trigonometry;
 pub mod walk;
 
@@ -66,3 +67,4 @@ pub use number::Number;
 pub use operations::{Operations, operations};
 pub use polynomial::{AngleSums, Monomial, Polynomial, PolynomialError, PolynomialOptions};
 pub use rational::Rational;
+pub use spelling::nearest_word;

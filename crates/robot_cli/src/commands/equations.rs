@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
 
@@ -79,7 +80,8 @@ impl Arguments {
         };
         // There is one form as yet.
         let Form::Expanded = self.form;
-        let equations = equations(&self.robot.source()?, &options)?;
+        let source = self.robot.source()?;
+        let equations = watched("expanding", terminal, || equations(&source, &options))?;
         text::warnings(&equations.warnings, terminal)?;
         let shown = match self.format {
             Format::Text => plain(&equations),

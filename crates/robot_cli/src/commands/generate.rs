@@ -1,13 +1,12 @@
 //! `generate`: the Rust module of a robot, in a file.
 
-use std::path::PathBuf;
-
 use clap::Args;
-use robot_build::{File, generate};
+use robot_build::generate;
 
 use crate::Terminal;
-use crate::commands::package::deliver;
+use crate::delivery::OutputArguments;
 use crate::failure::Failure;
+use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
 use crate::text;
 
@@ -31,24 +30,17 @@ pub(crate) struct Arguments {
     /// The path of the runtime in the code
     #[arg(long, value_name = "PATH", default_value = "::robot_runtime")]
     runtime: String,
-    /// The file to write; standard output without this
-    #[arg(short, long, value_name = "PATH")]
-    output: Option<PathBuf>,
-    /// Compare the file with what would be written
-    #[arg(long, requires = "output")]
-    check: bool,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let mut options = self.code.options(&self.robot, self.trigonometry)?;
         options.runtime.clone_from(&self.runtime);
-        let generated = generate(&self.robot.source()?, &options)?;
+        let source = self.robot.source()?;
+        let generated = watched("generating", terminal, || generate(&source, &options))?;
         text::warnings(&generated.warnings, terminal)?;
-        let Some(path) = &self.output else {
-            return Ok(terminal.output.write_all(generated.code.as_bytes())?);
-        };
-        let file = File { path: String::new(), text: generated.code };
-        deliver(path, &[file], self.check, terminal)
+        self.output.deliver(generated.code, terminal)
     }
 }

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::{Errors, File, RobotFile};
+use robot_build::{Errors, RobotFile};
 use robot_dynamics::description::{self, Options};
 
 use crate::Terminal;
-use crate::commands::package::deliver;
+use crate::delivery::OutputArguments;
 use crate::failure::Failure;
 use crate::text;
 
@@ -20,9 +20,8 @@ here is written down in the robot file, so that the commands take it from there.
 pub(crate) struct Arguments {
     /// The URDF file
     file: PathBuf,
-    /// The robot file to write; standard output without this
-    #[arg(short, long, value_name = "PATH")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArguments,
     /// Take moving links without mass
     #[arg(long)]
     allow_massless: bool,
@@ -48,9 +47,6 @@ impl Arguments {
         for choice in import.described.choices.iter() {
             writeln!(terminal.errors, "note: {}", choice.message)?;
         }
-        let Some(path) = &self.output else {
-            return Ok(terminal.output.write_all(import.toml.as_bytes())?);
-        };
-        deliver(path, &[File { path: String::new(), text: import.toml }], false, terminal)
+        self.output.deliver(import.toml, terminal)
     }
 }

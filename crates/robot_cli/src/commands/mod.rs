@@ -2,11 +2,13 @@
 
 mod base;
 mod check;
+mod completions;
 mod demo;
 mod equations;
 mod eval;
 mod generate;
 mod import;
+mod man;
 mod package;
 mod prove;
 mod schema;
@@ -49,6 +51,10 @@ pub(crate) enum Command {
     Schema(schema::Arguments),
     /// Show what a robot file says
     Show(show::Arguments),
+    /// Print what a shell needs to complete the command line
+    Completions(completions::Arguments),
+    /// Write the manual pages
+    Man(man::Arguments),
     /// Show the equations of the robot TRTTR1 and run its generated code
     Demo(demo::Arguments),
 }
@@ -77,6 +83,8 @@ impl Command {
             Command::Check(arguments) => arguments.run(terminal),
             Command::Schema(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
+            Command::Completions(arguments) => arguments.run(terminal),
+            Command::Man(arguments) => arguments.run(terminal),
             Command::Demo(arguments) => arguments.run(terminal),
         }
     }

@@ -1,12 +1,14 @@
 //! `crate`: a whole crate with the functions of a robot.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::{File, Staleness, package, staleness, write_if_changed};
+use robot_build::package;
 
 use crate::Terminal;
+use crate::delivery::deliver;
 use crate::failure::Failure;
+use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
 
 #[derive(Args)]
@@ -38,39 +40,7 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let options = self.code.options(&self.robot, self.trigonometry)?;
         let source = self.robot.source()?;
-        let files = package::package(&source, &options)?;
+        let files = watched("generating", terminal, || package::package(&source, &options))?;
         deliver(&self.output, &files, self.check, terminal)
     }
-}
-
-/// Writes files into a folder, or says which are out of date. A file without a path is the folder's.
-pub(crate) fn deliver(
-    folder: &Path,
-    files: &[File],
-    check: bool,
-    terminal: &mut Terminal<'_>,
-) -> Result<(), Failure> {
-    let mut stale = vec![];
-    for file in files {
-        let parts = file.path.split('/').filter(|part| !part.is_empty());
-        let path = parts.fold(folder.to_owned(), |path, part| path.join(part));
-        if !check {
-            if write_if_changed(&path, &file.text)? {
-                writeln!(terminal.errors, "wrote {}", path.display())?;
-            }
-            continue;
-        }
-        match staleness(&path, &file.text)? {
-            None => {}
-            Some(Staleness::Missing) => stale.push(format!("{} is missing", path.display())),
-            Some(Staleness::Differs { line }) => {
-                stale.push(format!("{}:{line} is out of date", path.display()));
-            }
-        }
-    }
-    if stale.is_empty() {
-        return Ok(());
-    }
-    stale.push("run the same command without --check to write it".to_owned());
-    Err(Failure::Input(stale))
 }

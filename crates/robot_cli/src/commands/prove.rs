@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
 use crate::text;
 
@@ -79,8 +80,9 @@ impl Arguments {
             other => Failure::input(other.to_string()),
         };
         let description = compiler.description().map_err(failed)?;
-        let modules =
-            prove(&self.robot.source()?, &options, &compiler, &profiles).map_err(failed)?;
+        let source = self.robot.source()?;
+        let compiled = || prove(&source, &options, &compiler, &profiles);
+        let modules = watched("compiling", terminal, compiled).map_err(failed)?;
         match self.format {
             Format::Text => {
                 writeln!(terminal.output, "{description}")?;

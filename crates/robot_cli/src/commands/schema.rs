@@ -1,16 +1,14 @@
 //! `schema`: the JSON schema of robot files, for editors.
 
-use std::path::PathBuf;
-
 use clap::Args;
-use robot_build::{File, FunctionKind};
+use robot_build::FunctionKind;
 use robot_dynamics::description::shape::{
     AXES, Content, IDENTIFIER, Key, LABEL, Presence, ROBOT_FILE, Shape,
 };
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
-use crate::commands::package::deliver;
+use crate::delivery::OutputArguments;
 use crate::failure::Failure;
 
 #[derive(Args)]
@@ -22,21 +20,13 @@ misspelt, in files that begin with the line
   #:schema ./robot-file.schema.json
 The schema knows keys and kinds of values; what they mean together, `check` tells.")]
 pub(crate) struct Arguments {
-    /// The file to write; standard output without this
-    #[arg(short, long, value_name = "PATH")]
-    output: Option<PathBuf>,
-    /// Compare the file with what would be written
-    #[arg(long, requires = "output")]
-    check: bool,
+    #[command(flatten)]
+    output: OutputArguments,
 }
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let text = format!("{:#}\n", document());
-        let Some(path) = &self.output else {
-            return Ok(terminal.output.write_all(text.as_bytes())?);
-        };
-        deliver(path, &[File { path: String::new(), text }], self.check, terminal)
+        self.output.deliver(format!("{:#}\n", document()), terminal)
     }
 }
 

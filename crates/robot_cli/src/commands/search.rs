@@ -8,6 +8,7 @@ use robot_dynamics::mechanism::MechanismOptions;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
 
@@ -35,7 +36,8 @@ impl Arguments {
         let robot = self.robot.read(terminal)?.robot;
         let options = MechanismOptions::ROUNDED.with_snap(self.robot.snap(), &robot);
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
-        let Some(found) = search(&robot, &options, measure) else {
+        let find = || search(&robot, &options, measure);
+        let Some(found) = watched("searching", terminal, find) else {
             return Err(Failure::input(format!(
                 "{}: a joint axis depends on parameters; the economical recursion has no forms for it",
                 robot.name

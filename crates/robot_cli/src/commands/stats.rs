@@ -9,6 +9,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::counts;
 use crate::failure::Failure;
+use crate::progress::watched;
 use crate::robot::{BundleArguments, RobotArgument, functions};
 use crate::text;
 
@@ -64,9 +65,10 @@ impl Arguments {
         };
         let options = Options { functions, bundles, ..self.robot.options()? };
         if self.options {
-            return self.show(&ablated(&ablation(&source, &options)?), terminal);
+            let counted = watched("counting", terminal, || ablation(&source, &options))?;
+            return self.show(&ablated(&counted), terminal);
         }
-        let programs = programs(&source, &options)?;
+        let programs = watched("counting", terminal, || programs(&source, &options))?;
         text::warnings(&programs.warnings, terminal)?;
         let module = &programs.module;
         if self.passes {

@@ -8,9 +8,11 @@ mod code;
 mod equations;
 mod eval;
 mod files;
+mod help;
 mod json_schema;
 mod prove;
 mod schema;
+mod shell;
 mod simulate;
 mod stats;
 mod usage;
@@ -32,6 +34,7 @@ fn run_with(arguments: &[&str], mut input: &[u8]) -> Outcome {
         output: &mut output,
         errors: &mut errors,
         colours: false,
+        progress: false,
     };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
     let code = robot_cli::run(arguments, &mut terminal);

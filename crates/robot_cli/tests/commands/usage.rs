@@ -1,32 +1,6 @@
-//! Help, wrong usage, and the demonstration.
+//! Wrong usage, and the demonstration.
 
 use crate::{complaint, output, run};
-
-const COMMANDS: [&str; 13] = [
-    "equations",
-    "base",
-    "generate",
-    "crate",
-    "eval",
-    "simulate",
-    "stats",
-    "search",
-    "import",
-    "check",
-    "schema",
-    "show",
-    "demo",
-];
-
-#[test]
-fn every_command_has_help_with_an_example() {
-    let overview = output(&["--help"], "");
-    for command in COMMANDS {
-        assert!(overview.contains(&format!("\n  {command} ")), "{overview}");
-        let help = output(&[command, "--help"], "");
-        assert!(help.contains(&format!("Example:\n  robot-symbolic {command}")), "{help}");
-    }
-}
 
 #[test]
 fn wrong_usage_has_its_own_code() {

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use robot_symbolic::{Formula, Graph, Number, Rational};
+use robot_symbolic::{Formula, Graph, Number, Rational, nearest_word};
 
 use super::locations::AngleLocation;
 use super::names::{Registry, is_coordinate};
@@ -80,7 +80,7 @@ impl<'a> Reader<'a> {
         if self.found.len() > ENOUGH {
             return None;
         }
-        nearest(word, candidates)
+        nearest_word(word, candidates)
     }
 
     /// Whether an error has been reported.
@@ -184,29 +184,4 @@ impl<'a> Reader<'a> {
         );
         false
     }
-}
-
-fn nearest<'n>(word: &str, candidates: impl Iterator<Item = &'n str>) -> Option<&'n str> {
-    let lower = word.to_lowercase();
-    let length = word.chars().count();
-    if length > 64 {
-        return None;
-    }
-    candidates
-        .map(|candidate| {
-            let same = candidate.to_lowercase();
-            let distance = strsim::damerau_levenshtein(&lower, &same);
-            // A beginning of a longer word is as good as one slip; of several the shortest.
-            let slips = match same.starts_with(&lower) && length >= 3 {
-                true => distance.min(1),
-                false => distance,
-            };
-            (slips, distance, candidate)
-        })
-        .min_by_key(|(slips, distance, _)| (*slips, *distance))
-        .filter(|(slips, _, candidate)| {
-            let longest = candidate.len().max(length);
-            *slips == 0 || (longest > 1 && *slips <= longest.div_ceil(3).min(3))
-        })
-        .map(|(.., candidate)| candidate)
 }

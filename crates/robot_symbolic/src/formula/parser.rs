@@ -7,6 +7,7 @@ use super::error::ParseError;
 use super::lexer::{Lexer, Names, Token};
 use super::{Formula, MAX_DEPTH, MAX_EXPONENT, MAX_TOKENS, Op};
 use crate::graph::Function;
+use crate::spelling::nearest_word;
 
 /// What waits on the stack of operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -341,14 +342,10 @@ fn shorten(text: &str) -> String {
 fn unknown_function(name: &str, span: Range<usize>) -> ParseError {
     let name = &shorten(name);
     let known = Function::ALL.iter().map(|function| function.name());
-    let near = known
-        .chain(["tan"])
-        .map(|known| (strsim::damerau_levenshtein(&name.to_lowercase(), known), known))
-        .min()
-        .filter(|(distance, _)| *distance <= 1);
+    let near = nearest_word(name, known.chain(["tan"]));
     let error = ParseError::new(span, format!("`{name}` is no function"));
     match near {
-        Some((_, near)) => {
+        Some(near) => {
             error.help(format!("did you mean `{near}(…)`? For a product write `{name}*(…)`"))
         }
         None => error.help(format!(

@@ -1,0 +1,52 @@
+//! `man`: the manual pages.
+
+use std::path::PathBuf;
+
+use clap::{Args, CommandFactory};
+use clap_mangen::Man;
+use robot_build::File;
+
+use crate::delivery::deliver;
+use crate::failure::Failure;
+use crate::{Cli, Terminal};
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic man man1
+  robot-symbolic man > robot-symbolic.1
+
+The pages have the texts of --help. `man -l man1/robot-symbolic-equations.1` shows one; in a folder man1
+below a folder of MANPATH they are found by name.")]
+pub(crate) struct Arguments {
+    /// The folder to write: a page for the command and one for each of its commands. Without this the
+    /// command's own page on standard output
+    #[arg(value_name = "DIR")]
+    folder: Option<PathBuf>,
+    /// Compare the files with what would be written, and write nothing
+    #[arg(long, requires = "folder")]
+    check: bool,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        // Without the command `help`, which has no options to tell of.
+        let mut command = Cli::command().disable_help_subcommand(true);
+        command.build();
+        let own = page(&command)?;
+        let Some(folder) = &self.folder else {
+            return Ok(terminal.output.write_all(own.text.as_bytes())?);
+        };
+        let mut pages = vec![own];
+        for command in command.get_subcommands() {
+            pages.push(page(command)?);
+        }
+        deliver(folder, &pages, self.check, terminal)
+    }
+}
+
+fn page(command: &clap::Command) -> Result<File, Failure> {
+    let man = Man::new(command.clone());
+    let mut text = vec![];
+    man.render(&mut text)?;
+    Ok(File { path: man.get_filename(), text: String::from_utf8_lossy(&text).into_owned() })
+}

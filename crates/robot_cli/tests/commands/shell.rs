@@ -1,0 +1,63 @@
+//! Commands as a user types them: the built command in a shell, in a folder with the robots.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use tempfile::TempDir;
+
+/// A folder with the robot files in `robots`, and the path of the built command.
+pub(crate) struct Shell {
+    folder: TempDir,
+    path: std::ffi::OsString,
+}
+
+/// What a script has done.
+pub(crate) struct Done {
+    pub(crate) code: Option<i32>,
+    pub(crate) output: String,
+    pub(crate) errors: String,
+}
+
+impl Shell {
+    /// A fresh folder, outside of this workspace, so that Cargo does not take its packages for members.
+    pub(crate) fn new() -> Shell {
+        let folder = TempDir::new().unwrap();
+        let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+        std::fs::create_dir(folder.path().join("robots")).unwrap();
+        for entry in std::fs::read_dir(robots).unwrap() {
+            let path = entry.unwrap().path();
+            std::fs::copy(&path, folder.path().join("robots").join(path.file_name().unwrap()))
+                .unwrap();
+        }
+        let built = Path::new(env!("CARGO_BIN_EXE_robot-symbolic")).parent().unwrap().to_owned();
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let folders = std::iter::once(built).chain(std::env::split_paths(&path));
+        Shell { folder, path: std::env::join_paths(folders).unwrap() }
+    }
+
+    /// Writes a file into the folder.
+    pub(crate) fn write(&self, path: &str, text: &str) {
+        let path = self.folder.path().join(path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+
+    /// Runs a script; it ends where a command fails. What Cargo builds goes to a folder of its own.
+    pub(crate) fn run(&self, script: &str) -> Done {
+        let output = Command::new("sh")
+            .args(["-eu", "-c", script])
+            .current_dir(&self.folder)
+            .env("PATH", &self.path)
+            .env("CARGO_TARGET_DIR", self.folder.path().join("target"))
+            .env("CARGO_TERM_COLOR", "never")
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        Done {
+            code: output.status.code(),
+            output: text(output.stdout),
+            errors: text(output.stderr),
+        }
+    }
+}

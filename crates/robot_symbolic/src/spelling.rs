@@ -1,0 +1,62 @@
+//! Which known word a misspelt one most likely means.
+
+/// Longer words are no slips of the pen.
+const MAX_LENGTH: usize = 64;
+
+/// The candidate that a misspelt word most likely means, upper and lower case being alike: at most a
+/// third of its letters differ, and no more than three. A beginning of a longer word is as good as
+/// one slip. Of several that are equally near, the one with the same first letter; else the first.
+///
+/// ```
+/// let known = ["revolute", "prismatic", "fixed"];
+/// assert_eq!(robot_symbolic::nearest_word("revolut", known), Some("revolute"));
+/// assert_eq!(robot_symbolic::nearest_word("Prism", known), Some("prismatic"));
+/// assert_eq!(robot_symbolic::nearest_word("hinge", known), None);
+/// ```
+#[must_use]
+pub fn nearest_word<'n>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'n str>,
+) -> Option<&'n str> {
+    let lower = word.to_lowercase();
+    let length = word.chars().count();
+    if length > MAX_LENGTH {
+        return None;
+    }
+    let compared = candidates.into_iter().map(|candidate| {
+        let same = candidate.to_lowercase();
+        let distance = strsim::damerau_levenshtein(&lower, &same);
+        let slips = match same.starts_with(&lower) && length >= 3 {
+            true => distance.min(1),
+            false => distance,
+        };
+        let other_letter = same.chars().next() != lower.chars().next();
+        (slips, distance, other_letter, candidate)
+    });
+    compared
+        .min_by_key(|(slips, distance, other_letter, _)| (*slips, *distance, *other_letter))
+        .filter(|(slips, .., candidate)| {
+            let longest = candidate.len().max(length);
+            *slips == 0 || (longest > 1 && *slips <= (longest / 3).clamp(1, 3))
+        })
+        .map(|(.., candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest_word;
+
+    #[test]
+    fn the_first_letter_decides_between_equals() {
+        assert_eq!(nearest_word("mX", ["aX", "mY"]), Some("mY"));
+        assert_eq!(nearest_word("xy", ["ay", "by"]), Some("ay"));
+    }
+
+    #[test]
+    fn words_that_are_far_are_not_suggested() {
+        assert_eq!(nearest_word("torques", ["Q", "F_l"]), None);
+        assert_eq!(nearest_word("a", ["b"]), None);
+        assert_eq!(nearest_word("A", ["a"]), Some("a"));
+        assert_eq!(nearest_word(&"a".repeat(65), ["a"]), None);
+    }
+}
