@@ -4,8 +4,8 @@
 
 mod common;
 
+use common::solver::{expected, state};
 use common::{evaluate, largest_difference, magnitude, robot_files, with_free_axes};
-use nalgebra::DMatrix;
 use robot_dynamics::economical::{
     Plan, Recursion,
     plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
@@ -40,68 +40,6 @@ const KINDS: [FunctionKind; 13] = [
     FunctionKind::InverseDynamicsDerivatives,
     FunctionKind::ForwardDynamicsDerivatives,
 ];
-
-/// What the solver says a function yields.
-fn expected(
-    robot: &Robot,
-    solver: &numeric::Mechanism,
-    kind: FunctionKind,
-    state: &State,
-) -> Vec<f64> {
-    let (q, qd) = (&state.q, &state.qd);
-    match kind {
-        FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
-        FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
-        FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
-        FunctionKind::ForwardDynamics => {
-            solver.forward_dynamics(q, qd, &state.tau, &[]).unwrap().as_slice().to_vec()
-        }
-        FunctionKind::ForwardDynamicsWrench => {
-            let wrenches = &state.wrenches;
-            solver.forward_dynamics(q, qd, &state.tau, wrenches).unwrap().as_slice().to_vec()
-        }
-        FunctionKind::ForwardKinematics => {
-            // The solver has gyroscopic rotors as links behind those of the robot.
-            poses(&solver.forward_kinematics(q).unwrap().links[..robot.links.len()])
-        }
-        FunctionKind::FramePoses => poses(&solver.forward_kinematics(q).unwrap().frames),
-        FunctionKind::Jacobian => {
-            let jacobian = |frame| solver.frame_jacobian(q, frame).unwrap();
-            (0..solver.frames().len())
-                .flat_map(|frame| jacobian(frame).transpose().as_slice().to_vec())
-                .collect()
-        }
-        FunctionKind::JacobianDotQd => {
-            let drift = |frame| solver.frame_jacobian_dot_qd(q, qd, frame).unwrap();
-            (0..solver.frames().len()).flat_map(|frame| drift(frame).as_slice().to_vec()).collect()
-        }
-        FunctionKind::Energies => {
-            let energies = solver.energies(q, qd).unwrap();
-            vec![energies.kinetic, energies.potential]
-        }
-        FunctionKind::CoriolisMatrix => rows(&solver.coriolis_matrix(q, qd).unwrap()),
-        FunctionKind::InverseDynamicsDerivatives => {
-            let found = solver.inverse_dynamics_derivatives(q, qd, &state.qdd, &[]).unwrap();
-            [rows(&found.dq), rows(&found.dqd)].concat()
-        }
-        FunctionKind::ForwardDynamicsDerivatives => {
-            let found = solver.forward_dynamics_derivatives(q, qd, &state.tau, &[]).unwrap();
-            [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
-        }
-        other => panic!("nothing to hold `{}` against", other.name()),
-    }
-}
-
-/// Rotations row by row, then origins.
-fn poses(poses: &[numeric::Pose]) -> Vec<f64> {
-    let rotations = poses.iter().flat_map(|pose| pose.rotation.transpose().as_slice().to_vec());
-    let origins = poses.iter().flat_map(|pose| pose.translation.as_slice().to_vec());
-    rotations.chain(origins).collect()
-}
-
-fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
-    matrix.transpose().as_slice().to_vec()
-}
 
 fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
     let functions = derivation.functions(kind).into_iter();
@@ -140,17 +78,6 @@ fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
     let links: Vec<LinkPlan> = (0..robot.links.len()).map(&mut link).collect();
     let unit_length = random.once_in(2).then(|| (random.index(links.len()), random.index(3)));
     Plan { links, unit_length }
-}
-
-/// A random state with wrenches on the tips only.
-fn state(random: &mut Random, solver: &numeric::Mechanism, robot: &Robot) -> State {
-    let mut state = random.state(solver);
-    for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
-        if frame.wrench.is_none() {
-            *wrench = numeric::Wrench::zero();
-        }
-    }
-    state
 }
 
 /// The worst error of each function, relative to its largest value over the states.

@@ -9,13 +9,14 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use common::solver::{expected, inputs, state};
 use common::{largest_difference, magnitude, robot_files};
 use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
 use robot_codegen::backend::rust::{self, RustOptions, Scalar};
 use robot_dynamics::model::Robot;
 use robot_dynamics::numeric::{
-    self, Loads,
+    self,
     random::{Random, Recipe, State},
 };
 use robot_dynamics::random;
@@ -41,14 +42,7 @@ impl Case {
     fn new(name: &str, robot: Robot, seed: u64, states: usize) -> Case {
         let solver = numeric::Mechanism::nominal(&robot).unwrap();
         let mut random = Random::new(seed);
-        let mut states: Vec<State> = (0..states).map(|_| random.state(&solver)).collect();
-        for state in &mut states {
-            for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
-                if frame.wrench.is_none() {
-                    *wrench = numeric::Wrench::zero();
-                }
-            }
-        }
+        let states = (0..states).map(|_| state(&mut random, &solver, &robot)).collect();
         let kinds = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
         let options =
             Options { functions: Functions::Chosen(kinds.collect()), ..Options::default() };
@@ -59,50 +53,15 @@ impl Case {
     /// The inputs of a function at a state, by name.
     fn inputs(&self, kind: FunctionKind, state: &State) -> Vec<(String, Vec<f64>)> {
         let function = self.programs.module.function(kind.name()).unwrap();
-        let frames = self.programs.robot.frames.iter().zip(&state.wrenches);
-        let wrenches: Vec<Vec<f64>> = frames
-            .filter(|(frame, _)| frame.wrench.is_some())
-            .map(|(_, w)| w.force.iter().chain(w.moment.iter()).copied().collect())
-            .collect();
-        let mut wrenches = wrenches.into_iter();
-        let value = |name: &str| match name {
-            "q" => state.q.clone(),
-            "qd" => state.qd.clone(),
-            "qdd" => state.qdd.clone(),
-            _ => wrenches.next().unwrap(),
-        };
-        let names: Vec<String> = function.inputs.iter().map(|input| input.name.clone()).collect();
-        let values: Vec<Vec<f64>> = names.iter().map(String::as_str).map(value).collect();
-        names.into_iter().zip(values).collect()
-    }
-
-    fn expected(&self, kind: FunctionKind, state: &State) -> Vec<f64> {
-        let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
-        let (wrench, friction) = match kind {
-            FunctionKind::InverseDynamics => (false, false),
-            FunctionKind::InverseDynamicsWrench => (true, false),
-            FunctionKind::InverseDynamicsFriction => (false, true),
-            _ => (true, true),
-        };
-        if kind == FunctionKind::LinkWrenches {
-            let mut links = self.solver.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
-            // The solver has gyroscopic rotors as links behind those of the robot.
-            links.truncate(self.programs.robot.links.len());
-            let forces =
-                links.iter().flat_map(|l| l.contact_force.iter().copied().collect::<Vec<_>>());
-            let moments =
-                links.iter().flat_map(|l| l.contact_moment.iter().copied().collect::<Vec<_>>());
-            return forces.chain(moments).collect();
-        }
-        let wrenches = if wrench { state.wrenches.clone() } else { vec![] };
-        let torques = self.solver.inverse_dynamics_with(q, qd, qdd, &Loads { wrenches, friction });
-        torques.unwrap().iter().copied().collect()
+        let names = function.inputs.iter().map(|input| input.name.clone());
+        inputs(&self.programs.robot, names, state)
     }
 
     /// Holds values (per state) against the solver; the worst error in units of the largest value.
     fn hold(&self, kind: FunctionKind, values: &[Vec<f64>]) -> f64 {
+        let robot = &self.programs.robot;
         let expected: Vec<Vec<f64>> =
-            self.states.iter().map(|state| self.expected(kind, state)).collect();
+            self.states.iter().map(|state| expected(robot, &self.solver, kind, state)).collect();
         let size = magnitude(expected.iter().flatten());
         let errors = values.iter().zip(&expected).map(|(a, b)| largest_difference(a, b));
         let worst = errors.fold(0.0, f64::max) / size.max(f64::MIN_POSITIVE);

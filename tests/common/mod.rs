@@ -1,7 +1,9 @@
 //! What several tests share: robots, states, and values of expressions at them.
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
+pub mod complex_step;
 pub mod energy;
+pub mod solver;
 
 use robot_dynamics::description::read_toml;
 use robot_dynamics::model::{Parameter, Robot};
@@ -70,7 +72,8 @@ pub fn evaluate(robot: &Robot, roots: &[Expr<'_>], state: &numeric::random::Stat
     })
 }
 
-fn value_of(robot: &Robot, name: &str, state: &numeric::random::State) -> Option<f64> {
+/// The value of a symbol at a state.
+pub fn value_of(robot: &Robot, name: &str, state: &numeric::random::State) -> Option<f64> {
     let coordinate = |prefix: &str, values: &[f64]| {
         let number: usize = name.strip_prefix(prefix)?.parse().ok()?;
         values.get(number - 1).copied()

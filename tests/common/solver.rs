@@ -1,0 +1,116 @@
+//! What the numeric solver says about functions, and the states and inputs to ask for.
+
+use nalgebra::{DMatrix, Vector3};
+use robot_dynamics::functions::FunctionKind;
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric::{
+    self, LINK_PARAMETERS, Loads, Mechanism,
+    random::{Random, State},
+};
+
+/// A random state with wrenches on the tips only.
+pub fn state(random: &mut Random, solver: &Mechanism, robot: &Robot) -> State {
+    let mut state = random.state(solver);
+    for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
+        if frame.wrench.is_none() {
+            *wrench = numeric::Wrench::zero();
+        }
+    }
+    state
+}
+
+/// The values of inputs at a state, by their names; those of wrenches are in the order of the tips.
+pub fn inputs(
+    robot: &Robot,
+    names: impl Iterator<Item = String>,
+    state: &State,
+) -> Vec<(String, Vec<f64>)> {
+    let frames = robot.frames.iter().zip(&state.wrenches);
+    let tips = frames.filter(|(frame, _)| frame.wrench.is_some());
+    let mut wrenches = tips.map(|(_, w)| w.force.iter().chain(&w.moment).copied().collect());
+    let value = |name: String| {
+        let values = match name.as_str() {
+            "q" => state.q.clone(),
+            "qd" => state.qd.clone(),
+            "qdd" => state.qdd.clone(),
+            "tau" => state.tau.clone(),
+            _ => wrenches.next().unwrap(),
+        };
+        (name, values)
+    };
+    names.map(value).collect()
+}
+
+/// What the solver says the functions of a kind yield, one after another; of the regressor the
+/// columns of the links.
+pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
+    let State { q, qd, qdd, tau, wrenches } = state;
+    let torques = |wrenches: &[numeric::Wrench], friction| {
+        let loads = Loads { wrenches: wrenches.to_vec(), friction };
+        solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
+    };
+    let accelerations =
+        |wrenches| solver.forward_dynamics(q, qd, tau, wrenches).unwrap().as_slice().to_vec();
+    let frames = 0..solver.frames().len();
+    // The solver has gyroscopic rotors as links behind those of the robot.
+    let links = robot.links.len();
+    match kind {
+        FunctionKind::InverseDynamics => torques(&[], false),
+        FunctionKind::InverseDynamicsWrench => torques(wrenches, false),
+        FunctionKind::InverseDynamicsFriction => torques(&[], true),
+        FunctionKind::InverseDynamicsWrenchFriction => torques(wrenches, true),
+        FunctionKind::LinkWrenches => {
+            let found = &solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links];
+            let entries = |vector: Vector3<f64>| vector.as_slice().to_vec();
+            let forces = found.iter().flat_map(|link| entries(link.contact_force));
+            forces.chain(found.iter().flat_map(|link| entries(link.contact_moment))).collect()
+        }
+        FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
+        FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
+        FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
+        FunctionKind::ForwardDynamics => accelerations(&[]),
+        FunctionKind::ForwardDynamicsWrench => accelerations(wrenches),
+        FunctionKind::ForwardKinematics => {
+            poses(&solver.forward_kinematics(q).unwrap().links[..links])
+        }
+        FunctionKind::FramePoses => poses(&solver.forward_kinematics(q).unwrap().frames),
+        FunctionKind::Jacobian => frames
+            .flat_map(|frame| {
+                solver.frame_jacobian(q, frame).unwrap().transpose().as_slice().to_vec()
+            })
+            .collect(),
+        FunctionKind::JacobianDotQd => {
+            let drift = |frame| solver.frame_jacobian_dot_qd(q, qd, frame).unwrap();
+            frames.flat_map(|frame| drift(frame).as_slice().to_vec()).collect()
+        }
+        FunctionKind::Energies => {
+            let energies = solver.energies(q, qd).unwrap();
+            vec![energies.kinetic, energies.potential]
+        }
+        FunctionKind::CoriolisMatrix => rows(&solver.coriolis_matrix(q, qd).unwrap()),
+        FunctionKind::InverseDynamicsDerivatives => {
+            let found = solver.inverse_dynamics_derivatives(q, qd, qdd, &[]).unwrap();
+            [rows(&found.dq), rows(&found.dqd)].concat()
+        }
+        FunctionKind::ForwardDynamicsDerivatives => {
+            let found = solver.forward_dynamics_derivatives(q, qd, tau, &[]).unwrap();
+            [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
+        }
+        FunctionKind::Regressor => {
+            let columns = solver.regressor(q, qd, qdd).unwrap();
+            rows(&columns.columns(0, LINK_PARAMETERS * links).into_owned())
+        }
+        other => panic!("nothing to hold `{}` against", other.name()),
+    }
+}
+
+/// Rotations row by row, then origins.
+fn poses(poses: &[numeric::Pose]) -> Vec<f64> {
+    let rotations = poses.iter().flat_map(|pose| pose.rotation.transpose().as_slice().to_vec());
+    let origins = poses.iter().flat_map(|pose| pose.translation.as_slice().to_vec());
+    rotations.chain(origins).collect()
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
+    matrix.transpose().as_slice().to_vec()
+}
