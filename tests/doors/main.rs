@@ -4,11 +4,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
+mod book;
 mod build_script;
 mod forms;
 mod generated_crate;
 mod include_macro;
 mod package;
+#[path = "../common/pages.rs"]
+mod pages;
 mod payload;
 mod reference;
 mod single;

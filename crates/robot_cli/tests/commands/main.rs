@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod base;
+mod book;
 mod check;
 mod code;
 mod equations;
@@ -10,6 +11,8 @@ mod eval;
 mod files;
 mod help;
 mod json_schema;
+#[path = "../../../../tests/common/pages.rs"]
+mod pages;
 mod prove;
 mod schema;
 mod shell;
