@@ -21,3 +21,8 @@
 #![no_std]
 
 include!(concat!(env!("OUT_DIR"), "/robots.rs"));
+
+/// The Rust of a page of the book.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/users/teaching.md")]
+pub struct Teaching;
