@@ -11,8 +11,8 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use robot_build::equations::{EquationOptions, equations};
 use robot_build::{Options, Source, generate};
+use robot_document::{EquationOptions, equations};
 use robot_dynamics::quantity::Kind;
 
 /// Time for each measurement.
@@ -38,7 +38,8 @@ fn main() {
         let kinds =
             if source.name == "trttr1" { Kind::ALL.to_vec() } else { vec![Kind::DrivingForce] };
         let options = EquationOptions { kinds, ..EquationOptions::default() };
-        let printed = median(|| equations(&source, &options).unwrap().list.len());
+        let read = || robot_build::read(&source).unwrap().robot;
+        let printed = median(|| equations(&read(), &options).unwrap().groups.len());
         println!("{:<12} {code:>10.2} {size:>10.1} {printed:>10.2}", source.name);
     }
 }

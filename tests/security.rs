@@ -7,8 +7,8 @@ mod common;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use robot_build::equations::{EquationOptions, Notation, equations};
 use robot_build::{Options, Source, generate};
+use robot_document::{EquationOptions, Form, equations};
 use robot_dynamics::description::{MAX_BYTES, read_toml};
 use robot_symbolic::print::latex::Trigonometry;
 
@@ -190,12 +190,16 @@ fn the_crates_behind_a_build_start_no_process() {
 
 #[test]
 fn equations_that_nobody_can_read_end_in_a_message() {
-    let file = source(chain(64));
-    let options = EquationOptions {
-        notation: Notation::Latex(Trigonometry::Short),
-        ..EquationOptions::default()
-    };
-    let found = timed("equations of 64 joints", || equations(&file, &options));
+    let robot = robot_build::read(&source(chain(64))).unwrap().robot;
+    let options =
+        EquationOptions { trigonometry: Trigonometry::Short, ..EquationOptions::default() };
+    let found = timed("equations of 64 joints", || equations(&robot, &options));
     let message = found.err().unwrap().to_string();
-    assert!(message.contains("more than"), "{message}");
+    assert!(message.contains("more than") && message.contains("grouped"), "{message}");
+    // The other forms are for this.
+    for form in [Form::Grouped, Form::Recursive, Form::Compact] {
+        let options = EquationOptions { form, ..options.clone() };
+        let found = timed(form.name(), || equations(&robot, &options));
+        assert!(found.is_ok(), "{form:?}: {found:?}");
+    }
 }

@@ -8,6 +8,7 @@ mod counts;
 mod delivery;
 mod failure;
 mod files;
+mod forms;
 mod progress;
 mod robot;
 mod settings;

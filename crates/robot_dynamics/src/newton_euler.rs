@@ -199,8 +199,10 @@ impl<'g> LinkWrench<'g> {
     }
 }
 
-/// Q_f of equations (4)-(5), with the further terms of the robot file.
-pub(crate) fn friction<'g>(
+/// Q_f of equations (4)-(5), with the further terms of the robot file: N m or N, for a joint of that
+/// kind and axis with that velocity, whose contact force F̄_l has the link's axes.
+#[must_use]
+pub fn friction<'g>(
     figures: &MechanismFriction<'g>,
     kind: JointKind,
     axis: Vector<'g>,

@@ -62,13 +62,56 @@ pub fn rebuild<'h>(
     graph: &'h Graph,
     replace: impl Fn(&str) -> Expr<'h>,
 ) -> Vec<Expr<'h>> {
+    rebuild_above(roots, graph, |expr| {
+        let symbol = expr.as_symbol()?;
+        Some(replace(&expr.graph().symbol_name(symbol)))
+    })
+}
+
+/// `roots` rebuilt in `graph`, every expression for which `replace` gives another one replaced by
+/// that; what stands below it is not looked at. The local rules apply anew.
+///
+/// ```
+/// use robot_symbolic::{Graph, print, walk};
+/// let graph = Graph::new();
+/// let sum = graph.parse("l1*cos(q1) + l2*cos(q1)^2").unwrap();
+/// let cosine = graph.symbol("q1").cos();
+/// let named = walk::rebuild_above(&[sum], &graph, |expr| {
+///     (expr == cosine).then(|| graph.symbol("x"))
+/// });
+/// assert_eq!(print::to_text(named[0]).unwrap(), "l1*x + l2*x^2");
+/// ```
+#[must_use]
+pub fn rebuild_above<'g, 'h>(
+    roots: &[Expr<'g>],
+    graph: &'h Graph,
+    replace: impl Fn(Expr<'g>) -> Option<Expr<'h>>,
+) -> Vec<Expr<'h>> {
     let mut built: FxHashMap<_, Expr<'h>> = FxHashMap::default();
-    for expr in reachable(roots) {
+    let mut kept = vec![];
+    let mut pending: Vec<Expr<'g>> = roots.to_vec();
+    let mut seen = rustc_hash::FxHashSet::default();
+    while let Some(expr) = pending.pop() {
+        if !seen.insert(expr.id()) {
+            continue;
+        }
+        match replace(expr) {
+            Some(other) => {
+                built.insert(expr.id(), other);
+            }
+            None => {
+                kept.push(expr);
+                pending.extend(expr.operands());
+            }
+        }
+    }
+    kept.sort_unstable_by_key(|expr| expr.id());
+    for expr in kept {
         let at = |operand: Expr<'_>| built[&operand.id()];
         let result = match expr.view() {
             View::Number(number) => graph.number(number),
             View::Pi => graph.pi(),
-            View::Symbol(symbol) => replace(&expr.graph().symbol_name(symbol)),
+            View::Symbol(symbol) => graph.symbol(&expr.graph().symbol_name(symbol)),
             View::Add(a, b) => at(a) + at(b),
             View::Sub(a, b) => at(a) - at(b),
             View::Mul(a, b) => at(a) * at(b),

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use clap::Args;
-use robot_build::equations::{EquationOptions, equations};
 use robot_build::{Options, Source, Trigonometry, check, programs};
+use robot_document::{EquationOptions, equations};
 
 use robot_dynamics::economical::pin::Pin;
 
@@ -27,7 +27,9 @@ pub(crate) struct Arguments {}
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = Source { name: "robots/trttr1.toml".to_owned(), text: ROBOT.to_owned() };
-        let equations = equations(&source, &EquationOptions::default())?;
+        let robot = robot_build::read(&source)?.robot;
+        let equations = equations(&robot, &EquationOptions::default())
+            .map_err(|error| Failure::input(error.to_string()))?;
         let mut shown = String::from(
             "The equations of motion of TRTTR1, driving forces without friction, expanded:\n\n",
         );

@@ -1,56 +1,53 @@
 //! `equations`: the equations of motion of a robot.
 
 use clap::{Args, ValueEnum};
-use robot_build::equations::{EquationOptions, Equations, Notation, equations};
-use robot_dynamics::quantity::Kind;
-use robot_symbolic::print::latex::Trigonometry;
+use robot_document::document::NumberedEquation;
+use robot_document::latex::{self, Layout};
+use robot_document::{Equation, Equations, equations};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::forms::{EquationArguments, FormName, failed};
 use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
 
 /// The width of text, in columns.
 const COLUMNS: usize = 100;
-/// The width of a line of LaTeX, in printed characters.
-const CHARACTERS: usize = 80;
+/// The narrowest and the widest line of LaTeX, cm.
+const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic equations robots/trttr1.toml
   robot-symbolic equations robots/trttr1.toml --quantity Q,F_l --format json
-  robot-symbolic equations robots/trttr1.toml --format latex --trig paper
+  robot-symbolic equations robots/trttr1.toml --form grouped --format latex --trig short
+  robot-symbolic equations robots/panda.toml --form compact --format latex --width 8.5cm
 
 Quantities: a_c accelerations of the mass centres, F and M_c inertia forces and moments of the links,
 F_l and M_l forces and moments in the joints, Q driving forces; vectors in link frames. The expanded
 form has products multiplied out, sines of even powers replaced by cosines, and like terms merged.
-Symbols are q1, qd1, qdd1, … and the names of the robot file.")]
+Factors stand in the order: wrenches, masses and inertias, other parameters, sines and cosines, what
+a form defines, coordinates, velocities, accelerations, each by number; terms in the order of their
+factors. Symbols are q1, qd1, qdd1, … and the names of the robot file.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all
-    #[arg(long = "quantity", value_name = "NAMES", value_delimiter = ',', default_value = "Q")]
-    quantities: Vec<String>,
+    #[command(flatten)]
+    equations: EquationArguments,
     /// The form of the equations
-    #[arg(long, value_enum, default_value_t = Form::Expanded)]
-    form: Form,
+    #[arg(long, value_enum, default_value_t = FormName::Expanded)]
+    form: FormName,
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Sines and cosines in LaTeX
-    #[arg(long, value_enum, default_value_t = TrigonometryStyle::Named)]
-    trig: TrigonometryStyle,
-    /// Include friction in the driving forces
+    /// The width of the lines of LaTeX, such as 8.5cm
+    #[arg(long, value_name = "WIDTH", value_parser = centimetres, default_value = "16cm")]
+    width: f64,
+    /// Number the equations of LaTeX, each with a label such as eq:Q1
     #[arg(long)]
-    friction: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Form {
-    /// Sums of products, like terms merged
-    Expanded,
+    numbers: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -60,106 +57,80 @@ enum Format {
     Json,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum TrigonometryStyle {
-    /// \sin q_2
-    Named,
-    /// s_2
-    Short,
-    /// sq_2
-    Paper,
-}
-
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let options = EquationOptions {
-            kinds: kinds(&self.quantities)?,
-            friction: self.friction,
-            snap: self.robot.snap(),
-            notation: self.notation(),
-        };
-        // There is one form as yet.
-        let Form::Expanded = self.form;
-        let source = self.robot.source()?;
-        let equations = watched("expanding", terminal, || equations(&source, &options))?;
-        text::warnings(&equations.warnings, terminal)?;
+        let options = self.equations.options(&self.robot, self.form.into())?;
+        let robot = self.robot.read(terminal)?.robot;
+        let failed = |error| failed(&self.robot, &error);
+        let equations =
+            watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
         let shown = match self.format {
             Format::Text => plain(&equations),
-            Format::Latex => latex(&equations),
-            Format::Json => json(&equations),
+            Format::Latex => self.latex(&equations).map_err(failed)?,
+            Format::Json => json(&robot.name, &equations),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 
-    fn notation(&self) -> Notation {
-        match (self.format, self.trig) {
-            (Format::Text | Format::Json, _) => Notation::Text,
-            (Format::Latex, TrigonometryStyle::Named) => Notation::Latex(Trigonometry::Named),
-            (Format::Latex, TrigonometryStyle::Short) => Notation::Latex(Trigonometry::Short),
-            (Format::Latex, TrigonometryStyle::Paper) => Notation::Latex(Trigonometry::Paper),
+    /// Environments of amsmath, a comment before each group.
+    fn latex(&self, equations: &Equations) -> Result<String, robot_document::Error> {
+        let mut shown = String::new();
+        let layout = Layout::of_centimetres(self.width);
+        for group in &equations.groups {
+            if equations.groups.len() > 1 {
+                shown.push_str(&format!("% {}\n", group.title));
+            }
+            let numbered = |equation: &Equation| NumberedEquation {
+                label: self.numbers.then(|| equation.label()),
+                equation: equation.clone(),
+            };
+            let list: Vec<NumberedEquation> = group.equations.iter().map(numbered).collect();
+            shown.push_str(&latex::equations(&list, layout)?);
         }
+        Ok(shown)
     }
 }
 
-/// The quantities of those names, each once.
-fn kinds(names: &[String]) -> Result<Vec<Kind>, Failure> {
-    let (mut kinds, mut wrong): (Vec<Kind>, _) = (vec![], vec![]);
-    let mut known: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
-    known.push("all");
-    for name in names {
-        match (name.as_str(), Kind::from_name(name)) {
-            ("all", _) => kinds.extend(Kind::ALL),
-            (_, Some(kind)) => kinds.push(kind),
-            _ => wrong.push(text::unknown("quantity", name, &known)),
-        }
-    }
-    if !wrong.is_empty() {
-        return Err(Failure::Usage(wrong));
-    }
-    let mut seen: Vec<Kind> = vec![];
-    for kind in kinds {
-        if !seen.contains(&kind) {
-            seen.push(kind);
-        }
-    }
-    Ok(seen)
+/// `8.5cm` or `8.5`, in centimetres.
+pub(super) fn centimetres(text: &str) -> Result<f64, String> {
+    let digits = text.strip_suffix("cm").unwrap_or(text).trim();
+    let width: Option<f64> = digits.parse().ok();
+    let width = width.filter(|width| WIDTHS.contains(width));
+    width
+        .ok_or_else(|| "a width is a number of centimetres from 3 to 100, such as 8.5cm".to_owned())
 }
 
 /// `Q1 = …`, long sums on several lines.
 pub(super) fn plain(equations: &Equations) -> String {
     let mut shown = String::new();
-    for equation in &equations.list {
-        let whole = format!("{} = {}", equation.name, equation.right());
-        for (place, line) in text::wrapped(&whole, COLUMNS).iter().enumerate() {
-            shown.push_str(if place == 0 { "" } else { "    " });
-            shown.push_str(line);
-            shown.push('\n');
+    for group in &equations.groups {
+        if equations.groups.len() > 1 {
+            let gap = if shown.is_empty() { "" } else { "\n" };
+            shown.push_str(&format!("{gap}{}\n\n", group.title));
+        }
+        for equation in &group.equations {
+            let whole = format!("{} = {}", equation.name, equation.text);
+            for (place, line) in text::wrapped(&whole, COLUMNS).iter().enumerate() {
+                shown.push_str(if place == 0 { "" } else { "    " });
+                shown.push_str(line);
+                shown.push('\n');
+            }
         }
     }
     shown
 }
 
-/// An environment of amsmath with all equations, long sums on several lines.
-fn latex(equations: &Equations) -> String {
-    let mut lines = vec![];
-    for equation in &equations.list {
-        for (place, line) in equation.lines(CHARACTERS).iter().enumerate() {
-            lines.push(match place {
-                0 => format!("  {} &= {line}", equation.left),
-                _ => format!("    &\\quad {line}"),
-            });
-        }
-    }
-    format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
-}
-
-/// `{"robot": …, "quantities": {"Q1": …, …}}`
-fn json(equations: &Equations) -> String {
-    let quantities: Map<String, Value> = equations
-        .list
-        .iter()
-        .map(|equation| (equation.name.clone(), Value::String(equation.right())))
-        .collect();
-    let shown = json!({ "robot": equations.robot.name, "quantities": quantities });
+/// `{"robot": …, "definitions": {…}, "quantities": {"Q1": …, …}}`; the definitions, each before it is
+/// used by another, are left out where there are none.
+fn json(robot: &str, equations: &Equations) -> String {
+    let all = |list: &mut dyn Iterator<Item = &Equation>| -> Map<String, Value> {
+        list.map(|equation| (equation.name.clone(), Value::String(equation.text.clone()))).collect()
+    };
+    let definitions = all(&mut equations.definitions());
+    let quantities = all(&mut equations.quantities());
+    let shown = match definitions.is_empty() {
+        true => json!({ "robot": robot, "quantities": quantities }),
+        false => json!({ "robot": robot, "definitions": definitions, "quantities": quantities }),
+    };
     format!("{shown:#}\n")
 }

@@ -4,6 +4,7 @@ mod base;
 mod check;
 mod completions;
 mod demo;
+mod document;
 mod equations;
 mod eval;
 mod generate;
@@ -27,6 +28,8 @@ use crate::failure::Failure;
 pub(crate) enum Command {
     /// Print the equations of motion of a robot
     Equations(equations::Arguments),
+    /// Write a document of a robot: its tables, equations, symbols and a check value
+    Document(document::Arguments),
     /// Print the base inertial parameters of a robot
     Base(base::Arguments),
     /// Write the Rust module of a robot
@@ -71,6 +74,7 @@ impl Command {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         match self {
             Command::Equations(arguments) => arguments.run(terminal),
+            Command::Document(arguments) => arguments.run(terminal),
             Command::Base(arguments) => arguments.run(terminal),
             Command::Generate(arguments) => arguments.run(terminal),
             Command::Crate(arguments) => arguments.run(terminal),

@@ -141,11 +141,10 @@ fn latex_has_the_names_of_the_file_and_the_style_asked_for() {
     for (trig, sine) in [("named", r"\sin q_2"), ("short", "s_2"), ("paper", "sq_2")] {
         let latex = shown(trig);
         assert!(
-            latex.starts_with("\\begin{align*}\n  Q_{1} &= ")
-                && latex.ends_with("\n\\end{align*}\n")
+            latex.starts_with("\\begin{align*}\n  Q_1 &= ") && latex.ends_with("\n\\end{align*}\n")
         );
         assert!(latex.contains("  F_{l_x}^{5} &= "), "{latex}");
-        for part in [sine, r"\ddot{q}_1", "F_{l_x}^6", "J_x^{*5}", r"\dot{q}_2^{2}"] {
+        for part in [sine, r"\ddot{q}_1", "F_{l_x}^{6}", "J_x^{*5}", r"\dot{q}_2^{2}"] {
             assert!(latex.contains(part), "{part} is not in {latex}");
         }
         // Every line but the last ends in a break, every equation has one alignment mark a line.

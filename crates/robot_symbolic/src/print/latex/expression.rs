@@ -232,6 +232,10 @@ fn joint_numbers(angle: Expr<'_>) -> Option<String> {
         }
     }
     joints.sort_unstable();
+    // `s_{12}` is the sine of q1 + q2.
+    if let [(_, 10..)] | [(false, 10..), (true, _), ..] = joints.as_slice() {
+        return None;
+    }
     let apart = joints.iter().any(|(_, joint)| *joint > 9);
     let mut text = String::new();
     for (negative, joint) in joints {

@@ -145,6 +145,7 @@ fn trigonometry_has_three_styles() {
             "cos(q9 + q10)",
             [r"\cos\left(q_9 + q_{10}\right)", "c_{9,10}", r"c\left(q_9 + q_{10}\right)"],
         ),
+        ("sin(q12)", [r"\sin q_{12}", "s_{q_{12}}", "sq_{12}"]),
         ("sin(theta)", [r"\sin \theta", r"s_{\theta}", r"s\theta"]),
     ] {
         for (style, latex) in STYLES.into_iter().zip(styles) {

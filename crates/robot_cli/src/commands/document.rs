@@ -1,0 +1,64 @@
+//! `document`: a robot and its equations as a document.
+
+use std::path::PathBuf;
+
+use clap::{ArgAction, Args};
+use robot_document::Form;
+use robot_document::latex::{self, Page};
+
+use super::equations::centimetres;
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::forms::{EquationArguments, FormName, failed};
+use crate::robot::RobotArgument;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic document robots/trttr1.toml -o trttr1.tex && pdflatex trttr1.tex
+  robot-symbolic document robots/trttr1.toml --form grouped,recursive --columns 2 -o trttr1.tex
+
+The document has tables of links and masses, the frames, the equations in the forms chosen, numbered,
+the symbols with their values, and a state with its driving forces to try one's own copy. It needs
+the packages amsmath and geometry, and two runs for its references.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    #[command(flatten)]
+    equations: EquationArguments,
+    /// The forms of the equations, several with commas between
+    #[arg(long, value_enum, value_delimiter = ',', action = ArgAction::Append,
+          default_value = "grouped")]
+    form: Vec<FormName>,
+    /// Columns on a page
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
+    columns: u8,
+    /// The width of a column, such as 8.5cm; without this what fits A4
+    #[arg(long, value_name = "WIDTH", value_parser = centimetres)]
+    width: Option<f64>,
+    /// The file to write; without this the document is printed
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let mut forms: Vec<Form> = vec![];
+        for form in self.form.iter().map(|form| Form::from(*form)) {
+            if !forms.contains(&form) {
+                forms.push(form);
+            }
+        }
+        let options = self.equations.options(&self.robot, Form::default())?;
+        let robot = self.robot.read(terminal)?.robot;
+        let failed = |error| failed(&self.robot, &error);
+        let document = robot_document::robot::document(&robot, &options, &forms).map_err(failed)?;
+        let usual = Page::with_columns(self.columns);
+        let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
+        let shown = latex::document(&document, page).map_err(failed)?;
+        match &self.output {
+            Some(path) => std::fs::write(path, shown)
+                .map_err(|error| Failure::input(format!("{}: {error}", path.display()))),
+            None => Ok(terminal.output.write_all(shown.as_bytes())?),
+        }
+    }
+}

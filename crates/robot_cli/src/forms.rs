@@ -1,0 +1,129 @@
+//! Which equations a command prints, and in which form.
+
+use clap::{Args, ValueEnum};
+use robot_document::{Error, Form};
+use robot_dynamics::quantity::Kind;
+use robot_symbolic::AngleSums;
+use robot_symbolic::print::latex::Trigonometry;
+
+use crate::failure::Failure;
+use crate::robot::RobotArgument;
+use crate::text;
+
+/// How equations are written.
+#[derive(Args)]
+pub(crate) struct EquationArguments {
+    /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all; the grouped and the recursive form have Q alone
+    #[arg(long = "quantity", value_name = "NAMES", value_delimiter = ',', default_value = "Q")]
+    quantities: Vec<String>,
+    /// Sines and cosines in print
+    #[arg(long, value_enum, default_value_t = TrigonometryStyle::Named)]
+    trig: TrigonometryStyle,
+    /// Sines and cosines of sums of angles, as parallel joints have them, in the driving forces of
+    /// the expanded and the grouped form
+    #[arg(long, value_enum, default_value_t = AngleSumStyle::Expand)]
+    angle_sums: AngleSumStyle,
+    /// In the grouped form, Christoffel symbols in place of the coefficients of velocities
+    #[arg(long)]
+    christoffel: bool,
+    /// Include friction in the driving forces
+    #[arg(long)]
+    friction: bool,
+}
+
+/// A form of the equations.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum FormName {
+    /// Sums of products, like terms merged
+    Expanded,
+    /// Mass matrix, coefficients of velocities, gravity, each with its function
+    Grouped,
+    /// Link by link, each quantity by those before it
+    Recursive,
+    /// What is used again under names of its own
+    Compact,
+}
+
+impl From<FormName> for Form {
+    fn from(name: FormName) -> Form {
+        match name {
+            FormName::Expanded => Form::Expanded,
+            FormName::Grouped => Form::Grouped,
+            FormName::Recursive => Form::Recursive,
+            FormName::Compact => Form::Compact,
+        }
+    }
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum TrigonometryStyle {
+    /// \sin q_2
+    Named,
+    /// s_2
+    Short,
+    /// sq_2
+    Paper,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum AngleSumStyle {
+    /// \sin q_2 \cos q_3 + \cos q_2 \sin q_3
+    Expand,
+    /// \sin(q_2 + q_3)
+    Keep,
+}
+
+impl EquationArguments {
+    /// The options, in the form chosen.
+    pub(crate) fn options(
+        &self,
+        robot: &RobotArgument,
+        form: Form,
+    ) -> Result<robot_document::EquationOptions, Failure> {
+        Ok(robot_document::EquationOptions {
+            form,
+            kinds: kinds(&self.quantities)?,
+            friction: self.friction,
+            snap: robot.snap(),
+            trigonometry: match self.trig {
+                TrigonometryStyle::Named => Trigonometry::Named,
+                TrigonometryStyle::Short => Trigonometry::Short,
+                TrigonometryStyle::Paper => Trigonometry::Paper,
+            },
+            angle_sums: match self.angle_sums {
+                AngleSumStyle::Expand => AngleSums::Expand,
+                AngleSumStyle::Keep => AngleSums::Keep,
+            },
+            christoffel: self.christoffel,
+        })
+    }
+}
+
+/// What is wrong with the equations of a robot file.
+pub(crate) fn failed(robot: &RobotArgument, error: &Error) -> Failure {
+    Failure::input(format!("{}: {error}", robot.path().display()))
+}
+
+/// The quantities of those names, each once.
+fn kinds(names: &[String]) -> Result<Vec<Kind>, Failure> {
+    let (mut kinds, mut wrong): (Vec<Kind>, _) = (vec![], vec![]);
+    let mut known: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
+    known.push("all");
+    for name in names {
+        match (name.as_str(), Kind::from_name(name)) {
+            ("all", _) => kinds.extend(Kind::ALL),
+            (_, Some(kind)) => kinds.push(kind),
+            _ => wrong.push(text::unknown("quantity", name, &known)),
+        }
+    }
+    if !wrong.is_empty() {
+        return Err(Failure::Usage(wrong));
+    }
+    let mut seen: Vec<Kind> = vec![];
+    for kind in kinds {
+        if !seen.contains(&kind) {
+            seen.push(kind);
+        }
+    }
+    Ok(seen)
+}

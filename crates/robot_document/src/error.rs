@@ -1,0 +1,82 @@
+//! Why equations cannot be printed.
+
+use robot_symbolic::print::TooLarge;
+
+use crate::latex::ReadError;
+
+/// Why equations cannot be printed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An expanded form of more terms or products than anybody reads.
+    #[error(
+        "{reason}. The expanded form of this robot is too long to read; choose another: \
+         `--form grouped`, `recursive` or `compact`"
+    )]
+    TooLong {
+        /// The limit that it exceeds.
+        reason: String,
+    },
+    /// An expression that cannot be written out.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
+    /// Two symbols that print alike.
+    #[error(
+        "`{name}` and `{other}` both print as {latex}; give one of them another `latex` in the \
+         robot file"
+    )]
+    Alike {
+        /// A symbol.
+        name: String,
+        /// The other one.
+        other: String,
+        /// What they print as.
+        latex: String,
+    },
+    /// A symbol that prints like the short form of a sine or cosine.
+    #[error(
+        "`{name}` prints as {latex}, which would read as a sine or cosine; use `--trig named`, or \
+         give the symbol another `latex` in the robot file"
+    )]
+    LikeSine {
+        /// The symbol.
+        name: String,
+        /// What it prints as.
+        latex: String,
+    },
+    /// A piece that is wider than a line.
+    #[error(
+        "in the equation of `{name}` a piece {needed} cm wide does not fit a line of \
+         {available} cm; choose another \
+         form or wider lines, or shorter names with `latex` in the robot file"
+    )]
+    Narrow {
+        /// The left side in text.
+        name: String,
+        /// What the piece needs.
+        needed: Centimetres,
+        /// What there is.
+        available: Centimetres,
+    },
+    /// LaTeX that is not read back; no robot file leads to it.
+    #[error("LaTeX of the equations cannot be laid out, {0}")]
+    Layout(#[from] ReadError),
+}
+
+/// A length in tenths of a millimetre, so that errors can be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Centimetres(u32);
+
+impl Centimetres {
+    /// A length in printer's points, 72.27 to an inch.
+    #[must_use]
+    pub fn from_points(points: f64) -> Centimetres {
+        Centimetres((points * 254.0 / 72.27).ceil() as u32)
+    }
+}
+
+impl std::fmt::Display for Centimetres {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{:.1}", f64::from(self.0) / 100.0)
+    }
+}

@@ -1,0 +1,250 @@
+//! The forms of the equations of motion.
+
+mod compact;
+mod expanded;
+mod grouped;
+mod naming;
+mod recursive;
+mod shapes;
+
+use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::model::Robot;
+use robot_dynamics::newton_euler::{Effects, NewtonEuler, newton_euler};
+use robot_dynamics::quantity::{Kind, Quantity, Symbol};
+use robot_symbolic::print::latex::Trigonometry;
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialError, PolynomialOptions};
+
+use crate::error::Error;
+use crate::math::Math;
+use crate::notation::Notation;
+use crate::order::Order;
+
+/// How the equations are put.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Form {
+    /// Sums of products, like terms merged: the paper's.
+    #[default]
+    Expanded,
+    /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Driving forces only.
+    Grouped,
+    /// The iterations link by link, each quantity by those before it. Driving forces only.
+    Recursive,
+    /// As the economical recursion has them, expressions that are used again under names.
+    Compact,
+}
+
+impl Form {
+    /// All forms.
+    pub const ALL: [Form; 4] = [Form::Expanded, Form::Grouped, Form::Recursive, Form::Compact];
+
+    /// The name, as the command has it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Form::Expanded => "expanded",
+            Form::Grouped => "grouped",
+            Form::Recursive => "recursive",
+            Form::Compact => "compact",
+        }
+    }
+}
+
+/// Which equations, and how they are put.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EquationOptions {
+    /// The form.
+    pub form: Form,
+    /// The quantities, in the order in which they are wanted. The forms [`Form::Grouped`] and
+    /// [`Form::Recursive`] are about the driving forces whatever is chosen.
+    pub kinds: Vec<Kind>,
+    /// Whether the driving forces include friction, equations (4)-(5).
+    pub friction: bool,
+    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
+    /// for what the robot file says, or 10⁻⁹.
+    pub snap: Option<f64>,
+    /// How sines and cosines look.
+    pub trigonometry: Trigonometry,
+    /// Whether sines and cosines of sums of angles are kept, for driving forces in the forms
+    /// [`Form::Expanded`] and [`Form::Grouped`].
+    pub angle_sums: AngleSums,
+    /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
+    pub christoffel: bool,
+}
+
+/// The driving forces, expanded, without friction.
+impl Default for EquationOptions {
+    fn default() -> EquationOptions {
+        EquationOptions {
+            form: Form::Expanded,
+            kinds: vec![Kind::DrivingForce],
+            friction: false,
+            snap: None,
+            trigonometry: Trigonometry::Named,
+            angle_sums: AngleSums::Expand,
+            christoffel: false,
+        }
+    }
+}
+
+/// The equations of a robot in some form.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// The equations, in groups in the order in which they are read.
+    pub groups: Vec<Group>,
+    /// The look of all symbols.
+    pub notation: Notation,
+}
+
+/// Equations that belong together.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// What they are.
+    pub title: String,
+    /// What is to be said before them, in plain text.
+    pub introduction: String,
+    /// Whether they define symbols that other equations use.
+    pub definitions: bool,
+    /// The equations.
+    pub equations: Vec<Equation>,
+}
+
+/// An equation: a quantity or a defined symbol, and what it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Equation {
+    /// The left side in text, `F_l5.x`.
+    pub name: String,
+    /// The right side as infix text that reads back.
+    pub text: String,
+    /// The left side.
+    pub left: Math,
+    /// The right side: a sum.
+    pub right: Math,
+}
+
+impl Equation {
+    /// A label for the equation: its name in letters, digits and `-`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        self.name.replace(['.', '_'], "-")
+    }
+}
+
+impl Equations {
+    /// The equations of quantities of the robot, without definitions.
+    pub fn quantities(&self) -> impl Iterator<Item = &Equation> {
+        self.groups.iter().filter(|group| !group.definitions).flat_map(|group| &group.equations)
+    }
+
+    /// The definitions that the other equations use, each before it is used by another one.
+    pub fn definitions(&self) -> impl Iterator<Item = &Equation> {
+        self.groups.iter().filter(|group| group.definitions).flat_map(|group| &group.equations)
+    }
+}
+
+/// The equations of a robot.
+///
+/// # Errors
+///
+/// Equations that are too long, with the forms to use instead; symbols that would look alike.
+pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, Error> {
+    let graph = Graph::new();
+    let mut writer = Writer {
+        robot,
+        options,
+        graph: &graph,
+        notation: Notation::new(robot, options.trigonometry)?,
+        order: Order::new(robot),
+    };
+    let groups = match options.form {
+        Form::Expanded => expanded::groups(&mut writer)?,
+        Form::Grouped => grouped::groups(&mut writer)?,
+        Form::Recursive => recursive::groups(&mut writer)?,
+        Form::Compact => compact::groups(&mut writer)?,
+    };
+    let groups = groups.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    Ok(Equations { groups, notation: writer.notation })
+}
+
+/// What the forms share.
+struct Writer<'r, 'g> {
+    robot: &'r Robot,
+    options: &'r EquationOptions,
+    graph: &'g Graph,
+    notation: Notation,
+    order: Order<'r>,
+}
+
+impl<'g> Writer<'_, 'g> {
+    fn mechanism_options(&self) -> MechanismOptions {
+        MechanismOptions::EXACT.with_snap(self.options.snap, self.robot)
+    }
+
+    /// The paper's iterations.
+    fn iterations(&self, effects: Effects) -> NewtonEuler<'g> {
+        let derivation = self.derivation();
+        newton_euler(&derivation.mechanism, effects)
+    }
+
+    fn derivation(&self) -> Derivation<'_, 'g> {
+        Derivation::new(self.robot, self.graph, &self.mechanism_options(), None)
+    }
+
+    /// The driving forces by the economical recursion, the wrenches of the tips included.
+    fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
+        let kind = match friction {
+            true => FunctionKind::InverseDynamicsWrenchFriction,
+            false => FunctionKind::InverseDynamicsWrench,
+        };
+        let functions = self.derivation().functions(kind);
+        functions.into_iter().flat_map(|function| function.outputs).flat_map(|o| o.values).collect()
+    }
+
+    /// The quantities that are asked for.
+    fn quantities(&self) -> Vec<Quantity<'g>> {
+        let effects = Effects { wrench: true, friction: self.options.friction };
+        let iterations = self.iterations(effects);
+        self.options.kinds.iter().flat_map(|kind| iterations.quantities(*kind)).collect()
+    }
+
+    /// Defines a symbol.
+    fn define(&mut self, name: &str, shape: Math) -> Result<(), Error> {
+        self.order.define(name);
+        self.notation.define(name, shape)
+    }
+
+    /// An equation whose right side is a polynomial.
+    fn of_polynomial(
+        &self,
+        name: String,
+        left: Math,
+        value: &Polynomial<'_>,
+    ) -> Result<Equation, Error> {
+        let text = value.to_text_by(|atom| self.order.rank(atom))?;
+        let right = self.notation.polynomial(value, &self.order)?;
+        Ok(Equation { name, text, left, right })
+    }
+
+    /// An equation whose right side is an expression as it is built.
+    fn of_expression(&self, name: String, left: Math, value: Expr<'_>) -> Result<Equation, Error> {
+        let text = robot_symbolic::print::to_text(value)?;
+        let right = self.notation.expression(value)?;
+        Ok(Equation { name, text, left, right })
+    }
+
+    fn polynomials(
+        &self,
+        values: &[Expr<'g>],
+        limits: &PolynomialOptions,
+    ) -> Result<Vec<Polynomial<'g>>, PolynomialError> {
+        Polynomial::of_all(
+            values,
+            &PolynomialOptions { angle_sums: self.options.angle_sums, ..*limits },
+        )
+    }
+}
+
+/// The symbol of a driving force.
+fn driving_force(index: usize) -> Symbol {
+    Symbol { kind: Kind::DrivingForce, number: index + 1, component: None }
+}

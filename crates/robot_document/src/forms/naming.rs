@@ -1,0 +1,104 @@
+//! Names for expressions that are used again.
+
+use robot_symbolic::{Expr, Graph, Id, View, walk};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Expressions of one graph that have names in another one.
+pub(super) struct Named<'h> {
+    /// The graph of the right sides.
+    pub(super) graph: &'h Graph,
+    symbols: FxHashMap<Id, Expr<'h>>,
+}
+
+/// Expressions that print shorter than this many operations get no name for being used twice.
+const SHORT: usize = 2;
+/// Expressions that print longer are cut into parts.
+const LONG: usize = 24;
+/// Constants of more bytes of text get names.
+const LONG_CONSTANT: usize = 9;
+
+impl<'h> Named<'h> {
+    pub(super) fn new(graph: &'h Graph) -> Named<'h> {
+        Named { graph, symbols: FxHashMap::default() }
+    }
+
+    /// Names an expression, unless it has a name already; what it is but for its sign is then known by
+    /// the name as well.
+    pub(super) fn name(&mut self, expr: Expr<'_>, name: &str) {
+        let (mut symbol, mut expr) = (self.graph.symbol(name), expr);
+        while let View::Neg(inside) = expr.view() {
+            (symbol, expr) = (-symbol, inside);
+        }
+        self.symbols.entry(expr.id()).or_insert(symbol);
+    }
+
+    /// The expression by what has names.
+    pub(super) fn rewritten(&self, expr: Expr<'_>) -> Expr<'h> {
+        let replace = |part: Expr<'_>| self.symbols.get(&part.id()).copied();
+        let rewritten = walk::rebuild_above(&[expr], self.graph, replace);
+        rewritten.first().copied().unwrap_or_else(|| self.graph.zero())
+    }
+}
+
+/// Numbers, symbols, and these with another sign: what needs no name.
+pub(super) fn is_leaf(expr: Expr<'_>) -> bool {
+    match expr.view() {
+        View::Number(_) | View::Pi | View::Symbol(_) => true,
+        View::Neg(inside) => is_leaf(inside),
+        _ => false,
+    }
+}
+
+/// Whether a constant is long enough for a name.
+pub(super) fn is_long_constant(expr: Expr<'_>) -> bool {
+    matches!(expr.view(), View::Number(_))
+        && robot_symbolic::print::to_text(expr).is_ok_and(|text| text.len() > LONG_CONSTANT)
+}
+
+/// What is worth a name among the parts of `roots`, operands before results: what is used in several
+/// places and long, and parts of what would be too long to print. Sines and cosines never are.
+pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let all = walk::reachable(roots);
+    let angles = angles(&all);
+    let mut users: FxHashMap<Id, usize> = FxHashMap::default();
+    for expr in &all {
+        // The base of a square counts twice.
+        for operand in expr.operands() {
+            *users.entry(operand.id()).or_default() += 1;
+        }
+    }
+    for root in roots {
+        *users.entry(root.id()).or_default() += 1;
+    }
+    let mut sizes: FxHashMap<Id, usize> = FxHashMap::default();
+    let mut worthy = vec![];
+    for expr in all {
+        let size = match expr.view() {
+            View::Number(_) | View::Symbol(_) | View::Pi => 0,
+            _ if angles.contains(&expr.id()) => 0,
+            View::Neg(_) => operand_sizes(expr, &sizes),
+            _ => 1 + operand_sizes(expr, &sizes),
+        };
+        let used = users.get(&expr.id()).copied().unwrap_or_default();
+        let long = (used > 1 && size >= SHORT && !is_leaf(expr)) || size > LONG;
+        let named = (long && !matches!(expr.view(), View::Neg(_))) || is_long_constant(expr);
+        if named {
+            worthy.push(expr);
+        }
+        sizes.insert(expr.id(), if named { 0 } else { size });
+    }
+    worthy
+}
+
+fn operand_sizes(expr: Expr<'_>, sizes: &FxHashMap<Id, usize>) -> usize {
+    let size = |operand: &Expr<'_>| sizes.get(&operand.id()).copied().unwrap_or_default();
+    expr.operands().iter().map(size).sum()
+}
+
+/// Sines, cosines, and what stands under them.
+fn angles(all: &[Expr<'_>]) -> FxHashSet<Id> {
+    use robot_symbolic::Function::{Cos, Sin};
+    let is_circular = |expr: &&Expr<'_>| matches!(expr.view(), View::Call(Sin | Cos, _));
+    let circular: Vec<Expr<'_>> = all.iter().filter(is_circular).copied().collect();
+    walk::reachable(&circular).iter().map(|expr| expr.id()).collect()
+}

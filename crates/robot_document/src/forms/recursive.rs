@@ -1,0 +1,167 @@
+//! The recursive form: the paper's iterations, link by link, each quantity by those before it.
+
+use robot_dynamics::newton_euler::Effects;
+use robot_dynamics::quantity::{Kind, Symbol};
+use robot_dynamics::vector::Vector;
+use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions};
+
+use super::compact::definitions;
+use super::naming::{Named, is_leaf, is_long_constant};
+use super::{Equation, Group, Writer, driving_force, shapes};
+use crate::error::Error;
+use crate::math::Math;
+
+pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
+    let effects = Effects { wrench: true, friction: writer.options.friction };
+    let iterations = writer.iterations(effects);
+    let target = Graph::new();
+    let (mut groups, mut named) = figures(writer, &target)?;
+    for (index, motion) in iterations.motions.iter().enumerate() {
+        let number = index + 1;
+        let mut group = group(format!("Link {number}, outward"));
+        let paper = |kind| Look::Paper(kind);
+        for (name, look, vector) in [
+            ("omega", Look::Letter('ω'), motion.angular_velocity),
+            ("epsilon", Look::Letter('ε'), motion.angular_acceleration),
+            ("a", Look::Letter('a'), motion.acceleration),
+            ("a_c", paper(Kind::MassCentreAcceleration), motion.mass_centre_acceleration),
+            ("F", paper(Kind::Force), motion.force),
+            ("M_c", paper(Kind::Moment), motion.moment),
+        ] {
+            group
+                .equations
+                .extend(vector_equations(writer, &mut named, name, look, number, vector)?);
+        }
+        groups.push(group);
+    }
+    for (index, wrench) in iterations.wrenches.iter().enumerate().rev() {
+        let number = index + 1;
+        let mut group = group(format!("Link {number}, inward"));
+        for (name, kind, vector) in
+            [("F_l", Kind::LinkForce, wrench.force), ("M_l", Kind::LinkMoment, wrench.moment)]
+        {
+            let look = Look::Paper(kind);
+            group
+                .equations
+                .extend(vector_equations(writer, &mut named, name, look, number, vector)?);
+        }
+        groups.push(group);
+    }
+    groups.push(driving_forces(writer, &iterations.driving_forces, &named)?);
+    Ok(groups)
+}
+
+/// Masses, centres of mass and tensors of the links that are more than a number or a symbol.
+fn figures<'h>(
+    writer: &mut Writer<'_, '_>,
+    target: &'h Graph,
+) -> Result<(Vec<Group>, Named<'h>), Error> {
+    let mechanism = writer.derivation().mechanism;
+    let letter = writer.notation.free_letter(&["m", "M", "A", "B"]);
+    let mut figures: Vec<(String, Math, Expr<'_>)> = vec![];
+    for (link, number) in mechanism.links.iter().zip(1..) {
+        let shape = shapes::indexed(letter.chars().next().unwrap_or('m'), &[number]);
+        figures.push((shapes::indexed_name(letter, &[number]), shape, link.mass));
+        for (component, value) in link.center_of_mass.0.into_iter().enumerate() {
+            let name = format!("r{number}.{}", shapes::axis_name(component));
+            figures.push((name, shapes::component('r', number, &[component]), value));
+        }
+        for (row, column) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
+            let axes = [shapes::axis_name(row), shapes::axis_name(column)].concat();
+            let shape = shapes::component('J', number, &[row, column]);
+            figures.push((format!("J{number}.{axes}"), shape, link.inertia.0[row][column]));
+        }
+    }
+    figures.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value));
+    let values: Vec<Expr<'_>> = figures.iter().map(|(_, _, value)| *value).collect();
+    let (mut groups, mut named) = definitions(writer, &values, target)?;
+    let mut group = group("Figures of the links".to_owned());
+    for (name, shape, expr) in figures {
+        let value = named.rewritten(expr);
+        writer.define(&name, shape)?;
+        let left = writer.notation.symbol(&name)?;
+        group.equations.push(writer.of_expression(name.clone(), left, value)?);
+        named.name(expr, &name);
+    }
+    groups.push(group);
+    Ok((groups, named))
+}
+
+fn group(title: String) -> Group {
+    Group { title, introduction: String::new(), definitions: true, equations: vec![] }
+}
+
+/// What a vector's components look like.
+#[derive(Clone, Copy)]
+enum Look {
+    Letter(char),
+    Paper(Kind),
+}
+
+impl Look {
+    fn shape(self, number: usize, component: usize) -> Math {
+        match self {
+            Look::Letter(letter) => shapes::component(letter, number, &[component]),
+            Look::Paper(kind) => {
+                shapes::quantity(Symbol { kind, number, component: Some(component) })
+            }
+        }
+    }
+}
+
+/// The equations of the components of a vector; those that are no more than a number or a symbol are
+/// printed but get no name, so that their value stands where they are used.
+fn vector_equations(
+    writer: &mut Writer<'_, '_>,
+    named: &mut Named<'_>,
+    name: &str,
+    look: Look,
+    number: usize,
+    vector: Vector<'_>,
+) -> Result<Vec<Equation>, Error> {
+    let mut equations = vec![];
+    for (component, expr) in vector.0.into_iter().enumerate() {
+        let name = format!("{name}{number}.{}", shapes::axis_name(component));
+        let value = named.rewritten(expr);
+        writer.define(&name, look.shape(number, component))?;
+        let left = writer.notation.symbol(&name)?;
+        equations.push(sum(writer, name.clone(), left, value)?);
+        if !is_leaf(expr) {
+            named.name(expr, &name);
+        }
+    }
+    Ok(equations)
+}
+
+fn driving_forces(
+    writer: &Writer<'_, '_>,
+    forces: &[Expr<'_>],
+    named: &Named<'_>,
+) -> Result<Group, Error> {
+    let mut equations = vec![];
+    for (index, force) in forces.iter().enumerate() {
+        let symbol = driving_force(index);
+        let value = named.rewritten(*force);
+        equations.push(sum(writer, symbol.to_string(), shapes::quantity(symbol), value)?);
+    }
+    Ok(Group {
+        title: "Driving forces".to_owned(),
+        introduction: String::new(),
+        definitions: false,
+        equations,
+    })
+}
+
+/// The equation as a sum of products where that is short, else as the expression is built.
+fn sum(
+    writer: &Writer<'_, '_>,
+    name: String,
+    left: Math,
+    value: Expr<'_>,
+) -> Result<Equation, Error> {
+    let limits = PolynomialOptions { max_terms: 40, ..PolynomialOptions::keeping_angle_sums() };
+    match Polynomial::of(value, &limits) {
+        Ok(polynomial) => writer.of_polynomial(name, left, &polynomial),
+        Err(_) => writer.of_expression(name, left, value),
+    }
+}

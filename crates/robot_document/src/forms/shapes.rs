@@ -1,0 +1,60 @@
+//! What quantities and defined symbols look like.
+
+use robot_dynamics::quantity::Symbol;
+
+use crate::math::{Math, Script};
+
+/// `Q_{1}`, `F_{l_x}^{5}`, as the paper prints them.
+pub(super) fn quantity(symbol: Symbol) -> Math {
+    let number = Math::integer(symbol.number);
+    let name = symbol.kind.name();
+    let (letter, index) = name.split_once('_').unwrap_or((name, ""));
+    let base = Math::Letter(letter.chars().next().unwrap_or('Q'));
+    let Some(component) = symbol.component else {
+        return base.with_lower(number);
+    };
+    let axis = axis(component);
+    let lower = match index.chars().next() {
+        Some(index) => Math::Letter(index).with_lower(axis),
+        None => axis,
+    };
+    Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(number) }))
+}
+
+/// `ω_{2,x}`, `J_{2,xy}`
+pub(super) fn component(letter: char, number: usize, axes: &[usize]) -> Math {
+    let mut lower = vec![Math::integer(number), Math::Sign(',')];
+    lower.extend(axes.iter().map(|place| axis(*place)));
+    Math::Letter(letter).with_lower(Math::Row(lower))
+}
+
+/// A letter with numbers below: `M_{12}`, with commas where one has several digits.
+pub(super) fn indexed(letter: char, numbers: &[usize]) -> Math {
+    let apart = numbers.iter().any(|number| *number > 9);
+    let mut pieces = vec![];
+    let mut joined = String::new();
+    for (place, number) in numbers.iter().enumerate() {
+        if apart && place > 0 {
+            pieces.push(Math::Number(std::mem::take(&mut joined)));
+            pieces.push(Math::Sign(','));
+        }
+        joined.push_str(&number.to_string());
+    }
+    pieces.push(Math::Number(joined));
+    Math::Letter(letter).with_lower(Math::row(pieces))
+}
+
+/// The name of an indexed symbol in text: `M_1_2`.
+pub(super) fn indexed_name(letter: &str, numbers: &[usize]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    format!("{letter}_{}", numbers.join("_"))
+}
+
+fn axis(component: usize) -> Math {
+    Math::Letter(axis_name(component).chars().next().unwrap_or('z'))
+}
+
+/// `x`, `y` or `z`
+pub(super) fn axis_name(component: usize) -> &'static str {
+    ["x", "y", "z"].get(component).copied().unwrap_or("z")
+}

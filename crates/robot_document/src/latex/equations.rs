@@ -1,0 +1,112 @@
+//! Displayed equations, broken into lines, in an environment of amsmath.
+
+use crate::breaking::broken;
+use crate::document::NumberedEquation;
+use crate::error::{Centimetres, Error};
+use crate::latex::formula;
+use crate::math::Math;
+use crate::width::width;
+
+/// The lines that equations are to fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// The width of a line, in printer's points, 72.27 to an inch.
+    pub width: f64,
+}
+
+/// Lines in one environment; longer ones are cut, for TeX sets an environment as a whole, in a time that
+/// grows with the square of its length.
+const LONGEST: usize = 40;
+/// An equals sign with its spaces, pt.
+const EQUALS: f64 = 13.4;
+/// The indent of further lines, and the spaces around the sign that they start with, pt.
+const INDENT: f64 = 14.5;
+/// The number of an equation, pt.
+const NUMBER: f64 = 36.0;
+/// What estimates may be wrong by, pt.
+const MARGIN: f64 = 2.0;
+
+impl Layout {
+    /// A line of so many centimetres.
+    #[must_use]
+    pub fn of_centimetres(width: f64) -> Layout {
+        Layout { width: width / 2.54 * 72.27 }
+    }
+}
+
+/// Equations one below the other, aligned at their equals signs; those with a label are numbered.
+///
+/// # Errors
+///
+/// A piece of an equation that cannot be broken and does not fit a line.
+pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
+    let numbered = list.iter().any(|equation| equation.label.is_some());
+    let left = list.iter().map(|one| width(&one.equation.left)).fold(0.0, f64::max);
+    let number = if numbered { NUMBER } else { 0.0 };
+    let available = layout.width - left - number - MARGIN;
+    let mut writer = Writer { numbered, latex: String::new(), rows: vec![] };
+    for equation in list {
+        writer.add(equation, available)?;
+    }
+    writer.end();
+    Ok(writer.latex)
+}
+
+struct Writer {
+    numbered: bool,
+    latex: String,
+    /// The lines of the environment that is being filled.
+    rows: Vec<String>,
+}
+
+impl Writer {
+    fn add(&mut self, numbered: &NumberedEquation, available: f64) -> Result<(), Error> {
+        let NumberedEquation { label, equation } = numbered;
+        let lines =
+            broken(&equation.right, available - EQUALS, available - INDENT).map_err(|wide| {
+                Error::Narrow {
+                    name: equation.name.clone(),
+                    needed: Centimetres::from_points(wide.needed),
+                    available: Centimetres::from_points(available - INDENT),
+                }
+            })?;
+        let left = formula(&equation.left);
+        let last = lines.len().saturating_sub(1);
+        for (place, line) in lines.iter().enumerate() {
+            if self.rows.len() >= LONGEST {
+                self.end();
+            }
+            let mut row = match (place, self.rows.is_empty()) {
+                (0, _) => format!("  {left} &= {}", formula(line)),
+                (_, true) => format!(r"  \phantom{{{left}}} &\quad {}", continued(line)),
+                (_, false) => format!(r"    &\quad {}", continued(line)),
+            };
+            match label {
+                Some(label) if place == last => row.push_str(&format!(r" \label{{eq:{label}}}")),
+                _ if self.numbered => row.push_str(r" \notag"),
+                _ => {}
+            }
+            self.rows.push(row);
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) {
+        if !self.rows.is_empty() {
+            let name = if self.numbered { "align" } else { "align*" };
+            let rows = std::mem::take(&mut self.rows).join(" \\\\\n");
+            self.latex.push_str(&format!("\\begin{{{name}}}\n{rows}\n\\end{{{name}}}\n"));
+        }
+    }
+}
+
+/// A further line: the sign that it starts with is set apart from what follows, as in a sum.
+fn continued(line: &Math) -> String {
+    match line.pieces() {
+        [Math::Sign(_), rest @ ..] => {
+            let sign = formula(&Math::row(line.pieces().iter().take(1).cloned().collect()));
+            format!("{{}}{sign} {}", formula(&Math::Row(rest.to_vec())))
+        }
+        _ => formula(line),
+    }
+}

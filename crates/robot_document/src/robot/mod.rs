@@ -1,0 +1,102 @@
+//! The document of a robot: its tables, its equations, its symbols, a check value.
+
+mod check_value;
+mod symbols;
+mod tables;
+
+use robot_dynamics::model::Robot;
+
+use crate::document::{Block, Document, Inline, NumberedEquation};
+use crate::error::Error;
+use crate::forms::{EquationOptions, Equations, Form, equations};
+use crate::math::Math;
+
+/// The document of a robot with its equations in several forms.
+///
+/// # Errors
+///
+/// Equations that are too long, with the forms to use instead; symbols that would look alike.
+pub fn document(
+    robot: &Robot,
+    options: &EquationOptions,
+    forms: &[Form],
+) -> Result<Document, Error> {
+    let mut parts = vec![];
+    for form in forms {
+        parts.push((*form, equations(robot, &EquationOptions { form: *form, ..options.clone() })?));
+    }
+    let mut blocks = vec![];
+    if let Some(description) = &robot.description {
+        blocks.push(paragraph(description));
+    }
+    let Some((_, first)) = parts.first() else {
+        return Ok(Document { title: robot.name.clone(), blocks });
+    };
+    blocks.extend(tables::blocks(robot, &first.notation)?);
+    blocks.extend(conventions(options)?);
+    for (form, part) in &parts {
+        blocks.extend(equation_blocks(*form, part));
+    }
+    blocks.extend(symbols::blocks(robot, &parts)?);
+    blocks.extend(check_value::blocks(robot, options, &first.notation)?);
+    Ok(Document { title: format!("Equations of motion of {}", robot.name), blocks })
+}
+
+fn paragraph(text: &str) -> Block {
+    Block::Paragraph(vec![Inline::text(text)])
+}
+
+fn heading(text: &str) -> Block {
+    Block::Heading(1, text.to_owned())
+}
+
+/// What a reader must know of frames and signs.
+fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
+    let indexed = |letter: char| Math::Letter(letter).with_lower(Math::Letter('i'));
+    let friction = match options.friction {
+        true => "Friction in the joints is included.",
+        false => "Friction in the joints is not included.",
+    };
+    Ok(vec![
+        heading("Frames and signs"),
+        Block::Paragraph(vec![
+            Inline::text("The frame of link "),
+            Inline::Math(Math::Letter('i')),
+            Inline::text(
+                " is fixed to the link and right-handed; its origin lies on the axis of the joint that \
+                 moves the link. It is the frame of the parent link (of the base for a link without \
+                 parent), first displaced as the table of the links says, then moved by the joint: \
+                 turned about the axis by ",
+            ),
+            Inline::Math(indexed('q')),
+            Inline::text(", or displaced along it by "),
+            Inline::Math(indexed('q')),
+            Inline::text(". All vectors are in the axes of their own link. "),
+            Inline::Math(indexed('Q')),
+            Inline::text(
+                " is the generalised driving force of the joint: a moment for a rotation, a force for a \
+                 translation, positive along the axis. Wrenches of tips are what the tip exerts on its \
+                 surroundings. Units are SI and radians. ",
+            ),
+            Inline::text(friction),
+        ]),
+    ])
+}
+
+/// The equations, each numbered and labelled by form and name.
+fn equation_blocks(form: Form, part: &Equations) -> Vec<Block> {
+    let mut blocks = vec![];
+    for group in &part.groups {
+        let level = if group.definitions { 2 } else { 1 };
+        blocks.push(Block::Heading(level, group.title.clone()));
+        if !group.introduction.is_empty() {
+            blocks.push(paragraph(&group.introduction));
+        }
+        let numbered = |equation: &crate::forms::Equation| NumberedEquation {
+            label: Some(format!("{}:{}", form.name(), equation.label())),
+            equation: equation.clone(),
+        };
+        blocks.push(Block::Equations(group.equations.iter().map(numbered).collect()));
+    }
+    blocks
+}

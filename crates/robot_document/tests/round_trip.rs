@@ -1,0 +1,188 @@
+//! What is printed is read back and proved equal to what the program computes: by polynomials where
+//! that is short, else by values at several states.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use robot_document::document::NumberedEquation;
+use robot_document::latex::{self, Layout};
+use robot_document::meaning::meaning;
+use robot_document::{EquationOptions, Equations, Form, equations};
+use robot_dynamics::description::read_toml;
+use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::model::Robot;
+use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::quantity::Kind;
+use robot_symbolic::print::latex::Trigonometry;
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
+
+/// What a proof by polynomials may cost.
+const PROOF: PolynomialOptions =
+    PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 100_000 };
+
+fn robots() -> Vec<Robot> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+    let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    let robots: Vec<Robot> = paths
+        .iter()
+        .map(|path| {
+            let text = std::fs::read_to_string(path).unwrap();
+            read_toml(&path.display().to_string(), &text).unwrap().robot
+        })
+        .collect();
+    assert!(robots.len() >= 9);
+    robots
+}
+
+/// The values of the quantities as the program has them, by their names.
+fn expected<'g>(
+    robot: &Robot,
+    graph: &'g Graph,
+    options: &EquationOptions,
+) -> HashMap<String, Expr<'g>> {
+    let exact = MechanismOptions::EXACT.with_snap(options.snap, robot);
+    let derivation = Derivation::new(robot, graph, &exact, None);
+    let effects = Effects { wrench: true, friction: options.friction };
+    let iterations = newton_euler(&derivation.mechanism, effects);
+    let mut values: HashMap<String, Expr<'g>> = Kind::ALL
+        .iter()
+        .flat_map(|kind| iterations.quantities(*kind))
+        .map(|quantity| (quantity.symbol.to_string(), quantity.value))
+        .collect();
+    let kind = match options.friction {
+        true => FunctionKind::InverseDynamicsWrenchFriction,
+        false => FunctionKind::InverseDynamicsWrench,
+    };
+    let program = derivation.functions(kind).remove(0).outputs.remove(0).values;
+    for (value, number) in program.into_iter().zip(1..) {
+        values.insert(format!("Q{number}"), value);
+    }
+    values
+}
+
+/// The equations printed as LaTeX of that width and read back: each quantity and definition with its
+/// expression, definitions replaced by what they stand for.
+fn read_back<'g>(
+    printed: &Equations,
+    width: f64,
+    graph: &'g Graph,
+) -> Result<HashMap<String, Expr<'g>>, robot_document::Error> {
+    let symbols = printed.notation.symbols();
+    let mut values: HashMap<String, Expr<'g>> = HashMap::new();
+    // Definitions are in order; the quantities by them may stand before.
+    let (definitions, quantities): (Vec<_>, Vec<_>) =
+        printed.groups.iter().partition(|group| group.definitions);
+    for group in definitions.into_iter().chain(quantities) {
+        let list: Vec<NumberedEquation> = group
+            .equations
+            .iter()
+            .map(|equation| NumberedEquation { label: None, equation: equation.clone() })
+            .collect();
+        let latex = latex::equations(&list, Layout::of_centimetres(width))?;
+        let read = latex::read_equations(&latex, symbols).unwrap();
+        assert_eq!(read.len(), list.len(), "{latex}");
+        for ([left, right], one) in read.iter().zip(&list) {
+            assert_eq!(latex::formula(left), latex::formula(&one.equation.left));
+            let value = meaning(right, graph, printed.notation.trigonometry())
+                .unwrap_or_else(|error| panic!("{error}: {latex}"));
+            let value = value.substitute(|name| values.get(name).copied());
+            values.insert(one.equation.name.clone(), value);
+        }
+    }
+    Ok(values)
+}
+
+/// Proves that the two are equal.
+fn assert_equal(what: &str, graph: &Graph, found: Expr<'_>, expected: Expr<'_>) {
+    if let Ok(difference) = Polynomial::of(found - expected, &PROOF)
+        && difference.is_zero()
+    {
+        return;
+    }
+    for state in 1..=3 {
+        let value = |symbol| {
+            let name: String = graph.symbol_name(symbol);
+            let hash = name.bytes().fold(17 * state, |hash: u32, byte| {
+                hash.wrapping_mul(31).wrapping_add(u32::from(byte)).wrapping_mul(2_654_435_761)
+            });
+            0.2 + f64::from(hash >> 8) / f64::from(1 << 24)
+        };
+        let (found, expected) = (found.evaluate(value), expected.evaluate(value));
+        let error = (found - expected).abs();
+        assert!(error <= 1e-9 * expected.abs().max(1.0), "{what}: {found} {expected}");
+    }
+}
+
+fn check(robot: &Robot, options: &EquationOptions, widths: &[f64]) {
+    let Ok(printed) = equations(robot, options) else {
+        assert_eq!(options.form, Form::Expanded, "{}: {options:?}", robot.name);
+        return;
+    };
+    let graph = Graph::new();
+    let expected = expected(robot, &graph, options);
+    for width in widths {
+        let found = read_back(&printed, *width, &graph)
+            .unwrap_or_else(|error| panic!("{} {options:?}: {error}", robot.name));
+        let mut compared = 0;
+        for (name, value) in &expected {
+            let Some(found) = found.get(name) else { continue };
+            let what = format!("{} {name} {options:?}", robot.name);
+            assert_equal(&what, &graph, *found, *value);
+            compared += 1;
+        }
+        assert!(compared >= robot.degrees_of_freedom());
+    }
+}
+
+fn in_form(form: Form) -> EquationOptions {
+    EquationOptions { form, ..EquationOptions::default() }
+}
+
+#[test]
+fn every_form_of_every_robot_reads_back_as_the_program() {
+    for robot in robots() {
+        for form in Form::ALL {
+            check(&robot, &in_form(form), &[8.2, 16.0]);
+        }
+    }
+}
+
+#[test]
+fn every_quantity_reads_back_in_the_forms_that_have_it() {
+    for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() < 6) {
+        for form in [Form::Expanded, Form::Compact] {
+            check(robot, &EquationOptions { kinds: Kind::ALL.to_vec(), ..in_form(form) }, &[8.2]);
+        }
+    }
+}
+
+#[test]
+fn every_style_reads_back() {
+    for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() < 6) {
+        for trigonometry in [Trigonometry::Short, Trigonometry::Paper] {
+            for angle_sums in [AngleSums::Expand, AngleSums::Keep] {
+                for form in Form::ALL {
+                    let options = EquationOptions { trigonometry, angle_sums, ..in_form(form) };
+                    check(robot, &EquationOptions { christoffel: true, ..options }, &[8.2]);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn friction_reads_back() {
+    let robots = robots();
+    let mut with_friction = robots.iter().filter(|robot| robot.has_friction()).peekable();
+    assert!(with_friction.peek().is_some());
+    for robot in with_friction {
+        for form in [Form::Grouped, Form::Recursive, Form::Compact] {
+            check(robot, &EquationOptions { friction: true, ..in_form(form) }, &[8.2, 16.0]);
+        }
+    }
+}
