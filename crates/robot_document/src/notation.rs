@@ -4,7 +4,7 @@ use robot_dynamics::model::Robot;
 use robot_symbolic::print::latex::{
     LatexStyle, LatexTerm, Trigonometry, polynomial_terms, to_latex,
 };
-use robot_symbolic::{Expr, Polynomial};
+use robot_symbolic::{Expr, Polynomial, walk};
 use rustc_hash::FxHashMap;
 
 use crate::error::Error;
@@ -71,6 +71,11 @@ impl Notation {
 
     fn insert(&mut self, name: &str, shape: Math) -> Result<(), Error> {
         let latex = latex::formula(&shape);
+        if self.is_like_sine(&latex) {
+            // Read back it would hide the sine.
+            self.latex.insert(name.to_owned(), latex);
+            return Ok(());
+        }
         let symbol = Symbol { name: name.to_owned(), shape: Box::new(shape) };
         match self.symbols.insert(&latex, symbol) {
             Some(other) => Err(Error::Alike { name: name.to_owned(), other, latex }),
@@ -115,13 +120,13 @@ impl Notation {
         free.or(candidates.last()).copied().unwrap_or("x")
     }
 
-    /// The look of a symbol.
+    /// The look of a symbol, alone.
     ///
     /// # Errors
     ///
     /// None for symbols of the robot and of the form.
     pub fn symbol(&self, name: &str) -> Result<Math, Error> {
-        self.layout(self.latex.get(name).map_or(name, String::as_str))
+        Ok(latex::read(self.latex.get(name).map_or(name, String::as_str), &self.symbols)?)
     }
 
     /// The sum that a polynomial is.
@@ -132,6 +137,7 @@ impl Notation {
     pub fn polynomial(&self, value: &Polynomial<'_>, order: &Order<'_>) -> Result<Math, Error> {
         let names = |name: &str| self.latex.get(name).cloned();
         let style = LatexStyle::new(self.trigonometry).with_names(&names);
+        self.check(&value.atoms())?;
         let mut pieces = vec![];
         for (place, term) in
             polynomial_terms(value, &style, |atom| order.rank(atom))?.iter().enumerate()
@@ -142,7 +148,7 @@ impl Notation {
                 (_, true) => pieces.push(Math::Sign('-')),
                 (_, false) => pieces.push(Math::Sign('+')),
             }
-            pieces.extend(self.layout(text)?.pieces().iter().cloned());
+            pieces.extend(latex::read(text, &self.symbols)?.pieces().iter().cloned());
         }
         Ok(Math::row(pieces))
     }
@@ -155,22 +161,29 @@ impl Notation {
     pub fn expression(&self, value: Expr<'_>) -> Result<Math, Error> {
         let names = |name: &str| self.latex.get(name).cloned();
         let style = LatexStyle::new(self.trigonometry).with_names(&names);
-        self.layout(&to_latex(value, &style)?)
+        self.check(&[value])?;
+        Ok(latex::read(&to_latex(value, &style)?, &self.symbols)?)
     }
 
-    fn layout(&self, latex: &str) -> Result<Math, Error> {
-        let math = latex::read(latex, &self.symbols)?;
-        let is_like_sine = |latex: &str| match self.trigonometry {
+    /// Refuses symbols that would read as sines and cosines.
+    fn check(&self, values: &[Expr<'_>]) -> Result<(), Error> {
+        for value in values {
+            for symbol in walk::symbols(&[*value]) {
+                let name = value.graph().symbol_name(symbol);
+                if let Some(latex) = self.latex.get(&name).filter(|latex| self.is_like_sine(latex))
+                {
+                    return Err(Error::LikeSine { name, latex: latex.clone() });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn is_like_sine(&self, latex: &str) -> bool {
+        match self.trigonometry {
             Trigonometry::Named => false,
             Trigonometry::Short => latex.starts_with("s_") || latex.starts_with("c_"),
             Trigonometry::Paper => latex == "s" || latex == "c",
-        };
-        for name in math.symbols() {
-            let latex = self.latex.get(name).map_or(name, String::as_str);
-            if is_like_sine(latex) {
-                return Err(Error::LikeSine { name: name.to_owned(), latex: latex.to_owned() });
-            }
         }
-        Ok(math)
     }
 }

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use robot_document::document::NumberedEquation;
@@ -44,12 +44,12 @@ fn expected<'g>(
     robot: &Robot,
     graph: &'g Graph,
     options: &EquationOptions,
-) -> HashMap<String, Expr<'g>> {
+) -> BTreeMap<String, Expr<'g>> {
     let exact = MechanismOptions::EXACT.with_snap(options.snap, robot);
     let derivation = Derivation::new(robot, graph, &exact, None);
     let effects = Effects { wrench: true, friction: options.friction };
     let iterations = newton_euler(&derivation.mechanism, effects);
-    let mut values: HashMap<String, Expr<'g>> = Kind::ALL
+    let mut values: BTreeMap<String, Expr<'g>> = Kind::ALL
         .iter()
         .flat_map(|kind| iterations.quantities(*kind))
         .map(|quantity| (quantity.symbol.to_string(), quantity.value))
@@ -71,9 +71,9 @@ fn read_back<'g>(
     printed: &Equations,
     width: f64,
     graph: &'g Graph,
-) -> Result<HashMap<String, Expr<'g>>, robot_document::Error> {
+) -> Result<BTreeMap<String, Expr<'g>>, robot_document::Error> {
     let symbols = printed.notation.symbols();
-    let mut values: HashMap<String, Expr<'g>> = HashMap::new();
+    let mut values: BTreeMap<String, Expr<'g>> = BTreeMap::new();
     // Definitions are in order; the quantities by them may stand before.
     let (definitions, quantities): (Vec<_>, Vec<_>) =
         printed.groups.iter().partition(|group| group.definitions);
@@ -119,9 +119,13 @@ fn assert_equal(what: &str, graph: &Graph, found: Expr<'_>, expected: Expr<'_>) 
 }
 
 fn check(robot: &Robot, options: &EquationOptions, widths: &[f64]) {
-    let Ok(printed) = equations(robot, options) else {
-        assert_eq!(options.form, Form::Expanded, "{}: {options:?}", robot.name);
-        return;
+    let printed = match equations(robot, options) {
+        Ok(printed) => printed,
+        Err(error) => {
+            // The expanded form of a long robot is refused.
+            assert_eq!(options.form, Form::Expanded, "{}: {error} {options:?}", robot.name);
+            return;
+        }
     };
     let graph = Graph::new();
     let expected = expected(robot, &graph, options);

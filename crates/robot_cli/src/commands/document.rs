@@ -9,6 +9,7 @@ use robot_document::latex::{self, Page};
 use super::equations::centimetres;
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::files;
 use crate::forms::{EquationArguments, FormName, failed};
 use crate::robot::RobotArgument;
 
@@ -56,8 +57,7 @@ impl Arguments {
         let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
         let shown = latex::document(&document, page).map_err(failed)?;
         match &self.output {
-            Some(path) => std::fs::write(path, shown)
-                .map_err(|error| Failure::input(format!("{}: {error}", path.display()))),
+            Some(path) => files::write(path, shown.as_bytes()),
             None => Ok(terminal.output.write_all(shown.as_bytes())?),
         }
     }

@@ -79,7 +79,7 @@ pub fn text(text: &str) -> String {
             }
             '\n' | '\t' => latex.push(' '),
             ' '..='~' if OTHERS.iter().all(|(other, _)| *other != character) => {
-                latex.push(character)
+                latex.push(character);
             }
             other => latex.push_str(&outside(other)),
         }

@@ -51,18 +51,41 @@ pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Result<Vec<B
 }
 
 fn parameter_item(symbol: Math, parameter: &Parameter) -> Vec<Inline> {
-    let mut text = String::new();
+    let mut item = vec![Inline::Math(symbol)];
     if let Some(doc) = &parameter.doc {
-        text = format!(" \u{2014} {}", doc.trim());
+        item.push(Inline::Text(format!(" \u{2014} {}", doc.trim())));
     }
-    let unit = parameter.unit.as_ref().map_or("", |unit| match unit.text.as_str() {
-        "1" => "",
-        text => text,
-    });
-    match &parameter.value {
-        Some(value) => text.push_str(&format!(": {} {unit}", exact_text(value))),
-        None if unit.is_empty() => {}
-        None => text.push_str(&format!(", {unit}")),
+    let unit = parameter.unit.as_ref().map(|unit| unit.text.as_str()).filter(|text| *text != "1");
+    let gap = match &parameter.value {
+        Some(value) => format!(": {}", exact_text(value)),
+        None if unit.is_some() => ":".to_owned(),
+        None => return item,
+    };
+    item.push(Inline::Text(gap));
+    item.extend(unit.map(unit_shape));
+    item
+}
+
+/// `kg m²`, powers raised.
+fn unit_shape(unit: &str) -> Inline {
+    let mut pieces = vec![Math::Word(" ".to_owned())];
+    let mut rest = unit;
+    while let Some((name, more)) = rest.split_once('^') {
+        pieces.push(Math::Word(name.to_owned()));
+        let digits = more.trim_start_matches('-');
+        let length = digits.len() - digits.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let mut power = vec![];
+        if digits.len() < more.len() {
+            power.push(Math::Sign('-'));
+        }
+        power.push(Math::Number(digits.get(..length).unwrap_or_default().to_owned()));
+        if let Some(word) = pieces.pop() {
+            pieces.push(word.with_upper(Math::row(power)));
+        }
+        rest = digits.get(length..).unwrap_or_default();
     }
-    vec![Inline::Math(symbol), Inline::Text(text.trim_end().to_owned())]
+    if !rest.is_empty() {
+        pieces.push(Math::Word(rest.to_owned()));
+    }
+    Inline::Math(Math::Row(pieces))
 }
