@@ -147,10 +147,13 @@ fn latex_has_the_names_of_the_file_and_the_style_asked_for() {
         for part in [sine, r"\ddot{q}_1", "F_{l_x}^{6}", "J_x^{*5}", r"\dot{q}_2^{2}"] {
             assert!(latex.contains(part), "{part} is not in {latex}");
         }
-        // Every line but the last ends in a break, every equation has one alignment mark a line.
-        let lines: Vec<&str> = latex.lines().collect();
-        for line in &lines[1..lines.len() - 2] {
-            assert!(line.ends_with(r" \\") && line.matches('&').count() == 1, "{line}");
+        // Every line but the last of an environment ends in a break and has one alignment mark.
+        for environment in latex.split_inclusive("\\end{align*}\n") {
+            let lines: Vec<&str> = environment.lines().collect();
+            assert_eq!(lines[0], r"\begin{align*}");
+            for line in &lines[1..lines.len() - 2] {
+                assert!(line.ends_with(r" \\") && line.matches('&').count() == 1, "{line}");
+            }
         }
     }
 }
