@@ -12,6 +12,7 @@ mod import;
 mod man;
 mod package;
 mod prove;
+mod report;
 mod schema;
 mod search;
 mod show;
@@ -44,6 +45,8 @@ pub(crate) enum Command {
     Stats(stats::Arguments),
     /// Compile a robot's code and read what the compiler made of it
     Prove(prove::Arguments),
+    /// Write a page about a robot: scheme, tables, structure, operations, evidence
+    Report(report::Arguments),
     /// Search the form of the recursion with the fewest operations
     Search(search::Arguments),
     /// Write a URDF file as a robot file
@@ -82,6 +85,7 @@ impl Command {
             Command::Simulate(arguments) => arguments.run(terminal),
             Command::Stats(arguments) => arguments.run(terminal),
             Command::Prove(arguments) => arguments.run(terminal),
+            Command::Report(arguments) => arguments.run(terminal),
             Command::Search(arguments) => arguments.run(terminal),
             Command::Import(arguments) => arguments.run(terminal),
             Command::Check(arguments) => arguments.run(terminal),

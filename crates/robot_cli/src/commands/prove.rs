@@ -18,8 +18,8 @@ use crate::text;
   robot-symbolic prove robots/ur5.toml --function inverse_dynamics --trigonometry polynomial \\
       --scalar f32 --target thumbv7em-none-eabihf
 
-Compiles the generated code and reads the object file. This is the one command that starts another
-program: rustc, which must be installed. Nothing is linked, so that a target needs no more than
+Compiles the generated code and reads the object file. It and `report` start another program:
+rustc, which must be installed. Nothing is linked, so that a target needs no more than
 `rustup target add`.
 
 The claim: no conditional jump, no panic, and no call but those of sines and cosines. The exit code is

@@ -14,6 +14,7 @@ mod json_schema;
 #[path = "../../../../tests/common/pages.rs"]
 mod pages;
 mod prove;
+mod report;
 mod schema;
 mod shell;
 mod simulate;

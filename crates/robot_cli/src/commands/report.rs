@@ -1,0 +1,70 @@
+//! `report`: a page about a robot.
+
+use clap::Args;
+use robot_build::{Options, Source};
+use robot_evidence::{Compiler, Profile, prove};
+use robot_report::{Compiled, Input, report};
+
+use crate::Terminal;
+use crate::delivery::OutputArguments;
+use crate::failure::Failure;
+use crate::progress::watched;
+use crate::robot::RobotArgument;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic report robots/trttr1.toml -o trttr1.html
+  robot-symbolic report robots/panda.toml -o panda.html --without-compiler
+
+The page is one file that needs no other and no network: the kinematic scheme, tables of joints, masses
+and parameters, the structure of the matrices, operations by function, stage and option, and evidence.
+It is made for screens, dark and light, for print and for screen readers; pointing at a link or a
+parameter marks what belongs to it.
+
+For the evidence the code is compiled by rustc (the variable RUSTC, or `rustc`); where there is none the
+page says so.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    #[command(flatten)]
+    output: OutputArguments,
+    /// Start no compiler: the page then tells nothing of machine code
+    #[arg(long)]
+    without_compiler: bool,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let options = self.robot.options()?;
+        // Read first, so that warnings are shown and no compiler starts for a file that is wrong.
+        self.robot.read(terminal)?;
+        let source = self.robot.source()?;
+        let page = watched("writing", terminal, || self.page(&source, &options))?;
+        self.output.deliver(page, terminal)
+    }
+
+    fn page(&self, source: &Source, options: &Options) -> Result<String, Failure> {
+        let compiled = if self.without_compiler {
+            Compiled::Unread { reason: "no compiler was to be started.".to_owned() }
+        } else {
+            compiled(source, options)?
+        };
+        Ok(report(&Input { source, options, compiled: &compiled })?)
+    }
+}
+
+/// What the compiler makes of the usual functions.
+fn compiled(source: &Source, options: &Options) -> Result<Compiled, Failure> {
+    let compiler = Compiler::default();
+    let read = || -> Result<Compiled, robot_evidence::Error> {
+        let description = compiler.description()?;
+        let profiles = [Profile::Dev, Profile::Release];
+        let modules = prove(source, options, &compiler, &profiles)?;
+        Ok(Compiled::Read { compiler: description, modules })
+    };
+    match read() {
+        Ok(compiled) => Ok(compiled),
+        Err(robot_evidence::Error::Robot(errors)) => Err(Failure::Robot(errors)),
+        Err(other) => Ok(Compiled::Unread { reason: other.to_string() }),
+    }
+}

@@ -1,0 +1,26 @@
+//! `report`: the page about a robot.
+
+use crate::{complaint, folder, output, robot, run};
+
+#[test]
+fn a_page_is_written_and_says_what_the_compiler_made() {
+    let path = folder("report").join("planar.html");
+    let outcome = run(&["report", &robot("planar_2r"), "-o", path.to_str().unwrap()]);
+    assert_eq!(outcome.code, 0, "{}", outcome.errors);
+    let page = std::fs::read_to_string(path).unwrap();
+    for part in ["<svg", "scheme-link-2", "Model::inverse_dynamics", "Profile release", "flat"] {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn without_a_compiler_the_page_says_so() {
+    let page = output(&["report", &robot("planar_2r"), "--without-compiler"], "");
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("machine code was not read"));
+    assert!(!page.contains("Profile release"));
+}
+
+#[test]
+fn there_is_no_page_about_a_file_that_is_wrong() {
+    assert!(complaint(1, &["report", "none.toml"], "").contains("there is no such file"));
+}

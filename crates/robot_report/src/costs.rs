@@ -1,0 +1,71 @@
+//! What the generated code costs: operations by function, by stage and by option.
+
+use robot_build::ablation::Ablation;
+use robot_codegen::{Counts, Module};
+
+use crate::html::{Element, holding};
+use crate::table::Table;
+
+const FIGURES: [&str; 6] = ["×", "+ −", "÷", "√", "sin, cos", "× + ÷ together"];
+
+/// The operations of each function, at a call and once for each set of parameters.
+pub(crate) fn functions(module: &Module) -> Element {
+    let mut columns = vec!["Function"];
+    columns.extend(FIGURES);
+    columns.push("once for the parameters");
+    let caption = "Operations of a call of each function; subtractions count as additions, changes \
+                   of sign not at all.";
+    let mut table = Table::new(caption, columns);
+    for function in &module.functions {
+        let counts = module.counts(function);
+        let mut cells = figures(&counts.call);
+        cells.push(counts.constructor.operations().to_string());
+        table.row("", holding("code", function.name.as_str()), cells);
+    }
+    table.build()
+}
+
+/// What is left of inverse dynamics after each pass.
+pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
+    let mut columns = vec!["After"];
+    columns.extend(FIGURES.iter().filter(|name| **name != "sin, cos"));
+    let caption = format!("Operations of {function} after each stage of the compiler");
+    let mut table = Table::new(&caption, columns);
+    for pass in &module.function(function)?.passes {
+        let mut cells = figures(&pass.counts);
+        cells.remove(4);
+        table.row("", pass.pass, cells);
+    }
+    Some(table.build())
+}
+
+/// What each option of the recursion and each pass is worth.
+pub(crate) fn options(found: &[Ablation], function: &str) -> Option<Element> {
+    let operations = |ablation: &Ablation| {
+        let mut counts = ablation.counts.iter();
+        counts.find(|(name, _)| name == function).map(|(_, counts)| counts.call.operations())
+    };
+    let (all, without) = found.split_first()?;
+    let least = operations(all)?;
+    let caption = format!(
+        "Operations of {function}, multiplications and additions together, where an option or a pass \
+         is left out. Options act together, so that what they save does not add up."
+    );
+    let mut table = Table::new(&caption, ["Without", "Operations", "More than with all"]);
+    table.row("", "nothing: all options and passes", [least.to_string(), String::new()]);
+    for ablation in without {
+        let count = operations(ablation)?;
+        let more = match count.checked_sub(least) {
+            Some(more) => more.to_string(),
+            None => format!("−{}", least - count),
+        };
+        table.row("", ablation.without, [count.to_string(), more]);
+    }
+    Some(table.build())
+}
+
+fn figures(counts: &Counts) -> Vec<String> {
+    let Counts { mul, add, div, sqrt, sin, cos, .. } = *counts;
+    let figures = [mul, add, div, sqrt, sin + cos, counts.operations()];
+    figures.map(|figure| figure.to_string()).to_vec()
+}

@@ -1,0 +1,34 @@
+//! Lines of drawings.
+
+use nalgebra::Vector2;
+
+use crate::html::{Element, element};
+
+/// `12.3` without needless digits, so that the same drawing is the same bytes.
+pub(crate) fn coordinate(value: f64) -> String {
+    let rounded = (value * 10.0).round() / 10.0;
+    // No negative zero.
+    format!("{}", rounded + 0.0)
+}
+
+/// A path through points.
+pub(crate) fn path(points: &[Vector2<f64>], is_closed: bool) -> Element {
+    let mut text = String::new();
+    for (index, point) in points.iter().enumerate() {
+        text.push_str(if index == 0 { "M" } else { "L" });
+        text.push_str(&format!("{} {}", coordinate(point.x), coordinate(point.y)));
+    }
+    if is_closed {
+        text.push('Z');
+    }
+    element("path").attribute("d", text)
+}
+
+/// A line with a head at its end.
+pub(crate) fn arrow(from: Vector2<f64>, to: Vector2<f64>, head: f64) -> [Element; 2] {
+    let back = (from - to).try_normalize(1e-9).unwrap_or_default();
+    let across = Vector2::new(-back.y, back.x);
+    let base = to + back * head;
+    let tip = [base + across * (0.4 * head), to, base - across * (0.4 * head)];
+    [path(&[from, to], false), path(&tip, true).class("head")]
+}

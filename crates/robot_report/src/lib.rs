@@ -1,0 +1,136 @@
+//! A page about a robot: one HTML file that needs nothing else.
+//!
+//! [`report`] is pure: a robot file and what the compiler made of its code go in, the text of the page
+//! comes out, the same bytes for the same input. Everything that comes from the robot file is text by
+//! construction (`html.rs` is the one place where text becomes markup), and the page's policy lets a
+//! browser run and load nothing but the page's own style and script, by their hashes.
+
+mod costs;
+mod drawing;
+mod evidence;
+mod html;
+mod page;
+mod parts;
+mod scheme;
+mod structure;
+mod table;
+mod tables;
+mod text;
+
+pub use evidence::Compiled;
+
+use robot_build::ablation::ablation;
+use robot_build::{Errors, FunctionKind, Functions, Options, Programs, Source, programs};
+use robot_dynamics::model::Robot;
+
+use html::{Node, element, holding};
+use page::{Section, page};
+use structure::Structure;
+
+/// What a page is made of.
+#[derive(Clone, Debug)]
+pub struct Input<'a> {
+    /// The robot file.
+    pub source: &'a Source,
+    /// How its code is made; the page chooses the functions.
+    pub options: &'a Options,
+    /// What the compiler made of the code.
+    pub compiled: &'a Compiled,
+}
+
+/// The function whose costs are taken apart.
+const FUNCTION: FunctionKind = FunctionKind::InverseDynamics;
+
+/// The functions whose costs are told.
+const FUNCTIONS: [FunctionKind; 9] = [
+    FunctionKind::InverseDynamics,
+    FunctionKind::InverseDynamicsWrench,
+    FunctionKind::InverseDynamicsFriction,
+    FunctionKind::LinkWrenches,
+    FunctionKind::MassMatrix,
+    FunctionKind::CoriolisMatrix,
+    FunctionKind::Gravity,
+    FunctionKind::Bias,
+    FunctionKind::ForwardDynamics,
+];
+
+/// The page about the robot of a file, as HTML that is well-formed XML too.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file or the options.
+pub fn report(input: &Input<'_>) -> Result<String, Errors> {
+    let robot = robot_build::read(input.source)?.robot;
+    let functions = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
+    let functions = Functions::Chosen(functions.collect());
+    let programs = programs(input.source, &Options { functions, ..input.options.clone() })?;
+    let sections = vec![
+        kinematics(&robot),
+        Section { id: "masses", title: "Masses", body: vec![tables::masses(&robot).into()] },
+        parameters(&robot),
+        structure(&robot),
+        costs(input, &programs)?,
+        evidence(input, &programs),
+    ];
+    Ok(page(&robot, sections))
+}
+
+/// What the scheme shows.
+const CAPTION: &str = "The robot at q = 0. Cylinders turn about their axes, boxes slide in their \
+    guides; the arrow of an axis points where its coordinate grows to. Directions are the robot's own; \
+    short offsets are drawn longer, and joints that share a point are drawn apart, along a dotted line.";
+
+fn kinematics(robot: &Robot) -> Section {
+    let caption = holding("figcaption", CAPTION);
+    let figure = element("figure").with(scheme::scheme(robot)).with(caption);
+    let parts = [Some(figure), Some(tables::kinematics(robot)), tables::frames(robot)];
+    Section {
+        id: "kinematics",
+        title: "Kinematics",
+        body: parts.into_iter().flatten().map(Node::from).collect(),
+    }
+}
+
+fn parameters(robot: &Robot) -> Section {
+    let none = "The robot file has no parameters: all figures are numbers.";
+    let table = tables::parameters(robot);
+    let body = table.unwrap_or_else(|| holding("p", none)).into();
+    Section { id: "parameters", title: "Parameters", body: vec![body] }
+}
+
+/// What the grids show.
+const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; `const` entries \
+    depend on parameters alone. An entry counts as independent of a coordinate where no other value of \
+    it changes the entry, at random values of all symbols, parameters included.";
+
+fn structure(robot: &Robot) -> Section {
+    let body = match Structure::of(robot) {
+        Some(found) => {
+            let grids = found.build().map(Node::from);
+            std::iter::once(Node::from(holding("p", STRUCTURE))).chain(grids).collect()
+        }
+        None => {
+            vec![holding("p", "The robot has too many coordinates to show its matrices.").into()]
+        }
+    };
+    Section { id: "structure", title: "Structure of the equations", body }
+}
+
+fn costs(input: &Input<'_>, programs: &Programs) -> Result<Section, Errors> {
+    let functions = Functions::Chosen(vec![FUNCTION]);
+    let options = Options { functions, ..input.options.clone() };
+    let ablation = ablation(input.source, &options)?;
+    let parts = [
+        Some(costs::functions(&programs.module)),
+        costs::passes(&programs.module, FUNCTION.name()),
+        costs::options(&ablation, FUNCTION.name()),
+    ];
+    let body = parts.into_iter().flatten().map(Node::from).collect();
+    Ok(Section { id: "costs", title: "Operations", body })
+}
+
+fn evidence(input: &Input<'_>, programs: &Programs) -> Section {
+    let mut body = evidence::accuracy(programs);
+    body.extend(evidence::compiled(input.compiled));
+    Section { id: "evidence", title: "Evidence", body }
+}

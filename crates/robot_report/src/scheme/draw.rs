@@ -1,0 +1,328 @@
+//! The drawing of a layout.
+
+use nalgebra::Vector2;
+use robot_dynamics::model::{JointKind, Robot};
+use robot_symbolic::Formula;
+
+use super::labels::{Rectangle, Room};
+use super::layout::{BASE, Layout, Place, Segment};
+use super::symbols;
+use super::view::View;
+use crate::drawing::{arrow, coordinate, path};
+use crate::html::{Element, element, holding};
+use crate::parts;
+use crate::text;
+
+type Point = Vector2<f64>;
+
+/// A drawing in the making. What is written is set last, where there is room.
+pub(crate) struct Drawing<'r> {
+    robot: &'r Robot,
+    layout: &'r Layout,
+    view: View,
+    room: Room,
+    /// Dimension lines and labels, on top of all.
+    written: Vec<Element>,
+}
+
+/// The height of letters, and of a line with them.
+const LETTERS: f64 = 14.0;
+/// Small letters, at the axes of frames.
+const SMALL: f64 = 11.0;
+/// How far beside a link its dimension line may be.
+const BESIDE: [f64; 6] = [20.0, -20.0, 32.0, -32.0, 48.0, -48.0];
+
+impl<'r> Drawing<'r> {
+    /// The drawing of a robot's layout from a view.
+    pub(crate) fn of(robot: &'r Robot, layout: &'r Layout, view: View) -> Drawing<'r> {
+        Drawing { robot, layout, view, room: Room::default(), written: vec![] }
+    }
+
+    /// The drawing as SVG.
+    pub(crate) fn build(mut self) -> Element {
+        self.take_room();
+        let ground = symbols::ground(self.view.point(&BASE));
+        let bodies: Vec<Element> =
+            (0..self.layout.links.len()).map(|index| self.link(index)).collect();
+        let base = self.body(None);
+        let joints: Vec<Element> =
+            (0..self.layout.links.len()).map(|index| self.joint(index)).collect();
+        let frames: Vec<Element> =
+            self.layout.frames.iter().map(|(index, place)| self.frame(*index, place)).collect();
+        self.write();
+        let bounds = self.room.bounds();
+        let bounds = bounds.unwrap_or(Rectangle::about(Point::zeros(), Point::new(1.0, 1.0)));
+        let (low, size) = (bounds.low.map(|side| side - 12.0), bounds.high - bounds.low);
+        let [x, y, width, height] =
+            [low.x, low.y, size.x + 24.0, size.y + 24.0].map(|side| coordinate(side.round()));
+        element("svg")
+            .attribute("xmlns", "http://www.w3.org/2000/svg")
+            .attribute("viewBox", format!("{x} {y} {width} {height}"))
+            .attribute("width", width)
+            .attribute("height", height)
+            .attribute("role", "img")
+            .attribute("aria-labelledby", "scheme-title scheme-description")
+            .with(
+                holding("title", format!("Kinematic scheme of {}", self.robot.name))
+                    .attribute("id", "scheme-title"),
+            )
+            .with(holding("desc", self.description()).attribute("id", "scheme-description"))
+            .with(ground)
+            .with(base)
+            .with_all(bodies)
+            .with_all(joints)
+            .with_all(frames)
+            .with_all(self.written)
+    }
+
+    fn places(&self) -> impl Iterator<Item = &'r Place> + use<'r> {
+        let layout = self.layout;
+        layout.links.iter().chain(layout.frames.iter().map(|(_, place)| place))
+    }
+
+    /// Signs and lines keep labels away.
+    fn take_room(&mut self) {
+        let size = Point::new(2.0, 2.0) * (symbols::HALF + 2.0);
+        for place in &self.layout.links {
+            self.room.take(Rectangle::about(self.view.point(&place.position), size));
+            let ends =
+                symbols::AXIS.map(|reach| self.view.point(&(place.position + place.axis * reach)));
+            self.room.take_line(ends[0], ends[1]);
+        }
+        for place in self.places() {
+            for Segment { ends: [from, to], .. } in &place.path {
+                self.room.take_line(self.view.point(from), self.view.point(to));
+            }
+            for axis in place.rotation.column_iter() {
+                let end = place.position + axis * symbols::TRIAD;
+                self.room.take_line(self.view.point(&place.position), self.view.point(&end));
+            }
+        }
+        let base = self.view.point(&BASE);
+        self.room.take(Rectangle::about(base + Point::new(0.0, 5.0), Point::new(60.0, 14.0)));
+    }
+
+    /// The body of a link: what leads from its joint to those that it carries.
+    fn body(&self, carrier: Option<usize>) -> Element {
+        let of_links = self.robot.links.iter().zip(&self.layout.links);
+        let of_links = of_links.filter(|(link, _)| link.parent == carrier).map(|(_, place)| place);
+        let of_frames = self.layout.frames.iter().filter_map(|(index, place)| {
+            let frame = self.robot.frames.get(*index)?;
+            (frame.link == carrier).then_some(place)
+        });
+        let segments = of_links.chain(of_frames).flat_map(|place| &place.path);
+        let lines = segments.map(|segment| {
+            let ends = segment.ends.each_ref().map(|end| self.view.point(end));
+            let class = if segment.length.is_some() { "body" } else { "body apart" };
+            path(&ends, false).class(class)
+        });
+        element("g").with_all(lines)
+    }
+
+    fn link(&self, index: usize) -> Element {
+        let name = self.robot.links.get(index).map_or("", |link| link.name.as_str());
+        self.body(Some(index))
+            .attribute("id", format!("scheme-{}", parts::link(index)))
+            .class(hue(index))
+            .attribute("data-is", parts::link(index))
+            .with(holding("title", format!("link {name}")))
+    }
+
+    fn joint(&self, index: usize) -> Element {
+        let group = element("g").class(hue(index)).attribute("data-is", parts::link(index));
+        let (Some(link), Some(place)) = (self.robot.links.get(index), self.layout.links.get(index))
+        else {
+            return group;
+        };
+        let (view, origin, axis) = (&self.view, &place.position, &place.axis);
+        let sign = match link.joint.kind {
+            JointKind::Revolute => symbols::cylinder(view, origin, axis),
+            JointKind::Prismatic => symbols::slider(view, origin, axis, &place.rotation),
+        };
+        let motion = text::motion(link.joint.kind);
+        group
+            .with(holding("title", format!("joint {}, {motion}", link.joint.name)))
+            .with(symbols::axis(view, origin, axis))
+            .with(sign)
+            .with(symbols::triad(view, origin, &place.rotation))
+    }
+
+    fn frame(&self, index: usize, place: &Place) -> Element {
+        let frame = self.robot.frames.get(index);
+        let link = frame.and_then(|frame| frame.link);
+        let group = element("g")
+            .with(symbols::hand(&self.view, &place.position, &place.axis))
+            .with(symbols::triad(&self.view, &place.position, &place.rotation));
+        match link {
+            Some(link) => group.class(hue(link)).attribute("data-is", parts::link(link)),
+            None => group,
+        }
+    }
+
+    /// Everything that is written: first what has least choice.
+    fn write(&mut self) {
+        for place in self.places() {
+            for segment in &place.path {
+                self.dimension(segment);
+            }
+        }
+        for index in 0..self.layout.links.len() {
+            self.names(index);
+        }
+        for (index, place) in &self.layout.frames {
+            if let Some(frame) = self.robot.frames.get(*index) {
+                let point = self.view.point(&place.position);
+                self.label(&frame.name, point, 12.0, "name", None);
+            }
+        }
+        self.label("base", self.view.point(&BASE) + Point::new(0.0, 8.0), 10.0, "name", None);
+        for place in self.places() {
+            for (axis, name) in place.rotation.column_iter().zip(["x", "y", "z"]) {
+                let end = self.view.point(&(place.position + axis * symbols::TRIAD));
+                self.letter(name, end);
+            }
+        }
+    }
+
+    /// The joint's coordinate at its axis, the link's name beside its joint.
+    fn names(&mut self, index: usize) {
+        let (Some(link), Some(place)) = (self.robot.links.get(index), self.layout.links.get(index))
+        else {
+            return;
+        };
+        let [_, reach] = symbols::AXIS;
+        let end = self.view.point(&(place.position + place.axis * reach));
+        let coordinate = text::symbol(&format!("q{}", link.joint.coordinate + 1));
+        self.label(&coordinate, end, 4.0, "coordinate", Some(index));
+        let point = self.view.point(&place.position);
+        self.label(&link.name, point, symbols::HALF + 2.0, "name", Some(index));
+    }
+
+    /// A line beside a piece of a link with its length.
+    fn dimension(&mut self, segment: &Segment) {
+        let Some(length) = &segment.length else { return };
+        let [from, to] = segment.ends.each_ref().map(|end| self.view.point(end));
+        let Some(along) = (to - from).try_normalize(8.0) else { return };
+        let across = Point::new(-along.y, along.x);
+        let (words, of) = length_words(self.robot, length);
+        let size = size_of(&words, LETTERS);
+        let label = |offset: f64| {
+            let beside = across * offset;
+            let off = beside.abs().component_mul(&size).sum() / (2.0 * offset.abs()) + 3.0;
+            let centre = (from + to) / 2.0 + across * (offset + off.copysign(offset));
+            Rectangle::about(centre, size)
+        };
+        let line = |offset: f64| {
+            let middle = (from + to) / 2.0 + across * offset;
+            Rectangle::about(middle, along.abs() * (to - from).norm() + across.abs() * 4.0)
+        };
+        let cost = |offset: &f64| {
+            self.room.cost(&label(*offset)) + self.room.cost(&line(*offset)) + offset.abs()
+        };
+        let best = BESIDE.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(20.0);
+        let ends = [from, to].map(|end| end + across * best);
+        let over = across * 4f64.copysign(best);
+        let mut group = element("g").class("dimension").attribute("data-of", of);
+        for (end, drawn) in [from, to].into_iter().zip(ends) {
+            group = group.with(path(&[end, drawn + over], false).class("witness"));
+        }
+        let middle = (ends[0] + ends[1]) / 2.0;
+        group = group.with_all(arrow(middle, ends[0], 6.0)).with_all(arrow(middle, ends[1], 6.0));
+        self.room.take_line(ends[0], ends[1]);
+        let place = label(best);
+        // Where something is there already, the label goes to the nearest free place.
+        let place = if self.room.cost(&place) < 1e3 {
+            self.room.set(place);
+            place
+        } else {
+            self.room.find(middle, size, 4.0)
+        };
+        self.written.push(group.with(words_at(&words, &place, LETTERS)));
+    }
+
+    /// A name near a point, with a line to it where it is far.
+    fn label(&mut self, words: &str, point: Point, gap: f64, class: &str, link: Option<usize>) {
+        let shown = text::shortened(words, 22);
+        let place = self.room.find(point, size_of(&shown, LETTERS), gap);
+        let hue = link.map(hue).unwrap_or_default();
+        let mut group = element("g").class(format!("{class} {hue}").trim_end());
+        if let Some(link) = link {
+            group = group.attribute("data-is", parts::link(link));
+        }
+        let nearest = point.sup(&place.low).inf(&place.high);
+        if (nearest - point).norm() > gap + 20.0 {
+            group = group.with(path(&[point, nearest], false).class("leader"));
+        }
+        if shown != words {
+            group = group.with(holding("title", words));
+        }
+        self.written.push(group.with(words_at(&shown, &place, LETTERS)));
+    }
+
+    /// The letter of an axis, beyond its end, left out where there is no room for it.
+    fn letter(&mut self, name: &str, end: Point) {
+        let place = self.room.find(end, size_of(name, SMALL), 0.0);
+        let class = match name {
+            "x" => "axis-x",
+            "y" => "axis-y",
+            _ => "axis-z",
+        };
+        let text = words_at(name, &place, SMALL);
+        self.written.push(element("g").class(class).with(text));
+    }
+
+    fn description(&self) -> String {
+        let mut words = format!("{} joints. ", self.robot.links.len());
+        for link in &self.robot.links {
+            let carrier = link.parent.and_then(|parent| self.robot.links.get(parent));
+            let carrier = carrier.map_or("the base", |carrier| carrier.name.as_str());
+            words.push_str(&format!(
+                "Link {} hangs on {carrier} by a {}. ",
+                link.name,
+                text::motion(link.joint.kind)
+            ));
+        }
+        words.trim_end().to_owned()
+    }
+
+    /// Whether labels are on top of each other.
+    #[cfg(test)]
+    pub(crate) fn crowds(mut self) -> bool {
+        self.take_room();
+        self.write();
+        self.room.is_crowded()
+    }
+}
+
+/// The colours of links.
+fn hue(index: usize) -> String {
+    format!("hue-{}", index % 8)
+}
+
+/// The length of an offset without its sign, and what it depends on.
+fn length_words(robot: &Robot, length: &Formula) -> (String, String) {
+    let tokens: Vec<String> = length.symbols().map(|(name, _)| parts::parameter(name)).collect();
+    if length.is_constant() {
+        let value = text::value(robot, length).abs();
+        return (format!("{} m", text::number(value)), tokens.join(" "));
+    }
+    let plain = text::plain(length);
+    let bare = plain.strip_prefix('−').unwrap_or(&plain);
+    let is_symbol = robot.parameter(bare).is_some();
+    let words = if is_symbol { text::symbol(bare) } else { plain };
+    (text::shortened(&words, 22), tokens.join(" "))
+}
+
+/// The room that words take, roughly.
+fn size_of(words: &str, letters: f64) -> Point {
+    Point::new((words.chars().count() as f64 * 0.6 + 0.3) * letters, letters * 1.15)
+}
+
+fn words_at(words: &str, place: &Rectangle, letters: f64) -> Element {
+    let centre = (place.low + place.high) / 2.0;
+    holding("text", words)
+        .attribute("x", coordinate(centre.x))
+        .attribute("y", coordinate(centre.y + 0.35 * letters))
+        .attribute("font-size", coordinate(letters))
+        .attribute("text-anchor", "middle")
+}

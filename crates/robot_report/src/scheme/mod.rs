@@ -1,0 +1,79 @@
+//! The kinematic scheme, as the paper's figure 3: joints as the signs of rotation and translation,
+//! frames with their axes, offsets as dimension lines, links by their names.
+//!
+//! [`layout`] puts the robot's rest position on the page, [`view`] chooses from where it is seen,
+//! [`symbols`] has the signs, [`labels`] finds room for what is written.
+
+mod draw;
+mod labels;
+mod layout;
+mod symbols;
+mod view;
+
+use robot_dynamics::model::Robot;
+
+use crate::html::Element;
+use layout::{Layout, confusion, layout};
+use view::View;
+
+/// The scheme as SVG.
+pub(crate) fn scheme(robot: &Robot) -> Element {
+    let (layout, view) = best(robot);
+    draw::Drawing::of(robot, &layout, view).build()
+}
+
+/// The clearest of all views.
+fn best(robot: &Robot) -> (Layout, View) {
+    let [first, others @ ..] = view::views(robot).map(|view| (layout(robot, &view), view));
+    let blame = |(layout, view): &(Layout, View)| confusion(layout, view);
+    let mut best = (blame(&first), first);
+    for other in others {
+        let found = blame(&other);
+        if found < best.0 {
+            best = (found, other);
+        }
+    }
+    best.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The robots of this project.
+    fn robots() -> Vec<Robot> {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+        let mut paths: Vec<_> =
+            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        paths.retain(|path| path.extension().is_some_and(|end| end == "toml"));
+        paths.sort();
+        let read = |path: &std::path::PathBuf| {
+            let text = std::fs::read_to_string(path).unwrap();
+            robot_dynamics::description::read_toml("robot.toml", &text).unwrap().robot
+        };
+        paths.iter().map(read).collect()
+    }
+
+    #[test]
+    fn no_label_lies_on_another() {
+        for robot in robots() {
+            let (layout, view) = best(&robot);
+            assert!(!draw::Drawing::of(&robot, &layout, view).crowds(), "{}", robot.name);
+        }
+    }
+
+    #[test]
+    fn joints_lie_apart_on_the_page() {
+        for robot in robots() {
+            let (layout, view) = best(&robot);
+            let points = layout.links.iter().map(|link| view.point(&link.position));
+            let points: Vec<_> = points.collect();
+            for (index, point) in points.iter().enumerate() {
+                for other in points.iter().skip(index + 1) {
+                    let distance = (point - other).norm();
+                    assert!(distance > 30.0, "{}: {distance}", robot.name);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! The signs of the scheme: joints, frames, the ground.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use super::view::View;
+use crate::drawing::{arrow, coordinate, path};
+use crate::html::{Element, element};
+
+/// Half the length of a joint's sign along its axis.
+pub(crate) const HALF: f64 = 20.0;
+/// The radius of the cylinder, half the width of the box.
+const RADIUS: f64 = 12.0;
+/// How far the axis of a joint goes beyond its origin: against the axis, and along it.
+pub(crate) const AXIS: [f64; 2] = [-40.0, 54.0];
+/// The length of the axes of a frame.
+pub(crate) const TRIAD: f64 = 38.0;
+
+/// The axis of a joint, which points to where it moves for growing coordinates.
+pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Element {
+    let [from, to] = AXIS.map(|reach| view.point(&(origin + axis * reach)));
+    element("g").class("axis").with_all(arrow(from, to, 8.0))
+}
+
+/// A rotation joint: a cylinder about its axis.
+pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Element {
+    let (centre, along) = (view.point(origin), view.point(axis));
+    let nearness = view.nearness(axis);
+    // In coordinates with x along the axis on the page: a strip between two ellipses.
+    let (half, bulge) = (HALF * along.norm(), RADIUS * nearness.abs());
+    let [half_text, bulge_text, radius] = [half, bulge, RADIUS].map(coordinate);
+    let arc = |x: &str, y: &str| format!("A{bulge_text} {radius} 0 0 1 {x} {y}");
+    let outline = format!(
+        "M-{half_text} -{radius}L{half_text} -{radius}{}L-{half_text} {radius}{}Z",
+        arc(&half_text, &radius),
+        arc(&format!("-{half_text}"), &format!("-{radius}")),
+    );
+    let near = if nearness >= 0.0 { half } else { -half };
+    let turn = if along.norm() > 1e-9 { along.y.atan2(along.x).to_degrees() } else { 0.0 };
+    let [x, y, turn] = [centre.x, centre.y, turn].map(coordinate);
+    let cap = element("ellipse")
+        .attribute("cx", coordinate(near))
+        .attribute("cy", "0")
+        .attribute("rx", bulge_text.as_str())
+        .attribute("ry", radius.as_str());
+    element("g")
+        .class("joint")
+        .attribute("transform", format!("translate({x} {y}) rotate({turn})"))
+        .with(element("path").attribute("d", outline))
+        .with(cap)
+}
+
+/// A translation joint: a box between the rails of its guide.
+pub(crate) fn slider(
+    view: &View,
+    origin: &Vector3<f64>,
+    axis: &Vector3<f64>,
+    rotation: &Matrix3<f64>,
+) -> Element {
+    let [across, beside] = normals(view, axis, rotation);
+    let rails = [-1.0, 1.0].map(|side| {
+        let rail = origin + across * (side * (RADIUS + 5.0));
+        let ends = [-1.9, 1.9].map(|reach| view.point(&(rail + axis * (reach * HALF))));
+        path(&ends, false).class("rail")
+    });
+    let half = [axis * HALF, across * RADIUS, beside * RADIUS];
+    let faces = (0..3).map(|face| {
+        // Of two opposite faces the eye sees one.
+        let sign = if view.nearness(&half[face]) >= 0.0 { 1.0 } else { -1.0 };
+        let centre = origin + half[face] * sign;
+        let (u, v) = (half[(face + 1) % 3], half[(face + 2) % 3]);
+        let corners = [u + v, u - v, -u - v, v - u].map(|corner| view.point(&(centre + corner)));
+        path(&corners, true)
+    });
+    element("g").class("joint").with_all(rails).with_all(faces)
+}
+
+/// Two directions across an axis, the first the one that is seen better.
+fn normals(view: &View, axis: &Vector3<f64>, rotation: &Matrix3<f64>) -> [Vector3<f64>; 2] {
+    let columns = rotation.column_iter().map(nalgebra::Matrix::into_owned);
+    let across = |column: Vector3<f64>| (column - axis * column.dot(axis)).try_normalize(0.5);
+    let first = columns.filter_map(across).next().unwrap_or(view.vertical);
+    let second = axis.cross(&first);
+    let seen = |direction: &Vector3<f64>| view.point(direction).norm();
+    if seen(&first) >= seen(&second) { [first, second] } else { [second, first] }
+}
+
+/// The axes of a frame.
+pub(crate) fn triad(view: &View, origin: &Vector3<f64>, rotation: &Matrix3<f64>) -> Element {
+    let start = view.point(origin);
+    let axes = rotation.column_iter().zip(["axis-x", "axis-y", "axis-z"]).map(|(axis, class)| {
+        let end = view.point(&(origin + axis * TRIAD));
+        element("g").class(class).with_all(arrow(start, end, 6.0))
+    });
+    element("g").class("triad").with_all(axes)
+}
+
+/// The ground under a point.
+pub(crate) fn ground(point: Vector2<f64>) -> Element {
+    let edge = [-24.0, 24.0].map(|x| point + Vector2::new(x, 0.0));
+    let hatch = (0..6).map(|index| {
+        let top = point + Vector2::new(-20.0 + 8.0 * f64::from(index), 0.0);
+        path(&[top, top + Vector2::new(-7.0, 8.0)], false)
+    });
+    element("g").class("ground").with(path(&edge, false)).with_all(hatch)
+}
+
+/// The hand at a tip: a fork open to the outside.
+pub(crate) fn hand(view: &View, origin: &Vector3<f64>, outward: &Vector3<f64>) -> Element {
+    let point = view.point(origin);
+    let along = view.point(outward).try_normalize(1e-3).unwrap_or(Vector2::new(1.0, 0.0));
+    let across = Vector2::new(-along.y, along.x);
+    let corner = |x: f64, y: f64| point + along * x + across * y;
+    let fork = [corner(9.0, -8.0), corner(0.0, -8.0), corner(0.0, 8.0), corner(9.0, 8.0)];
+    path(&fork, false).class("hand")
+}

@@ -1,0 +1,212 @@
+//! Which entries of M(q) and C(q, q̇) are zero, which constant, and which coordinates the others
+//! depend on.
+//!
+//! Entries are exact derivatives of the paper's driving forces: M = ∂Q/∂q̈, and C = ½ ∂Q/∂q̇ at
+//! constant q and q̈, which is C by Christoffel symbols, for C q̇ is a quadratic form in q̇. An entry
+//! does not depend on a coordinate where another value of the coordinate never changes it, at random
+//! values of all symbols.
+
+use std::collections::BTreeMap;
+
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
+use robot_dynamics::model::Robot;
+use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::numeric::random::Random;
+use robot_symbolic::{Expr, Graph, SymbolId, walk};
+
+use crate::html::{Element, element, holding};
+use crate::text;
+
+/// States at which entries are tried.
+const STATES: usize = 4;
+/// Changes smaller than this are rounding: entries are of the size of the robot's figures.
+const ROUNDING: f64 = 1e-10;
+/// Matrices of more rows than this are not looked into: their entries are long, and there are many.
+const MAX_ROWS: usize = 24;
+/// The seed of the states.
+const SEED: u64 = 6;
+
+/// What an entry of a matrix depends on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Entry {
+    /// It is 0.
+    Zero,
+    /// It depends on these coordinates, by index; on parameters alone where there are none.
+    Of(Vec<usize>),
+}
+
+/// The structure of the two matrices, row by row.
+pub(crate) struct Structure {
+    mass: Vec<Vec<Entry>>,
+    coriolis: Vec<Vec<Entry>>,
+}
+
+impl Structure {
+    /// The structure of a robot; `None` where it has too many coordinates.
+    pub(crate) fn of(robot: &Robot) -> Option<Structure> {
+        if robot.degrees_of_freedom() > MAX_ROWS {
+            return None;
+        }
+        let graph = Graph::new();
+        let exact = MechanismOptions::EXACT.with_snap(None, robot);
+        let mechanism = Mechanism::new(robot, &graph, &exact);
+        let effects = Effects { wrench: false, friction: false };
+        let forces = newton_euler(&mechanism, effects).driving_forces;
+        let count = forces.len();
+        let symbol = |name: &str, index: usize| graph.symbol(&format!("{name}{}", index + 1));
+        let slopes = |name| -> Vec<Expr<'_>> {
+            (0..count).flat_map(|index| walk::derivatives(&forces, symbol(name, index))).collect()
+        };
+        let columns = [slopes("qdd"), slopes("qd")].concat();
+        let positions: Vec<Option<SymbolId>> =
+            (0..count).map(|index| symbol("q", index).as_symbol()).collect();
+        let entries = entries(&columns, &positions);
+        // From columns to rows.
+        let row = |matrix: usize, row: usize| -> Vec<Entry> {
+            let places = (0..count).map(|column| (matrix * count + column) * count + row);
+            places.filter_map(|place| entries.get(place).cloned()).collect()
+        };
+        let matrix = |index| (0..count).map(|number| row(index, number)).collect();
+        Some(Structure { mass: matrix(0), coriolis: matrix(1) })
+    }
+
+    /// Both matrices as coloured tables.
+    pub(crate) fn build(&self) -> [Element; 2] {
+        [
+            grid("Mass matrix M(q): the coordinates on which each entry depends", &self.mass),
+            grid(
+                "Coriolis matrix C(q, q̇): the coordinates on which each entry depends besides q̇",
+                &self.coriolis,
+            ),
+        ]
+    }
+}
+
+/// What each of the expressions depends on.
+fn entries(roots: &[Expr<'_>], positions: &[Option<SymbolId>]) -> Vec<Entry> {
+    let mut largest = vec![0.0f64; roots.len()];
+    let mut changes = vec![vec![0.0f64; positions.len()]; roots.len()];
+    for mut state in states(roots) {
+        let here = values(roots, &state);
+        for (size, value) in largest.iter_mut().zip(&here) {
+            *size = larger(*size, *value);
+        }
+        for (index, position) in positions.iter().enumerate() {
+            let Some(position) = position else { continue };
+            let Some(before) = state.get(position).copied() else { continue };
+            state.insert(*position, 1.9 - before);
+            let there = values(roots, &state);
+            state.insert(*position, before);
+            for (list, (here, there)) in changes.iter_mut().zip(here.iter().zip(there)) {
+                if let Some(change) = list.get_mut(index) {
+                    *change = larger(*change, here - there);
+                }
+            }
+        }
+    }
+    let depends = |list: &[f64]| {
+        let all = list.iter().enumerate().filter(|(_, change)| **change >= ROUNDING);
+        Entry::Of(all.map(|(index, _)| index).collect())
+    };
+    let found = largest.iter().zip(&changes);
+    found.map(|(size, list)| if *size < ROUNDING { Entry::Zero } else { depends(list) }).collect()
+}
+
+/// The larger magnitude; what is no number is no zero.
+fn larger(size: f64, value: f64) -> f64 {
+    if value.is_nan() { f64::INFINITY } else { size.max(value.abs()) }
+}
+
+type State = BTreeMap<SymbolId, f64>;
+
+fn values(roots: &[Expr<'_>], state: &State) -> Vec<f64> {
+    walk::evaluate(roots, |symbol| state.get(&symbol).copied().unwrap_or(f64::NAN))
+}
+
+/// Values of all symbols, several times.
+fn states(roots: &[Expr<'_>]) -> Vec<State> {
+    let symbols = walk::symbols(roots);
+    let mut random = Random::new(SEED);
+    let mut state = || symbols.iter().map(|symbol| (*symbol, random.uniform(0.5, 1.5))).collect();
+    (0..STATES).map(|_| state()).collect()
+}
+
+/// The shades of entries that depend on coordinates.
+const SHADES: usize = 5;
+
+fn grid(caption: &str, rows: &[Vec<Entry>]) -> Element {
+    let heading = |index: usize, scope: &str| {
+        holding("th", text::symbol(&format!("q{}", index + 1))).attribute("scope", scope)
+    };
+    let corner = element("td");
+    let title =
+        element("tr").with(corner).with_all((0..rows.len()).map(|index| heading(index, "col")));
+    let rows = rows.iter().enumerate().map(|(index, row)| {
+        let cells = row.iter().map(|entry| cell(entry, rows.len()));
+        element("tr").with(heading(index, "row")).with_all(cells)
+    });
+    let table = element("table")
+        .class("grid")
+        .with(holding("caption", caption))
+        .with(holding("thead", title))
+        .with(element("tbody").with_all(rows));
+    element("div")
+        .class("wide")
+        .attribute("tabindex", "0")
+        .attribute("role", "region")
+        .attribute("aria-label", caption)
+        .with(table)
+}
+
+fn cell(entry: &Entry, count: usize) -> Element {
+    let (class, words) = match entry {
+        Entry::Zero => ("zero".to_owned(), "0".to_owned()),
+        Entry::Of(list) if list.is_empty() => ("shade-0".to_owned(), "const".to_owned()),
+        Entry::Of(list) => {
+            // The darkest shade is that of an entry which depends on all.
+            let shade = (list.len() * SHADES).div_ceil(count.max(1));
+            let names = list.iter().map(|index| text::symbol(&format!("q{}", index + 1)));
+            (format!("shade-{shade}"), names.collect::<Vec<_>>().join(" "))
+        }
+    };
+    holding("td", words).class(class)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn structure(file: &str) -> Structure {
+        let path = format!("{}/../../robots/{file}.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        Structure::of(&robot_dynamics::description::read_toml(file, &text).unwrap().robot).unwrap()
+    }
+
+    #[test]
+    fn the_planar_arm_is_as_in_every_book() {
+        let found = structure("planar_2r");
+        let elbow = || Entry::Of(vec![1]);
+        let constant = Entry::Of(vec![]);
+        assert_eq!(found.mass, [[elbow(), elbow()], [elbow(), constant]]);
+        // C = h [q̇₂, q̇₁ + q̇₂; −q̇₁, 0] with h of q₂ alone.
+        assert_eq!(found.coriolis, [[elbow(), elbow()], [elbow(), Entry::Zero]]);
+    }
+
+    #[test]
+    fn the_paper_s_robot_has_the_paper_s_zeros() {
+        // The translations 1 and 3 are at right angles; 3 moves mass along the axis of 2.
+        let found = structure("trttr1");
+        let entry = |row: usize, column: usize| found.mass[row - 1][column - 1].clone();
+        assert_eq!(
+            (entry(1, 3), entry(2, 3), entry(3, 4)),
+            (Entry::Zero, Entry::Zero, Entry::Zero)
+        );
+        assert_eq!((entry(1, 1), entry(3, 3)), (Entry::Of(vec![]), Entry::Of(vec![])));
+        assert_eq!(entry(1, 4), Entry::Of(vec![1]));
+        for (row, entries) in found.mass.iter().enumerate() {
+            for (column, entry) in entries.iter().enumerate() {
+                assert_eq!(*entry, found.mass[column][row]);
+            }
+        }
+    }
+}

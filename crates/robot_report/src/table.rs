@@ -1,0 +1,48 @@
+//! Tables with headings that screen readers find.
+
+use crate::html::{Element, Node, element, holding};
+
+/// A table: what it shows, its columns, its rows. The first cell of a row is its heading.
+pub(crate) struct Table {
+    caption: String,
+    columns: Vec<Node>,
+    rows: Vec<Element>,
+}
+
+impl Table {
+    /// A table without rows.
+    pub(crate) fn new<C: Into<Node>>(caption: &str, columns: impl IntoIterator<Item = C>) -> Table {
+        let columns = columns.into_iter().map(Into::into).collect();
+        Table { caption: caption.to_owned(), columns, rows: vec![] }
+    }
+
+    /// One more row; `parts` are what of the robot it is about, see [`crate::parts`].
+    pub(crate) fn row<C: Into<Node>>(
+        &mut self,
+        parts: &str,
+        heading: impl Into<Node>,
+        cells: impl IntoIterator<Item = C>,
+    ) {
+        let heading = holding("th", heading).attribute("scope", "row");
+        let cells = cells.into_iter().map(|cell| holding("td", cell));
+        let row = element("tr").with(heading).with_all(cells);
+        self.rows.push(if parts.is_empty() { row } else { row.attribute("data-is", parts) });
+    }
+
+    /// The table, in a box that scrolls sideways where it is too wide.
+    pub(crate) fn build(self) -> Element {
+        let headings =
+            self.columns.into_iter().map(|column| holding("th", column).attribute("scope", "col"));
+        let table = element("table")
+            .with(holding("caption", self.caption.as_str()))
+            .with(holding("thead", element("tr").with_all(headings)))
+            .with(element("tbody").with_all(self.rows));
+        // The keyboard scrolls what has the focus.
+        element("div")
+            .class("wide")
+            .attribute("tabindex", "0")
+            .attribute("role", "region")
+            .attribute("aria-label", self.caption)
+            .with(table)
+    }
+}

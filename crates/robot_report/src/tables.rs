@@ -1,0 +1,141 @@
+//! What the robot file says, in tables: joints, masses, parameters.
+
+use robot_dynamics::model::{Body, Inertia, Link, Parameter, Robot};
+use robot_symbolic::Formula;
+use robot_symbolic::print::exact_text;
+
+use crate::html::{Element, Node, element, holding};
+use crate::parts;
+use crate::table::Table;
+use crate::text;
+
+/// Joints and frames: where each is at rest, and how it moves.
+pub(crate) fn kinematics(robot: &Robot) -> Element {
+    let columns = ["Link", "Hangs on", "Joint", "Motion", "Axis", "Place at q = 0", "Limits"];
+    let caption = "Links and joints. A place is a row of moves in the parent's frame, each in the \
+                   frame that the ones before it made; lengths in m, angles in rad.";
+    let mut table = Table::new(caption, columns);
+    for (index, link) in robot.links.iter().enumerate() {
+        let motion = text::motion(link.joint.kind);
+        let coordinate = robot.coordinates.get(link.joint.coordinate);
+        let limits = coordinate.and_then(|coordinate| coordinate.limits.as_ref());
+        let limits = limits.map(|limits| limits.each_ref().map(robot_symbolic::Rational::to_f64));
+        let cells: [Node; 6] = [
+            parent(robot, link.parent).into(),
+            link.joint.name.as_str().into(),
+            format!("{motion} by {}", position(robot, link)).into(),
+            vector(&link.joint.axis).into(),
+            text::moves(robot, &link.placement).into(),
+            limits
+                .map_or_else(String::new, |[low, high]| {
+                    format!("{} … {}", text::number(low), text::number(high))
+                })
+                .into(),
+        ];
+        table.row(&parts::link(index), link.name.as_str(), cells);
+    }
+    table.build()
+}
+
+/// The named frames; `None` where there are none.
+pub(crate) fn frames(robot: &Robot) -> Option<Element> {
+    let caption = "Frames. A tip exerts the wrench of these components on its surroundings.";
+    let mut table = Table::new(caption, ["Frame", "Fixed to", "Place", "Wrench"]);
+    for frame in &robot.frames {
+        let wrench = frame.wrench.as_ref().map_or_else(String::new, |wrench| {
+            let names = wrench.force.iter().chain(&wrench.moment);
+            names.map(String::as_str).collect::<Vec<_>>().join(", ")
+        });
+        let cells = [parent(robot, frame.link), text::moves(robot, &frame.placement), wrench];
+        let part = frame.link.map_or_else(String::new, parts::link);
+        table.row(&part, frame.name.as_str(), cells);
+    }
+    (!robot.frames.is_empty()).then(|| table.build())
+}
+
+/// Masses and inertias, the paper's Table 1.
+pub(crate) fn masses(robot: &Robot) -> Element {
+    let columns =
+        ["Body", "Mass, kg", "Centre of mass and axes, m, rad", "xx", "yy", "zz", "xy", "xz", "yz"];
+    let caption = "Masses and moments of inertia, kg m². The moments are about the centre of mass, \
+                   in the axes given; products of inertia are entries of the tensor, xy = −∫xy dm.";
+    let mut table = Table::new(caption, columns);
+    for (index, link) in robot.links.iter().enumerate() {
+        for Body { name, mass, placement, inertia } in &link.bodies {
+            let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
+            let place = text::moves(robot, placement);
+            let cells = [figure(robot, mass), holding("span", place)]
+                .into_iter()
+                .chain([xx, yy, zz, xy, xz, yz].map(|entry| figure(robot, entry)));
+            table.row(&parts::link(index), name.as_str(), cells);
+        }
+    }
+    table.build()
+}
+
+/// The parameters with values and units; `None` where there are none.
+pub(crate) fn parameters(robot: &Robot) -> Option<Element> {
+    let caption = "Parameters: symbols of the equations, fields of the generated code.";
+    let mut table = Table::new(caption, ["Symbol", "Value", "Unit", "Meaning", "Used by"]);
+    for parameter in &robot.parameters {
+        let Parameter { name, value, unit, doc, .. } = parameter;
+        let links = parts::links_of_parameter(robot, name).into_iter();
+        let links = links.filter_map(|index| robot.links.get(index));
+        let cells = [
+            value.as_ref().map_or_else(|| "none".to_owned(), exact_text).replace('-', "−"),
+            unit.as_ref().map_or_else(String::new, |unit| unit.text.clone()),
+            doc.clone().unwrap_or_default(),
+            links.map(|link| link.name.as_str()).collect::<Vec<_>>().join(", "),
+        ];
+        table.row(&parts::parameter(name), holding("code", name.as_str()), cells);
+    }
+    (!robot.parameters.is_empty()).then(|| table.build())
+}
+
+/// A formula, its parameters marked, with its nominal value below where it has parameters.
+fn figure(robot: &Robot, formula: &Formula) -> Element {
+    let shown = element("span").class("figure");
+    if formula.is_constant() {
+        return shown.with(text::plain(formula));
+    }
+    let mut names: Vec<String> = vec![];
+    for (name, _) in formula.symbols() {
+        let token = parts::parameter(name);
+        if !names.contains(&token) {
+            names.push(token);
+        }
+    }
+    let shown =
+        shown.attribute("data-of", names.join(" ")).with(holding("i", text::plain(formula)));
+    let value = text::value(robot, formula);
+    if value.is_finite() { shown.with(holding("small", text::number(value))) } else { shown }
+}
+
+/// The joint's position by its coordinate: `q2`, `−0.5 q2 + 0.1`.
+fn position(robot: &Robot, link: &Link) -> String {
+    let joint = &link.joint;
+    let coordinate = format!("q{}", joint.coordinate + 1);
+    let is_one = joint.ratio.as_number().is_some_and(|number| number.is_one());
+    let turned = match is_one {
+        true => coordinate,
+        false => format!("({}) {coordinate}", text::with_value(robot, &joint.ratio)),
+    };
+    match text::is_zero(&joint.offset) {
+        true => turned,
+        false => format!("{turned} + ({})", text::with_value(robot, &joint.offset)),
+    }
+}
+
+fn vector(components: &[Formula; 3]) -> String {
+    let known = [("x", ["1", "0", "0"]), ("y", ["0", "1", "0"]), ("z", ["0", "0", "1"])];
+    let texts = components.each_ref().map(Formula::text);
+    match known.iter().find(|(_, unit)| *unit == texts) {
+        Some((name, _)) => (*name).to_owned(),
+        None => format!("({})", components.each_ref().map(text::plain).join(", ")),
+    }
+}
+
+fn parent(robot: &Robot, link: Option<usize>) -> String {
+    let link = link.and_then(|index| robot.links.get(index));
+    link.map_or_else(|| "base".to_owned(), |link| link.name.clone())
+}

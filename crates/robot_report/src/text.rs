@@ -1,0 +1,130 @@
+//! Values of robot files in words and numbers.
+
+use robot_dynamics::model::{Axis, JointKind, Move, Placement, Robot};
+use robot_symbolic::{Formula, Rational};
+
+/// The nominal value of a parameter; NaN where it has none.
+pub(crate) fn nominal(robot: &Robot, name: &str) -> f64 {
+    let value = robot.parameter(name).and_then(|parameter| parameter.value.as_ref());
+    value.map_or(f64::NAN, Rational::to_f64)
+}
+
+/// The nominal value of a formula; NaN where a parameter of it has none.
+pub(crate) fn value(robot: &Robot, formula: &Formula) -> f64 {
+    formula.evaluate(|name| nominal(robot, name))
+}
+
+/// Whether a formula is the number 0.
+pub(crate) fn is_zero(formula: &Formula) -> bool {
+    formula.as_number().is_some_and(|number| number.is_zero())
+}
+
+/// A formula as its text; with its nominal value where that is not the same.
+pub(crate) fn with_value(robot: &Robot, formula: &Formula) -> String {
+    let text = plain(formula);
+    let value = value(robot, formula);
+    if formula.is_constant() || !value.is_finite() {
+        return text;
+    }
+    format!("{text} = {}", number(value))
+}
+
+/// A formula as people write it.
+pub(crate) fn plain(formula: &Formula) -> String {
+    let is_word = |character: char| character.is_ascii_alphanumeric() || character == '_';
+    let words = formula.text().split_inclusive(|character| !is_word(character));
+    let words = words.map(|piece| match piece.strip_prefix("pi") {
+        Some(rest) if !rest.starts_with(is_word) => format!("π{rest}"),
+        _ => piece.to_owned(),
+    });
+    words.collect::<String>().replace('-', "−")
+}
+
+/// A number with up to six digits.
+pub(crate) fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = 5 - value.abs().log10().floor() as i32;
+    if !(0..=12).contains(&digits) {
+        return format!("{value:.3e}").replace('-', "−");
+    }
+    let text = format!("{value:.*}", usize::try_from(digits).unwrap_or_default());
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    text.replace('-', "−")
+}
+
+/// The moves of a placement, those by nothing left out: `move (l4, 0, l3)`, `turn z by π/2`.
+pub(crate) fn moves(robot: &Robot, placement: &Placement) -> String {
+    let one = |step: &Move| match step {
+        Move::Translate(by) if by.iter().all(is_zero) => None,
+        Move::Translate(by) => {
+            let parts = by.each_ref().map(|part| with_value(robot, part));
+            Some(format!("move ({})", parts.join(", ")))
+        }
+        Move::Rotate(_, angle) if is_zero(angle) => None,
+        Move::Rotate(axis, angle) => {
+            Some(format!("turn {} by {}", axis_name(*axis), with_value(robot, angle)))
+        }
+    };
+    let moves: Vec<String> = placement.0.iter().filter_map(one).collect();
+    if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
+}
+
+/// `rotation` or `translation`.
+pub(crate) fn motion(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "rotation",
+        JointKind::Prismatic => "translation",
+    }
+}
+
+/// A name with the number at its end below the line: `l₄`.
+pub(crate) fn symbol(name: &str) -> String {
+    let stem = name.trim_end_matches(|digit: char| digit.is_ascii_digit());
+    let digits = name.get(stem.len()..).unwrap_or_default().bytes();
+    let below = digits.filter_map(|digit| char::from_u32(0x2080 + u32::from(digit - b'0')));
+    stem.chars().chain(below).collect()
+}
+
+/// Text of at most so many characters.
+pub(crate) fn shortened(text: &str, characters: usize) -> String {
+    if text.chars().count() <= characters {
+        return text.to_owned();
+    }
+    text.chars().take(characters.saturating_sub(1)).chain(['…']).collect()
+}
+
+fn axis_name(axis: Axis) -> &'static str {
+    match axis {
+        Axis::X => "x",
+        Axis::Y => "y",
+        Axis::Z => "z",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_word_pi_is_pi() {
+        let shown = |text| plain(&Formula::parse(text).unwrap());
+        assert_eq!(shown("-pi/2 + pitch*pi"), "−π/2 + pitch*π");
+    }
+
+    #[test]
+    fn only_numbers_at_the_end_go_below() {
+        assert_eq!(["l4", "q12", "a_2b", "7"].map(symbol), ["l₄", "q₁₂", "a_2b", "₇"]);
+        assert_eq!((shortened("abcd", 4), shortened("abcde", 4)), ("abcd".into(), "abc…".into()));
+    }
+
+    #[test]
+    fn numbers_have_up_to_six_digits() {
+        let shown = [0.4318, 1234567.0, -0.000_02, 1e-13, 0.1 + 0.2, 45.0, 100.0].map(number);
+        assert_eq!(shown, ["0.4318", "1.235e6", "−0.00002", "1.000e−13", "0.3", "45", "100"]);
+    }
+}

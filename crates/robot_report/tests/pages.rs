@@ -1,0 +1,145 @@
+//! Pages of the project's robots and of hostile files.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
+
+use std::collections::BTreeSet;
+
+use robot_build::{Options, Source};
+use robot_report::{Compiled, Input, report};
+use roxmltree::{Document, Node, ParsingOptions};
+
+fn page(name: &str, text: &str) -> String {
+    let source = Source { name: name.to_owned(), text: text.to_owned() };
+    let compiled = Compiled::Unread { reason: "a test.".to_owned() };
+    let input = Input { source: &source, options: &Options::default(), compiled: &compiled };
+    report(&input).unwrap()
+}
+
+fn page_of(robot: &str) -> String {
+    let path = format!("{}/../../robots/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
+    page(&format!("{robot}.toml"), &std::fs::read_to_string(path).unwrap())
+}
+
+fn parsed(page: &str) -> Document<'_> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    Document::parse_with_options(page, options).unwrap()
+}
+
+fn words<'a>(document: &'a Document<'a>, attribute: &'a str) -> impl Iterator<Item = &'a str> {
+    let nodes = document.descendants().filter_map(move |node| node.attribute(attribute));
+    nodes.flat_map(str::split_whitespace)
+}
+
+#[test]
+fn pages_are_whole() {
+    for robot in ["trttr1", "puma560", "panda", "planar_2r"] {
+        let page = page_of(robot);
+        let document = parsed(&page);
+        let listed: Vec<&str> = words(&document, "id").collect();
+        let ids: BTreeSet<&str> = listed.iter().copied().collect();
+        assert_eq!(listed.len(), ids.len(), "{robot}: an id occurs twice");
+        for part in ["kinematics", "masses", "parameters", "structure", "costs", "evidence"] {
+            assert!(ids.contains(part), "{robot}: {part}");
+        }
+        let anchors = words(&document, "href").map(|anchor| anchor.strip_prefix('#').unwrap());
+        for id in anchors.chain(words(&document, "aria-labelledby")) {
+            assert!(ids.contains(id), "{robot}: there is no {id}");
+        }
+        // What terms depend on is shown somewhere.
+        let shown: BTreeSet<&str> = words(&document, "data-is").collect();
+        for token in words(&document, "data-of") {
+            assert!(shown.contains(token), "{robot}: {token} is nowhere");
+        }
+    }
+}
+
+#[test]
+fn tables_have_headings_and_drawings_have_names() {
+    let page = page_of("trttr1");
+    let document = parsed(&page);
+    let named = |name: &'static str| {
+        document.descendants().filter(move |node| node.tag_name().name() == name)
+    };
+    let has = |node: Node<'_, '_>, name: &str| {
+        node.children().any(|child| child.tag_name().name() == name)
+    };
+    assert!(named("table").count() >= 7);
+    assert!(named("table").all(|table| has(table, "caption")));
+    assert!(named("th").all(|heading| heading.attribute("scope").is_some()));
+    assert!(named("svg").count() >= 1);
+    assert!(named("svg").all(|drawing| has(drawing, "title") && has(drawing, "desc")));
+    // Each link is an element that terms point at.
+    for number in 1..=5 {
+        let id = format!("scheme-link-{number}");
+        assert!(document.descendants().any(|node| node.attribute("id") == Some(&id)));
+    }
+}
+
+#[test]
+fn the_same_file_gives_the_same_page() {
+    assert_eq!(page_of("scara"), page_of("scara"));
+}
+
+/// Text that would be markup or script.
+const HOSTILE: &str =
+    r#"</script><script>document.title=1</script>"><img src=x onerror=alert(1)>&lt;'"#;
+
+fn hostile(place: &str) -> String {
+    let text = |here: &str| match here == place {
+        true => HOSTILE.replace('"', "\\\""),
+        false => "plain".to_owned(),
+    };
+    format!(
+        "format = 1\n[robot]\nname = \"swing\"\ndescription = \"{}\"\ngravity = [0, 0, \"-g\"]\n\
+         [parameters]\ng = {{ value = 9.81, unit = \"m/s^2\", doc = \"{}\" }}\n\
+         [[link]]\nname = \"{}\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\nmass = 1\n\
+         center_of_mass = [0, 0, -1]\ninertia = {{ xx = 1, yy = 1, zz = 1 }}\n",
+        text("description"),
+        text("doc"),
+        text("link")
+    )
+}
+
+#[test]
+fn hostile_text_is_text() {
+    for place in ["description", "doc"] {
+        let page = page("swing.toml", &hostile(place));
+        let document = parsed(&page);
+        let found = document.descendants().filter(|node| node.text() == Some(HOSTILE));
+        assert!(found.count() > 0, "{place}");
+        let elements = |name: &str| {
+            document.descendants().filter(|node| node.tag_name().name() == name).count()
+        };
+        assert_eq!((elements("script"), elements("img")), (1, 0), "{place}");
+    }
+}
+
+#[test]
+fn hostile_names_are_errors() {
+    let turned = hostile("").replace("plain", "\u{202e}plain");
+    for (text, reason) in [(hostile("link"), "cannot name"), (turned, "U+202E")] {
+        let source = Source { name: "swing.toml".to_owned(), text };
+        let compiled = Compiled::Unread { reason: String::new() };
+        let input = Input { source: &source, options: &Options::default(), compiled: &compiled };
+        let message = report(&input).unwrap_err().to_string();
+        assert!(message.contains(reason), "{message}");
+    }
+}
+
+/// The policy names the page's own script and style, and a browser runs no other.
+#[test]
+fn the_policy_allows_nothing_from_elsewhere() {
+    let page = page_of("planar_2r");
+    let document = parsed(&page);
+    let policy = document
+        .descendants()
+        .find(|node| node.attribute("http-equiv") == Some("Content-Security-Policy"))
+        .and_then(|node| node.attribute("content"))
+        .unwrap();
+    assert!(policy.starts_with("default-src 'none'; style-src 'sha256-"), "{policy}");
+    assert!(!policy.contains("unsafe") && !policy.contains("http"), "{policy}");
+    // Nothing is written where the policy would refuse it.
+    for attribute in ["style", "src", "onclick", "onload"] {
+        assert_eq!(words(&document, attribute).count(), 0);
+    }
+}
