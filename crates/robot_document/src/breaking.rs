@@ -110,7 +110,7 @@ impl Lines {
 }
 
 /// The terms of a sum, each with its sign.
-fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
+pub fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
     pieces
         .chunk_by(|_, next| !matches!(next, Math::Sign('+' | '-' | '=')))
         .filter(|term| !term.is_empty())

@@ -7,7 +7,9 @@
 
 mod costs;
 mod drawing;
+mod equations;
 mod evidence;
+mod formula;
 mod html;
 mod page;
 mod parts;
@@ -23,6 +25,7 @@ use robot_build::ablation::ablation;
 use robot_build::{Errors, FunctionKind, Functions, Options, Programs, Source, programs};
 use robot_dynamics::model::Robot;
 
+use formula::Symbols;
 use html::{Node, element, holding};
 use page::{Section, page};
 use structure::Structure;
@@ -61,13 +64,19 @@ const FUNCTIONS: [FunctionKind; 9] = [
 /// Everything that is wrong with the file or the options.
 pub fn report(input: &Input<'_>) -> Result<String, Errors> {
     let robot = robot_build::read(input.source)?.robot;
+    let symbols = Symbols::of(&robot);
     let functions = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
     let functions = Functions::Chosen(functions.collect());
     let programs = programs(input.source, &Options { functions, ..input.options.clone() })?;
     let sections = vec![
         kinematics(&robot),
-        Section { id: "masses", title: "Masses", body: vec![tables::masses(&robot).into()] },
-        parameters(&robot),
+        Section {
+            id: "masses",
+            title: "Masses",
+            body: vec![tables::masses(&robot, &symbols).into()],
+        },
+        parameters(&robot, &symbols),
+        Section { id: "equations", title: "Equations of motion", body: equations::forms(&robot) },
         structure(&robot),
         costs(input, &programs)?,
         evidence(input, &programs),
@@ -91,15 +100,15 @@ fn kinematics(robot: &Robot) -> Section {
     }
 }
 
-fn parameters(robot: &Robot) -> Section {
+fn parameters(robot: &Robot, symbols: &Symbols) -> Section {
     let none = "The robot file has no parameters: all figures are numbers.";
-    let table = tables::parameters(robot);
+    let table = tables::parameters(robot, symbols);
     let body = table.unwrap_or_else(|| holding("p", none)).into();
     Section { id: "parameters", title: "Parameters", body: vec![body] }
 }
 
 /// What the grids show.
-const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; `const` entries \
+const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked const \
     depend on parameters alone. An entry counts as independent of a coordinate where no other value of \
     it changes the entry, at random values of all symbols, parameters included.";
 

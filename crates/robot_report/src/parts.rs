@@ -18,10 +18,13 @@ pub(crate) fn parameter(name: &str) -> String {
 
 /// The links whose figures have a parameter in them, by index.
 pub(crate) fn links_of_parameter(robot: &Robot, name: &str) -> Vec<usize> {
-    let uses = |link: &Link| {
-        formulas(link).into_iter().any(|formula| formula.symbols().any(|(used, _)| used == name))
+    let has = |formula: &Formula| formula.symbols().any(|(used, _)| used == name);
+    let uses = |(index, link): (usize, &Link)| {
+        let frames = robot.frames.iter().filter(|frame| frame.link == Some(index));
+        let places = frames.flat_map(|frame| placement(&frame.placement));
+        formulas(link).into_iter().chain(places).any(has)
     };
-    let links = robot.links.iter().enumerate().filter(|(_, link)| uses(link));
+    let links = robot.links.iter().enumerate().filter(|one| uses(*one));
     links.map(|(index, _)| index).collect()
 }
 

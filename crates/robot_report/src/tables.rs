@@ -4,6 +4,7 @@ use robot_dynamics::model::{Body, Inertia, Link, Parameter, Robot};
 use robot_symbolic::Formula;
 use robot_symbolic::print::exact_text;
 
+use crate::formula::Symbols;
 use crate::html::{Element, Node, element, holding};
 use crate::parts;
 use crate::table::Table;
@@ -54,7 +55,7 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
 }
 
 /// Masses and inertias, the paper's Table 1.
-pub(crate) fn masses(robot: &Robot) -> Element {
+pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     let columns =
         ["Body", "Mass, kg", "Centre of mass and axes, m, rad", "xx", "yy", "zz", "xy", "xz", "yz"];
     let caption = "Masses and moments of inertia, kg m². The moments are about the centre of mass, \
@@ -63,10 +64,13 @@ pub(crate) fn masses(robot: &Robot) -> Element {
     for (index, link) in robot.links.iter().enumerate() {
         for Body { name, mass, placement, inertia } in &link.bodies {
             let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
-            let place = text::moves(robot, placement);
-            let cells = [figure(robot, mass), holding("span", place)]
+            let place = match text::moves(robot, placement) {
+                none if none == "none" => "at the link's origin".to_owned(),
+                moves => moves,
+            };
+            let cells = [figure(robot, symbols, mass), holding("span", place)]
                 .into_iter()
-                .chain([xx, yy, zz, xy, xz, yz].map(|entry| figure(robot, entry)));
+                .chain([xx, yy, zz, xy, xz, yz].map(|entry| figure(robot, symbols, entry)));
             table.row(&parts::link(index), name.as_str(), cells);
         }
     }
@@ -74,26 +78,28 @@ pub(crate) fn masses(robot: &Robot) -> Element {
 }
 
 /// The parameters with values and units; `None` where there are none.
-pub(crate) fn parameters(robot: &Robot) -> Option<Element> {
+pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     let caption = "Parameters: symbols of the equations, fields of the generated code.";
-    let mut table = Table::new(caption, ["Symbol", "Value", "Unit", "Meaning", "Used by"]);
+    let mut table = Table::new(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);
     for parameter in &robot.parameters {
         let Parameter { name, value, unit, doc, .. } = parameter;
         let links = parts::links_of_parameter(robot, name).into_iter();
         let links = links.filter_map(|index| robot.links.get(index));
-        let cells = [
+        let words = [
             value.as_ref().map_or_else(|| "none".to_owned(), exact_text).replace('-', "−"),
             unit.as_ref().map_or_else(String::new, |unit| unit.text.clone()),
             doc.clone().unwrap_or_default(),
             links.map(|link| link.name.as_str()).collect::<Vec<_>>().join(", "),
         ];
+        let cells = std::iter::once(Node::from(symbols.symbol(name)));
+        let cells = cells.chain(words.into_iter().map(Node::from));
         table.row(&parts::parameter(name), holding("code", name.as_str()), cells);
     }
     (!robot.parameters.is_empty()).then(|| table.build())
 }
 
 /// A formula, its parameters marked, with its nominal value below where it has parameters.
-fn figure(robot: &Robot, formula: &Formula) -> Element {
+fn figure(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
     let shown = element("span").class("figure");
     if formula.is_constant() {
         return shown.with(text::plain(formula));
@@ -105,8 +111,7 @@ fn figure(robot: &Robot, formula: &Formula) -> Element {
             names.push(token);
         }
     }
-    let shown =
-        shown.attribute("data-of", names.join(" ")).with(holding("i", text::plain(formula)));
+    let shown = shown.attribute("data-of", names.join(" ")).with(symbols.formula(formula));
     let value = text::value(robot, formula);
     if value.is_finite() { shown.with(holding("small", text::number(value))) } else { shown }
 }
@@ -114,7 +119,7 @@ fn figure(robot: &Robot, formula: &Formula) -> Element {
 /// The joint's position by its coordinate: `q2`, `−0.5 q2 + 0.1`.
 fn position(robot: &Robot, link: &Link) -> String {
     let joint = &link.joint;
-    let coordinate = format!("q{}", joint.coordinate + 1);
+    let coordinate = text::symbol(&format!("q{}", joint.coordinate + 1));
     let is_one = joint.ratio.as_number().is_some_and(|number| number.is_one());
     let turned = match is_one {
         true => coordinate,

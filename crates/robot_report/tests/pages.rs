@@ -38,7 +38,8 @@ fn pages_are_whole() {
         let listed: Vec<&str> = words(&document, "id").collect();
         let ids: BTreeSet<&str> = listed.iter().copied().collect();
         assert_eq!(listed.len(), ids.len(), "{robot}: an id occurs twice");
-        for part in ["kinematics", "masses", "parameters", "structure", "costs", "evidence"] {
+        let parts = "kinematics masses parameters equations structure costs evidence";
+        for part in parts.split_whitespace() {
             assert!(ids.contains(part), "{robot}: {part}");
         }
         let anchors = words(&document, "href").map(|anchor| anchor.strip_prefix('#').unwrap());
@@ -73,6 +74,39 @@ fn tables_have_headings_and_drawings_have_names() {
         let id = format!("scheme-link-{number}");
         assert!(document.descendants().any(|node| node.attribute("id") == Some(&id)));
     }
+}
+
+/// The terms of an equation of a page, by what they point at.
+fn terms(page: &str, equation: &str) -> Vec<String> {
+    let document = parsed(page);
+    let defines = |node: &Node<'_, '_>| {
+        node.attribute("data-terms").is_some() && node.attribute("data-is") == Some(equation)
+    };
+    let found = document.descendants().find(defines).unwrap();
+    let terms = found.descendants().filter_map(|node| node.attribute("data-of"));
+    terms.map(str::to_owned).collect()
+}
+
+#[test]
+fn terms_point_at_what_they_come_from() {
+    let page = page_of("trttr1");
+    // H33 = M3 + M4 + M5, each the mass of its own link.
+    let masses = [3, 4, 5].map(|number| format!("parameter-M{number} link-{number}"));
+    assert_eq!(terms(&page, "grouped-H-3-3"), masses);
+    // Q3 = H33 q̈3 + …: the coefficient by its definition, the coordinate by its link.
+    assert_eq!(terms(&page, "grouped-Q3")[0], "grouped-H-3-3 link-3");
+    // The weight in the expanded form, M3 g: gravity is no link's.
+    assert!(terms(&page, "expanded-Q3").contains(&"parameter-M3 link-3 parameter-g".to_owned()));
+}
+
+#[test]
+fn forms_that_are_too_long_say_so() {
+    let page = page_of("panda");
+    let document = parsed(&page);
+    let notes = document.descendants().filter(|node| node.attribute("class") == Some("note"));
+    let notes: Vec<&str> = notes.filter_map(|node| node.text()).collect();
+    assert!(notes.iter().any(|note| note.starts_with("This form is not shown")), "{notes:?}");
+    assert!(page.len() < 3_000_000 && page.contains("<math>"));
 }
 
 #[test]

@@ -45,7 +45,7 @@ pub(crate) enum Command {
     Stats(stats::Arguments),
     /// Compile a robot's code and read what the compiler made of it
     Prove(prove::Arguments),
-    /// Write a page about a robot: scheme, tables, structure, operations, evidence
+    /// Write a page about a robot: scheme, tables, equations, structure, operations, evidence
     Report(report::Arguments),
     /// Search the form of the recursion with the fewest operations
     Search(search::Arguments),

@@ -17,9 +17,9 @@ use crate::robot::RobotArgument;
   robot-symbolic report robots/panda.toml -o panda.html --without-compiler
 
 The page is one file that needs no other and no network: the kinematic scheme, tables of joints, masses
-and parameters, the structure of the matrices, operations by function, stage and option, and evidence.
-It is made for screens, dark and light, for print and for screen readers; pointing at a link or a
-parameter marks what belongs to it.
+and parameters, the equations of motion, the structure of the matrices, operations by function, stage and
+option, and evidence. It is made for screens, dark and light, for print and for screen readers; pointing
+at a link, a parameter or a term marks what belongs to it.
 
 For the evidence the code is compiled by rustc (the variable RUSTC, or `rustc`); where there is none the
 page says so.")]

@@ -1,0 +1,293 @@
+//! Formulas as MathML, the markup of formulas in HTML.
+//!
+//! Only what MathML Core has is used, so that browsers set it: fonts are characters of their own, and
+//! there are no attributes of style.
+
+use std::fmt;
+
+use crate::math::{Accent, Fence, Math, Script, Style};
+
+/// An element of MathML.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Markup {
+    /// Its name, such as `mrow`.
+    pub name: &'static str,
+    /// Its attributes.
+    pub attributes: Vec<(&'static str, &'static str)>,
+    /// What is in it.
+    pub content: Content,
+}
+
+/// What an element holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Text, as it is to be read.
+    Text(String),
+    /// Elements.
+    Elements(Vec<Markup>),
+}
+
+/// The MathML of a formula, without the element `math` around it.
+#[must_use]
+pub fn formula(math: &Math) -> Markup {
+    match math {
+        Math::Number(digits) => leaf("mn", digits),
+        Math::Letter(letter) => leaf("mi", &letter.to_string()),
+        Math::Word(word) => upright(word),
+        Math::Sign(sign) => operator(*sign),
+        Math::Function(name) => leaf("mi", name),
+        Math::Symbol(symbol) => formula(&symbol.shape),
+        Math::Row(pieces) => row(pieces),
+        Math::Script(script) => with_indices(script),
+        Math::Accent(Accent::Underline, inside) => {
+            let line = leaf("mo", "_");
+            inner("munder", vec![formula(inside), line]).with("accentunder", "true")
+        }
+        Math::Accent(accent, inside) => {
+            let sign = leaf("mo", above(*accent)).with("stretchy", stretches(*accent));
+            inner("mover", vec![formula(inside), sign]).with("accent", "true")
+        }
+        Math::Styled(style, inside) => styled(*style, inside),
+        Math::Fraction(parts) => inner("mfrac", parts.iter().map(formula).collect()),
+        Math::Root(inside) => inner("msqrt", vec![formula(inside)]),
+        Math::Fenced(fence, inside) => {
+            let [open, close] = match fence {
+                Fence::Parentheses => ["(", ")"],
+                Fence::Bars => ["|", "|"],
+            };
+            let [open, close] = [(open, "prefix"), (close, "postfix")]
+                .map(|(sign, form)| leaf("mo", sign).with("fence", "true").with("form", form));
+            inner("mrow", vec![open, formula(inside), close])
+        }
+        Math::Matrix(rows) => matrix(rows),
+    }
+}
+
+fn leaf(name: &'static str, text: &str) -> Markup {
+    Markup { name, attributes: vec![], content: Content::Text(text.to_owned()) }
+}
+
+fn inner(name: &'static str, elements: Vec<Markup>) -> Markup {
+    Markup { name, attributes: vec![], content: Content::Elements(elements) }
+}
+
+impl Markup {
+    fn with(mut self, name: &'static str, value: &'static str) -> Markup {
+        self.attributes.push((name, value));
+        self
+    }
+}
+
+/// A single letter would be italic.
+fn upright(word: &str) -> Markup {
+    let text = leaf("mi", word);
+    if word.chars().count() == 1 { text.with("mathvariant", "normal") } else { text }
+}
+
+fn operator(sign: char) -> Markup {
+    match sign {
+        '-' => leaf("mo", "−"),
+        '(' | ')' => leaf("mo", &sign.to_string()).with("stretchy", "false"),
+        _ => leaf("mo", &sign.to_string()),
+    }
+}
+
+/// Pieces side by side, with a thin space around functions.
+fn row(pieces: &[Math]) -> Markup {
+    let mut elements = vec![];
+    for (place, piece) in pieces.iter().enumerate() {
+        let before = place.checked_sub(1).and_then(|place| pieces.get(place));
+        let is_apart = match before {
+            None | Some(Math::Sign(_)) => false,
+            Some(before) if is_function(before) => !matches!(piece, Math::Fenced(..)),
+            Some(_) => is_function(piece),
+        };
+        if is_apart {
+            elements.push(inner("mspace", vec![]).with("width", "0.167em"));
+        }
+        elements.push(formula(piece));
+    }
+    inner("mrow", elements)
+}
+
+fn is_function(piece: &Math) -> bool {
+    match piece {
+        Math::Function(_) => true,
+        Math::Script(script) => is_function(&script.base),
+        _ => false,
+    }
+}
+
+fn with_indices(script: &Script) -> Markup {
+    // The power of a symbol with an index stands above the index.
+    if let (None, Some(upper), Some(own)) = (&script.lower, &script.upper, own_index(&script.base))
+        && let (Some(lower), None) = (&own.lower, &own.upper)
+    {
+        return inner("msubsup", vec![formula(&own.base), formula(lower), formula(upper)]);
+    }
+    let base = formula(&script.base);
+    match (&script.lower, &script.upper) {
+        (Some(lower), Some(upper)) => inner("msubsup", vec![base, formula(lower), formula(upper)]),
+        (Some(lower), None) => inner("msub", vec![base, formula(lower)]),
+        (None, Some(upper)) => inner("msup", vec![base, formula(upper)]),
+        (None, None) => base,
+    }
+}
+
+/// The indices that a base has itself.
+fn own_index(base: &Math) -> Option<&Script> {
+    match base {
+        Math::Script(script) => Some(script),
+        Math::Symbol(symbol) => own_index(&symbol.shape),
+        _ => None,
+    }
+}
+
+fn above(accent: Accent) -> &'static str {
+    match accent {
+        Accent::Dot => "\u{2d9}",
+        Accent::DoubleDot => "\u{a8}",
+        Accent::Bar | Accent::Overline => "\u{af}",
+        Accent::Hat | Accent::WideHat => "^",
+        Accent::Tilde | Accent::WideTilde => "~",
+        Accent::Vector => "\u{2192}",
+        Accent::Check => "\u{2c7}",
+        Accent::Breve => "\u{2d8}",
+        Accent::Underline => "_",
+    }
+}
+
+fn stretches(accent: Accent) -> &'static str {
+    match accent {
+        Accent::Overline | Accent::WideHat | Accent::WideTilde => "true",
+        _ => "false",
+    }
+}
+
+fn styled(style: Style, inside: &Math) -> Markup {
+    let text = match inside {
+        Math::Letter(letter) => letter.to_string(),
+        Math::Word(text) | Math::Number(text) => text.clone(),
+        Math::Row(pieces) => {
+            return inner("mrow", pieces.iter().map(|piece| styled(style, piece)).collect());
+        }
+        Math::Script(script) => {
+            let mut whole = with_indices(script);
+            if let Content::Elements(parts) = &mut whole.content
+                && let Some(base) = parts.first_mut()
+            {
+                *base = styled(style, &script.base);
+            }
+            return whole;
+        }
+        other => return formula(other),
+    };
+    match style {
+        Style::Upright => upright(&text),
+        // Letters run together in italics.
+        Style::Italic => {
+            inner("mrow", text.chars().map(|letter| leaf("mi", &letter.to_string())).collect())
+        }
+        _ => upright(&text.chars().map(|letter| in_font(style, letter)).collect::<String>()),
+    }
+}
+
+/// The character of a letter in a font, from Unicode's Mathematical Alphanumeric Symbols.
+fn in_font(style: Style, letter: char) -> char {
+    let first = match style {
+        Style::Bold => 0x1d400,
+        Style::SansSerif => 0x1d5a0,
+        // The bold one, for the plain one has letters elsewhere.
+        Style::Calligraphic => 0x1d4d0,
+        Style::BoldSymbol => 0x1d468,
+        Style::Upright | Style::Italic => return letter,
+    };
+    let place = match letter {
+        'A'..='Z' => u32::from(letter) - u32::from('A'),
+        'a'..='z' => u32::from(letter) - u32::from('a') + 26,
+        _ => return letter,
+    };
+    char::from_u32(first + place).unwrap_or(letter)
+}
+
+fn matrix(rows: &[Vec<Math>]) -> Markup {
+    let cell = |entry: &Math| inner("mtd", vec![formula(entry)]);
+    let rows = rows.iter().map(|row| inner("mtr", row.iter().map(cell).collect()));
+    let table = inner("mtable", rows.collect());
+    let [open, close] = [("[", "prefix"), ("]", "postfix")]
+        .map(|(sign, form)| leaf("mo", sign).with("fence", "true").with("form", form));
+    inner("mrow", vec![open, table, close])
+}
+
+/// Well-formed XML, which is HTML too.
+impl fmt::Display for Markup {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "<{}", self.name)?;
+        for (name, value) in &self.attributes {
+            write!(formatter, " {name}=\"{value}\"")?;
+        }
+        formatter.write_str(">")?;
+        match &self.content {
+            Content::Text(text) => {
+                for character in text.chars() {
+                    match character {
+                        '&' => formatter.write_str("&amp;")?,
+                        '<' => formatter.write_str("&lt;")?,
+                        '>' => formatter.write_str("&gt;")?,
+                        plain => write!(formatter, "{plain}")?,
+                    }
+                }
+            }
+            Content::Elements(elements) => {
+                elements.iter().try_for_each(|element| write!(formatter, "{element}"))?;
+            }
+        }
+        write!(formatter, "</{}>", self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(math: &Math) -> String {
+        formula(math).to_string()
+    }
+
+    #[test]
+    fn indices_and_accents() {
+        let rate = Math::Accent(Accent::DoubleDot, Box::new(Math::Letter('q')));
+        assert_eq!(
+            shown(&rate.with_lower(Math::integer(2)).with_upper(Math::integer(3))),
+            "<msubsup><mover accent=\"true\"><mi>q</mi><mo stretchy=\"false\">\u{a8}</mo></mover>\
+             <mn>2</mn><mn>3</mn></msubsup>"
+        );
+        assert_eq!(
+            shown(&Math::Styled(
+                Style::Bold,
+                Box::new(Math::Letter('J').with_lower(Math::Letter('x')))
+            )),
+            "<msub><mi mathvariant=\"normal\">\u{1d409}</mi><mi>x</mi></msub>"
+        );
+    }
+
+    #[test]
+    fn functions_keep_their_distance() {
+        let row = Math::Row(vec![
+            Math::Letter('g'),
+            Math::Function("sin"),
+            Math::Letter('q'),
+            Math::Sign('-'),
+            Math::Function("cos"),
+            Math::Fenced(Fence::Parentheses, Box::new(Math::Letter('x'))),
+        ]);
+        assert_eq!(shown(&row).matches("<mspace width=\"0.167em\"></mspace>").count(), 2);
+        assert!(shown(&row).contains("<mo>−</mo><mi>cos</mi><mrow><mo fence"));
+    }
+
+    #[test]
+    fn text_is_never_markup() {
+        let hostile = Math::Word("</math><script>&".to_owned());
+        assert_eq!(shown(&hostile), "<mi>&lt;/math&gt;&lt;script&gt;&amp;</mi>");
+    }
+}

@@ -1,0 +1,65 @@
+//! Formulas on the page, as MathML.
+
+use robot_document::Notation;
+use robot_document::math::Math;
+use robot_document::mathml::{self, Content, Markup};
+use robot_dynamics::model::Robot;
+use robot_symbolic::print::latex::Trigonometry;
+use robot_symbolic::{Formula, Graph};
+
+use crate::html::{Element, element, holding};
+use crate::text;
+
+/// A formula in a line.
+pub(crate) fn math(formula: &Math) -> Element {
+    holding("math", of_markup(mathml::formula(formula)))
+}
+
+/// A term of a sum: a sign before it stands between it and the term before.
+pub(crate) fn term(pieces: &[Math], is_first: bool) -> Element {
+    let mut markup = mathml::formula(&Math::Row(pieces.to_vec()));
+    if let Content::Elements(parts) = &mut markup.content
+        && let Some(sign) = parts.first_mut().filter(|part| part.name == "mo" && !is_first)
+    {
+        sign.attributes.push(("form", "infix"));
+    }
+    holding("math", of_markup(markup))
+}
+
+/// The printer's tree as a part of the page.
+fn of_markup(markup: Markup) -> Element {
+    let Markup { name, attributes, content } = markup;
+    let start = element(name);
+    let start = attributes.into_iter().fold(start, |all, (name, value)| all.attribute(name, value));
+    match content {
+        Content::Text(text) => start.with(text),
+        Content::Elements(elements) => start.with_all(elements.into_iter().map(of_markup)),
+    }
+}
+
+/// How the symbols of a robot look.
+pub(crate) struct Symbols {
+    /// `None` where two symbols look alike: then they are shown by their names.
+    notation: Option<Notation>,
+}
+
+impl Symbols {
+    /// The symbols of a robot.
+    pub(crate) fn of(robot: &Robot) -> Symbols {
+        Symbols { notation: Notation::new(robot, Trigonometry::Named).ok() }
+    }
+
+    /// A symbol by its name.
+    pub(crate) fn symbol(&self, name: &str) -> Element {
+        let look = self.notation.as_ref().and_then(|notation| notation.symbol(name).ok());
+        look.map_or_else(|| holding("i", name), |look| math(&look))
+    }
+
+    /// A formula of the robot file.
+    pub(crate) fn formula(&self, formula: &Formula) -> Element {
+        let graph = Graph::new();
+        let value = formula.lower(&graph, &mut |name| graph.symbol(name));
+        let look = self.notation.as_ref().and_then(|notation| notation.expression(value).ok());
+        look.map_or_else(|| holding("i", text::plain(formula)), |look| math(&look))
+    }
+}
