@@ -9,6 +9,7 @@ mod delivery;
 mod failure;
 mod files;
 mod forms;
+mod friction;
 mod progress;
 mod robot;
 mod settings;

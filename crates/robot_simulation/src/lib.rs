@@ -2,8 +2,8 @@
 //!
 //! [`simulate`] integrates the motion law q(t), the direct problem (7) of the paper, over any
 //! [`Dynamics`]: the interpreted program of a robot ([`RobotProgram`]), generated code or a closure.
-//! Both
-//! give series over time, which [`Table`] writes as CSV.
+//! [`fn@shares`] is the inverse problem along a [`Trajectory`], split by cause. Both give series over
+//! time, which [`Table`] writes as CSV and [`plot`] draws.
 //!
 //! ```
 //! use robot_simulation::{SimulationOptions, State, Torques, from_fn, simulate};
@@ -22,15 +22,20 @@ mod error;
 mod expressions;
 mod grid;
 mod motion;
+pub mod plot;
 mod program;
+mod shares;
 mod simulation;
 mod table;
 mod torques;
+mod trajectory;
 
 pub use dynamics::{Dynamics, State, TorqueLaw, from_fn};
 pub use error::{Cause, Error};
 pub use motion::{Energies, Motion};
 pub use program::RobotProgram;
+pub use shares::{Shares, shares};
 pub use simulation::{SimulationOptions, simulate};
 pub use table::Table;
 pub use torques::Torques;
+pub use trajectory::Trajectory;

@@ -41,8 +41,8 @@ impl Torques {
         Torques(Law::Formulas { formulas, meanings: BTreeMap::new() })
     }
 
-    /// Expressions such as `2 = -5*qd2 + sin(t)`: a coordinate, by its number or its joint's name,
-    /// and a formula in t (s), q1 …, qd1 … and the robot's parameters. A coordinate without one is
+    /// Expressions such as `2 = -5*qd2 + sin(t)`: a coordinate, by its number (`2` or `tau2`) or its
+    /// joint's name, and a formula in t (s), q1 …, qd1 … and the robot's parameters. A coordinate without one is
     /// not driven. `parameters` are those that are not to have their nominal values.
     ///
     /// # Errors
@@ -68,10 +68,10 @@ impl Torques {
                     continue;
                 }
             };
-            match coordinate(robot, name).and_then(|index| formulas.get_mut(index)) {
-                Some(Some(_)) => wrong.push(format!("torque `{}` is given twice", quote(name))),
-                Some(place) => *place = Some(formula),
-                None => wrong.push(unknown_coordinate(robot, name)),
+            match coordinate(robot, name).map(|index| formulas.get_mut(index)) {
+                Ok(Some(place @ None)) => *place = Some(formula),
+                Ok(_) => wrong.push(format!("torque `{}` is given twice", quote(name))),
+                Err(message) => wrong.push(message),
             }
         }
         let zero = Formula::number(&robot_symbolic::Rational::ZERO);
@@ -200,17 +200,27 @@ fn meanings(robot: &Robot, parameters: &[(&str, f64)]) -> BTreeMap<String, Meani
     meanings
 }
 
-/// The coordinate of that number, from 1, or of that joint.
-fn coordinate(robot: &Robot, name: &str) -> Option<usize> {
+/// The coordinate of a joint's name, of a number from 1, or of `tau` and a number.
+fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
     let by_joint = robot.coordinates.iter().position(|coordinate| coordinate.joint == name);
-    let number = name.parse::<usize>().ok().filter(|number| *number <= robot.degrees_of_freedom());
-    by_joint.or_else(|| number?.checked_sub(1))
-}
-
-fn unknown_coordinate(robot: &Robot, name: &str) -> String {
-    let joints: Vec<&str> =
-        robot.coordinates.iter().map(|coordinate| coordinate.joint.as_str()).collect();
-    let (name, joints) = (quote(name), joints.join(", "));
-    let count = robot.degrees_of_freedom();
-    format!("torque `{name}` is of no coordinate; there are 1 to {count}, by joints {joints}")
+    let of_number = |text: &str| {
+        let index = text.parse::<usize>().ok()?.checked_sub(1)?;
+        (index < robot.degrees_of_freedom()).then_some(index)
+    };
+    let shown = quote(name);
+    match (by_joint, of_number(name)) {
+        (Some(joint), Some(number)) if joint != number => Err(format!(
+            "torque `{shown}`: the joint of this name has the number {}; write tau{} for it, or \
+             tau{name} for the joint of this number",
+            joint + 1,
+            joint + 1
+        )),
+        (Some(index), _) | (None, Some(index)) => Ok(index),
+        (None, None) => name.strip_prefix("tau").and_then(of_number).ok_or_else(|| {
+            let joints: Vec<&str> =
+                robot.coordinates.iter().map(|coordinate| coordinate.joint.as_str()).collect();
+            let (count, joints) = (joints.len(), joints.join(", "));
+            format!("torque `{shown}` is of no joint; there are 1 to {count}, by names {joints}")
+        }),
+    }
 }

@@ -18,6 +18,7 @@ mod search;
 mod show;
 mod simulate;
 mod stats;
+mod torques;
 
 use clap::Subcommand;
 
@@ -41,6 +42,8 @@ pub(crate) enum Command {
     Eval(eval::Arguments),
     /// Simulate the motion of a robot: the motion law q(t), its torques and energies
     Simulate(simulate::Arguments),
+    /// Compute the torques along a trajectory, split by cause
+    Torques(torques::Arguments),
     /// Count the operations of a robot's functions
     Stats(stats::Arguments),
     /// Compile a robot's code and read what the compiler made of it
@@ -83,6 +86,7 @@ impl Command {
             Command::Crate(arguments) => arguments.run(terminal),
             Command::Eval(arguments) => arguments.run(terminal),
             Command::Simulate(arguments) => arguments.run(terminal),
+            Command::Torques(arguments) => arguments.run(terminal),
             Command::Stats(arguments) => arguments.run(terminal),
             Command::Prove(arguments) => arguments.run(terminal),
             Command::Report(arguments) => arguments.run(terminal),

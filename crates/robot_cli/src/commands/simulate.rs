@@ -4,28 +4,30 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_build::{Functions, Options, Programs};
-use robot_dynamics::model::{Friction, Robot};
+use robot_dynamics::model::Robot;
+use robot_simulation::plot::motion_figure;
 use robot_simulation::{
     Energies, Motion, RobotProgram, SimulationOptions, State, Table, Torques, simulate,
 };
-use robot_symbolic::Formula;
 
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
+use crate::friction::FrictionArguments;
 use crate::progress::Progress;
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
 
 #[derive(Args)]
 #[command(after_help = "Example:
-  robot-symbolic simulate robots/planar_2r.toml --time 10 --q0 1.5,0.5 -o motion.csv
+  robot-symbolic simulate robots/planar_2r.toml --time 10 --q0 1.5,0.5 -o motion.csv --plot motion.svg
   robot-symbolic simulate robots/puma560.toml --torque \"2 = -40*(q2 - 0.5) - 8*qd2\" --time 3
   robot-symbolic simulate robots/planar_2r.toml --torques motion.csv --time 10
 
 The output is CSV: t, q, qd, qdd, tau and the energies, in s, rad or m, N m or N, and J; numbers read
 back to the last bit. Expressions know t, q1 …, qd1 … and the robot's parameters. A file of torques
-has the columns t and tau1 …; between its lines torques are linear in t.")]
+has the columns t and tau1 …; between its lines torques are linear in t. The method, and what its
+tolerance means: docs/simulation.md.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -53,18 +55,16 @@ pub(crate) struct Arguments {
     /// A CSV file of torques; `-` for standard input
     #[arg(long, value_name = "FILE", conflicts_with = "torque")]
     torques: Option<PathBuf>,
-    /// With the friction that the robot file gives
-    #[arg(long)]
-    friction: bool,
-    /// Take tanh(qd / WIDTH) for the sign of a velocity in dry friction that has no smoothing, rad/s
-    /// or m/s
-    #[arg(long, value_name = "WIDTH", requires = "friction")]
-    smoothing: Option<f64>,
+    #[command(flatten)]
+    friction: FrictionArguments,
     #[command(flatten)]
     settings: Settings,
     /// The CSV file to write; without this standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// A plot to write, .svg or .png: q, qd, torques and energies over time
+    #[arg(long, value_name = "FILE", value_parser = files::plot_path)]
+    plot: Option<PathBuf>,
 }
 
 impl Arguments {
@@ -74,14 +74,20 @@ impl Arguments {
         if !wrong.is_empty() {
             return Err(Failure::Input(wrong));
         }
-        self.smooth(&mut robot)?;
-        let functions = Functions::Chosen(RobotProgram::functions(self.friction));
+        self.friction.smooth(&mut robot)?;
+        let friction = self.friction.is_wanted();
+        let functions = Functions::Chosen(RobotProgram::functions(friction));
         let options = Options { functions, ..self.robot.options()? };
         let name = self.robot.path().display().to_string();
         let programs = robot_build::programs_of(robot, &name, &options)?;
-        let program = RobotProgram::new(&programs, &self.settings.pairs(), self.friction)?;
+        let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?;
         let motion = self.motion(&programs, &program, terminal)?;
         let energies = motion.energies(&program)?;
+        if let Some(plot) = &self.plot {
+            let conserved = !friction && motion.tau.iter().flatten().all(|tau| *tau == 0.0);
+            let figure = motion_figure(&programs.robot, &motion, &energies, conserved);
+            files::write_figure(plot, &figure)?;
+        }
         let csv = motion.table(&energies).csv();
         match &self.output {
             None => terminal.output.write_all(csv.as_bytes())?,
@@ -117,25 +123,6 @@ impl Arguments {
         let (name, text) = files::read(path, terminal)?;
         let table = Table::read(&name, &text)?;
         Ok(Torques::from_table(robot, &name, &table, self.time)?)
-    }
-
-    /// Gives dry friction that has a sharp sign a smooth one, where that is asked for.
-    fn smooth(&self, robot: &mut Robot) -> Result<(), Failure> {
-        let Some(width) = self.smoothing else {
-            return Ok(());
-        };
-        let formula = Formula::parse(&width.to_string()).ok().filter(|_| width > 0.0);
-        let Some(formula) = formula else {
-            return Err(Failure::Usage(vec![format!(
-                "--smoothing is {width}; it must be a positive velocity"
-            )]));
-        };
-        for link in &mut robot.links {
-            if link.friction != Friction::none() && link.friction.smoothing.is_none() {
-                link.friction.smoothing = Some(formula.clone());
-            }
-        }
-        Ok(())
     }
 }
 

@@ -1,5 +1,7 @@
 //! `simulate`, from files to files.
 
+use std::path::Path;
+
 use crate::{complaint, folder, output, robot, run};
 
 /// The columns of CSV by name.
@@ -70,7 +72,7 @@ fn everything_that_is_wrong_is_said() {
         "error: the tolerance is 2; it must lie between 1e-14 and 0.1\n\
          error: the start has 1 entries of q, not 2\nerror: the start has 3 entries of qd, not 2\n"
     );
-    assert!(shown(&["--torque", "3=1"]).starts_with("error: torque `3` is of no coordinate"));
+    assert!(shown(&["--torque", "3=1"]).starts_with("error: torque `3` is of no joint"));
     assert!(shown(&["--torque", "1=1/(t-t)"]).contains("driving forces have no finite value"));
     assert!(shown(&["--time", "0"]).contains("the duration is 0 s"));
     assert!(shown(&["--torques", "none.csv"]).contains("cannot read none.csv"));
@@ -82,4 +84,84 @@ fn everything_that_is_wrong_is_said() {
     let trttr1 = robot("trttr1");
     let usage = run(&["simulate", &trttr1, "--friction", "--smoothing", "-1"]);
     assert_eq!(usage.code, 2);
+}
+
+/// Runs a command line as documents show it: robot files of the project, other files in `folder`.
+fn run_line(line: &str, folder: &Path) {
+    let mut words = vec![];
+    for (index, part) in line.split('"').enumerate() {
+        match index % 2 {
+            0 => words.extend(part.split_whitespace().map(str::to_owned)),
+            _ => words.push(part.to_owned()),
+        }
+    }
+    let is_file = |word: &str| {
+        let extension = Path::new(word).extension().and_then(|extension| extension.to_str());
+        matches!(extension, Some("csv" | "svg" | "png"))
+    };
+    let placed = words.iter().skip(1).map(|word| {
+        if let Some(name) = word.strip_prefix("robots/").and_then(|name| name.strip_suffix(".toml"))
+        {
+            robot(name)
+        } else if is_file(word) {
+            let name = Path::new(word).file_name().unwrap();
+            folder.join(name).to_str().unwrap().to_owned()
+        } else {
+            word.clone()
+        }
+    });
+    let arguments: Vec<String> = placed.collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = run(&arguments);
+    assert_eq!((outcome.code, outcome.errors.as_str()), (0, ""), "{line}");
+}
+
+/// What a picture says: its texts, but for the labels of the error of integration, which differ from
+/// one processor to the other.
+fn texts(svg: &str) -> Vec<&str> {
+    let upto = svg.find("energy − start").unwrap_or(svg.len());
+    svg[..upto].lines().filter(|line| !line.starts_with('<')).collect()
+}
+
+#[test]
+fn the_commands_of_the_document_make_its_pictures() {
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
+    let document = std::fs::read_to_string(format!("{docs}/simulation.md")).unwrap();
+    let folder = folder("simulate-docs");
+    for line in document.lines().filter(|line| line.starts_with("robot-symbolic ")) {
+        run_line(line, &folder);
+    }
+    for name in ["planar_2r.svg", "puma560.svg", "torques.svg"] {
+        assert!(document.contains(&format!("(simulation/{name})")), "{name}");
+        let kept = std::fs::read_to_string(format!("{docs}/simulation/{name}")).unwrap();
+        let made = std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(kept.len() < 150_000, "{name}: {} bytes", kept.len());
+        assert!(texts(&made).len() > 10);
+        assert_eq!(texts(&kept), texts(&made), "{name} is out of date: run the command above it");
+    }
+    let shares = std::fs::read_to_string(folder.join("shares.csv")).unwrap();
+    for (index, t) in column(&shares, "t").iter().enumerate() {
+        assert!((column(&shares, "tau3")[index] - 2.0 * (3.0 * t).sin()).abs() < 1e-9);
+    }
+    assert!(std::fs::read(folder.join("shares.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn torques_are_split_and_wrong_trajectories_refused() {
+    let file = robot("planar_2r");
+    let arguments = ["torques", &file, "--expressions", "q1 = 0.2*t^2; q2=0;", "--time", "1"];
+    let csv = output(&[&arguments[..], &["--step", "0.5"]].concat(), "");
+    let header = "t,tau1,tau2,inertia1,inertia2,coriolis1,coriolis2,gravity1,gravity2";
+    assert_eq!((csv.lines().next(), csv.lines().count()), (Some(header), 4));
+    let inertia = column(&csv, "inertia1");
+    // (m1 r1² + I1 + m2 (l1 + r2)² + I2) · 0.4
+    assert!((inertia[0] - (1.25 + 0.42 + 3.0 * 1.96 + 0.16) * 0.4).abs() < 1e-12, "{inertia:?}");
+    let csv = "t,q1\n0,0\n";
+    let shown = complaint(1, &["torques", &file, "--trajectory", "-"], csv);
+    assert!(shown.contains("error: standard input: there is no column `qdd2`"), "{shown}");
+    let wrong = [&["torques", file.as_str()][..], &arguments[..4]];
+    for arguments in wrong {
+        assert_eq!(run(arguments).code, 2, "{arguments:?}");
+    }
+    assert_eq!(run(&["simulate", &file, "--plot", "a.pdf"]).code, 2);
 }

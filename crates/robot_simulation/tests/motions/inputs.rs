@@ -32,12 +32,12 @@ fn expressions_know_time_state_and_parameters() {
     assert_eq!(
         lines[1..],
         [
-            "torque `3` is of no coordinate; there are 1 to 2, by joints 1, 2",
+            "torque `3` is of no joint; there are 1 to 2, by names 1, 2",
             "torque `1` is given twice",
             "torque `2 = tau1`: `tau1` is not known here; there are t, q1 …, qd1 … and the robot's \
              parameters",
             "torque `7` is no assignment; write NAME = EXPRESSION",
-            "torque `elbow` is of no coordinate; there are 1 to 2, by joints 1, 2",
+            "torque `elbow` is of no joint; there are 1 to 2, by names 1, 2",
         ]
     );
 }

@@ -1,0 +1,103 @@
+//! `torques`: the driving forces along a trajectory, split by cause.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_build::{Functions, Options};
+use robot_dynamics::model::Robot;
+use robot_simulation::plot::shares_figure;
+use robot_simulation::{Shares, Table, Trajectory, shares};
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::files;
+use crate::friction::FrictionArguments;
+use crate::robot::RobotArgument;
+use crate::settings::Settings;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic torques robots/planar_2r.toml --expressions \"q1 = sin(t); q2 = 0.5*t^2\" --time 3
+  robot-symbolic simulate robots/planar_2r.toml --q0 1.5,0.5 -o motion.csv
+  robot-symbolic torques robots/planar_2r.toml --trajectory motion.csv -o torques.csv --plot torques.svg
+
+A trajectory has the columns t, q1 …, qd1 …, qdd1 …, and fx, fy, fz, mx, my, mz where the tip exerts a
+wrench (fx_NAME … for each of several tips); what `simulate` writes is one. Expressions know t and the
+robot's parameters; velocities and accelerations are their exact derivatives. The output is CSV: t, the
+torques tau, and their shares: inertia (M qdd), coriolis (C qd, with the centrifugal ones), gravity,
+friction and wrench, in N m or N.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// A CSV file with the motion; `-` for standard input
+    #[arg(long, value_name = "FILE", required_unless_present = "expressions")]
+    trajectory: Option<PathBuf>,
+    /// The motion as expressions in t, one for each coordinate, with `;` between
+    #[arg(
+        long,
+        value_name = "Q1=EXPRESSION;…",
+        value_delimiter = ';',
+        requires = "time",
+        conflicts_with = "trajectory"
+    )]
+    expressions: Vec<String>,
+    /// How long the expressions are followed, s
+    #[arg(long, value_name = "S", requires = "expressions")]
+    time: Option<f64>,
+    /// The time between lines of the output where the motion is expressions, s
+    #[arg(long, value_name = "S", default_value_t = 0.01)]
+    step: f64,
+    #[command(flatten)]
+    friction: FrictionArguments,
+    #[command(flatten)]
+    settings: Settings,
+    /// The CSV file to write; without this standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// A plot to write, .svg or .png: the shares of each torque over time
+    #[arg(long, value_name = "FILE", value_parser = files::plot_path)]
+    plot: Option<PathBuf>,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let mut robot = self.robot.read(terminal)?.robot;
+        let wrong = self.settings.wrong(&robot);
+        if !wrong.is_empty() {
+            return Err(Failure::Input(wrong));
+        }
+        self.friction.smooth(&mut robot)?;
+        let friction = self.friction.is_wanted();
+        let trajectory = self.trajectory(&robot, terminal)?;
+        let wrench = trajectory.wrenches.is_some();
+        let functions = Functions::Chosen(Shares::functions(friction, wrench));
+        let options = Options { functions, ..self.robot.options()? };
+        let name = self.robot.path().display().to_string();
+        let programs = robot_build::programs_of(robot, &name, &options)?;
+        let shares = shares(&programs, &self.settings.pairs(), &trajectory, friction)?;
+        if let Some(plot) = &self.plot {
+            files::write_figure(plot, &shares_figure(&programs.robot, &shares))?;
+        }
+        let csv = shares.table().csv();
+        match &self.output {
+            None => Ok(terminal.output.write_all(csv.as_bytes())?),
+            Some(path) => files::write(path, csv.as_bytes()),
+        }
+    }
+
+    fn trajectory(
+        &self,
+        robot: &Robot,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<Trajectory, Failure> {
+        let Some(path) = &self.trajectory else {
+            let texts: Vec<&str> = self.expressions.iter().map(|text| text.trim()).collect();
+            let texts: Vec<&str> = texts.into_iter().filter(|text| !text.is_empty()).collect();
+            let (parameters, time) = (self.settings.pairs(), self.time.unwrap_or_default());
+            let found = Trajectory::from_expressions(robot, &parameters, &texts, time, self.step);
+            return Ok(found?);
+        };
+        let (name, text) = files::read(path, terminal)?;
+        Ok(Trajectory::from_table(robot, &name, &Table::read(&name, &text)?)?)
+    }
+}

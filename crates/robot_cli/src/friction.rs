@@ -1,0 +1,45 @@
+//! Whether and how a command takes friction into account.
+
+use clap::Args;
+use robot_dynamics::model::{Friction, Robot};
+use robot_symbolic::Formula;
+
+use crate::failure::Failure;
+
+/// Friction in the joints.
+#[derive(Args)]
+pub(crate) struct FrictionArguments {
+    /// With the friction that the robot file gives
+    #[arg(long)]
+    friction: bool,
+    /// Take tanh(qd / WIDTH) for the sign of a velocity in dry friction that has no smoothing, rad/s
+    /// or m/s
+    #[arg(long, value_name = "WIDTH", requires = "friction")]
+    smoothing: Option<f64>,
+}
+
+impl FrictionArguments {
+    /// Whether friction is wanted.
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.friction
+    }
+
+    /// Gives dry friction that has a sharp sign a smooth one, where that is asked for.
+    pub(crate) fn smooth(&self, robot: &mut Robot) -> Result<(), Failure> {
+        let Some(width) = self.smoothing else {
+            return Ok(());
+        };
+        let formula = Formula::parse(&width.to_string()).ok().filter(|_| width > 0.0);
+        let Some(formula) = formula else {
+            return Err(Failure::Usage(vec![format!(
+                "--smoothing is {width}; it must be a positive velocity"
+            )]));
+        };
+        for link in &mut robot.links {
+            if link.friction != Friction::none() && link.friction.smoothing.is_none() {
+                link.friction.smoothing = Some(formula.clone());
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,96 @@
+//! The figures of motions and of driving forces.
+
+use robot_dynamics::model::{JointKind, Robot};
+
+use super::{Curve, Figure, Panel};
+use crate::motion::{Energies, Motion};
+use crate::shares::Shares;
+
+/// Positions, velocities, driving forces and energies of a motion. Where `conserved`, a last panel
+/// shows by how much the energy has changed since the start: the error of the integration.
+#[must_use]
+pub fn motion_figure(
+    robot: &Robot,
+    motion: &Motion,
+    energies: &Energies,
+    conserved: bool,
+) -> Figure {
+    let q: Vec<&[f64]> = motion.states.iter().map(|state| state.q.as_slice()).collect();
+    let qd: Vec<&[f64]> = motion.states.iter().map(|state| state.qd.as_slice()).collect();
+    let mut panels = by_unit(robot, "position q", "q", ["rad", "m"], &q);
+    panels.extend(by_unit(robot, "velocity qd", "qd", ["rad/s", "m/s"], &qd));
+    if motion.tau.iter().flatten().any(|tau| *tau != 0.0) {
+        panels.extend(by_unit(robot, "drive tau", "tau", ["N m", "N"], &motion.tau));
+    }
+    let curve = |name: &str, values: &[f64]| Curve {
+        name: name.to_owned(),
+        values: values.to_vec(),
+        is_sum: name == "sum",
+    };
+    panels.push(Panel {
+        quantity: "energy".to_owned(),
+        unit: "J".to_owned(),
+        curves: vec![
+            curve("kinetic", &energies.kinetic),
+            curve("potential", &energies.potential),
+            curve("sum", &energies.total),
+        ],
+    });
+    if conserved {
+        let start = energies.total.first().copied().unwrap_or_default();
+        let change: Vec<f64> = energies.total.iter().map(|energy| energy - start).collect();
+        let curves = vec![curve("error", &change)];
+        panels
+            .push(Panel { quantity: "energy − start".to_owned(), unit: "J".to_owned(), curves });
+    }
+    Figure { title: format!("Motion of {}", robot.name), t: motion.t.clone(), panels }
+}
+
+/// The driving forces along a trajectory by their shares, a panel for each coordinate.
+#[must_use]
+pub fn shares_figure(robot: &Robot, shares: &Shares) -> Figure {
+    let panel = |(index, kind): (usize, JointKind)| {
+        let curve = |(name, series): (&str, &Vec<Vec<f64>>)| Curve {
+            name: if name == "coriolis" { "Coriolis".to_owned() } else { name.to_owned() },
+            values: entries(series, index),
+            is_sum: name == "total",
+        };
+        Panel {
+            quantity: format!("tau{}", index + 1),
+            unit: if kind == JointKind::Revolute { "N m" } else { "N" }.to_owned(),
+            curves: shares.named().into_iter().map(curve).collect(),
+        }
+    };
+    let kinds = robot.coordinates.iter().map(|coordinate| coordinate.kind).enumerate();
+    let title = format!("Driving forces of {}", robot.name);
+    Figure { title, t: shares.t.clone(), panels: kinds.map(panel).collect() }
+}
+
+/// A panel for the coordinates that turn and one for those that slide, where there are such.
+fn by_unit(
+    robot: &Robot,
+    quantity: &str,
+    name: &str,
+    [turning, sliding]: [&str; 2],
+    samples: &[impl AsRef<[f64]>],
+) -> Vec<Panel> {
+    let panel = |(kind, unit): (JointKind, &str)| {
+        let numbers = robot.coordinates.iter().enumerate();
+        let numbers = numbers.filter(|(_, coordinate)| coordinate.kind == kind);
+        let curve = |(index, _)| Curve {
+            name: format!("{name}{}", index + 1),
+            values: entries(samples, index),
+            is_sum: false,
+        };
+        let curves: Vec<Curve> = numbers.map(curve).collect();
+        let (quantity, unit) = (quantity.to_owned(), unit.to_owned());
+        (!curves.is_empty()).then_some(Panel { quantity, unit, curves })
+    };
+    let kinds = [(JointKind::Revolute, turning), (JointKind::Prismatic, sliding)];
+    kinds.into_iter().filter_map(panel).collect()
+}
+
+/// An entry of every sample.
+fn entries(samples: &[impl AsRef<[f64]>], index: usize) -> Vec<f64> {
+    samples.iter().filter_map(|sample| sample.as_ref().get(index).copied()).collect()
+}

@@ -1,0 +1,69 @@
+//! Letters at the height where they belong.
+
+use plotters_backend::{
+    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+    FontTransform,
+};
+
+/// Plotters puts the letters of its own fonts above their place, by this part of their size.
+const RISE: f64 = 0.2;
+
+/// A bitmap on which letters stand lower than plotters puts them.
+pub(super) struct Lowered<B>(pub(super) B);
+
+type Done<B> = Result<(), DrawingErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+impl<B: DrawingBackend> DrawingBackend for Lowered<B> {
+    type ErrorType = B::ErrorType;
+
+    fn get_size(&self) -> (u32, u32) {
+        self.0.get_size()
+    }
+
+    fn ensure_prepared(&mut self) -> Done<B> {
+        self.0.ensure_prepared()
+    }
+
+    fn present(&mut self) -> Done<B> {
+        self.0.present()
+    }
+
+    fn draw_pixel(&mut self, point: BackendCoord, colour: BackendColor) -> Done<B> {
+        self.0.draw_pixel(point, colour)
+    }
+
+    fn draw_line<S: BackendStyle>(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        style: &S,
+    ) -> Done<B> {
+        self.0.draw_line(from, to, style)
+    }
+
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        upper_left: BackendCoord,
+        bottom_right: BackendCoord,
+        style: &S,
+        fill: bool,
+    ) -> Done<B> {
+        self.0.draw_rect(upper_left, bottom_right, style, fill)
+    }
+
+    fn draw_text<S: BackendTextStyle>(
+        &mut self,
+        text: &str,
+        style: &S,
+        (x, y): BackendCoord,
+    ) -> Done<B> {
+        let down = (RISE * style.size()).round() as i32;
+        let place = match style.transform() {
+            FontTransform::None => (x, y + down),
+            FontTransform::Rotate90 => (x - down, y),
+            FontTransform::Rotate180 => (x, y - down),
+            FontTransform::Rotate270 => (x + down, y),
+        };
+        self.0.draw_text(text, style, place)
+    }
+}

@@ -1,0 +1,194 @@
+//! Trajectories: motions that are given, by samples or by expressions in time.
+
+use std::collections::BTreeMap;
+
+use robot_dynamics::diagnostic::quote;
+use robot_dynamics::model::Robot;
+use robot_symbolic::{Expr, Formula, Graph, walk};
+
+use crate::error::Error;
+use crate::table::{Table, check_times};
+use crate::{expressions, grid};
+
+/// A motion that is given, with the wrenches at the tips: a sample for each time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// t, s, rising.
+    pub t: Vec<f64>,
+    /// q, rad or m.
+    pub q: Vec<Vec<f64>>,
+    /// q̇, rad/s or m/s.
+    pub qd: Vec<Vec<f64>>,
+    /// q̈, rad/s² or m/s².
+    pub qdd: Vec<Vec<f64>>,
+    /// What the tips exert on their surroundings, force (N) then moment (N m), in the tips' frames,
+    /// one tip after the other; `None` where nothing is said of wrenches.
+    pub wrenches: Option<Vec<Vec<f64>>>,
+}
+
+/// The names of the components of a wrench.
+const COMPONENTS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
+
+/// Columns that a motion has beside those of a trajectory.
+fn is_result(name: &str) -> bool {
+    let number = name.strip_prefix("tau").map(str::parse::<usize>);
+    matches!(name, "kinetic" | "potential" | "energy") || matches!(number, Some(Ok(_)))
+}
+
+/// `q1` … for each coordinate.
+fn numbered(robot: &Robot, name: &str) -> Vec<String> {
+    (1..=robot.degrees_of_freedom()).map(|number| format!("{name}{number}")).collect()
+}
+
+/// `fx` … of the only tip, or `fx_NAME` … of each of several.
+fn wrench_names(robot: &Robot) -> Vec<String> {
+    let tips: Vec<&str> = robot.tips().map(|(frame, _)| frame.name.as_str()).collect();
+    let of_tip = |tip: &str| {
+        let suffix = if tips.len() > 1 { format!("_{tip}") } else { String::new() };
+        COMPONENTS.map(|component| format!("{component}{suffix}"))
+    };
+    tips.iter().flat_map(|tip| of_tip(tip)).collect()
+}
+
+/// The rows of some columns.
+fn rows(columns: &[&[f64]], count: usize) -> Vec<Vec<f64>> {
+    let entry = |column: &&[f64], row: usize| column.get(row).copied();
+    let row = |row: usize| columns.iter().filter_map(|column| entry(column, row)).collect();
+    (0..count).map(row).collect()
+}
+
+impl Trajectory {
+    /// Samples: the columns t (s), rising, q1 …, qd1 …, qdd1 …, and, where a tip exerts a wrench, fx,
+    /// fy, fz, mx, my, mz, or fx_NAME … for each of several tips. The torques and energies of a
+    /// simulated motion may stand beside them; they are not read.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the table; `source` is its name in messages.
+    pub fn from_table(robot: &Robot, source: &str, table: &Table) -> Result<Trajectory, Error> {
+        let mut wrong = check_times(source, table);
+        let wrench_names = wrench_names(robot);
+        let has_wrench = table.names().any(|name| wrench_names.iter().any(|known| known == name));
+        let [q, qd, qdd] = ["q", "qd", "qdd"].map(|name| numbered(robot, name));
+        let needed = [&q, &qd, &qdd].into_iter().flatten();
+        let wrenches = if has_wrench { &wrench_names[..] } else { &[] };
+        let needed: Vec<&String> = needed.chain(wrenches).collect();
+        for name in needed.iter().filter(|name| table.column(name).is_none()) {
+            wrong.push(format!("{source}: there is no column `{name}`"));
+        }
+        for name in table.names() {
+            if name != "t" && !is_result(name) && needed.iter().all(|known| *known != name) {
+                let name = quote(name);
+                wrong.push(format!("{source}: nothing is known of the column `{name}`"));
+            }
+        }
+        let gather = |names: &[String]| {
+            let columns: Vec<&[f64]> = names.iter().filter_map(|name| table.column(name)).collect();
+            rows(&columns, table.rows())
+        };
+        let trajectory = Trajectory {
+            t: table.column("t").unwrap_or_default().to_vec(),
+            q: gather(&q),
+            qd: gather(&qd),
+            qdd: gather(&qdd),
+            wrenches: has_wrench.then(|| gather(&wrench_names)),
+        };
+        Error::check(wrong, trajectory)
+    }
+
+    /// Expressions such as `q1 = 0.5*sin(t)`, one for each coordinate, of t (s) and the robot's
+    /// parameters, and of the components of wrenches by the names of [`Trajectory::from_table`];
+    /// components without one are 0. Velocities and accelerations are the exact derivatives; samples
+    /// are `step` apart over `duration`, s. `parameters` are those that are not to have their nominal
+    /// values.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the texts, and values that are not finite.
+    pub fn from_expressions(
+        robot: &Robot,
+        parameters: &[(&str, f64)],
+        texts: &[impl AsRef<str>],
+        duration: f64,
+        step: f64,
+    ) -> Result<Trajectory, Error> {
+        let times = grid::times(duration, step)?;
+        let values = expressions::parameters(robot, parameters);
+        let (formulas, wrong) = formulas(robot, &values, texts);
+        Error::check(wrong, ())?;
+        let graph = Graph::new();
+        let time = graph.symbol("t");
+        let lower = |name: &String| match formulas.get(name) {
+            Some(formula) => formula.lower(&graph, &mut |name| graph.symbol(name)),
+            None => graph.zero(),
+        };
+        let q: Vec<Expr<'_>> = numbered(robot, "q").iter().map(lower).collect();
+        let qd = walk::derivatives(&q, time);
+        let qdd = walk::derivatives(&qd, time);
+        let wrench_names = wrench_names(robot);
+        let has_wrench = wrench_names.iter().any(|name| formulas.contains_key(name));
+        let wrenches: Vec<Expr<'_>> = wrench_names.iter().map(lower).collect();
+        let sample = |exprs: &[Expr<'_>]| -> Result<Vec<Vec<f64>>, Error> {
+            times.iter().map(|t| at(&graph, exprs, &values, *t)).collect()
+        };
+        Ok(Trajectory {
+            q: sample(&q)?,
+            qd: sample(&qd)?,
+            qdd: sample(&qdd)?,
+            wrenches: if has_wrench { Some(sample(&wrenches)?) } else { None },
+            t: times,
+        })
+    }
+}
+
+/// The formulas by name, and what is wrong with their texts.
+fn formulas(
+    robot: &Robot,
+    parameters: &BTreeMap<String, f64>,
+    texts: &[impl AsRef<str>],
+) -> (BTreeMap<String, Formula>, Vec<String>) {
+    let (mut formulas, mut wrong) = (BTreeMap::new(), vec![]);
+    let coordinates = numbered(robot, "q");
+    let wrenches = wrench_names(robot);
+    let is_known = |name: &str| name == "t" || parameters.contains_key(name);
+    for text in texts {
+        let known = "t and the robot's parameters";
+        match expressions::assignment(text.as_ref(), is_known, known) {
+            Err(message) => wrong.push(message),
+            Ok((name, formula)) => {
+                let shown = quote(name);
+                if coordinates.iter().chain(&wrenches).all(|known| known != name) {
+                    let names = [&coordinates[..], &wrenches].concat().join(", ");
+                    wrong
+                        .push(format!("there is nothing to give for `{shown}`; there are {names}"));
+                } else if formulas.insert(name.to_owned(), formula).is_some() {
+                    wrong.push(format!("`{shown}` is given twice"));
+                }
+            }
+        }
+    }
+    for name in coordinates.iter().filter(|name| !formulas.contains_key(*name)) {
+        wrong
+            .push(format!("there is no expression for `{name}`; where it rests, write {name} = 0"));
+    }
+    (formulas, wrong)
+}
+
+/// The values of expressions at a time.
+fn at(
+    graph: &Graph,
+    exprs: &[Expr<'_>],
+    parameters: &BTreeMap<String, f64>,
+    t: f64,
+) -> Result<Vec<f64>, Error> {
+    let values = walk::evaluate(exprs, |symbol| {
+        let name = graph.symbol_name(symbol);
+        if *name == *"t" { t } else { parameters.get(&*name).copied().unwrap_or(f64::NAN) }
+    });
+    match values.iter().all(|value| value.is_finite()) {
+        true => Ok(values),
+        false => Err(Error::input(format!(
+            "the expressions or their derivatives have no finite value at t = {t} s"
+        ))),
+    }
+}
