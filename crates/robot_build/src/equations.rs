@@ -178,7 +178,7 @@ impl<'r> Writer<'r> {
         let name = symbol.to_string();
         let left = match self.notation {
             Notation::Text => name.clone(),
-            Notation::Latex(_) => left_side(symbol),
+            Notation::Latex(_) => symbol.latex(),
         };
         Ok(Equation { name, left, terms: self.terms(polynomial)? })
     }
@@ -237,17 +237,4 @@ impl<'r> Writer<'r> {
 fn is_inertial(parameter: &Parameter) -> bool {
     let dimension = parameter.unit.as_ref().map(|unit| unit.dimension);
     dimension.is_some_and(|dimension| dimension.mass == 1 && dimension.time == 0)
-}
-
-/// `Q_{2}`, `F_{l_x}^{5}`
-fn left_side(symbol: Symbol) -> String {
-    let number = symbol.number;
-    let Some(component) = symbol.component else {
-        return format!("{}_{{{number}}}", symbol.kind.name());
-    };
-    let axis = ["x", "y", "z"][component.min(2)];
-    match symbol.kind.name().split_once('_') {
-        Some((letter, index)) => format!("{letter}_{{{index}_{axis}}}^{{{number}}}"),
-        None => format!("{}_{{{axis}}}^{{{number}}}", symbol.kind.name()),
-    }
 }

@@ -21,6 +21,8 @@ pub(crate) enum Failure {
     Usage(Vec<String>),
     /// What is shown already.
     Shown,
+    /// As the failure, with the code 2: a comparison keeps 1 for what differs.
+    Refused(Box<Failure>),
     /// A stream.
     Stream(io::Error),
 }
@@ -59,6 +61,11 @@ impl Failure {
         Failure::Input(vec![message.into()])
     }
 
+    /// The failure of a command whose code 1 means that two things differ.
+    pub(crate) fn refused(self) -> Failure {
+        Failure::Refused(Box::new(self))
+    }
+
     /// Shows what is wrong; gives the exit code.
     pub(crate) fn report(&self, terminal: &mut Terminal<'_>) -> u8 {
         let (messages, code) = match self {
@@ -66,6 +73,10 @@ impl Failure {
             Failure::Input(messages) => (shown(messages), 1),
             Failure::Usage(messages) => (shown(messages), 2),
             Failure::Shown => (vec![], 1),
+            Failure::Refused(failure) => {
+                failure.report(terminal);
+                return 2;
+            }
             // Whoever reads the output has seen enough.
             Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
             Failure::Stream(error) => (vec![format!("error: {error}")], 1),

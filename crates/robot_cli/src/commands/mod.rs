@@ -2,6 +2,7 @@
 
 mod base;
 mod check;
+mod compare;
 mod completions;
 mod demo;
 mod document;
@@ -56,6 +57,8 @@ pub(crate) enum Command {
     Import(import::Arguments),
     /// Check robot files for errors and likely slips
     Check(check::Arguments),
+    /// Compare published equations with the derived ones, term by term
+    Compare(compare::Arguments),
     /// Print the JSON schema of robot files, for editors
     Schema(schema::Arguments),
     /// Show what a robot file says
@@ -93,6 +96,7 @@ impl Command {
             Command::Search(arguments) => arguments.run(terminal),
             Command::Import(arguments) => arguments.run(terminal),
             Command::Check(arguments) => arguments.run(terminal),
+            Command::Compare(arguments) => arguments.run(terminal),
             Command::Schema(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
             Command::Completions(arguments) => arguments.run(terminal),

@@ -6,6 +6,7 @@ mod base;
 mod book;
 mod check;
 mod code;
+mod compare;
 mod equations;
 mod eval;
 mod files;

@@ -2,7 +2,10 @@
 
 use std::fmt;
 
-use robot_symbolic::{Expr, Number, Polynomial, PolynomialError, PolynomialOptions, print};
+use robot_symbolic::{
+    Expr, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, print,
+};
+use std::collections::HashMap;
 
 /// A term: a coefficient and powers of atoms.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,19 +22,31 @@ pub(super) struct Power<'g> {
     pub(super) exponent: i32,
 }
 
-/// The canonical terms of an expression.
-pub(super) fn terms_of(expr: Expr<'_>) -> Result<Vec<Term<'_>>, PolynomialError> {
-    let polynomial = Polynomial::of(expr, &PolynomialOptions::default())?;
-    let graph = expr.graph();
-    let term = |(monomial, coefficient): (&robot_symbolic::Monomial, &Number)| Term {
-        coefficient: coefficient.clone(),
-        factors: monomial
-            .factors()
-            .iter()
-            .map(|factor| Power { atom: graph.expr(factor.atom()), exponent: factor.exponent() })
-            .collect(),
-    };
-    Ok(polynomial.terms().map(term).collect())
+/// What makes terms like terms: their atoms and powers.
+pub(super) type Key = Vec<(Id, i32)>;
+
+/// The canonical terms of expressions, expanded together under one limit.
+pub(super) fn terms_of<'g>(
+    exprs: &[Expr<'g>],
+    limits: &PolynomialOptions,
+) -> Result<Vec<Vec<Term<'g>>>, PolynomialError> {
+    let polynomials = Polynomial::of_all(exprs, limits)?;
+    let terms = polynomials.iter().map(|polynomial| {
+        let graph = polynomial.graph();
+        let term = |(monomial, coefficient): (&Monomial, &Number)| Term {
+            coefficient: coefficient.clone(),
+            factors: monomial
+                .factors()
+                .iter()
+                .map(|factor| Power {
+                    atom: graph.expr(factor.atom()),
+                    exponent: factor.exponent(),
+                })
+                .collect(),
+        };
+        polynomial.terms().map(term).collect()
+    });
+    Ok(terms.collect())
 }
 
 /// The printed terms without counterpart, and the derived terms without.
@@ -41,60 +56,71 @@ pub(super) fn leftover<'g>(
     printed: &[Term<'g>],
     derived: &[Term<'g>],
 ) -> (Vec<Term<'g>>, Vec<Term<'g>>) {
-    let is_right = |term: &Term<'g>| {
-        let like = printed.iter().filter(|other| other.factors == term.factors);
-        let sum = like.fold(Number::integer(0), |sum, other| &sum + &other.coefficient);
-        let counterpart = derived.iter().find(|other| other.factors == term.factors);
-        match counterpart {
-            Some(other) => other.coefficient == sum,
-            None => sum.is_zero(),
-        }
+    let mut sums: HashMap<Key, Number> = HashMap::default();
+    for term in printed {
+        let sum = sums.entry(term.key()).or_insert_with(|| Number::integer(0));
+        *sum = &*sum + &term.coefficient;
+    }
+    let known: HashMap<Key, &Number> =
+        derived.iter().map(|term| (term.key(), &term.coefficient)).collect();
+    let is_right = |key: &Key| match (sums.get(key), known.get(key)) {
+        (Some(sum), Some(coefficient)) => sum == *coefficient,
+        (Some(sum), None) => sum.is_zero(),
+        (None, _) => false,
     };
-    // Of like terms that do not add up, one may still be right.
-    let mut wrong: Vec<Term<'g>> = printed.iter().filter(|term| !is_right(term)).cloned().collect();
-    let mut missing: Vec<Term<'g>> = derived
-        .iter()
-        .filter(|term| match printed.iter().find(|other| other.factors == term.factors) {
-            Some(like) => !is_right(like),
-            None => true,
-        })
-        .cloned()
-        .collect();
-    missing.retain(|term| match wrong.iter().position(|printed| printed == term) {
-        Some(place) => {
-            wrong.remove(place);
-            false
+    let wrong = printed.iter().filter(|term| !is_right(&term.key()));
+    let mut wrong: Vec<Option<Term<'g>>> = wrong.cloned().map(Some).collect();
+    let mut places: HashMap<Key, Vec<usize>> = HashMap::default();
+    for (place, term) in wrong.iter().enumerate() {
+        places.entry(term.as_ref().map_or_else(Key::new, Term::key)).or_default().push(place);
+    }
+    let mut missing: Vec<Term<'g>> = vec![];
+    for term in derived.iter().filter(|term| !is_right(&term.key())) {
+        // Of like terms that do not add up, one may still be right.
+        let like = places.get(&term.key()).into_iter().flatten();
+        let right = like.copied().find(|place| wrong.get(*place) == Some(&Some(term.clone())));
+        match right.and_then(|place| wrong.get_mut(place)) {
+            Some(right) => *right = None,
+            None => missing.push(term.clone()),
         }
-        None => true,
-    });
-    (wrong, missing)
+    }
+    (wrong.into_iter().flatten().collect(), missing)
 }
 
 type Pair<'g> = (Option<Term<'g>>, Option<Term<'g>>);
 
 /// Pairs each wrong printed term with the missing derived term that resembles it most; what is left
 /// of either stands alone.
-pub(super) fn pair<'g>(wrong: &mut Vec<Term<'g>>, missing: &mut Vec<Term<'g>>) -> Vec<Pair<'g>> {
-    let mut pairs: Vec<Pair<'g>> = vec![];
-    while !wrong.is_empty() && !missing.is_empty() {
-        let all = (0..wrong.len()).flat_map(|i| (0..missing.len()).map(move |j| (i, j)));
-        let closest = all.min_by_key(|(i, j)| (wrong[*i].distance(&missing[*j]), *i, *j));
-        let Some((i, j)) = closest else { break };
-        pairs.push((Some(wrong.remove(i)), Some(missing.remove(j))));
+pub(super) fn pair<'g>(wrong: Vec<Term<'g>>, missing: Vec<Term<'g>>) -> Vec<Pair<'g>> {
+    let mut near: Vec<(u32, usize, usize)> = vec![];
+    for (i, printed) in wrong.iter().enumerate() {
+        near.extend(missing.iter().enumerate().map(|(j, one)| (printed.distance(one), i, j)));
     }
-    pairs.extend(wrong.drain(..).map(|term| (Some(term), None)));
-    pairs.extend(missing.drain(..).map(|term| (None, Some(term))));
+    near.sort_unstable();
+    let mut wrong: Vec<_> = wrong.into_iter().map(Some).collect();
+    let mut missing: Vec<_> = missing.into_iter().map(Some).collect();
+    let mut pairs: Vec<Pair<'g>> = vec![];
+    for (_, i, j) in near {
+        if let (Some(one), Some(other)) = (wrong.get_mut(i), missing.get_mut(j))
+            && one.is_some()
+            && other.is_some()
+        {
+            pairs.push((one.take(), other.take()));
+        }
+    }
+    pairs.extend(wrong.into_iter().flatten().map(|term| (Some(term), None)));
+    pairs.extend(missing.into_iter().flatten().map(|term| (None, Some(term))));
     pairs
 }
 
 impl<'g> Term<'g> {
-    fn exponent(&self, atom: Expr<'g>) -> i32 {
+    pub(super) fn exponent(&self, atom: Expr<'g>) -> i32 {
         let power = self.factors.iter().find(|power| power.atom == atom);
         power.map_or(0, |power| power.exponent)
     }
 
     /// How many factors would have to change, a different coefficient counted once.
-    fn distance(&self, other: &Term<'g>) -> u32 {
+    pub(super) fn distance(&self, other: &Term<'g>) -> u32 {
         let gone: u32 = self
             .factors
             .iter()
@@ -109,28 +135,32 @@ impl<'g> Term<'g> {
         gone + come + u32::from(self.coefficient != other.coefficient)
     }
 
-    /// The factor by which another term is this one, where it is a single atom or its inverse.
-    pub(super) fn differs_by_factor(&self, other: &Term<'g>) -> Option<String> {
-        let sign = if self.coefficient == other.coefficient {
-            ""
-        } else if self.coefficient == -&other.coefficient {
-            "-"
-        } else {
-            return None;
-        };
-        let (long, short) =
-            if self.factors.len() < other.factors.len() { (other, self) } else { (self, other) };
-        let extra: Vec<&Power<'g>> = long
-            .factors
-            .iter()
-            .filter(|power| short.exponent(power.atom) != power.exponent)
-            .collect();
-        match extra.as_slice() {
-            [power] if power.exponent == 1 && short.factors.len() + 1 == long.factors.len() => {
-                Some(format!("{sign}{}", atom_text(power.atom)))
-            }
-            _ => None,
+    /// The atoms and powers.
+    pub(super) fn key(&self) -> Key {
+        self.factors.iter().map(|power| (power.atom.id(), power.exponent)).collect()
+    }
+
+    /// The keys of the term without one of its atoms, where that has no power, and the atom's text.
+    pub(super) fn without_factor(&self) -> impl Iterator<Item = (Key, String)> {
+        let single = self.factors.iter().filter(|power| power.exponent == 1);
+        single.map(|power| {
+            let mut key = self.key();
+            key.retain(|(atom, _)| *atom != power.atom.id());
+            (key, atom_text(power.atom))
+        })
+    }
+
+    /// `2`, `-1/3`
+    pub(super) fn coefficient_text(&self) -> String {
+        match self.coefficient.as_rational() {
+            Some(rational) => print::exact_text(rational),
+            None => self.coefficient.to_f64().to_string(),
         }
+    }
+
+    /// The term of a list that resembles this one most.
+    pub(super) fn nearest<'t>(&self, terms: &'t [Term<'g>]) -> Option<&'t Term<'g>> {
+        terms.iter().min_by_key(|term| self.distance(term))
     }
 }
 
@@ -138,26 +168,27 @@ fn atom_text(atom: Expr<'_>) -> String {
     print::to_text(atom).unwrap_or_else(|error| error.to_string())
 }
 
+/// `qd2^2`
+impl fmt::Display for Power<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = atom_text(self.atom);
+        match self.exponent {
+            1 => formatter.write_str(&text),
+            exponent => write!(formatter, "{text}^{exponent}"),
+        }
+    }
+}
+
 /// `-2*cos(q2)*q3*M5*qd4*qd2`
 impl fmt::Display for Term<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (magnitude, sign) = if self.coefficient.is_negative() {
-            (-&self.coefficient, "-")
-        } else {
-            (self.coefficient.clone(), "")
-        };
-        formatter.write_str(sign)?;
-        let mut factors: Vec<String> = vec![];
-        if !magnitude.is_one() || self.factors.is_empty() {
-            factors.push(match magnitude.as_rational() {
-                Some(rational) => print::exact_text(rational),
-                None => magnitude.to_f64().to_string(),
-            });
+        let mut factors: Vec<String> = self.factors.iter().map(Power::to_string).collect();
+        let coefficient = self.coefficient_text();
+        match coefficient.as_str() {
+            "1" if !factors.is_empty() => {}
+            "-1" if !factors.is_empty() => formatter.write_str("-")?,
+            _ => factors.insert(0, coefficient),
         }
-        factors.extend(self.factors.iter().map(|power| match power.exponent {
-            1 => atom_text(power.atom),
-            exponent => format!("{}^{exponent}", atom_text(power.atom)),
-        }));
         formatter.write_str(&factors.join("*"))
     }
 }

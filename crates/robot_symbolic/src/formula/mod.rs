@@ -1,6 +1,7 @@
 //! Expression text that belongs to no graph: what robot files hold.
 
 mod error;
+pub mod latex;
 mod lexer;
 mod parser;
 

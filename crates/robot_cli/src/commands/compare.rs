@@ -1,0 +1,77 @@
+//! `compare`: published equations against derived ones.
+
+mod show;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_build::RobotFile;
+use robot_dynamics::errata::{Comparison, Notation, Options, compare};
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::robot::RobotArgument;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic compare robots/trttr1.toml docs/trttr1.printed
+  robot-symbolic compare robots/trttr1.toml docs/trttr1.printed --format markdown
+  robot-symbolic compare robots/trttr1.toml docs/trttr1.printed --notation text --format json
+
+PRINTED has equations `(number) quantity = terms`: a_c1.x, F1.x, M_c1.x, F_l1.x, M_l1.x and Q1 are what
+`equations` prints. In text each stands on a line, continued by indented lines; `#` begins a comment. In
+LaTeX each stands on a line or in a display (equation, align, \\[ \\] …), all else being prose; a vector
+may be a column. Sines and cosines are \\sin q_2, s_2 or sq_2. Terms may stand in any order and in
+brackets. Friction is left out, and so are the wrenches of tips that no equation has.
+
+Exit codes: 0 nothing differs; 1 terms differ; 2 a file or the command line is wrong.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// The published equations
+    printed: PathBuf,
+    /// How they are written; without this LaTeX where there is a backslash
+    #[arg(long, value_enum)]
+    notation: Option<NotationName>,
+    /// How to show what differs
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum NotationName {
+    Text,
+    Latex,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+    Markdown,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let comparison = self.comparison(terminal).map_err(Failure::refused)?;
+        let shown = match self.format {
+            Format::Text => show::text(&comparison),
+            Format::Json => show::json(&comparison),
+            Format::Markdown => show::markdown(&comparison),
+        };
+        terminal.output.write_all(shown.as_bytes())?;
+        if comparison.differences.is_empty() { Ok(()) } else { Err(Failure::Shown) }
+    }
+
+    fn comparison(&self, terminal: &mut Terminal<'_>) -> Result<Comparison, Failure> {
+        let robot = self.robot.read(terminal)?.robot;
+        let printed = RobotFile::read(&self.printed)?.source;
+        let notation = self.notation.map(|notation| match notation {
+            NotationName::Text => Notation::Text,
+            NotationName::Latex => Notation::Latex,
+        });
+        let options = Options { notation, snap: self.robot.snap() };
+        let found = compare(&robot, &printed, &options);
+        found.map_err(|errors| Failure::Robot(errors.into()))
+    }
+}

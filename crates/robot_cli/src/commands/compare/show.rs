@@ -1,0 +1,143 @@
+//! A comparison as text, JSON and Markdown.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use robot_dynamics::errata::{Comparison, Difference, SlipKind};
+use serde_json::{Value, json};
+
+/// A paragraph for each difference, and a summary.
+pub(super) fn text(comparison: &Comparison) -> String {
+    let mut shown = String::new();
+    for difference in &comparison.differences {
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            shown,
+            "{}, line {}: {}",
+            name(difference),
+            difference.line,
+            slips(difference)
+        );
+        let terms = [
+            ("printed", &difference.printed),
+            ("derived", &difference.derived),
+            ("nearest", &difference.nearest),
+        ];
+        for (title, term) in terms {
+            if let Some(term) = term {
+                let _ = writeln!(shown, "    {title}  {term}");
+            }
+        }
+        for evidence in &difference.evidence {
+            let _ = writeln!(shown, "    {evidence}");
+        }
+    }
+    shown + &summary(comparison) + "\n"
+}
+
+/// `(31) F_l5.x`
+fn name(difference: &Difference) -> String {
+    match difference.number.as_str() {
+        "" => difference.quantity.clone(),
+        number => format!("({number}) {}", difference.quantity),
+    }
+}
+
+fn slips(difference: &Difference) -> String {
+    let slips: Vec<String> = difference.slips.iter().map(ToString::to_string).collect();
+    slips.join(", ")
+}
+
+/// `85 equations (10 only name a quantity), 839 terms: 34 terms differ (23 dot, 8 index, …)`
+fn summary(comparison: &Comparison) -> String {
+    let Comparison { equations, names, terms, wrench, differences } = comparison;
+    let mut kinds: BTreeMap<SlipKind, usize> = BTreeMap::new();
+    for slip in differences.iter().flat_map(|difference| &difference.slips) {
+        *kinds.entry(slip.kind).or_default() += 1;
+    }
+    let kinds: Vec<String> =
+        kinds.iter().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+    let counted =
+        |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let mut shown = counted(*equations, "equation");
+    if *names > 0 {
+        let _ = write!(shown, " ({names} only name a quantity)");
+    }
+    let _ = write!(shown, ", {}", counted(*terms, "term"));
+    if !wrench {
+        shown.push_str(", no wrench");
+    }
+    match differences.len() {
+        0 => shown + ": nothing differs",
+        1 => shown + &format!(": 1 term differs ({})", kinds.join(", ")),
+        count => shown + &format!(": {count} terms differ ({})", kinds.join(", ")),
+    }
+}
+
+/// `{"equations": …, "terms": …, "differences": […]}`
+pub(super) fn json(comparison: &Comparison) -> String {
+    let differences: Vec<Value> = comparison
+        .differences
+        .iter()
+        .map(|difference| {
+            let slips: Vec<Value> = difference
+                .slips
+                .iter()
+                .map(|slip| {
+                    let (printed, derived) = (&slip.printed, &slip.derived);
+                    json!({ "kind": slip.kind.name(), "printed": printed, "derived": derived })
+                })
+                .collect();
+            let evidence: Vec<String> =
+                difference.evidence.iter().map(ToString::to_string).collect();
+            json!({
+                "number": difference.number,
+                "quantity": difference.quantity,
+                "line": difference.line,
+                "slips": slips,
+                "printed": difference.printed,
+                "derived": difference.derived,
+                "nearest": difference.nearest,
+                "evidence": evidence,
+            })
+        })
+        .collect();
+    let shown = json!({
+        "equations": comparison.equations,
+        "names": comparison.names,
+        "terms": comparison.terms,
+        "wrench": comparison.wrench,
+        "differences": differences,
+    });
+    format!("{shown:#}\n")
+}
+
+/// A table, and a summary.
+pub(super) fn markdown(comparison: &Comparison) -> String {
+    let mut shown = String::new();
+    if !comparison.differences.is_empty() {
+        shown.push_str("| equation | slip | printed term | derived term | evidence |\n");
+        shown.push_str("|---|---|---|---|---|\n");
+    }
+    let term = |term: &Option<String>| match term {
+        Some(term) => format!("`{term}`"),
+        None => "—".to_owned(),
+    };
+    for difference in &comparison.differences {
+        let evidence: Vec<String> = difference.evidence.iter().map(ToString::to_string).collect();
+        let derived = match &difference.nearest {
+            Some(nearest) => format!("— (nearest: `{nearest}`)"),
+            None => term(&difference.derived),
+        };
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            shown,
+            "| {} | {} | {} | {derived} | {} |",
+            name(difference).replace('|', "\\|"),
+            slips(difference),
+            term(&difference.printed),
+            evidence.join("; ").replace('|', "\\|"),
+        );
+    }
+    shown + "\n" + &summary(comparison) + "\n"
+}

@@ -1,0 +1,97 @@
+//! `compare`: what `docs/trttr1.md` and `docs/comparing.md` show is what the command prints, and what
+//! `equations` prints is right in every notation.
+
+use serde_json::Value;
+
+use crate::{complaint, output, robot, run};
+
+/// The path of a file in the folder of the project.
+fn project(file: &str) -> String {
+    format!("{}/../../{file}", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn text(file: &str) -> String {
+    std::fs::read_to_string(project(file)).unwrap()
+}
+
+/// What the command prints of the paper's equations, with one part of them replaced.
+fn paper(from: &str, to: &str, format: &str) -> String {
+    let printed = text("docs/trttr1.printed");
+    assert!(printed.contains(from));
+    let path = crate::folder(&format!("compare-paper-{format}-{}", to.len())).join("printed");
+    std::fs::write(&path, printed.replacen(from, to, 1)).unwrap();
+    let path = path.to_str().unwrap();
+    let outcome = run(&["compare", &robot("trttr1"), path, "--format", format]);
+    assert_eq!((outcome.code, outcome.errors.as_str()), (1, ""));
+    outcome.output
+}
+
+#[test]
+fn the_paper_differs_in_the_terms_that_the_document_lists() {
+    let shown = paper("", "", "markdown");
+    let document = text("docs/trttr1.md");
+    assert!(document.contains(&shown), "docs/trttr1.md does not hold\n{shown}");
+    assert!(document.contains("**34 terms differ**"));
+    assert!(shown.ends_with(
+        "85 equations (5 only name a quantity), 839 terms: 34 terms differ (1 missing term, 1 sign, \
+         20 dot, 9 index, 1 power, 2 factor)\n"
+    ));
+    let found: Value = serde_json::from_str(&paper("", "", "json")).unwrap();
+    let differences = found["differences"].as_array().unwrap();
+    assert_eq!((differences.len(), &found["terms"]), (34, &Value::from(839)));
+    for difference in differences {
+        assert!(!difference["evidence"].as_array().unwrap().is_empty(), "{difference}");
+        assert!(!difference["slips"].as_array().unwrap().is_empty(), "{difference}");
+    }
+    // A changed sign is found.
+    let changed = paper("+ M5*qdd3 + cos(q5)*Fz6", "- M5*qdd3 + cos(q5)*Fz6", "text");
+    assert!(changed.contains(": 35 terms differ (1 missing term, 2 sign"), "{changed}");
+}
+
+#[test]
+fn the_example_of_the_docs_is_what_the_command_prints() {
+    let document = text("docs/comparing.md");
+    let block = |mark: &str| {
+        let (_, rest) = document.split_once(mark).unwrap();
+        rest.split_once("```").unwrap().0.to_owned()
+    };
+    let path = crate::folder("compare-docs").join("paper.tex");
+    std::fs::write(&path, block("```latex\n")).unwrap();
+    let outcome = run(&["compare", &robot("planar_2r"), path.to_str().unwrap()]);
+    assert_eq!((outcome.code, outcome.errors.as_str()), (1, ""));
+    assert_eq!(outcome.output, block("```text\n"));
+}
+
+#[test]
+fn what_equations_prints_does_not_differ() {
+    let folder = crate::folder("compare-own");
+    for name in ["planar_2r", "scara", "trttr1"] {
+        let notations = [
+            &["--format", "text"][..],
+            &["--format", "latex", "--trig", "named"],
+            &["--format", "latex", "--trig", "short"],
+            &["--format", "latex", "--trig", "paper"],
+        ];
+        for notation in notations {
+            let file = robot(name);
+            let arguments = [&["equations", &file, "--quantity", "all"], notation].concat();
+            let path = folder.join("equations");
+            std::fs::write(&path, output(&arguments, "")).unwrap();
+            let shown = output(&["compare", &file, path.to_str().unwrap()], "");
+            assert!(shown.contains(": nothing differs\n"), "{name} {notation:?}: {shown}");
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_has_its_code_and_place() {
+    let path = crate::folder("compare-wrong").join("printed");
+    std::fs::write(&path, "Q1 = m1*g +\nQ9 = 0\n").unwrap();
+    let (file, path) = (robot("planar_2r"), path.to_str().unwrap());
+    assert!(complaint(2, &["compare", &file, path], "").contains("printed:1:"));
+    std::fs::write(path, [0xff, 0xfe, 0x00]).unwrap();
+    assert!(complaint(2, &["compare", &file, path], "").contains("UTF-8"));
+    assert!(complaint(2, &["compare", &file, "none.tex"], "").contains("no such file"));
+    assert!(complaint(2, &["compare", path, path], "").contains("error"));
+    assert!(complaint(2, &["compare", &file], "").contains("Usage"));
+}
