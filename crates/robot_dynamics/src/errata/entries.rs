@@ -14,6 +14,11 @@ const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
 const COLUMNS: [&str; 7] =
     ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
 
+/// What stands for a left side that is printed in the display before.
+const PHANTOM: &str = r"\phantom{";
+/// Bytes of a left side that `\phantom` holds.
+const LONGEST_LEFT_SIDE: usize = 1000;
+
 /// A printed equation as it stands: `text` is the file's, comments and marks replaced by spaces.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
@@ -112,7 +117,7 @@ pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Diagn
     match notation {
         Notation::Text => lines(&without_comments(text, notation)),
         Notation::Latex => {
-            let text = without_comments(text, notation);
+            let text = rejoined(&without_comments(text, notation));
             let displays = displays(&text);
             if displays.is_empty() { lines(&text) } else { rows(&text, displays) }
         }
@@ -194,6 +199,43 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
     }
     clean.push_str(text.get(clean.len()..).unwrap_or_default());
     clean
+}
+
+/// The text with equations in one piece that go on in the next display, where `\phantom` with their
+/// left side opens it: what stands between is a line break and spaces.
+fn rejoined(text: &str) -> String {
+    let seams: Vec<Range<usize>> =
+        text.match_indices(PHANTOM).filter_map(|(place, _)| seam(text, place)).collect();
+    let mut whole = blanked(text, &seams);
+    for seam in seams {
+        whole.replace_range(seam.start..seam.start + 2, r"\\");
+    }
+    whole
+}
+
+/// From the end of a display to that of the `\phantom` at `place`, which opens the next.
+fn seam(text: &str, place: usize) -> Option<Range<usize>> {
+    // The last of some text that may hold a word in braces.
+    let word = |end: usize, start: &str| {
+        let text = text.get(..end)?.trim_end();
+        let open = text.len() - text.bytes().rev().take(24).position(|byte| byte == b'\\')? - 1;
+        let name = text.get(open..)?.strip_prefix(start)?.strip_suffix('}')?;
+        Some((open, name))
+    };
+    let (open, name) = word(place, r"\begin{")?;
+    let (end, closed) = word(open, r"\end{")?;
+    (name == closed && DISPLAYS.contains(&name.trim_end_matches('*'))).then_some(())?;
+    let inside = place + PHANTOM.len();
+    let mut depth = 1_usize;
+    let close = text.get(inside..)?.bytes().take(LONGEST_LEFT_SIDE).position(|byte| {
+        match byte {
+            b'{' => depth += 1,
+            b'}' => depth -= 1,
+            _ => {}
+        }
+        depth == 0
+    })?;
+    Some(end..inside + close + 1)
 }
 
 /// What is displayed, or where something is not closed.

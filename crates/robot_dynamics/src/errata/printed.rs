@@ -276,6 +276,29 @@ mod tests {
     }
 
     #[test]
+    fn equations_go_on_in_the_next_display() {
+        let text = r"\begin{align*}
+  Q_{1} &= a
+\end{align*}
+\begin{align*}
+  \phantom{Q_{1}} &\quad {}+ b \\
+  Q_2 &= c
+\end{align*}
+\begin{align*} \phantom{Q_2} - d \end{align*}";
+        let shown: Vec<Vec<String>> = read(text)
+            .unwrap()
+            .iter()
+            .map(|equation| texts(equation).into_iter().map(str::to_owned).collect())
+            .collect();
+        assert_eq!(shown, [["a", "b"], ["c", "-d"]]);
+        // Another environment is another equation.
+        assert_eq!(
+            read(&text.replace("{align*} \\phantom", "{gather} \\phantom")).unwrap_err().len(),
+            1
+        );
+    }
+
+    #[test]
     fn errors_in_latex_have_their_place() {
         let text = "\\begin{align}\n Q_1 &= a + \\foo \\\\\n Q_2 &= b \\cdot \\cdot c \\\\ d = \\end{align}\n\\[ Q_3 ";
         let errors = read(text).unwrap_err();
