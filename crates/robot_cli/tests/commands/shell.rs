@@ -5,7 +5,8 @@ use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
 
-/// A folder with the robot files in `robots`, and the path of the built command.
+/// A folder with the robot files in `robots` and the paper's equations in `docs`, and the path of the
+/// built command.
 pub(crate) struct Shell {
     folder: TempDir,
     path: std::ffi::OsString,
@@ -22,13 +23,17 @@ impl Shell {
     /// A fresh folder, outside of this workspace, so that Cargo does not take its packages for members.
     pub(crate) fn new() -> Shell {
         let folder = TempDir::new().unwrap();
-        let robots = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let robots = root.join("robots");
         std::fs::create_dir(folder.path().join("robots")).unwrap();
         for entry in std::fs::read_dir(robots).unwrap() {
             let path = entry.unwrap().path();
             std::fs::copy(&path, folder.path().join("robots").join(path.file_name().unwrap()))
                 .unwrap();
         }
+        let printed = "docs/trttr1.printed";
+        std::fs::create_dir(folder.path().join("docs")).unwrap();
+        std::fs::copy(root.join(printed), folder.path().join(printed)).unwrap();
         let built = Path::new(env!("CARGO_BIN_EXE_robot-symbolic")).parent().unwrap().to_owned();
         let path = std::env::var_os("PATH").unwrap_or_default();
         let folders = std::iter::once(built).chain(std::env::split_paths(&path));
