@@ -38,17 +38,16 @@ pub(super) struct Part<'e> {
 
 impl Entry {
     /// What stands on either side of the `=`.
-    pub(super) fn sides(&self) -> Result<(Part<'_>, Part<'_>), Diagnostic> {
+    pub(super) fn sides(&self) -> Result<(Part<'_>, Part<'_>), Box<Diagnostic>> {
         let whole = self.part(0..self.text.len());
         let Some(place) = self.text.find('=') else {
             let error = Diagnostic::error(code::EXPRESSION, "an equation without `=`");
-            return Err(error
-                .at(&whole.trimmed().span, "")
-                .help("write `(number) quantity = terms`"));
+            let error = error.at(&whole.trimmed().span, "");
+            return Err(error.help("write `(number) quantity = terms`").into());
         };
         let left = self.part(0..place).trimmed();
         if left.text.is_empty() {
-            return Err(unnamed(&self.part(place..place + 1).span));
+            return Err(unnamed(&self.part(place..place + 1).span).into());
         }
         Ok((left, self.part(place + 1..self.text.len())))
     }
@@ -74,14 +73,15 @@ impl<'e> Part<'e> {
     }
 
     /// The rows of a column, where the part is one.
-    pub(super) fn rows(&self) -> Result<Option<Vec<Part<'e>>>, Diagnostic> {
+    pub(super) fn rows(&self) -> Result<Option<Vec<Part<'e>>>, Box<Diagnostic>> {
         let Some((name, open, inside)) = environment(self.text, &COLUMNS) else {
             return Ok(None);
         };
         let close = format!(r"\end{{{name}}}");
         let Some(end) = self.text.get(inside..).and_then(|rest| rest.find(&close)) else {
             let error = Diagnostic::error(code::EXPRESSION, format!("`{name}` is not closed"));
-            return Err(error.at(&self.sub(open..inside).span, "").help(format!("add `{close}`")));
+            let error = error.at(&self.sub(open..inside).span, "");
+            return Err(error.help(format!("add `{close}`")).into());
         };
         let (before, after) = (0..open, inside + end + close.len()..self.text.len());
         for around in [before, after] {
@@ -91,7 +91,8 @@ impl<'e> Part<'e> {
             if !rest.chars().all(bracket) {
                 let error =
                     Diagnostic::error(code::EXPRESSION, "a column with something beside it");
-                return Err(error.at(&around.trimmed().span, "").help("write it into the rows"));
+                let error = error.at(&around.trimmed().span, "");
+                return Err(error.help("write it into the rows").into());
             }
         }
         let columns = self.sub(inside..inside + end);
@@ -113,7 +114,7 @@ pub(super) fn unnamed(span: &Span) -> Diagnostic {
 }
 
 /// The entries of a text, or what is wrong with its arrangement.
-pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Diagnostic>> {
+pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<Diagnostic>>> {
     match notation {
         Notation::Text => lines(&without_comments(text, notation)),
         Notation::Latex => {
@@ -153,7 +154,7 @@ fn percent(line: &str) -> Option<usize> {
 }
 
 /// An entry of each line, with the indented lines that follow it.
-fn lines(text: &str) -> Vec<Result<Entry, Diagnostic>> {
+fn lines(text: &str) -> Vec<Result<Entry, Box<Diagnostic>>> {
     let mut ranges: Vec<Range<usize>> = vec![];
     let mut start = 0;
     for line in text.split_inclusive('\n') {
@@ -239,7 +240,7 @@ fn seam(text: &str, place: usize) -> Option<Range<usize>> {
 }
 
 /// What is displayed, or where something is not closed.
-fn displays(text: &str) -> Vec<Result<Range<usize>, Diagnostic>> {
+fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
     let mut found = vec![];
     let mut place = 0;
     while let Some(rest) = text.get(place..).filter(|rest| !rest.is_empty()) {
@@ -252,7 +253,8 @@ fn displays(text: &str) -> Vec<Result<Range<usize>, Diagnostic>> {
         let inside = place + inside;
         let Some(length) = text.get(inside..).and_then(|rest| rest.find(&close)) else {
             let error = Diagnostic::error(code::EXPRESSION, "a display that is not closed");
-            found.push(Err(error.at(&(place..inside), "").help(format!("add `{close}`"))));
+            let error = error.at(&(place..inside), "").help(format!("add `{close}`"));
+            found.push(Err(error.into()));
             return found;
         };
         found.push(Ok(inside..inside + length));
@@ -297,8 +299,8 @@ fn begins<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize)> {
 /// An entry of each row with a `=`, with the rows that follow it.
 fn rows(
     text: &str,
-    displays: Vec<Result<Range<usize>, Diagnostic>>,
-) -> Vec<Result<Entry, Diagnostic>> {
+    displays: Vec<Result<Range<usize>, Box<Diagnostic>>>,
+) -> Vec<Result<Entry, Box<Diagnostic>>> {
     let mut entries = vec![];
     for display in displays {
         let display = match display {

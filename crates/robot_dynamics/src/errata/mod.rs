@@ -139,7 +139,7 @@ pub fn compare(
     if !unknown.is_empty() {
         return Err(failed(unknown));
     }
-    let compared = expand(&graph, &printed, &quantities).map_err(|error| failed(vec![error]))?;
+    let compared = expand(&graph, &printed, &quantities).map_err(|error| failed(vec![*error]))?;
     let lines = Lines::of(&source.text);
     let found = find(&compared, &Dimensions::of(robot), &lines);
     let terms = compared.iter().filter(|one| !one.is_name).map(|one| one.print.len()).sum();
@@ -184,7 +184,7 @@ fn expand<'p, 'g>(
     graph: &'g Graph,
     printed: &'p [PrintedEquation],
     quantities: &BTreeMap<String, Quantity<'g>>,
-) -> Result<Vec<Compared<'p, 'g>>, Diagnostic> {
+) -> Result<Vec<Compared<'p, 'g>>, Box<Diagnostic>> {
     let wanted: BTreeSet<&str> =
         printed.iter().map(|equation| equation.quantity.as_str()).collect();
     let wanted: Vec<&Quantity<'g>> =

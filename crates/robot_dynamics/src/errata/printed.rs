@@ -62,7 +62,7 @@ pub(super) fn read_printed(
         });
         match read {
             Ok(read) => equations.extend(read),
-            Err(error) => errors.push(error),
+            Err(error) => errors.push(*error),
         }
     }
     if equations.is_empty() && errors.is_empty() {
@@ -72,11 +72,11 @@ pub(super) fn read_printed(
     if errors.is_empty() { Ok(equations) } else { Err(errors) }
 }
 
-fn read_text(entry: &Entry) -> Result<Vec<PrintedEquation>, Diagnostic> {
+fn read_text(entry: &Entry) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
     let (left, right) = entry.sides()?;
     let (number, quantity) = numbered(left.text);
     if quantity.is_empty() || quantity.contains(char::is_whitespace) {
-        return Err(unnamed(&left.span));
+        return Err(unnamed(&left.span).into());
     }
     let terms = terms(right.text, |span| shifted(&span, right.span.start))?;
     let number = number.or(entry.number.clone()).unwrap_or_default();
@@ -88,7 +88,7 @@ fn read_text(entry: &Entry) -> Result<Vec<PrintedEquation>, Diagnostic> {
     }])
 }
 
-fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, Diagnostic> {
+fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
     let (left, right) = entry.sides()?;
     let (number, latex) = numbered(left.text);
     let number = number.or(entry.number.clone()).unwrap_or_default();
@@ -101,7 +101,7 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
     if rows.len() != axes.len() {
         let message = format!("this vector has {} rows, not 3", rows.len());
         let error = Diagnostic::error(code::WRONG_COUNT, message).at(&left.span, "");
-        return Err(error.help("write line breaks between components only"));
+        return Err(error.help("write line breaks between components only").into());
     }
     let mut equations = vec![];
     for (row, axis) in rows.iter().zip(axes) {
@@ -134,7 +134,7 @@ fn numbered(left: &str) -> (Option<String>, &str) {
 }
 
 /// The terms of a right side; `place` gives the bytes of the file for bytes of the right side.
-fn terms(right: &str, place: impl Fn(Span) -> Span) -> Result<Vec<Formula>, Diagnostic> {
+fn terms(right: &str, place: impl Fn(Span) -> Span) -> Result<Vec<Formula>, Box<Diagnostic>> {
     let mut terms = vec![];
     for range in split_terms(right) {
         let text = right.get(range.clone()).unwrap_or_default();
@@ -155,14 +155,14 @@ fn fault(error: &ParseError, span: Span) -> Diagnostic {
     }
 }
 
-fn complete(equations: Vec<PrintedEquation>) -> Result<Vec<PrintedEquation>, Diagnostic> {
+fn complete(equations: Vec<PrintedEquation>) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
     match equations.iter().find(|equation| equation.terms.is_empty()) {
         None => Ok(equations),
         Some(empty) => {
             let quantity = quote(&empty.quantity);
             let message = format!("`{quantity}` has no right side");
             let error = Diagnostic::error(code::EXPRESSION, message).at(&empty.span, "");
-            Err(error.help("write what it is behind `=`; `0` for nothing"))
+            Err(error.help("write what it is behind `=`; `0` for nothing").into())
         }
     }
 }

@@ -122,7 +122,9 @@ impl<'t> Translator<'t, '_> {
                 "+" | "-" | "*" | "/" | r"\cdot" | r"\times" | r"\ast" => {
                     self.place += 1;
                     let repeated = broken.take().is_some_and(|sign| text.starts_with(sign));
-                    if !repeated && !(text == "+" && !after_operand) {
+                    // A plus sign with nothing before it says nothing.
+                    let needed = text != "+" || after_operand;
+                    if needed && !repeated {
                         self.emit(if text.len() > 1 { "*" } else { text }, here);
                     }
                     after_operand = false;
