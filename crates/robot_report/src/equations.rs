@@ -16,7 +16,7 @@ const MAX_TERMS: usize = 5_000;
 /// The forms of the page in their order, the first one open.
 const FORMS: [(Form, &str); 4] = [
     (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
-    (Form::Expanded, "Expanded: sums of products"),
+    (Form::Expanded, "Expanded: sums of products, without friction"),
     (Form::Recursive, "Recursive: the iterations link by link"),
     (Form::Compact, "Compact: what is used again has a name"),
 ];
@@ -25,8 +25,9 @@ const FORMS: [(Form, &str); 4] = [
 pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
     let mut body: Vec<Node> = vec![holding("p", WORDS).into()];
     for (place, (form, title)) in FORMS.into_iter().enumerate() {
-        let options =
-            EquationOptions { form, friction: robot.has_friction(), ..EquationOptions::default() };
+        // Expanded under the root of dry friction, the forces in the joints fill pages.
+        let friction = robot.has_friction() && form != Form::Expanded;
+        let options = EquationOptions { form, friction, ..EquationOptions::default() };
         let shown = match equations(robot, &options) {
             Ok(found) => in_form(robot, form, &found),
             Err(error) => vec![note(&format!("This form is not shown: {error}"))],

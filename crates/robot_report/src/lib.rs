@@ -11,8 +11,10 @@ mod equations;
 mod evidence;
 mod formula;
 mod html;
+mod motion;
 mod page;
 mod parts;
+mod plot;
 mod scheme;
 mod structure;
 mod table;
@@ -78,6 +80,11 @@ pub fn report(input: &Input<'_>) -> Result<String, Errors> {
         parameters(&robot, &symbols),
         Section { id: "equations", title: "Equations of motion", body: equations::forms(&robot) },
         structure(&robot),
+        Section {
+            id: "motion",
+            title: "Driving forces by cause",
+            body: motion::torques(&programs),
+        },
         costs(input, &programs)?,
         evidence(input, &programs),
     ];

@@ -38,7 +38,7 @@ fn pages_are_whole() {
         let listed: Vec<&str> = words(&document, "id").collect();
         let ids: BTreeSet<&str> = listed.iter().copied().collect();
         assert_eq!(listed.len(), ids.len(), "{robot}: an id occurs twice");
-        let parts = "kinematics masses parameters equations structure costs evidence";
+        let parts = "kinematics masses parameters equations structure motion costs evidence";
         for part in parts.split_whitespace() {
             assert!(ids.contains(part), "{robot}: {part}");
         }

@@ -222,7 +222,10 @@ impl<'r> Drawing<'r> {
         let best = BESIDE.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(20.0);
         let ends = [from, to].map(|end| end + across * best);
         let over = across * 4f64.copysign(best);
-        let mut group = element("g").class("dimension").attribute("data-of", of);
+        let mut group = element("g").class("dimension");
+        if !of.is_empty() {
+            group = group.attribute("data-is", of);
+        }
         for (end, drawn) in [from, to].into_iter().zip(ends) {
             group = group.with(path(&[end, drawn + over], false).class("witness"));
         }
