@@ -16,6 +16,7 @@ use robot_dynamics::model::Robot;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
+use crate::progress::watched;
 use crate::robot::{RobotArgument, TrigonometryName, unknown_function};
 use crate::settings::Settings;
 use crate::states::{Layout, State, WRENCH};
@@ -70,7 +71,7 @@ impl Arguments {
         let kind = kind.map(|kind| with_wrench(kind, &robot, &states, &mut wrong));
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
         let options = Options { functions, bundles, ..self.robot.options()? };
-        let programs = programs(&source, &options)?;
+        let programs = watched("deriving", terminal, || programs(&source, &options))?;
         text::warnings(&programs.warnings, terminal)?;
         let results = self.results(&source, &programs, &states, wrong)?;
         let shown = match self.format {
