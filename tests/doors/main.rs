@@ -6,9 +6,12 @@
 
 mod book;
 mod build_script;
+#[path = "../common/mod.rs"]
+mod common;
 mod forms;
 mod generated_crate;
 mod include_macro;
+mod kinds;
 mod package;
 #[path = "../common/pages.rs"]
 mod pages;
