@@ -43,7 +43,7 @@ Exit codes, of every command:
   0  done
   1  the robot file or another input is wrong, or the answer is no: a checked file is out of date, a
      claim does not hold, two things differ
-  2  the command line is wrong; of `compare` any input
+  2  the command line is wrong; of `compare` and `diff` any input
 
 Results go to standard output, messages to standard error. Colours appear on a terminal only, and not where
 the variable NO_COLOR is set."

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod completions;
 mod demo;
+mod diff;
 mod document;
 mod equations;
 mod eval;
@@ -59,6 +60,8 @@ pub(crate) enum Command {
     Check(check::Arguments),
     /// Compare published equations with the derived ones, term by term
     Compare(compare::Arguments),
+    /// Tell in what two robots differ: parameters, terms, operations, torques
+    Diff(diff::Arguments),
     /// Print the JSON schema of robot files, for editors
     Schema(schema::Arguments),
     /// Show what a robot file says
@@ -97,6 +100,7 @@ impl Command {
             Command::Import(arguments) => arguments.run(terminal),
             Command::Check(arguments) => arguments.run(terminal),
             Command::Compare(arguments) => arguments.run(terminal),
+            Command::Diff(arguments) => arguments.run(terminal),
             Command::Schema(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
             Command::Completions(arguments) => arguments.run(terminal),

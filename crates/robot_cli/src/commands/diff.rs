@@ -1,0 +1,82 @@
+//! `diff`: in what two robots differ.
+
+mod show;
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use robot_build::{Options as CodeOptions, RobotFile, read};
+use robot_difference::{Difference, Options, difference};
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::progress::watched;
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic diff robots/planar_2r.toml robots/scara.toml
+  robot-symbolic diff robots/planar_2r.toml robots/scara.toml --format json
+
+Links, joints, frames and parameters are matched by their names, driving forces by the numbers of their
+coordinates, terms by their symbols. The robots' names and remarks do not count. Terms are those of the
+driving forces without friction; torques are those at the nominal parameters, friction included, no wrench
+at the tips. A part that cannot be compared says why.
+
+Exit codes: 0 nothing differs; 1 something differs; 2 a file or the command line is wrong.")]
+pub(crate) struct Arguments {
+    /// The first robot file
+    a: PathBuf,
+    /// The second robot file
+    b: PathBuf,
+    /// The seed of the states at which torques are compared
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// How many states are drawn
+    #[arg(long, default_value = "1000")]
+    states: NonZeroUsize,
+    /// How many terms of each equation text shows at most
+    #[arg(long, default_value_t = 20)]
+    terms: usize,
+    /// How to show what differs
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let found = self.difference(terminal).map_err(Failure::refused)?;
+        let shown = match self.format {
+            Format::Text => show::text(&found, self.terms),
+            Format::Json => show::json(&found),
+        };
+        terminal.output.write_all(shown.as_bytes())?;
+        if found.is_none() { Ok(()) } else { Err(Failure::Shown) }
+    }
+
+    fn difference(&self, terminal: &mut Terminal<'_>) -> Result<Difference, Failure> {
+        let (a, of_a) = one(&self.a, terminal)?;
+        let (b, of_b) = one(&self.b, terminal)?;
+        let options = Options { code: [of_a, of_b], seed: self.seed, states: self.states.get() };
+        Ok(watched("comparing", terminal, || difference(&a, &b, &options)))
+    }
+}
+
+/// A robot, and how code is made of it: by its pinned plan or the cheapest one.
+fn one(
+    path: &Path,
+    terminal: &mut Terminal<'_>,
+) -> Result<(robot_dynamics::model::Robot, CodeOptions), Failure> {
+    let file = RobotFile::read(path)?;
+    let described = read(&file.source)?;
+    text::warnings(&described.warnings, terminal)?;
+    let options = CodeOptions { search: true, ..CodeOptions::default() };
+    Ok((described.robot, file.with_pin(&options)?))
+}

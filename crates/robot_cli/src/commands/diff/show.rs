@@ -1,0 +1,177 @@
+//! A difference as text and JSON.
+
+use std::fmt::Write as _;
+
+use robot_difference::{
+    Change, Difference, Equation, Item, Property, State, Term, Torque, Torques,
+};
+use robot_dynamics::model::JointKind;
+use serde_json::{Map, Value, json};
+
+/// A part for each kind of difference.
+pub(super) fn text(found: &Difference, most: usize) -> String {
+    let [a, b] = &found.names;
+    let mut shown = format!("{a} -> {b}\n");
+    let mut part = |title: &str, lines: String| {
+        let lines = if lines.is_empty() { "  nothing differs\n".to_owned() } else { lines };
+        shown.push_str(&format!("\n{title}\n{lines}"));
+    };
+    part("what the files say", found.changes.iter().map(change).collect());
+    let equations = found.equations.iter().map(|one| equation(one, most)).collect();
+    part("terms of the driving forces", equations);
+    let operations = match &found.operations {
+        Ok(found) => found
+            .iter()
+            .map(|one| format!("  {}: {}\n", one.function, arrow(&one.counts)))
+            .collect(),
+        Err(reason) => refused(reason),
+    };
+    part("operations of a call", operations);
+    let torques = match &found.torques {
+        Ok(found) => torques(found),
+        Err(reason) => refused(reason),
+    };
+    part("largest change of the torques", torques);
+    shown
+}
+
+fn refused(reason: &str) -> String {
+    format!("  not compared: {reason}\n")
+}
+
+/// `5 -> 7`, `5 -> none`
+fn arrow<T: ToString>(sides: &[Option<T>; 2]) -> String {
+    let [a, b] =
+        sides.each_ref().map(|side| side.as_ref().map_or("none".to_owned(), ToString::to_string));
+    format!("{a} -> {b}")
+}
+
+fn change(change: &Change) -> String {
+    let whole = |sign: char, item: &Item| {
+        let said: Vec<String> =
+            item.properties.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        format!("{sign} {} {}: {}\n", item.kind.name(), item.name, said.join("; "))
+    };
+    match change {
+        Change::Added(item) => whole('+', item),
+        Change::Removed(item) => whole('-', item),
+        Change::Changed { kind, name, properties } => {
+            let one = |one: &Property| format!("{} {}", one.name, arrow(&one.values));
+            let properties: Vec<String> = properties.iter().map(one).collect();
+            let name = if name.is_empty() { String::new() } else { format!(" {name}") };
+            format!("~ {}{name}: {}\n", kind.name(), properties.join("; "))
+        }
+    }
+}
+
+fn equation(equation: &Equation, most: usize) -> String {
+    let terms = match &equation.terms {
+        Ok(terms) => terms,
+        Err(reason) => return format!("  {}: not compared: {reason}\n", equation.name),
+    };
+    let mut shown = format!("  {}\n", equation.name);
+    for Term { powers, coefficients } in terms.iter().take(most) {
+        // Writing to a string does not fail.
+        let _ = match coefficients {
+            [Some(gone), None] => writeln!(shown, "  - {gone} {powers}"),
+            [None, Some(come)] => writeln!(shown, "  + {come} {powers}"),
+            both => writeln!(shown, "  ~ ({}) {powers}", arrow(both)),
+        };
+    }
+    if let Some(more @ 1..) = terms.len().checked_sub(most) {
+        let _ = writeln!(shown, "    ({more} more)");
+    }
+    shown
+}
+
+fn torques(found: &Torques) -> String {
+    let drawn = &found.drawn;
+    let mut shown = format!(
+        "  {} states, seed {}; velocities within {}, accelerations within {}, positions\n",
+        drawn.states, drawn.seed, drawn.velocity, drawn.acceleration
+    );
+    for (Torque { joint, kind, torques: [a, b], state }, [low, high]) in
+        found.joints.iter().zip(&drawn.positions)
+    {
+        let (unit, length) = match kind {
+            JointKind::Revolute => ("N m", "rad"),
+            JointKind::Prismatic => ("N", "m"),
+        };
+        let State { q, qd, qdd } = state;
+        let list = |values: &[f64]| {
+            values.iter().map(|value| format!("{value:.3}")).collect::<Vec<_>>().join(", ")
+        };
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            shown,
+            "  joint {joint}, {low:.3} to {high:.3} {length}: {:.4} {unit}, {a:.4} -> {b:.4}\n    \
+             at q = ({}), qd = ({}), qdd = ({})",
+            b - a,
+            list(q),
+            list(qd),
+            list(qdd)
+        );
+    }
+    shown
+}
+
+/// All of it; a part that was not compared is `{"not_compared": reason}`.
+pub(super) fn json(found: &Difference) -> String {
+    let refused = |reason: &String| json!({ "not_compared": reason });
+    let equation = |one: &Equation| {
+        let term = |one: &Term| json!({ "powers": one.powers, "coefficients": one.coefficients });
+        let terms = one.terms.as_ref().map(|terms| terms.iter().map(term).collect::<Value>());
+        json!({ "name": one.name, "terms": terms.unwrap_or_else(refused) })
+    };
+    let operations = found.operations.as_ref().map(|all| {
+        all.iter().map(|one| json!({ "function": one.function, "counts": one.counts })).collect()
+    });
+    let shown = json!({
+        "robots": found.names,
+        "same": found.is_none(),
+        "changes": found.changes.iter().map(change_json).collect::<Value>(),
+        "equations": found.equations.iter().map(equation).collect::<Value>(),
+        "operations": operations.unwrap_or_else(refused),
+        "torques": found.torques.as_ref().map_or_else(refused, torques_json),
+    });
+    format!("{shown:#}\n")
+}
+
+fn change_json(change: &Change) -> Value {
+    let whole = |what: &str, item: &Item| {
+        let said: Map<String, Value> = item
+            .properties
+            .iter()
+            .map(|(name, value)| (name.clone(), Value::from(value.as_str())))
+            .collect();
+        json!({ "change": what, "kind": item.kind.name(), "name": item.name, "properties": said })
+    };
+    match change {
+        Change::Added(item) => whole("added", item),
+        Change::Removed(item) => whole("removed", item),
+        Change::Changed { kind, name, properties } => {
+            let properties: Map<String, Value> =
+                properties.iter().map(|one| (one.name.clone(), json!(one.values))).collect();
+            let kind = kind.name();
+            json!({ "change": "changed", "kind": kind, "name": name, "properties": properties })
+        }
+    }
+}
+
+fn torques_json(found: &Torques) -> Value {
+    let drawn = &found.drawn;
+    let joint = |one: &Torque| {
+        let State { q, qd, qdd } = &one.state;
+        let [a, b] = one.torques;
+        let state = json!({ "q": q, "qd": qd, "qdd": qdd });
+        json!({ "joint": one.joint, "torques": one.torques, "change": b - a, "state": state })
+    };
+    json!({
+        "states": drawn.states,
+        "seed": drawn.seed,
+        "positions": drawn.positions,
+        "velocity": drawn.velocity,
+        "acceleration": drawn.acceleration,
+        "joints": found.joints.iter().map(joint).collect::<Value>(),
+    })
+}

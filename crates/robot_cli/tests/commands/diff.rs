@@ -1,0 +1,33 @@
+//! `diff`: exit codes, JSON and text.
+
+use serde_json::Value;
+
+use crate::{complaint, folder, output, robot, run};
+
+#[test]
+fn nothing_differs_of_a_robot_and_itself() {
+    let shown = output(&["diff", &robot("planar_2r"), &robot("planar_2r"), "--states", "5"], "");
+    assert_eq!(shown.matches("  nothing differs\n").count(), 3, "{shown}");
+}
+
+#[test]
+fn a_value_is_found_in_text_and_json() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let path = folder("diff").join("changed.toml");
+    std::fs::write(&path, text.replace("m2 = { value = 3.0", "m2 = { value = 3.5")).unwrap();
+    let files = [robot("planar_2r"), path.to_str().unwrap().to_owned()];
+    let outcome = run(&["diff", &files[0], &files[1], "--states", "5", "--format", "json"]);
+    assert_eq!((outcome.code, outcome.errors.as_str()), (1, ""));
+    let found: Value = serde_json::from_str(&outcome.output).unwrap();
+    assert_eq!(found["changes"][0]["properties"]["value"], serde_json::json!(["3", "3.5"]));
+    assert_eq!((&found["same"], found["equations"].as_array().unwrap().len()), (&false.into(), 0));
+    assert_eq!(found["torques"]["joints"].as_array().unwrap().len(), 2);
+    let text = run(&["diff", &files[0], &files[1], "--states", "5"]).output;
+    assert!(text.contains("~ parameter m2: value 3 -> 3.5\n"), "{text}");
+}
+
+#[test]
+fn wrong_files_are_no_difference() {
+    assert!(complaint(2, &["diff", &robot("planar_2r"), "nowhere.toml"], "").contains("nowhere"));
+    assert!(complaint(2, &["diff", &robot("planar_2r")], "").contains("<B>"));
+}

@@ -1,0 +1,77 @@
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use robot_dynamics::description;
+use robot_dynamics::model::{JointKind, Robot};
+
+use super::*;
+
+/// The plane arm with another mass of its second link.
+fn arm(mass: &str) -> Robot {
+    let text = include_str!("../../../robots/planar_2r.toml");
+    let mut robot = description::read("robot.toml", text).unwrap().robot;
+    let value = robot_symbolic::Rational::from_decimal(mass);
+    robot.parameters.iter_mut().find(|one| one.name == "m2").unwrap().value = value;
+    robot
+}
+
+fn compared(a: &Robot, b: &Robot) -> Difference {
+    let code = [robot_build::Options::default(), robot_build::Options::default()];
+    difference(a, b, &Options { code, seed: 7, states: 50 })
+}
+
+#[test]
+fn a_robot_does_not_differ_from_itself() {
+    let robot = arm("1");
+    let found = compared(&robot, &Robot { name: "other".to_owned(), ..robot.clone() });
+    assert!(found.is_none(), "{found:?}");
+    assert!(found.torques.unwrap().joints.iter().all(|one| one.torques[0] == one.torques[1]));
+}
+
+#[test]
+fn a_value_changes_torques_and_no_term() {
+    let found = compared(&arm("1"), &arm("2"));
+    let [Change::Changed { kind: ItemKind::Parameter, name, properties }] = &found.changes[..]
+    else {
+        panic!("{:?}", found.changes);
+    };
+    assert_eq!((name.as_str(), properties[0].name.as_str()), ("m2", "value"));
+    assert_eq!(properties[0].values, [Some("1".to_owned()), Some("2".to_owned())]);
+    assert_eq!((found.equations.len(), found.operations), (0, Ok(vec![])));
+    let torques = found.torques.unwrap();
+    assert!(torques.joints.iter().all(|one| (one.torques[1] - one.torques[0]).abs() > 1.0));
+    assert!(torques.joints.iter().all(|one| one.state.q.len() == 2));
+}
+
+#[test]
+fn gravity_that_goes_takes_its_terms_along() {
+    let robot = arm("1");
+    let zero = || robot_symbolic::Formula::number(&robot_symbolic::Rational::ZERO);
+    let still = Robot { gravity: [zero(), zero(), zero()], ..robot.clone() };
+    let found = compared(&robot, &still);
+    let last = found.equations.last().unwrap();
+    let terms = last.terms.as_ref().unwrap();
+    assert!(!terms.is_empty());
+    assert!(terms.iter().all(|term| term.powers.contains('g') && term.coefficients[1].is_none()));
+    let back = compared(&still, &robot);
+    let appear = back.equations.last().unwrap().terms.as_ref().unwrap();
+    assert!(appear.iter().all(|term| term.coefficients[0].is_none()));
+    assert!(found.operations.unwrap().iter().any(|one| one.counts[1] < one.counts[0]));
+}
+
+#[test]
+fn robots_that_share_no_states_say_so() {
+    let robot = arm("1");
+    let mut slides = robot.clone();
+    slides.coordinates[1].kind = JointKind::Prismatic;
+    slides.links[1].joint.kind = JointKind::Prismatic;
+    assert!(compared(&robot, &slides).torques.unwrap_err().contains("not alike"));
+    let mut limited = [robot.clone(), robot];
+    for (one, from) in limited.iter_mut().zip([0, 2]) {
+        let limits = [from, from + 1].map(|edge| robot_symbolic::Rational::new(edge, 1).unwrap());
+        one.coordinates[0].limits = Some(limits);
+    }
+    let [a, b] = &limited;
+    assert!(compared(a, b).torques.unwrap_err().contains("no position in common"));
+    let joints = compared(a, a).torques.unwrap().joints;
+    assert!(joints.iter().all(|one| (0.0..=1.0).contains(&one.state.q[0])));
+}
