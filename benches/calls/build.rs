@@ -6,10 +6,17 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use robot_build::{Builder, DEFAULT_BATCH, FunctionKind, Options, Source, Trigonometry, programs};
+use robot_build::{
+    Builder, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, Source, Trigonometry, programs,
+};
 
 const TRIGONOMETRY: [(&str, Trigonometry); 2] =
     [("standard", Trigonometry::Standard), ("polynomial", Trigonometry::Polynomial)];
+
+/// The poses and Jacobians of all named frames in one call, as the other contenders give them for the
+/// last one.
+const BUNDLE: &str = "pose_and_jacobian";
+const BUNDLED: [FunctionKind; 2] = [FunctionKind::FramePoses, FunctionKind::Jacobian];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
@@ -19,6 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         std::fs::create_dir_all(&out)?;
         Builder::new()
             .functions(["all"])
+            .bundle(BUNDLE, BUNDLED.map(FunctionKind::name))
             .trigonometry(trigonometry)
             .fused(true)
             .batch(DEFAULT_BATCH)
@@ -45,7 +53,9 @@ fn robot(list: &mut String, file: &Path) -> Result<(), Box<dyn Error>> {
     let source = Source { name: file.to_string_lossy().into_owned(), text };
     let described = programs(&source, &Options::default())?;
     let functions = FunctionKind::of(&described.robot);
-    let options = Options { functions: robot_build::Functions::Chosen(functions), ..Options::default() };
+    let bundle = Bundle { name: BUNDLE.to_owned(), functions: BUNDLED.to_vec() };
+    let options =
+        Options { functions: Functions::Chosen(functions), bundles: vec![bundle], ..Options::default() };
     let module = programs(&source, &options)?.module;
     let parameters = !module.parameters.is_empty();
     let model = if parameters { "Model::new(&Parameters::NOMINAL)" } else { "Model::NOMINAL" };

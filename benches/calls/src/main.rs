@@ -19,7 +19,7 @@ use crate::timing::nanoseconds;
 const ROBOTS: [&str; 6] = ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"];
 
 /// The functions of the comparison.
-const FUNCTIONS: [&str; 7] = [
+const FUNCTIONS: [&str; 9] = [
     "inverse_dynamics",
     "mass_matrix",
     "forward_dynamics",
@@ -27,6 +27,8 @@ const FUNCTIONS: [&str; 7] = [
     "forward_dynamics_derivatives",
     "bias",
     "gravity",
+    "regressor",
+    "pose_and_jacobian",
 ];
 
 /// Prints figures; `compiled` says for which machine.
