@@ -17,6 +17,17 @@ pub enum Error {
         /// The limit that it exceeds.
         reason: String,
     },
+    /// More coefficients than anybody reads.
+    #[error(
+        "the grouped form has coefficients for each pair of joints, and this robot has {coordinates} \
+         coordinates, more than {limit}; choose another form: `--form recursive` or `compact`"
+    )]
+    TooMany {
+        /// The robot's coordinates.
+        coordinates: usize,
+        /// The most that there are coefficients for.
+        limit: usize,
+    },
     /// An expression that cannot be written out.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),

@@ -18,6 +18,9 @@ const LIMITS: PolynomialOptions =
 /// The terms of all coefficients together, beyond which names make them shorter.
 const MAX_TERMS: usize = 1_500;
 
+/// The most coordinates: the coefficients grow with their third power, and each with the chain.
+const MAX_COORDINATES: usize = 12;
+
 /// Letters of the mass matrix, of the coefficients of velocities, of Christoffel symbols, of gravity
 /// and of the wrenches' shares.
 const MASS: [&str; 6] = ["M", "H", "A", "D", "B", "W"];
@@ -49,6 +52,10 @@ impl<'g> Coefficient<'g> {
 }
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
+    let coordinates = writer.robot.degrees_of_freedom();
+    if coordinates > MAX_COORDINATES {
+        return Err(Error::TooMany { coordinates, limit: MAX_COORDINATES });
+    }
     let forces = writer.economical_forces(false);
     // Per driving force: its coefficients with what they are multiplied by.
     let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
