@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{ArgAction, Args};
+use clap::{ArgAction, Args, ValueEnum};
 use robot_document::Form;
-use robot_document::latex::{self, Page};
+use robot_document::{latex, latex::Page, typst};
 
 use super::equations::centimetres;
 use crate::Terminal;
@@ -17,10 +17,11 @@ use crate::robot::RobotArgument;
 #[command(after_help = "Example:
   robot-symbolic document robots/trttr1.toml -o trttr1.tex && pdflatex trttr1.tex
   robot-symbolic document robots/trttr1.toml --form grouped,recursive --columns 2 -o trttr1.tex
+  robot-symbolic document robots/trttr1.toml -o trttr1.typ
 
 The document has tables of links and masses, the frames, the equations in the forms chosen, numbered,
-the symbols with their values, and a state with its driving forces to try one's own copy. It needs
-the packages amsmath and geometry, and two runs for its references.")]
+the symbols with their values, and a state with its driving forces to try one's own copy. A file
+NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the packages amsmath and geometry, and two runs for its references.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -30,6 +31,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, value_delimiter = ',', action = ArgAction::Append,
           default_value = "grouped")]
     form: Vec<FormName>,
+    /// The notation; without this Typst for a file NAME.typ, else LaTeX
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// Columns on a page
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
     columns: u8,
@@ -41,7 +45,21 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
 }
 
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Latex,
+    Typst,
+}
+
 impl Arguments {
+    fn format(&self) -> Format {
+        let extension = self.output.as_ref().and_then(|path| path.extension());
+        self.format.unwrap_or(match extension {
+            Some(extension) if extension == "typ" => Format::Typst,
+            _ => Format::Latex,
+        })
+    }
+
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let mut forms: Vec<Form> = vec![];
         for form in self.form.iter().map(|form| Form::from(*form)) {
@@ -55,7 +73,11 @@ impl Arguments {
         let document = robot_document::robot::document(&robot, &options, &forms).map_err(failed)?;
         let usual = Page::with_columns(self.columns);
         let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
-        let shown = latex::document(&document, page).map_err(failed)?;
+        let shown = match self.format() {
+            Format::Latex => latex::document(&document, page),
+            Format::Typst => typst::document(&document, page),
+        };
+        let shown = shown.map_err(failed)?;
         match &self.output {
             Some(path) => files::write(path, shown.as_bytes()),
             None => Ok(terminal.output.write_all(shown.as_bytes())?),

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
-use robot_document::{Equation, Equations, equations};
+use robot_document::{Equation, Equations, equations, typst};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -42,10 +42,10 @@ pub(crate) struct Arguments {
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// The width of the lines of LaTeX, such as 8.5cm
+    /// The width of the lines of LaTeX and Typst, such as 8.5cm
     #[arg(long, value_name = "WIDTH", value_parser = centimetres, default_value = "16cm")]
     width: f64,
-    /// Number the equations of LaTeX, each with a label such as eq:Q1
+    /// Number the equations of LaTeX and Typst, each with a label such as eq:Q1
     #[arg(long)]
     numbers: bool,
 }
@@ -54,6 +54,7 @@ pub(crate) struct Arguments {
 enum Format {
     Text,
     Latex,
+    Typst,
     Json,
 }
 
@@ -66,26 +67,32 @@ impl Arguments {
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
         let shown = match self.format {
             Format::Text => plain(&equations),
-            Format::Latex => self.latex(&equations).map_err(failed)?,
+            Format::Latex => self.displayed(&equations, "%", latex::equations).map_err(failed)?,
+            Format::Typst => self.displayed(&equations, "//", typst::equations).map_err(failed)?,
             Format::Json => json(&robot.name, &equations),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 
-    /// Environments of amsmath, a comment before each group.
-    fn latex(&self, equations: &Equations) -> Result<String, robot_document::Error> {
+    /// Displayed equations, a comment before each group.
+    fn displayed(
+        &self,
+        equations: &Equations,
+        comment: &str,
+        print: fn(&[NumberedEquation], Layout) -> Result<String, robot_document::Error>,
+    ) -> Result<String, robot_document::Error> {
         let mut shown = String::new();
         let layout = Layout::of_centimetres(self.width);
         for group in &equations.groups {
             if equations.groups.len() > 1 {
-                shown.push_str(&format!("% {}\n", group.title));
+                shown.push_str(&format!("{comment} {}\n", group.title));
             }
             let numbered = |equation: &Equation| NumberedEquation {
                 label: self.numbers.then(|| equation.label()),
                 equation: equation.clone(),
             };
             let list: Vec<NumberedEquation> = group.equations.iter().map(numbered).collect();
-            shown.push_str(&latex::equations(&list, layout)?);
+            shown.push_str(&print(&list, layout)?);
         }
         Ok(shown)
     }

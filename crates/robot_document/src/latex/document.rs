@@ -186,7 +186,7 @@ impl Writer {
 }
 
 /// The width of the cells of a table in the normal size, pt.
-fn natural_width(table: &Table) -> f64 {
+pub(crate) fn natural_width(table: &Table) -> f64 {
     let cell = |row: &Vec<Vec<Inline>>, column: usize| {
         row.get(column).map_or(0.0, |inlines| inlines.iter().map(inline_width).sum())
     };

@@ -7,6 +7,7 @@ mod read;
 mod read_back;
 mod text;
 
+pub(crate) use document::natural_width;
 pub use document::{Page, document};
 pub use equations::{Layout, equations};
 pub use formula::formula;

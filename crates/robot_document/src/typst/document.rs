@@ -1,0 +1,156 @@
+//! Displayed equations and whole documents.
+
+use super::{formula, text};
+use crate::breaking::broken;
+use crate::document::{Block, Document, Inline, NumberedEquation, Table};
+use crate::error::{Centimetres, Error};
+use crate::latex::{Layout, Page, natural_width};
+use crate::width::width;
+
+/// An equals sign with its spaces, pt.
+const EQUALS: f64 = 13.4;
+/// The indent of further lines, and the spaces around the sign that they start with, pt.
+const INDENT: f64 = 14.5;
+/// The number of an equation and its distance from the equation, pt.
+const NUMBER: f64 = 44.0;
+/// What estimates may be wrong by, pt.
+const MARGIN: f64 = 4.0;
+/// Between the columns of a table with the padding of the cells, pt.
+const CELL_GAP: f64 = 7.0;
+/// The smallest type of a table, pt.
+const SMALLEST: f64 = 6.0;
+/// Between two columns, cm.
+const GAP: f64 = 0.6;
+
+/// Displayed equations one below the other; those with a label are numbered.
+///
+/// # Errors
+///
+/// A piece of an equation that cannot be broken and does not fit a line.
+pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
+    let mut typst = String::new();
+    for NumberedEquation { label, equation } in list {
+        let number = if label.is_some() { NUMBER } else { 0.0 };
+        let available = layout.width - width(&equation.left) - number - MARGIN;
+        let lines =
+            broken(&equation.right, available - EQUALS, available - INDENT).map_err(|wide| {
+                Error::Narrow {
+                    name: equation.name.clone(),
+                    needed: Centimetres::from_points(wide.needed),
+                    available: Centimetres::from_points(available - INDENT),
+                }
+            })?;
+        let lines: Vec<String> = lines.iter().map(formula).collect();
+        let right = lines
+            .join(" \\\n    & quad ")
+            .replace("& quad + ", "& quad + med ")
+            .replace("& quad - ", "& quad - med ");
+        let left = formula(&equation.left);
+        let tail = label.as_ref().map_or(String::new(), |label| format!(" <eq:{label}>"));
+        let numbering = if label.is_some() { "\"(1)\"" } else { "none" };
+        typst.push_str(&format!(
+            "#[#set math.equation(numbering: {numbering})\n$ {left} & = {right} ${tail}]\n"
+        ));
+    }
+    Ok(typst)
+}
+
+/// The document as the source of a Typst run; it needs no package, and the fonts that Typst brings.
+///
+/// # Errors
+///
+/// A piece of an equation that does not fit a column.
+pub fn document(document: &Document, page: Page) -> Result<String, Error> {
+    let mut typst = head(document, page);
+    let mut tables = 0;
+    for block in &document.blocks {
+        match block {
+            Block::Heading(level, title) => {
+                typst.push_str(&format!("#heading(level: {level})[{}]\n", text(title)));
+            }
+            Block::Paragraph(inlines) => {
+                typst.push_str(&format!("#par[{}]\n", line(inlines)));
+            }
+            Block::List(items) => {
+                for item in items {
+                    typst.push_str(&format!("#par(hanging-indent: 1.2em)[{}]\n", line(item)));
+                }
+            }
+            Block::Table(table) => {
+                tables += 1;
+                typst.push_str(&self::table(table, tables, page));
+            }
+            Block::Equations(list) => {
+                typst.push_str(&equations(list, Layout::of_centimetres(page.width))?);
+            }
+        }
+    }
+    Ok(typst)
+}
+
+fn head(document: &Document, page: Page) -> String {
+    let columns = f64::from(page.columns);
+    let width = columns * page.width + (columns - 1.0) * GAP;
+    let paper = (width + 2.0).max(21.0);
+    let margin = (paper - width) / 2.0;
+    let title = text(&document.title);
+    format!(
+        "#set page(width: {paper:.3}cm, height: 29.7cm, margin: (x: {margin:.3}cm, y: 2.85cm), columns: {})
+#set columns(gutter: {GAP}cm)
+#set text(font: \"New Computer Modern\", size: 10pt, ligatures: false)
+#set par(spacing: 0.8em)
+#show math.equation: set text(font: \"New Computer Modern Math\")
+#show math.equation.where(block: true): set align(start)
+#show math.equation.where(block: true): set block(breakable: true, spacing: 0.8em)
+#set math.equation(number-align: end + bottom)
+#par[#text(size: 17pt)[{title}]]
+",
+        page.columns
+    )
+}
+
+/// A table in a size that fits a column; one that would be too small becomes a list.
+fn table(table: &Table, number: usize, page: Page) -> String {
+    let mut typst = format!("#par[*Table {number}\\.* {}]\n", text(&table.caption));
+    let room = Layout::of_centimetres(page.width).width - CELL_GAP * table.head.len() as f64;
+    let size = (10.0 * room / natural_width(table)).min(10.0);
+    if size < SMALLEST {
+        for row in &table.rows {
+            let cells = table.head.iter().zip(row);
+            let cells: Vec<String> = cells.map(|(head, cell)| named_cell(head, cell)).collect();
+            typst.push_str(&format!("#par(hanging-indent: 1.2em)[{}]\n", cells.join("; ")));
+        }
+        return typst;
+    }
+    let cells = |cells: &[Vec<Inline>]| -> String {
+        cells.iter().map(|cell| format!("[{}], ", line(cell))).collect()
+    };
+    typst.push_str(&format!(
+        "#[#set text(size: {size:.1}pt)\n#table(columns: {}, stroke: none, inset: (x: 3pt, y: 2.5pt), table.hline(),\n",
+        table.head.len()
+    ));
+    typst.push_str(&format!("  table.header({}), table.hline(),\n", cells(&table.head)));
+    for row in &table.rows {
+        typst.push_str(&format!("  {}\n", cells(row).trim_end()));
+    }
+    typst.push_str("  table.hline())]\n");
+    typst
+}
+
+fn named_cell(head: &[Inline], cell: &[Inline]) -> String {
+    if head.iter().all(|inline| *inline == Inline::text("")) {
+        return line(cell);
+    }
+    format!("{}: {}", line(head), line(cell))
+}
+
+/// A line of text.
+fn line(inlines: &[Inline]) -> String {
+    let one = |inline: &Inline| match inline {
+        Inline::Text(content) => text(content),
+        Inline::Emphasis(content) => format!("#emph[{}]", text(content)),
+        Inline::Math(math) => format!("${}$", formula(math)),
+        Inline::Reference(label) => format!("#ref(<eq:{label}>, supplement: none)"),
+    };
+    inlines.iter().map(one).collect()
+}

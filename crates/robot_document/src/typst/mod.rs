@@ -1,0 +1,9 @@
+//! Typst: formulas, equations and documents.
+
+mod document;
+mod formula;
+mod text;
+
+pub use document::{document, equations};
+pub use formula::formula;
+pub use text::text;
