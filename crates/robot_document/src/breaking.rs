@@ -3,6 +3,8 @@
 //! A line is broken before a `+` or `-` outside of fences; where a term alone does not fit, also
 //! between its factors, after a `·`, and at signs within its parentheses.
 
+use crate::error::{Centimetres, Error};
+use crate::forms::Equation;
 use crate::math::{Fence, Math};
 use crate::width::width;
 
@@ -26,6 +28,26 @@ pub fn broken(math: &Math, first: f64, rest: f64) -> Result<Vec<Math>, TooWide> 
     }
     lines.end();
     Ok(lines.done.into_iter().map(Math::row).collect())
+}
+
+/// An equals sign with its spaces, pt.
+const EQUALS: f64 = 13.4;
+/// The indent of further lines, and the spaces around the sign that they start with, pt.
+const INDENT: f64 = 14.5;
+
+/// The right side of an equation on lines beside its left side, which leaves them `available`
+/// points.
+///
+/// # Errors
+///
+/// A piece that does not fit.
+pub(crate) fn right_side(equation: &Equation, available: f64) -> Result<Vec<Math>, Error> {
+    let rest = available - INDENT;
+    broken(&equation.right, available - EQUALS, rest).map_err(|wide| Error::Narrow {
+        name: equation.name.clone(),
+        needed: Centimetres::from_points(wide.needed),
+        available: Centimetres::from_points(rest),
+    })
 }
 
 /// How a piece is joined to the one before it.

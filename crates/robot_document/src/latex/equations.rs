@@ -1,8 +1,8 @@
 //! Displayed equations, broken into lines, in an environment of amsmath.
 
-use crate::breaking::broken;
+use crate::breaking::right_side;
 use crate::document::NumberedEquation;
-use crate::error::{Centimetres, Error};
+use crate::error::Error;
 use crate::latex::formula;
 use crate::math::Math;
 use crate::width::width;
@@ -17,10 +17,6 @@ pub struct Layout {
 /// Lines in one environment; longer ones are cut, for TeX sets an environment as a whole, in a time that
 /// grows with the square of its length.
 const LONGEST: usize = 40;
-/// An equals sign with its spaces, pt.
-const EQUALS: f64 = 13.4;
-/// The indent of further lines, and the spaces around the sign that they start with, pt.
-const INDENT: f64 = 14.5;
 /// The number of an equation, pt.
 const NUMBER: f64 = 36.0;
 /// What estimates may be wrong by, pt.
@@ -62,14 +58,7 @@ struct Writer {
 impl Writer {
     fn add(&mut self, numbered: &NumberedEquation, available: f64) -> Result<(), Error> {
         let NumberedEquation { label, equation } = numbered;
-        let lines =
-            broken(&equation.right, available - EQUALS, available - INDENT).map_err(|wide| {
-                Error::Narrow {
-                    name: equation.name.clone(),
-                    needed: Centimetres::from_points(wide.needed),
-                    available: Centimetres::from_points(available - INDENT),
-                }
-            })?;
+        let lines = right_side(equation, available)?;
         let left = formula(&equation.left);
         let last = lines.len().saturating_sub(1);
         for (place, line) in lines.iter().enumerate() {

@@ -1,16 +1,12 @@
 //! Displayed equations and whole documents.
 
 use super::{formula, text};
-use crate::breaking::broken;
+use crate::breaking::right_side;
 use crate::document::{Block, Document, Inline, NumberedEquation, Table};
-use crate::error::{Centimetres, Error};
+use crate::error::Error;
 use crate::latex::{Layout, Page, natural_width};
 use crate::width::width;
 
-/// An equals sign with its spaces, pt.
-const EQUALS: f64 = 13.4;
-/// The indent of further lines, and the spaces around the sign that they start with, pt.
-const INDENT: f64 = 14.5;
 /// The number of an equation and its distance from the equation, pt.
 const NUMBER: f64 = 44.0;
 /// What estimates may be wrong by, pt.
@@ -32,14 +28,7 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     for NumberedEquation { label, equation } in list {
         let number = if label.is_some() { NUMBER } else { 0.0 };
         let available = layout.width - width(&equation.left) - number - MARGIN;
-        let lines =
-            broken(&equation.right, available - EQUALS, available - INDENT).map_err(|wide| {
-                Error::Narrow {
-                    name: equation.name.clone(),
-                    needed: Centimetres::from_points(wide.needed),
-                    available: Centimetres::from_points(available - INDENT),
-                }
-            })?;
+        let lines = right_side(equation, available)?;
         let lines: Vec<String> = lines.iter().map(formula).collect();
         let right = lines
             .join(" \\\n    & quad ")
