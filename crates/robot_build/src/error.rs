@@ -80,14 +80,6 @@ pub enum Error {
         /// How many there may be.
         limit: usize,
     },
-    /// Equations that cannot be written out.
-    #[error("{name}: {reason}")]
-    Equations {
-        /// The robot file.
-        name: String,
-        /// Why, and the remedy.
-        reason: String,
-    },
     /// A file that cannot be read or written.
     #[error("cannot {action} {}: {reason}", path.display())]
     File {

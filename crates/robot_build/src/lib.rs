@@ -25,13 +25,11 @@
 //! `robot-symbolic` give the same code.
 
 pub mod ablation;
-pub mod base;
 pub mod budget;
 mod builder;
 mod cargo;
 pub mod check;
 mod conventions;
-pub mod equations;
 mod error;
 mod files;
 mod generate;

@@ -6,6 +6,7 @@
 mod commands;
 mod counts;
 mod delivery;
+mod displayed;
 mod failure;
 mod files;
 mod forms;

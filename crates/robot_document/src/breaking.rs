@@ -131,11 +131,12 @@ impl Lines {
     }
 }
 
-/// The terms of a sum, each with its sign.
+/// The terms of a sum, each with its sign; a minus after an equals sign stays with that.
 pub fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
-    pieces
-        .chunk_by(|_, next| !matches!(next, Math::Sign('+' | '-' | '=')))
-        .filter(|term| !term.is_empty())
+    let stay = |before: &Math, next: &Math| {
+        !matches!(next, Math::Sign('+' | '-' | '=')) || matches!(before, Math::Sign('='))
+    };
+    pieces.chunk_by(stay).filter(|term| !term.is_empty())
 }
 
 /// The factors of a term: a sign stays with the first one, a function with its argument.

@@ -28,6 +28,12 @@ pub enum Error {
         /// The most that there are coefficients for.
         limit: usize,
     },
+    /// Base parameters that cannot be found or written out.
+    #[error("the base parameters are not to be had: {reason}")]
+    Base {
+        /// Why.
+        reason: String,
+    },
     /// An expression that cannot be written out.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),

@@ -6,6 +6,7 @@
 //! is a printer of its own: [`latex`], [`mathml`], [`typst`]. [`meaning`] goes the way back, from a formula to the expression
 //! that it stands for, so that tests can prove what was printed.
 
+pub mod base;
 pub mod breaking;
 pub mod document;
 mod error;

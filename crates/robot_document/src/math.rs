@@ -152,6 +152,16 @@ impl Math {
         names
     }
 
+    /// Whether the piece is a function, perhaps with a power, that waits for its argument.
+    #[must_use]
+    pub fn is_function(&self) -> bool {
+        match self {
+            Math::Function(_) => true,
+            Math::Script(script) => script.base.is_function(),
+            _ => false,
+        }
+    }
+
     /// The pieces directly within; of a symbol none.
     fn parts(&self) -> Vec<&Math> {
         match self {

@@ -99,8 +99,8 @@ fn row(pieces: &[Math]) -> Markup {
         let before = place.checked_sub(1).and_then(|place| pieces.get(place));
         let is_apart = match before {
             None | Some(Math::Sign(_)) => false,
-            Some(before) if is_function(before) => !matches!(piece, Math::Fenced(..)),
-            Some(_) => is_function(piece),
+            Some(before) if before.is_function() => !matches!(piece, Math::Fenced(..)),
+            Some(_) => piece.is_function(),
         };
         if is_apart {
             elements.push(inner("mspace", vec![]).with("width", "0.167em"));
@@ -108,14 +108,6 @@ fn row(pieces: &[Math]) -> Markup {
         elements.push(formula(piece));
     }
     inner("mrow", elements)
-}
-
-fn is_function(piece: &Math) -> bool {
-    match piece {
-        Math::Function(_) => true,
-        Math::Script(script) => is_function(&script.base),
-        _ => false,
-    }
 }
 
 fn with_indices(script: &Script) -> Markup {

@@ -142,7 +142,7 @@ impl Notation {
         for (place, term) in
             polynomial_terms(value, &style, |atom| order.rank(atom))?.iter().enumerate()
         {
-            let LatexTerm { negative, text, .. } = term;
+            let LatexTerm { negative, text } = term;
             match (place, negative) {
                 (0, false) => {}
                 (_, true) => pieces.push(Math::Sign('-')),

@@ -170,23 +170,15 @@ fn row(pieces: &[Math], size: Size) -> f64 {
             Math::Sign(',') | Math::Function(_) => size.space(0),
             // Space before and after what is fenced, or between a function's power and its argument.
             Math::Fenced(..) | Math::Fraction(_) => 2.0 * size.space(0),
-            Math::Script(script) if matches!(script.base, Math::Function(_)) => size.space(0),
+            Math::Script(_) if piece.is_function() => size.space(0),
             _ => 0.0,
         };
         // A function keeps its distance from what stands before it.
-        if place > 0 && starts_function(piece) {
+        if place > 0 && piece.is_function() {
             sum += size.space(0);
         }
     }
     sum
-}
-
-fn starts_function(piece: &Math) -> bool {
-    match piece {
-        Math::Function(_) => true,
-        Math::Script(script) => matches!(script.base, Math::Function(_)),
-        _ => false,
-    }
 }
 
 fn script_width(script: &Script, size: Size) -> f64 {

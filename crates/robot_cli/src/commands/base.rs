@@ -1,25 +1,23 @@
 //! `base`: the base parameters of a robot.
 
 use clap::{Args, ValueEnum};
-use robot_build::base::{BaseEntry, BaseSet, base};
-use robot_build::equations::{Notation, joined, lines};
-use robot_symbolic::print::latex::Trigonometry;
+use robot_document::base::{BaseEntry, BaseSet, base};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
+use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
+use crate::forms::failed;
 use crate::robot::RobotArgument;
 use crate::text;
 
 /// The width of text, in columns.
 const COLUMNS: usize = 100;
-/// The width of a line of LaTeX, in printed characters.
-const CHARACTERS: usize = 80;
 
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic base robots/puma560.toml
-  robot-symbolic base robots/puma560.toml --format latex
+  robot-symbolic base robots/puma560.toml --format latex --width 8.5cm
   robot-symbolic base robots/puma560.toml --format json
 
 The base parameters are the fewest combinations of the parameters of links and drives that determine the
@@ -34,43 +32,45 @@ pub(crate) struct Arguments {
     /// How to print them; LaTeX is for amsmath
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    layout: LayoutArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
 enum Format {
     Text,
     Latex,
+    Typst,
     Json,
 }
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let notation = match self.format {
-            Format::Text | Format::Json => Notation::Text,
-            Format::Latex => Notation::Latex(Trigonometry::Named),
-        };
-        let set = base(&self.robot.source()?, self.robot.snap(), notation)?;
-        text::warnings(&set.warnings, terminal)?;
+        let robot = self.robot.read(terminal)?.robot;
+        let failed = |error| failed(&self.robot, &error);
+        let set = base(&robot, self.robot.snap()).map_err(failed)?;
+        let displayed = |notation| self.layout.displayed(&[set.group()], notation).map_err(failed);
         let shown = match self.format {
-            Format::Text => plain(&set),
-            Format::Latex => latex(&set),
-            Format::Json => json(&set),
+            Format::Text => plain(&robot.name, &set),
+            Format::Latex => displayed(Notation::Latex)?,
+            Format::Typst => displayed(Notation::Typst)?,
+            Format::Json => json(&robot.name, &set),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 }
 
 /// `ZZR_2 = …`, its value below, long sums on several lines.
-fn plain(set: &BaseSet) -> String {
+fn plain(robot: &str, set: &BaseSet) -> String {
     let (count, all) = (set.list.len(), set.standard.len());
-    let mut shown = format!("{}: {count} base parameters of {all}", set.robot.name);
+    let mut shown = format!("{robot}: {count} base parameters of {all}");
     shown.push_str(if set.rounded { ", with rounded figures\n" } else { "\n" });
     for entry in &set.list {
-        let formula = format!("{} = {}", entry.name, joined(&entry.formula));
-        let value = format!("  = {}", joined(&entry.value));
-        for (whole, indent) in [(formula, "    "), (value, "    ")] {
+        let formula = format!("{} = {}", entry.name, entry.formula.text);
+        let value = format!("  = {}", entry.value.text);
+        for whole in [formula, value] {
             for (place, line) in text::wrapped(&whole, COLUMNS).iter().enumerate() {
-                shown.push_str(if place == 0 { "" } else { indent });
+                shown.push_str(if place == 0 { "" } else { "    " });
                 shown.push_str(line);
                 shown.push('\n');
             }
@@ -79,25 +79,9 @@ fn plain(set: &BaseSet) -> String {
     shown
 }
 
-/// An environment of amsmath with all formulas and values, long sums on several lines.
-fn latex(set: &BaseSet) -> String {
-    let mut rows = vec![];
-    for BaseEntry { left, formula, value, .. } in &set.list {
-        for (side, terms) in [(left.as_str(), formula), ("", value)] {
-            for (place, line) in lines(terms, CHARACTERS).iter().enumerate() {
-                rows.push(match place {
-                    0 => format!("  {side} &= {line}"),
-                    _ => format!("    &\\quad {line}"),
-                });
-            }
-        }
-    }
-    format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", rows.join(" \\\\\n"))
-}
-
 /// `{"robot": …, "standard": […], "base": [{"name": …, "column": …, "formula": …, "figures": {…},
 /// "value": …}, …]}`
-fn json(set: &BaseSet) -> String {
+fn json(robot: &str, set: &BaseSet) -> String {
     let entry = |entry: &BaseEntry| {
         let figures: Map<String, Value> = entry
             .figures
@@ -109,13 +93,13 @@ fn json(set: &BaseSet) -> String {
         json!({
             "name": entry.name,
             "column": entry.column,
-            "formula": joined(&entry.formula),
+            "formula": entry.formula.text,
             "figures": figures,
-            "value": joined(&entry.value),
+            "value": entry.value.text,
         })
     };
     let shown = json!({
-        "robot": set.robot.name,
+        "robot": robot,
         "rounded": set.rounded,
         "standard": set.standard,
         "base": set.list.iter().map(entry).collect::<Vec<_>>(),

@@ -6,8 +6,8 @@ use clap::{ArgAction, Args, ValueEnum};
 use robot_document::Form;
 use robot_document::{latex, latex::Page, typst};
 
-use super::equations::centimetres;
 use crate::Terminal;
+use crate::displayed::centimetres;
 use crate::failure::Failure;
 use crate::files;
 use crate::forms::{EquationArguments, FormName, failed};

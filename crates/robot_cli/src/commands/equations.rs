@@ -1,12 +1,11 @@
 //! `equations`: the equations of motion of a robot.
 
 use clap::{Args, ValueEnum};
-use robot_document::document::NumberedEquation;
-use robot_document::latex::{self, Layout};
-use robot_document::{Equation, Equations, equations, typst};
+use robot_document::{Equation, Equations, equations};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
+use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
 use crate::forms::{EquationArguments, FormName, failed};
 use crate::progress::watched;
@@ -15,8 +14,6 @@ use crate::text;
 
 /// The width of text, in columns.
 const COLUMNS: usize = 100;
-/// The narrowest and the widest line of LaTeX, cm.
-const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -42,12 +39,8 @@ pub(crate) struct Arguments {
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// The width of the lines of LaTeX and Typst, such as 8.5cm
-    #[arg(long, value_name = "WIDTH", value_parser = centimetres, default_value = "16cm")]
-    width: f64,
-    /// Number the equations of LaTeX and Typst, each with a label such as eq:Q1
-    #[arg(long)]
-    numbers: bool,
+    #[command(flatten)]
+    layout: LayoutArguments,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -65,46 +58,16 @@ impl Arguments {
         let failed = |error| failed(&self.robot, &error);
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
+        let displayed =
+            |notation| self.layout.displayed(&equations.groups, notation).map_err(failed);
         let shown = match self.format {
             Format::Text => plain(&equations),
-            Format::Latex => self.displayed(&equations, "%", latex::equations).map_err(failed)?,
-            Format::Typst => self.displayed(&equations, "//", typst::equations).map_err(failed)?,
+            Format::Latex => displayed(Notation::Latex)?,
+            Format::Typst => displayed(Notation::Typst)?,
             Format::Json => json(&robot.name, &equations),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
-
-    /// Displayed equations, a comment before each group.
-    fn displayed(
-        &self,
-        equations: &Equations,
-        comment: &str,
-        print: fn(&[NumberedEquation], Layout) -> Result<String, robot_document::Error>,
-    ) -> Result<String, robot_document::Error> {
-        let mut shown = String::new();
-        let layout = Layout::of_centimetres(self.width);
-        for group in &equations.groups {
-            if equations.groups.len() > 1 {
-                shown.push_str(&format!("{comment} {}\n", group.title));
-            }
-            let numbered = |equation: &Equation| NumberedEquation {
-                label: self.numbers.then(|| equation.label()),
-                equation: equation.clone(),
-            };
-            let list: Vec<NumberedEquation> = group.equations.iter().map(numbered).collect();
-            shown.push_str(&print(&list, layout)?);
-        }
-        Ok(shown)
-    }
-}
-
-/// `8.5cm` or `8.5`, in centimetres.
-pub(super) fn centimetres(text: &str) -> Result<f64, String> {
-    let digits = text.strip_suffix("cm").unwrap_or(text).trim();
-    let width: Option<f64> = digits.parse().ok();
-    let width = width.filter(|width| WIDTHS.contains(width));
-    width
-        .ok_or_else(|| "a width is a number of centimetres from 3 to 100, such as 8.5cm".to_owned())
 }
 
 /// `Q1 = …`, long sums on several lines.

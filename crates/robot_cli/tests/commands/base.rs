@@ -50,10 +50,21 @@ fn latex_is_an_environment_of_amsmath() {
     let lines: Vec<&str> = shown.lines().collect();
     assert_eq!(lines.first(), Some(&r"\begin{align*}"));
     assert_eq!(lines.last(), Some(&r"\end{align*}"));
-    assert!(
-        shown.contains(r"\mathit{ZZR}_{1} &= \mathit{ZZ}_{1} + l_1^{2} \mathit{M}_{2}"),
-        "{shown}"
+    let formula =
+        r"  \mathit{ZZR}_1 &= \mathit{ZZ}_1 + l_1^{2} M_2 = m_1 r_1^{2} + I_1 + m_2 l_1^{2} \\";
+    assert!(lines.contains(&formula), "{shown}");
+    let narrow = output(&["base", &robot("puma560"), "--format", "latex", "--width", "8cm"], "");
+    assert!(narrow.contains(r"    &\quad "), "{narrow}");
+}
+
+#[test]
+fn typst_numbers_the_formulas() {
+    let shown = output(
+        &["base", &robot("planar_2r"), "--format", "typst", "--width", "8cm", "--numbers"],
+        "",
     );
+    assert!(shown.contains("italic(Z Z)_(1) + attach(l_(1), t: 2) M_(2) = "), "{shown}");
+    assert!(shown.contains("<eq:ZZR-1>"), "{shown}");
 }
 
 #[test]

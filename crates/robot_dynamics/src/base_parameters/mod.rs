@@ -65,14 +65,9 @@ impl<'g> BaseParameter<'g> {
         format!("{}{}_{}", quantity.symbol(), self.mark(), link + 1)
     }
 
-    /// The name in LaTeX.
+    /// `R` where other parameters are regrouped under the kept one.
     #[must_use]
-    pub fn latex(&self) -> String {
-        let StandardParameter { link, quantity } = self.kept;
-        format!(r"\mathit{{{}{}}}_{{{}}}", quantity.symbol(), self.mark(), link + 1)
-    }
-
-    fn mark(&self) -> &'static str {
+    pub fn mark(&self) -> &'static str {
         if self.terms.len() > 1 { "R" } else { "" }
     }
 }

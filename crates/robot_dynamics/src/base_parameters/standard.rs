@@ -97,12 +97,6 @@ impl StandardParameter {
     pub fn name(self) -> String {
         format!("{}_{}", self.quantity.symbol(), self.link + 1)
     }
-
-    /// The name in LaTeX.
-    #[must_use]
-    pub fn latex(self) -> String {
-        format!(r"\mathit{{{}}}_{{{}}}", self.quantity.symbol(), self.link + 1)
-    }
 }
 
 /// The standard parameters with their values in the file's parameters, in the order of the full

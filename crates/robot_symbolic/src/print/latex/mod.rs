@@ -93,30 +93,3 @@ fn raised(base: &str, exponent: u32) -> String {
         _ => format!("{base}^{{{exponent}}}"),
     }
 }
-
-/// The number of characters that LaTeX prints, roughly: an estimate for breaking lines.
-fn width(latex: &str) -> usize {
-    let mut width = 0;
-    let mut rest = latex;
-    while let Some(character) = rest.chars().next() {
-        let mut taken = character.len_utf8();
-        match character {
-            '\\' => {
-                let name = rest.get(1..).unwrap_or_default();
-                let letters = name.bytes().take_while(u8::is_ascii_alphabetic).count();
-                let command = name.get(..letters).unwrap_or_default();
-                taken += letters.max(1);
-                width += match command {
-                    "sin" | "cos" | "tanh" | "sgn" => 3,
-                    "left" | "right" | "dot" | "ddot" | "bar" | "hat" | "tilde" | "vec" => 0,
-                    "frac" | "mathrm" | "operatorname" | "text" | "mathit" | "mathbf" => 0,
-                    _ => 1,
-                };
-            }
-            '{' | '}' | '_' | '^' | ' ' => {}
-            _ => width += 1,
-        }
-        rest = rest.get(taken..).unwrap_or_default();
-    }
-    width
-}

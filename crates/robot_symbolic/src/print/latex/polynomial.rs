@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::expression::{circular_power, magnitude, to_latex};
-use super::{LatexStyle, Trigonometry, raised, width};
+use super::{LatexStyle, Trigonometry, raised};
 use crate::expr::{Expr, View};
 use crate::graph::{Function, Id};
 use crate::polynomial::Polynomial;
@@ -16,8 +16,6 @@ pub struct LatexTerm {
     pub negative: bool,
     /// The term without its sign.
     pub text: String,
-    /// About how many characters wide the term prints, its sign not counted.
-    pub width: usize,
 }
 
 /// The terms of a polynomial, arranged by ranks of its atoms (see [`Polynomial::arranged`]); one
@@ -34,14 +32,11 @@ pub fn polynomial_terms<'g, K: Ord>(
     let mut printer = Printer { style, powers: FxHashMap::default() };
     let terms = polynomial.arranged(rank);
     if terms.is_empty() {
-        return Ok(vec![LatexTerm { negative: false, text: "0".to_owned(), width: 1 }]);
+        return Ok(vec![LatexTerm { negative: false, text: "0".to_owned() }]);
     }
     terms
         .iter()
-        .map(|term| {
-            let text = printer.term(term)?;
-            Ok(LatexTerm { negative: term.negative, width: width(&text), text })
-        })
+        .map(|term| Ok(LatexTerm { negative: term.negative, text: printer.term(term)? }))
         .collect()
 }
 

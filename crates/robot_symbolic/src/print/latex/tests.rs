@@ -173,13 +173,7 @@ fn polynomials_are_sums_of_terms() {
     assert!(!terms[0].negative);
     let zero = Polynomial::zero(&graph, &PolynomialOptions::default());
     let terms = polynomial_terms(&zero, &LatexStyle::default(), default_rank).unwrap();
-    assert_eq!(terms, [LatexTerm { negative: false, text: "0".to_owned(), width: 1 }]);
-}
-
-#[test]
-fn widths_count_what_prints() {
-    assert_eq!(width(r"\frac{1}{3} l_4 M_5 \ddot{q}_1 \sin q_2"), 2 + 4 + 2 + 5);
-    assert_eq!(width(r"\left(x + y\right)^{2}"), 6);
+    assert_eq!(terms, [LatexTerm { negative: false, text: "0".to_owned() }]);
 }
 
 /// Braces and \left … \right balance, and no superscript follows another, whatever is printed.
