@@ -1,7 +1,8 @@
 //! Long formulas on several lines.
 //!
 //! A line is broken before a `+` or `-` outside of fences; where a term alone does not fit, also
-//! between its factors, after a `·`, and at signs within its parentheses.
+//! between its factors, after a `·`, and at signs within its parentheses. A product
+//! that takes several lines starts on its own one, and goes on further in.
 
 use crate::error::{Centimetres, Error};
 use crate::forms::Equation;
@@ -61,6 +62,8 @@ enum Joint {
 
 /// More than a closing parenthesis takes, pt.
 const PARENTHESIS: f64 = 6.0;
+/// The further indent of lines within a product, pt.
+const DEEPER: f64 = 10.0;
 
 struct Lines {
     first: f64,
@@ -73,7 +76,16 @@ struct Lines {
 
 impl Lines {
     fn limit(&self) -> f64 {
-        (if self.done.is_empty() { self.first } else { self.rest }) - self.reserve
+        match self.done.is_empty() {
+            true => self.first - self.reserve,
+            false => self.further(&self.line),
+        }
+    }
+
+    /// What a further line that starts with these pieces may take.
+    fn further(&self, pieces: &[Math]) -> f64 {
+        let indent = if is_within_product(pieces) { DEEPER } else { 0.0 };
+        self.rest - self.reserve - indent
     }
 
     fn end(&mut self) {
@@ -92,16 +104,20 @@ impl Lines {
         }
         let dot = Math::Sign('·');
         let joined: Vec<Math> = match joint {
-            Joint::Factor if !pieces.starts_with(&[Math::Sign('·')]) => {
+            Joint::Factor if !is_within_product(pieces) => {
                 std::iter::once(dot).chain(pieces.iter().cloned()).collect()
             }
             _ => pieces.to_vec(),
         };
         let alone = width(&Math::Row(joined.clone()));
-        if !self.line.is_empty() && alone <= self.rest - self.reserve {
+        if !self.line.is_empty() && alone <= self.further(&joined) {
             self.end();
             self.line = joined;
             return Ok(());
+        }
+        let is_product = !pieces.iter().any(|piece| matches!(piece, Math::Fenced(..)));
+        if joint == Joint::Sign && is_product && !self.line.is_empty() {
+            self.end();
         }
         self.split(pieces, joint, alone)
     }
@@ -131,6 +147,11 @@ impl Lines {
     }
 }
 
+/// Whether a line that starts with these pieces goes on with a product.
+pub(crate) fn is_within_product(line: &[Math]) -> bool {
+    line.starts_with(&[Math::Sign('·')])
+}
+
 /// The terms of a sum, each with its sign; a minus after an equals sign stays with that.
 pub fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
     let stay = |before: &Math, next: &Math| {
@@ -149,5 +170,91 @@ fn stays_with_next(piece: &Math) -> bool {
         Math::Sign(_) | Math::Function(_) | Math::Letter('s' | 'c') => true,
         Math::Script(script) => stays_with_next(&script.base) && script.lower.is_none(),
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::latex::{Symbols, formula, read};
+
+    fn math(latex: &str) -> Math {
+        read(latex, &Symbols::default()).unwrap()
+    }
+
+    fn lines(latex: &str, first: f64, rest: f64) -> Vec<String> {
+        broken(&math(latex), first, rest).unwrap().iter().map(formula).collect()
+    }
+
+    #[test]
+    fn lines_break_before_signs_where_they_must() {
+        let sum = "a_1 + b_2 - c_3";
+        assert_eq!(lines(sum, 60.0, 60.0), [sum]);
+        assert_eq!(lines(sum, 50.0, 50.0), ["a_1 + b_2", "-c_3"]);
+        assert_eq!(lines(sum, 20.0, 50.0), ["a_1", "+b_2 - c_3"]);
+        // A sign after an equals sign is the number's.
+        assert_eq!(lines("a + b = -0.125", 45.0, 60.0), ["a+ b", "= - 0.125"]);
+    }
+
+    #[test]
+    fn a_long_product_starts_on_a_line_of_its_own() {
+        let sum = r"a - 0.0125 \sin q_1 \cos q_1 \sin q_2 \cos q_2 + b";
+        let expected = ["a", r"-0.0125 \sin q_1 \cos q_1", r"\cdot \sin q_2 \cos q_2 + b"];
+        assert_eq!(lines(sum, 100.0, 100.0), expected);
+    }
+
+    #[test]
+    fn sums_in_parentheses_break_within() {
+        let sum = r"m \left(a_1 + a_2 + a_3 + a_4\right) + b";
+        assert_eq!(lines(sum, 80.0, 80.0), ["m( a_1 + a_2 + a_3", "+a_4 ) + b"]);
+    }
+
+    #[test]
+    fn a_piece_without_a_break_is_refused() {
+        let wide = broken(&math("1.23456789012345678901"), 50.0, 50.0).unwrap_err();
+        assert!(wide.needed > 100.0, "{wide:?}");
+        assert!(broken(&math("a + b_{1234567890123}"), 50.0, 50.0).is_err());
+    }
+
+    /// Nothing is lost, no line is too wide, whatever the width.
+    #[test]
+    fn lines_fit_and_hold_all() {
+        for seed in 1..200_u32 {
+            let sum = math(&random_sum(seed));
+            let [first, rest] = [seed % 60 + 70, seed % 90 + 90].map(f64::from);
+            let lines = broken(&sum, first, rest).unwrap();
+            let mut found = String::new();
+            for (place, line) in lines.iter().enumerate() {
+                let limit = if place == 0 { first } else { rest };
+                assert!(width(line) <= limit, "seed {seed}: {} {line:?}", width(line));
+                found.push_str(&formula(line));
+            }
+            let bare = |latex: &str| {
+                let fences = latex.replace(r"\left(", "(").replace(r"\right)", ")");
+                fences.replace(r"\cdot", "").replace([' ', '{', '}'], "")
+            };
+            assert_eq!(bare(&found), bare(&formula(&sum)), "seed {seed}");
+        }
+    }
+
+    fn random_sum(seed: u32) -> String {
+        let mut state = seed;
+        let mut next = |below: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) % below
+        };
+        let factors = [r"\sin q_1", r"\cos^{2} q_2", "m_3", r"\dot{q}_1", "l_{4}^{2}"];
+        let mut sum = String::from("1.5");
+        for _ in 0..next(12) + 1 {
+            sum.push_str(if next(2) == 0 { " + " } else { " - " });
+            for _ in 0..next(8) + 1 {
+                sum.push_str(factors[next(5) as usize]);
+                sum.push(' ');
+            }
+            if next(3) == 0 {
+                sum.push_str(r"\left(a_1 + 0.25 b_{2} - c_3 \dot{q}_2 + d\right)");
+            }
+        }
+        sum
     }
 }

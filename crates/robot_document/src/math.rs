@@ -95,6 +95,13 @@ pub enum Fence {
     Bars,
 }
 
+/// Nothing.
+impl Default for Math {
+    fn default() -> Math {
+        Math::Row(vec![])
+    }
+}
+
 impl Math {
     /// `base_lower`
     #[must_use]
@@ -158,6 +165,26 @@ impl Math {
         match self {
             Math::Function(_) => true,
             Math::Script(script) => script.base.is_function(),
+            _ => false,
+        }
+    }
+
+    /// Whether a thin space keeps the piece apart from the one before it: factors, one of which is a word
+    /// in italics, such as `ZZR` with an index.
+    #[must_use]
+    pub fn is_apart_from(&self, before: &Math) -> bool {
+        let is_factor = |piece: &Math| {
+            !matches!(piece, Math::Sign(_) | Math::Fenced(..) | Math::Fraction(_))
+                && !piece.is_function()
+        };
+        (self.is_word() || before.is_word()) && is_factor(self) && is_factor(before)
+    }
+
+    fn is_word(&self) -> bool {
+        match self {
+            Math::Symbol(symbol) => symbol.shape.is_word(),
+            Math::Script(script) => script.base.is_word(),
+            Math::Styled(Style::Italic, inside) => matches!(**inside, Math::Row(_)),
             _ => false,
         }
     }

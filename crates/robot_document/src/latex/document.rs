@@ -22,6 +22,8 @@ pub struct Page {
 const GAP: f64 = 0.6;
 /// Rows of a table on one page.
 const ROWS: usize = 40;
+/// What keeps the first row below a rule, and the last row above one, apart from it.
+const STRUTS: [&str; 2] = [r"\rule{0pt}{2.7ex}", r"\rule[-1.1ex]{0pt}{0pt}"];
 /// Between the columns of a table, pt, in any size.
 const COLUMN_GAP: f64 = 12.5;
 /// Sizes of type with what they are of the normal size.
@@ -157,13 +159,17 @@ impl Writer {
         let cells = |cells: &[Vec<Inline>]| {
             cells.iter().map(|cell| line(cell)).collect::<Vec<_>>().join(" & ")
         };
+        let [below, above] = STRUTS;
         for (place, rows) in table.rows.chunks(ROWS).enumerate() {
             let more = if place == 0 { "" } else { " (continued)" };
             self.line(&format!("\n{begin}\n{caption}{more}\\par\\smallskip"));
             self.line(&format!("\\{size}\n\\begin{{tabular}}{{{columns}}}\n\\hline"));
-            self.line(&format!("{} \\\\\n\\hline", cells(&table.head)));
-            for row in rows {
-                self.line(&format!("{} \\\\", cells(row)));
+            self.line(&format!("{below}{}{above} \\\\\n\\hline", cells(&table.head)));
+            let last = rows.len().saturating_sub(1);
+            for (place, row) in rows.iter().enumerate() {
+                let start = if place == 0 { below } else { "" };
+                let end = if place == last { above } else { "" };
+                self.line(&format!("{start}{}{end} \\\\", cells(row)));
             }
             self.line(&format!("\\hline\n\\end{{tabular}}{end}\\medskip"));
         }

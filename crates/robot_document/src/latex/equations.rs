@@ -1,6 +1,6 @@
 //! Displayed equations, broken into lines, in an environment of amsmath.
 
-use crate::breaking::right_side;
+use crate::breaking::{is_within_product, right_side};
 use crate::document::NumberedEquation;
 use crate::error::Error;
 use crate::latex::formula;
@@ -94,7 +94,8 @@ fn continued(line: &Math) -> String {
     match line.pieces() {
         [Math::Sign(_), rest @ ..] => {
             let sign = formula(&Math::row(line.pieces().iter().take(1).cloned().collect()));
-            format!("{{}}{sign} {}", formula(&Math::Row(rest.to_vec())))
+            let indent = if is_within_product(line.pieces()) { r"\quad " } else { "" };
+            format!("{indent}{{}}{sign} {}", formula(&Math::Row(rest.to_vec())))
         }
         _ => formula(line),
     }

@@ -33,7 +33,8 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
         let right = lines
             .join(" \\\n    & quad ")
             .replace("& quad + ", "& quad + med ")
-            .replace("& quad - ", "& quad - med ");
+            .replace("& quad - ", "& quad - med ")
+            .replace("& quad dot.op ", "& quad quad dot.op ");
         let left = formula(&equation.left);
         let tail = label.as_ref().map_or(String::new(), |label| format!(" <eq:{label}>"));
         let numbering = if label.is_some() { "\"(1)\"" } else { "none" };
@@ -115,7 +116,7 @@ fn table(table: &Table, number: usize, page: Page) -> String {
         cells.iter().map(|cell| format!("[{}], ", line(cell))).collect()
     };
     typst.push_str(&format!(
-        "#[#set text(size: {size:.1}pt)\n#table(columns: {}, stroke: none, inset: (x: 3pt, y: 2.5pt), table.hline(),\n",
+        "#[#set text(size: {size:.1}pt)\n#table(columns: {}, stroke: none, inset: (x: 3pt, top: 3pt, bottom: 4pt), table.hline(),\n",
         table.head.len()
     ));
     typst.push_str(&format!("  table.header({}), table.hline(),\n", cells(&table.head)));
