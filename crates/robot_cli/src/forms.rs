@@ -13,14 +13,14 @@ use crate::text;
 /// How equations are written.
 #[derive(Args)]
 pub(crate) struct EquationArguments {
-    /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all; the grouped and the recursive form have Q alone
+    /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all; the grouped, the recursive and the regrouped form have Q alone
     #[arg(long = "quantity", value_name = "NAMES", value_delimiter = ',', default_value = "Q")]
     quantities: Vec<String>,
     /// Sines and cosines in print
     #[arg(long, value_enum, default_value_t = TrigonometryStyle::Named)]
     trig: TrigonometryStyle,
     /// Sines and cosines of sums of angles, as parallel joints have them, in the driving forces of
-    /// the expanded and the grouped form
+    /// all forms but the recursive one
     #[arg(long, value_enum, default_value_t = AngleSumStyle::Expand)]
     angle_sums: AngleSumStyle,
     /// In the grouped form, Christoffel symbols in place of the coefficients of velocities
@@ -42,6 +42,8 @@ pub(crate) enum FormName {
     Recursive,
     /// What is used again under names of its own
     Compact,
+    /// By the base parameters, in which the driving forces are linear
+    Regrouped,
 }
 
 impl From<FormName> for Form {
@@ -51,6 +53,7 @@ impl From<FormName> for Form {
             FormName::Grouped => Form::Grouped,
             FormName::Recursive => Form::Recursive,
             FormName::Compact => Form::Compact,
+            FormName::Regrouped => Form::Regrouped,
         }
     }
 }

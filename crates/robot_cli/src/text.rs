@@ -31,26 +31,31 @@ pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> R
     Ok(())
 }
 
-/// A sum on lines of so many columns, broken before signs that stand in no parentheses.
+/// A sum on lines of so many columns, broken before signs: within parentheses only where what they hold
+/// fits no line.
 pub(crate) fn wrapped(text: &str, columns: usize) -> Vec<&str> {
-    let (mut lines, mut start, mut last, mut depth) = (vec![], 0, 0, 0_usize);
+    let mut breaks: Vec<(usize, usize)> = vec![];
+    let mut depth = 0_usize;
     for (place, character) in text.char_indices() {
+        let before = &text[..place];
         match character {
             '(' => depth += 1,
             ')' => depth = depth.saturating_sub(1),
-            '+' | '-' if depth == 0 && text[..place].ends_with(' ') => {
-                if place - start > columns && last > start {
-                    lines.push(text[start..last].trim_end());
-                    start = last;
-                }
-                last = place;
+            '+' | '-' if before.ends_with(' ') && !before.ends_with("= ") => {
+                breaks.push((place, depth));
             }
             _ => {}
         }
     }
-    if text.len() - start > columns && last > start {
-        lines.push(text[start..last].trim_end());
-        start = last;
+    let (mut lines, mut start) = (vec![], 0);
+    while text.len() - start > columns {
+        let further = || breaks.iter().filter(|(place, _)| *place > start);
+        // The last one in reach outside of parentheses; else within them; else the next one.
+        let reach = further().filter(|(place, _)| *place - start <= columns);
+        let chosen = reach.min_by_key(|(place, depth)| (*depth, std::cmp::Reverse(*place)));
+        let Some((place, _)) = chosen.or_else(|| further().next()) else { break };
+        lines.push(text[start..*place].trim_end());
+        start = *place;
     }
     lines.push(&text[start..]);
     lines
@@ -130,7 +135,9 @@ mod tests {
     #[test]
     fn sums_are_broken_before_signs() {
         let lines = wrapped("Q = aa + bb*(c - d - e) - f + gggg", 12);
-        assert_eq!(lines, ["Q = aa", "+ bb*(c - d - e)", "- f + gggg"]);
+        assert_eq!(lines, ["Q = aa", "+ bb*(c - d", "- e) - f", "+ gggg"]);
+        let lines = wrapped("Q = -a*(b - c) + d", 10);
+        assert_eq!(lines, ["Q = -a*(b", "- c) + d"]);
         assert_eq!(wrapped("Q1 = 0", 3), ["Q1 = 0"]);
         let text = "x = a - b + c - d*(e + f) + g - h";
         for columns in 0..40 {

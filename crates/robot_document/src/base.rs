@@ -49,7 +49,7 @@ pub struct BaseEntry {
 }
 
 /// A formula in both notations that a reader may want.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
     /// Infix text that reads back.
     pub text: String,
@@ -71,18 +71,17 @@ pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
     let found = found(&derivation)?;
     let notation = Notation::new(robot, Trigonometry::Named)?;
     let formulas = Formulas { notation: &notation, order: &Order::new(robot) };
-    let standard: Vec<Written> = found
+    let standard: Vec<Option<Written>> = found
         .standard
         .iter()
-        .map(|(parameter, _)| Written {
-            text: parameter.name(),
-            math: shape(parameter.quantity, "", parameter.link),
+        .map(|(parameter, _)| {
+            let math = shape(parameter.quantity, "", parameter.link);
+            Some(Written { text: parameter.name(), math })
         })
         .collect();
     let mut list = vec![];
     for (parameter, value) in found.base.iter().zip(&polynomials(&found.nominal())?) {
-        let figures: Vec<Expr<'_>> = parameter.terms.iter().map(|(_, figure)| *figure).collect();
-        let figures = polynomials(&figures)?;
+        let figures = figures(parameter)?;
         let places = parameter.terms.iter().map(|(place, _)| *place);
         let texts: Result<Vec<_>, Error> =
             places.zip(&figures).map(|(place, figure)| Ok((place, figure.to_text()?))).collect();
@@ -90,12 +89,12 @@ pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
             name: parameter.name(),
             left: look(parameter),
             column: parameter.column,
-            formula: formulas.of_parameter(parameter, &figures, &standard)?,
+            formula: formulas.of_parameter(parameter, &standard)?,
             figures: texts?,
             value: formulas.of_polynomial(value)?,
         });
     }
-    let standard = standard.into_iter().map(|one| one.text).collect();
+    let standard = standard.into_iter().flatten().map(|one| one.text).collect();
     Ok(BaseSet { standard, list, rounded: found.rounded })
 }
 
@@ -103,33 +102,34 @@ impl BaseSet {
     /// The formulas as displayed equations, each with the value behind the formula.
     #[must_use]
     pub fn group(&self) -> Group {
-        Group {
-            title: "Base parameters".to_owned(),
-            introduction: String::new(),
-            definitions: true,
-            equations: self.list.iter().map(BaseEntry::equation).collect(),
-        }
+        Group::of_definitions(
+            "Base parameters",
+            self.list.iter().map(BaseEntry::equation).collect(),
+        )
     }
 }
 
 impl BaseEntry {
-    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; where nothing is regrouped, `MY_2 = 0.1`, and where both look
-    /// alike, as with masses, one of them.
+    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; where nothing is regrouped, `MY_2 = 0.1`.
     fn equation(&self) -> Equation {
-        let mut right = vec![];
-        let is_alike = latex::formula(&self.formula.math) == latex::formula(&self.value.math);
-        if self.figures.len() > 1 && !is_alike {
-            right.extend_from_slice(self.formula.math.pieces());
-            right.push(Math::Sign('='));
-        }
-        right.extend_from_slice(self.value.math.pieces());
+        let formula = if self.figures.len() > 1 { &self.formula } else { &self.value };
         Equation {
             name: self.name.clone(),
             text: self.value.text.clone(),
             left: self.left.clone(),
-            right: Math::row(right),
+            right: chained(formula, &self.value),
         }
     }
+}
+
+/// `formula = value`, or one of them where they look alike, as sums of masses do.
+pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
+    let mut right = formula.math.pieces().to_vec();
+    if latex::formula(&formula.math) != latex::formula(&value.math) {
+        right.push(Math::Sign('='));
+        right.extend_from_slice(value.math.pieces());
+    }
+    Math::row(right)
 }
 
 /// The base parameters, or why there are none.
@@ -142,6 +142,12 @@ pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameter
 /// Figures and values, expanded.
 pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
     Polynomial::of_all(values, &LIMITS).map_err(|error| Error::Base { reason: error.to_string() })
+}
+
+/// The figures of a base parameter, expanded.
+fn figures<'g>(parameter: &BaseParameter<'g>) -> Result<Vec<Polynomial<'g>>, Error> {
+    let figures: Vec<Expr<'g>> = parameter.terms.iter().map(|(_, figure)| *figure).collect();
+    polynomials(&figures)
 }
 
 /// What the name of a base parameter looks like.
@@ -174,71 +180,85 @@ impl Formulas<'_> {
     }
 
     /// The formula of a base parameter in standard ones, which are written as `standard` has them: the
-    /// kept one comes first, and those with one figure stand together.
+    /// kept one comes first, and those with one figure stand together. `None` is left out.
     pub(crate) fn of_parameter(
         &self,
         parameter: &BaseParameter<'_>,
-        figures: &[Polynomial<'_>],
-        standard: &[Written],
+        standard: &[Option<Written>],
     ) -> Result<Written, Error> {
-        let mut groups: Vec<(Factor, Vec<&Written>)> = vec![];
-        let mut terms: Vec<_> = parameter.terms.iter().zip(figures).collect();
+        let figures = figures(parameter)?;
+        let mut groups: Vec<(Term, Vec<&Written>)> = vec![];
+        let mut terms: Vec<_> = parameter.terms.iter().zip(&figures).collect();
         terms.sort_by_key(|((place, _), _)| *place != parameter.column);
         for ((place, _), figure) in terms {
+            let Some(Some(name)) = standard.get(*place) else { continue };
             let factor = self.factor(figure)?;
-            let Some(name) = standard.get(*place) else { continue };
             match groups.iter_mut().find(|(known, _)| *known == factor) {
                 Some((_, names)) => names.push(name),
                 None => groups.push((factor, vec![name])),
             }
         }
-        let (mut text, mut pieces) = (String::new(), vec![]);
-        for (place, (factor, names)) in groups.iter().enumerate() {
-            let (sign, spaced) = if factor.negative { ('-', " - ") } else { ('+', " + ") };
-            if place > 0 || factor.negative {
-                text.push_str(if place > 0 { spaced } else { "-" });
-                pieces.push(Math::Sign(sign));
-            }
-            let product = product(factor, names);
-            text.push_str(&product.text);
-            pieces.extend_from_slice(product.math.pieces());
-        }
-        Ok(Written { text, math: Math::row(pieces) })
+        let terms: Vec<Term> =
+            groups.iter().map(|(factor, names)| product(factor, names)).collect();
+        Ok(sum(&terms))
     }
 
     /// A figure as a factor: nothing for 1, sums in parentheses.
-    fn factor(&self, figure: &Polynomial<'_>) -> Result<Factor, Error> {
-        let Written { text, math } = self.of_polynomial(figure)?;
+    fn factor(&self, figure: &Polynomial<'_>) -> Result<Term, Error> {
+        let written = self.of_polynomial(figure)?;
         if figure.len() > 1 {
-            let pieces = vec![Math::Fenced(Fence::Parentheses, Box::new(math))];
-            return Ok(Factor { negative: false, text: format!("({text})"), pieces });
+            let math = Math::Fenced(Fence::Parentheses, Box::new(written.math));
+            let written = Written { text: format!("({})", written.text), math };
+            return Ok(Term { negative: false, written });
         }
-        let (negative, text) = match text.strip_prefix('-') {
-            Some(magnitude) => (true, magnitude.to_owned()),
-            None => (false, text),
-        };
-        if text == "1" {
-            return Ok(Factor { negative, text: String::new(), pieces: vec![] });
+        let factor = Term::of(written);
+        match factor.written.text.as_str() {
+            "1" => Ok(Term { written: Written::default(), ..factor }),
+            _ => Ok(factor),
         }
-        let pieces = match math.pieces() {
-            [Math::Sign('-'), magnitude @ ..] => magnitude.to_vec(),
-            all => all.to_vec(),
-        };
-        Ok(Factor { negative, text, pieces })
     }
 }
 
-/// What stands before a standard parameter.
+/// A term of a sum, or a factor of one, without its sign; a factor 1 is empty.
 #[derive(PartialEq)]
-struct Factor {
-    negative: bool,
-    /// Empty for 1.
-    text: String,
-    pieces: Vec<Math>,
+pub(crate) struct Term {
+    pub(crate) negative: bool,
+    pub(crate) written: Written,
 }
 
-/// The figure, without its sign, times the sum of the names.
-fn product(factor: &Factor, names: &[&Written]) -> Written {
+impl Term {
+    /// A term, or a sum, whose first sign stands for the whole.
+    pub(crate) fn of(written: Written) -> Term {
+        let text = written.text.strip_prefix('-').map(str::to_owned);
+        let math = match written.math.pieces() {
+            [Math::Sign('-'), magnitude @ ..] => Math::row(magnitude.to_vec()),
+            _ => written.math.clone(),
+        };
+        let negative = text.is_some();
+        Term { negative, written: Written { text: text.unwrap_or(written.text), math } }
+    }
+}
+
+/// The sum of terms; 0 where there is none.
+pub(crate) fn sum(terms: &[Term]) -> Written {
+    if terms.is_empty() {
+        return Written { text: "0".to_owned(), math: Math::integer(0) };
+    }
+    let (mut text, mut pieces) = (String::new(), vec![]);
+    for (place, Term { negative, written }) in terms.iter().enumerate() {
+        let (sign, spaced) = if *negative { ('-', " - ") } else { ('+', " + ") };
+        if place > 0 || *negative {
+            text.push_str(if place > 0 { spaced } else { "-" });
+            pieces.push(Math::Sign(sign));
+        }
+        text.push_str(&written.text);
+        pieces.extend_from_slice(written.math.pieces());
+    }
+    Written { text, math: Math::row(pieces) }
+}
+
+/// The figure times the sum of the names.
+fn product(factor: &Term, names: &[&Written]) -> Term {
     let text = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(" + ");
     let mut sum = vec![];
     for name in names {
@@ -247,19 +267,20 @@ fn product(factor: &Factor, names: &[&Written]) -> Written {
         }
         sum.extend_from_slice(name.math.pieces());
     }
-    let is_one = factor.text.is_empty();
-    let mut pieces = factor.pieces.clone();
+    let Term { negative, written } = factor;
+    let is_one = written.text.is_empty();
+    let mut pieces = written.math.pieces().to_vec();
     // What follows a sine would seem to be in its argument.
     if pieces.iter().any(Math::is_function) {
         pieces.push(Math::Sign('·'));
     }
-    let text = if names.len() == 1 || (is_one && !factor.negative) {
+    let text = if names.len() == 1 || (is_one && !negative) {
         pieces.extend(sum);
         text
     } else {
         pieces.push(Math::Fenced(Fence::Parentheses, Box::new(Math::Row(sum))));
         format!("({text})")
     };
-    let text = if is_one { text } else { format!("{}*{text}", factor.text) };
-    Written { text, math: Math::row(pieces) }
+    let text = if is_one { text } else { format!("{}*{text}", written.text) };
+    Term { negative: *negative, written: Written { text, math: Math::row(pieces) } }
 }

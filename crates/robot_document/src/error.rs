@@ -37,6 +37,15 @@ pub enum Error {
     /// An expression that cannot be written out.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
+    /// A symbol of the robot that has the name of one that a form defines.
+    #[error(
+        "this form of the equations has a symbol `{name}` of its own; give that of the robot file \
+         another name, or choose another form"
+    )]
+    Taken {
+        /// The name.
+        name: String,
+    },
     /// Two symbols that print alike.
     #[error(
         "`{name}` and `{other}` both print as {latex}; give one of them another `latex` in the \

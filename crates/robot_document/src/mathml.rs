@@ -92,13 +92,14 @@ fn operator(sign: char) -> Markup {
     }
 }
 
-/// Pieces side by side, with a thin space around functions.
+/// Pieces side by side, with a thin space around functions and words.
 fn row(pieces: &[Math]) -> Markup {
     let mut elements = vec![];
     for (place, piece) in pieces.iter().enumerate() {
         let before = place.checked_sub(1).and_then(|place| pieces.get(place));
         let is_apart = match before {
             None | Some(Math::Sign(_)) => false,
+            Some(before) if piece.is_apart_from(before) => true,
             Some(before) if before.is_function() => !matches!(piece, Math::Fenced(..)),
             Some(_) => piece.is_function(),
         };

@@ -63,8 +63,11 @@ impl Notation {
     ///
     /// # Errors
     ///
-    /// A symbol that looks like another one.
+    /// A symbol that there is already, or that looks like another one.
     pub fn define(&mut self, name: &str, shape: Math) -> Result<(), Error> {
+        if self.latex.contains_key(name) {
+            return Err(Error::Taken { name: name.to_owned() });
+        }
         self.defined.push(name.to_owned());
         self.insert(name, shape)
     }

@@ -16,7 +16,7 @@ pub type Rank = (u8, u8, usize);
 #[derive(Clone, Debug)]
 pub struct Order<'r> {
     parameters: FxHashMap<&'r str, Rank>,
-    defined: FxHashMap<String, usize>,
+    defined: FxHashMap<String, Rank>,
 }
 
 impl<'r> Order<'r> {
@@ -32,8 +32,14 @@ impl<'r> Order<'r> {
 
     /// Adds a symbol that a form defines.
     pub fn define(&mut self, name: &str) {
-        let place = self.defined.len();
-        self.defined.insert(name.to_owned(), place);
+        let rank = (8, 0, self.defined.len());
+        self.defined.insert(name.to_owned(), rank);
+    }
+
+    /// Adds a combination of masses and inertias that a form defines.
+    pub fn define_parameter(&mut self, name: &str) {
+        let rank = (0, 0, self.defined.len());
+        self.defined.insert(name.to_owned(), rank);
     }
 
     /// The place of a factor.
@@ -46,8 +52,8 @@ impl<'r> Order<'r> {
         if let Some(rank) = self.parameters.get(name.as_str()) {
             return *rank;
         }
-        if let Some(place) = self.defined.get(&name) {
-            return (8, 0, *place);
+        if let Some(rank) = self.defined.get(&name) {
+            return *rank;
         }
         let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
         let number = digits.parse().unwrap_or_default();

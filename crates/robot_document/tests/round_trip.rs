@@ -8,6 +8,7 @@ use std::path::Path;
 
 use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
+use robot_document::math::Math;
 use robot_document::meaning::meaning;
 use robot_document::{EquationOptions, Equations, Form, equations};
 use robot_dynamics::description::read_toml;
@@ -88,9 +89,15 @@ fn read_back<'g>(
         assert_eq!(read.len(), list.len(), "{latex}");
         for ([left, right], one) in read.iter().zip(&list) {
             assert_eq!(latex::formula(left), latex::formula(&one.equation.left));
-            let value = meaning(right, graph, printed.notation.trigonometry())
-                .unwrap_or_else(|error| panic!("{error}: {latex}"));
-            let value = value.substitute(|name| values.get(name).copied());
+            let mut sides = right.pieces().split(|piece| *piece == Math::Sign('=')).map(|side| {
+                meaning(&Math::row(side.to_vec()), graph, printed.notation.trigonometry())
+                    .unwrap_or_else(|error| panic!("{error}: {latex}"))
+                    .substitute(|name| values.get(name).copied())
+            });
+            let value = sides.next().unwrap();
+            for other in sides {
+                assert_equal(&one.equation.name, graph, value, other);
+            }
             values.insert(one.equation.name.clone(), value);
         }
     }
@@ -185,7 +192,7 @@ fn friction_reads_back() {
     let mut with_friction = robots.iter().filter(|robot| robot.has_friction()).peekable();
     assert!(with_friction.peek().is_some());
     for robot in with_friction {
-        for form in [Form::Grouped, Form::Recursive, Form::Compact] {
+        for form in [Form::Grouped, Form::Recursive, Form::Compact, Form::Regrouped] {
             check(robot, &EquationOptions { friction: true, ..in_form(form) }, &[8.2, 16.0]);
         }
     }

@@ -14,11 +14,12 @@ use crate::parts;
 const MAX_TERMS: usize = 5_000;
 
 /// The forms of the page in their order, the first one open.
-const FORMS: [(Form, &str); 4] = [
+const FORMS: [(Form, &str); 5] = [
     (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
     (Form::Expanded, "Expanded: sums of products, without friction"),
     (Form::Recursive, "Recursive: the iterations link by link"),
     (Form::Compact, "Compact: what is used again has a name"),
+    (Form::Regrouped, "Regrouped: by the base parameters, in which Q is linear"),
 ];
 
 /// All forms, each to be opened.

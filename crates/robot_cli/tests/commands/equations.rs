@@ -168,3 +168,24 @@ fn typst_is_a_notation_of_equations_and_documents() {
     assert_eq!((shown.code, shown.errors.as_str()), (0, ""));
     assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q1>"));
 }
+
+#[test]
+fn the_regrouped_form_is_linear_in_base_parameters() {
+    let shown = output(&["equations", &robot("trttr1"), "--form", "regrouped"], "");
+    for line in ["MR_4 = M4 + M5", "Q3 = M3*(g + qdd3) + MR_4*(g + qdd3) + w_3"] {
+        assert!(shown.lines().any(|shown| shown == line), "{line} is not in {shown}");
+    }
+    let latex =
+        output(&["equations", &robot("puma560"), "--form", "regrouped", "--format", "latex"], "");
+    assert!(latex.contains(r"  \mathit{XXR}_4 &= \mathit{XX}_4 + "), "{latex}");
+    assert!(latex.contains(r" Q_6 &= \mathit{ZZ}_6\, Y_{6,21} + w_6"), "{latex}");
+}
+
+#[test]
+fn a_symbol_with_the_name_of_a_base_parameter_is_refused() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap().replace("r1", "ZZR_1");
+    let path = crate::folder("taken").join("arm.toml");
+    std::fs::write(&path, text).unwrap();
+    let told = complaint(1, &["equations", path.to_str().unwrap(), "--form", "regrouped"], "");
+    assert!(told.contains("has a symbol `ZZR_1` of its own"), "{told}");
+}

@@ -66,12 +66,7 @@ pub(super) fn definitions<'h>(
             equations.push(writer.of_expression(name.clone(), left, value)?);
             named.name(*expr, &name);
         }
-        groups.push(Group {
-            title: title.to_owned(),
-            introduction: String::new(),
-            definitions: true,
-            equations,
-        });
+        groups.push(Group::of_definitions(title, equations));
     }
     Ok((groups, named))
 }

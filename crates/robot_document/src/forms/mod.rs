@@ -1,10 +1,14 @@
 //! The forms of the equations of motion.
 
+mod angle_sums;
+mod coefficients;
 mod compact;
 mod expanded;
 mod grouped;
+mod loads;
 mod naming;
 mod recursive;
+mod regrouped;
 mod shapes;
 
 use robot_dynamics::functions::{Derivation, FunctionKind};
@@ -32,11 +36,14 @@ pub enum Form {
     Recursive,
     /// As the economical recursion has them, expressions that are used again under names.
     Compact,
+    /// By base parameters, in which the driving forces are linear. Driving forces only.
+    Regrouped,
 }
 
 impl Form {
     /// All forms.
-    pub const ALL: [Form; 4] = [Form::Expanded, Form::Grouped, Form::Recursive, Form::Compact];
+    pub const ALL: [Form; 5] =
+        [Form::Expanded, Form::Grouped, Form::Recursive, Form::Compact, Form::Regrouped];
 
     /// The name, as the command has it.
     #[must_use]
@@ -46,6 +53,7 @@ impl Form {
             Form::Grouped => "grouped",
             Form::Recursive => "recursive",
             Form::Compact => "compact",
+            Form::Regrouped => "regrouped",
         }
     }
 }
@@ -55,8 +63,8 @@ impl Form {
 pub struct EquationOptions {
     /// The form.
     pub form: Form,
-    /// The quantities, in the order in which they are wanted. The forms [`Form::Grouped`] and
-    /// [`Form::Recursive`] are about the driving forces whatever is chosen.
+    /// The quantities, in the order in which they are wanted. The forms [`Form::Grouped`],
+    /// [`Form::Recursive`] and [`Form::Regrouped`] are about the driving forces whatever is chosen.
     pub kinds: Vec<Kind>,
     /// Whether the driving forces include friction, equations (4)-(5).
     pub friction: bool,
@@ -65,8 +73,8 @@ pub struct EquationOptions {
     pub snap: Option<f64>,
     /// How sines and cosines look.
     pub trigonometry: Trigonometry,
-    /// Whether sines and cosines of sums of angles are kept, for driving forces in the forms
-    /// [`Form::Expanded`] and [`Form::Grouped`].
+    /// Whether sines and cosines of sums of angles are kept, for driving forces in all forms but
+    /// [`Form::Recursive`].
     pub angle_sums: AngleSums,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
@@ -122,6 +130,14 @@ pub struct Equation {
     pub right: Math,
 }
 
+impl Group {
+    /// Definitions of symbols that other equations use.
+    pub(crate) fn of_definitions(title: &str, equations: Vec<Equation>) -> Group {
+        let (title, introduction) = (title.to_owned(), String::new());
+        Group { title, introduction, definitions: true, equations }
+    }
+}
+
 impl Equation {
     /// A label for the equation: its name in letters, digits and `-`.
     #[must_use]
@@ -161,6 +177,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         Form::Grouped => grouped::groups(&mut writer)?,
         Form::Recursive => recursive::groups(&mut writer)?,
         Form::Compact => compact::groups(&mut writer)?,
+        Form::Regrouped => regrouped::groups(&mut writer)?,
     };
     let groups = groups.into_iter().filter(|group| !group.equations.is_empty()).collect();
     Ok(Equations { groups, notation: writer.notation })
@@ -190,14 +207,24 @@ impl<'g> Writer<'_, 'g> {
         Derivation::new(self.robot, self.graph, &self.mechanism_options(), None)
     }
 
-    /// The driving forces by the economical recursion, the wrenches of the tips included.
+    /// The driving forces by the economical recursion, the wrenches of the tips included, with sines of
+    /// sums of angles where the options want them.
     fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
         let kind = match friction {
             true => FunctionKind::InverseDynamicsWrenchFriction,
             false => FunctionKind::InverseDynamicsWrench,
         };
         let functions = self.derivation().functions(kind);
-        functions.into_iter().flat_map(|function| function.outputs).flat_map(|o| o.values).collect()
+        let outputs = functions.into_iter().flat_map(|function| function.outputs);
+        self.with_angle_sums(outputs.flat_map(|output| output.values).collect())
+    }
+
+    /// Values with sines and cosines of sums of angles where the options want them.
+    fn with_angle_sums(&self, values: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        match self.options.angle_sums {
+            AngleSums::Expand => values,
+            AngleSums::Keep => angle_sums::joined(&values, self.graph),
+        }
     }
 
     /// The quantities that are asked for.
@@ -205,6 +232,12 @@ impl<'g> Writer<'_, 'g> {
         let effects = Effects { wrench: true, friction: self.options.friction };
         let iterations = self.iterations(effects);
         self.options.kinds.iter().flat_map(|kind| iterations.quantities(*kind)).collect()
+    }
+
+    /// Defines a combination of parameters.
+    fn define_parameter(&mut self, name: &str, shape: Math) -> Result<(), Error> {
+        self.order.define_parameter(name);
+        self.notation.define(name, shape)
     }
 
     /// Defines a symbol.

@@ -18,7 +18,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (mut groups, mut named) = figures(writer, &target)?;
     for (index, motion) in iterations.motions.iter().enumerate() {
         let number = index + 1;
-        let mut group = group(format!("Link {number}, outward"));
+        let mut group = Group::of_definitions(&format!("Link {number}, outward"), vec![]);
         let paper = |kind| Look::Paper(kind);
         for (name, look, vector) in [
             ("omega", Look::Letter('ω'), motion.angular_velocity),
@@ -36,7 +36,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     }
     for (index, wrench) in iterations.wrenches.iter().enumerate().rev() {
         let number = index + 1;
-        let mut group = group(format!("Link {number}, inward"));
+        let mut group = Group::of_definitions(&format!("Link {number}, inward"), vec![]);
         for (name, kind, vector) in
             [("F_l", Kind::LinkForce, wrench.force), ("M_l", Kind::LinkMoment, wrench.moment)]
         {
@@ -75,7 +75,7 @@ fn figures<'h>(
     figures.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value));
     let values: Vec<Expr<'_>> = figures.iter().map(|(_, _, value)| *value).collect();
     let (mut groups, mut named) = definitions(writer, &values, target)?;
-    let mut group = group("Figures of the links".to_owned());
+    let mut group = Group::of_definitions("Figures of the links", vec![]);
     for (name, shape, expr) in figures {
         let value = named.rewritten(expr);
         writer.define(&name, shape)?;
@@ -85,10 +85,6 @@ fn figures<'h>(
     }
     groups.push(group);
     Ok((groups, named))
-}
-
-fn group(title: String) -> Group {
-    Group { title, introduction: String::new(), definitions: true, equations: vec![] }
 }
 
 /// What a vector's components look like.

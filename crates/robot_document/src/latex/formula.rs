@@ -99,6 +99,9 @@ impl Writer {
     fn row(&mut self, pieces: &[Math], spacing: Spacing) {
         for (place, piece) in pieces.iter().enumerate() {
             let before = place.checked_sub(1).and_then(|place| pieces.get(place));
+            if before.is_some_and(|before| piece.is_apart_from(before)) {
+                self.push(r"\,");
+            }
             if spacing == Spacing::Wide && before.is_some_and(|before| apart(before, place, piece))
             {
                 self.latex.push(' ');

@@ -50,7 +50,11 @@ fn call(function: &str, inside: &Math) -> String {
 /// parenthesis a call. Beside quotation marks a space would print.
 fn row(pieces: &[Math]) -> String {
     let mut typst = String::new();
-    for piece in pieces {
+    for (place, piece) in pieces.iter().enumerate() {
+        let before = place.checked_sub(1).and_then(|place| pieces.get(place));
+        if before.is_some_and(|before| piece.is_apart_from(before)) {
+            typst.push_str(" thin");
+        }
         let piece = formula(piece);
         if !typst.is_empty() && !typst.ends_with('"') && !piece.starts_with('"') {
             typst.push(' ');

@@ -1,0 +1,90 @@
+//! Sines and cosines of sums of angles, where the recursion has them by the addition theorems.
+
+use robot_symbolic::Function::{Cos, Sin};
+use robot_symbolic::{Expr, Function, Graph, Id, View, walk};
+use rustc_hash::FxHashMap;
+
+/// The sine or the cosine of an angle.
+type Circular<'g> = (Function, Expr<'g>);
+
+/// Values in which sin a cos b + cos a sin b is sin(a + b), and cos a cos b − sin a sin b is
+/// cos(a + b).
+pub(super) fn joined<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
+    let mut known: FxHashMap<Id, Circular<'g>> = FxHashMap::default();
+    let mut sums: FxHashMap<Id, Expr<'g>> = FxHashMap::default();
+    // Operands come before results, so that sums of several angles are found by their parts.
+    for expr in walk::reachable(values) {
+        if let View::Call(function @ (Sin | Cos), angle) = expr.view() {
+            known.insert(expr.id(), (function, angle));
+        } else if let Some((function, angle)) = of_sum(expr, &known) {
+            known.insert(expr.id(), (function, angle));
+            sums.insert(expr.id(), angle.apply(function));
+        }
+    }
+    walk::rebuild_above(values, graph, |part| sums.get(&part.id()).copied())
+}
+
+fn of_sum<'g>(expr: Expr<'g>, known: &FxHashMap<Id, Circular<'g>>) -> Option<Circular<'g>> {
+    let (first, second, function) = match expr.view() {
+        View::Add(first, second) => (first, second, Sin),
+        View::Sub(first, second) => (first, second, Cos),
+        _ => return None,
+    };
+    let factors = |product: Expr<'g>| match product.view() {
+        View::Mul(a, b) => Some([*known.get(&a.id())?, *known.get(&b.id())?]),
+        _ => None,
+    };
+    let ([a, b], [c, d]) = (factors(first)?, factors(second)?);
+    let (one, other) = match (function, a.0, b.0, c.0, d.0) {
+        (Sin, Sin, Cos, Sin, Cos) => ((a, b), (d, c)),
+        (Sin, Sin, Cos, Cos, Sin) => ((a, b), (c, d)),
+        (Sin, Cos, Sin, Sin, Cos) => ((b, a), (d, c)),
+        (Sin, Cos, Sin, Cos, Sin) => ((b, a), (c, d)),
+        (Cos, Cos, Cos, Sin, Sin) if a.1 == c.1 => ((a, b), (c, d)),
+        (Cos, Cos, Cos, Sin, Sin) => ((a, b), (d, c)),
+        _ => return None,
+    };
+    // sin a · cos b beside cos a · sin b.
+    let ((x, y), (u, v)) = ((one.0.1, one.1.1), (other.0.1, other.1.1));
+    (x == u && y == v).then(|| (function, x + y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use robot_symbolic::print::to_text;
+
+    fn joined_text(source: &str) -> String {
+        let graph = Graph::new();
+        let value = graph.parse(source).unwrap();
+        to_text(joined(&[value], &graph)[0]).unwrap()
+    }
+
+    #[test]
+    fn addition_theorems_are_read_backwards() {
+        for (source, expected) in [
+            ("m*(sin(a)*cos(b) + cos(a)*sin(b))", "m*sin(a + b)"),
+            ("m*(cos(b)*sin(a) + sin(b)*cos(a))", "m*sin(b + a)"),
+            ("cos(a)*cos(b) - sin(a)*sin(b)", "cos(a + b)"),
+            ("cos(a)*cos(b) - sin(b)*sin(a)", "cos(a + b)"),
+        ] {
+            assert_eq!(joined_text(source), expected, "{source}");
+        }
+        let three =
+            "(sin(a)*cos(b) + cos(a)*sin(b))*cos(c) + (cos(a)*cos(b) - sin(a)*sin(b))*sin(c)";
+        assert_eq!(joined_text(three), "sin(a + b + c)");
+    }
+
+    #[test]
+    fn other_sums_stay() {
+        for source in [
+            "sin(a)*cos(b) - cos(a)*sin(b)",
+            "sin(a)*cos(b) + cos(a)*sin(c)",
+            "cos(a)*cos(b) + sin(a)*sin(b)",
+            "cos(a)*cos(b) - sin(a)*sin(c)",
+            "sin(a)*sin(b) + cos(a)*cos(b)",
+        ] {
+            assert_eq!(joined_text(source), source);
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Shares of the driving forces that are no products with velocities or accelerations: gravity, the
+//! wrenches of the tips, friction.
+
+use robot_dynamics::mechanism::MechanismFriction;
+use robot_dynamics::newton_euler::{Effects, LinkWrench, friction};
+use robot_dynamics::quantity::{Kind, Symbol};
+use robot_dynamics::vector::Vector;
+use robot_symbolic::{Expr, walk};
+
+use super::coefficients::{Coefficient, Section, Sum};
+use super::{Writer, shapes};
+use crate::math::Math;
+use crate::order::is_rate;
+
+/// Letters of the shares of gravity and of the wrenches.
+const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
+const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
+
+/// The driving forces at rest, without wrenches.
+pub(super) fn gravity<'g>(
+    writer: &Writer<'_, 'g>,
+    forces: &[Expr<'g>],
+    sums: &mut [Sum<'g>],
+) -> Section<'g> {
+    let wrenches = wrench_names(writer);
+    let values = at_rest(writer, forces, &|name| wrenches.iter().any(|known| known == name));
+    single(writer, "Gravity", writer.notation.free_letter(&GRAVITY), values, sums)
+}
+
+/// The shares of the wrenches of the tips, Jᵀ times the wrench.
+pub(super) fn wrenches<'g>(
+    writer: &Writer<'_, 'g>,
+    forces: &[Expr<'g>],
+    sums: &mut [Sum<'g>],
+) -> Section<'g> {
+    let still = at_rest(writer, forces, &|_| false);
+    let mut values = vec![writer.graph.zero(); forces.len()];
+    for name in wrench_names(writer) {
+        let component = writer.graph.symbol(&name);
+        for (value, slope) in values.iter_mut().zip(walk::derivatives(&still, component)) {
+            *value += slope * component;
+        }
+    }
+    single(writer, "Wrenches of the tips", writer.notation.free_letter(&WRENCH), values, sums)
+}
+
+/// A coefficient for each driving force.
+fn single<'g>(
+    writer: &Writer<'_, 'g>,
+    title: &'static str,
+    letter: &str,
+    values: Vec<Expr<'g>>,
+    sums: &mut [Sum<'g>],
+) -> Section<'g> {
+    let mut coefficients = vec![];
+    for (index, (value, sum)) in values.into_iter().zip(sums).enumerate() {
+        if !value.is_zero() {
+            let coefficient = Coefficient::new(letter, &[index + 1], value);
+            sum.push((coefficient.name.clone(), writer.graph.one()));
+            coefficients.push(coefficient);
+        }
+    }
+    Section { title, by_symbols: false, coefficients }
+}
+
+/// The figures of friction as the file has them.
+pub(super) fn whole<'g>(figures: &MechanismFriction<'g>) -> MechanismFriction<'g> {
+    figures.clone()
+}
+
+/// The friction of the joints by those figures of it that `part` takes, and the joint forces that dry
+/// friction asks for.
+pub(super) fn frictions<'g>(
+    writer: &Writer<'_, 'g>,
+    title: &'static str,
+    part: fn(&MechanismFriction<'g>) -> MechanismFriction<'g>,
+    sums: &mut [Sum<'g>],
+) -> Vec<Section<'g>> {
+    if !writer.options.friction {
+        return vec![];
+    }
+    let mechanism = writer.derivation().mechanism;
+    let iterations = writer.iterations(Effects { wrench: true, friction: false });
+    let mut joints =
+        Section { title: "Forces in the joints", by_symbols: false, coefficients: vec![] };
+    let mut shares = Section { title, by_symbols: true, coefficients: vec![] };
+    let mut values = vec![writer.graph.zero(); sums.len()];
+    for (index, (link, LinkWrench { force, .. })) in
+        mechanism.links.iter().zip(&iterations.wrenches).enumerate()
+    {
+        let mut named = *force;
+        if !link.friction.coulomb.is_zero() {
+            named = joint_force(writer, index, *force, &mut joints);
+        }
+        let share = friction(&part(&link.friction), link.kind, link.axis, named, link.velocity);
+        values[link.coordinate] += share * link.ratio;
+    }
+    for (index, (value, sum)) in values.into_iter().zip(sums).enumerate() {
+        if !value.is_zero() {
+            let name = format!("Q_f{}", index + 1);
+            let lower =
+                Math::Row(vec![Math::Letter('f'), Math::Sign(','), Math::integer(index + 1)]);
+            let shape = Math::Letter('Q').with_lower(lower);
+            sum.push((name.clone(), writer.graph.one()));
+            shares.coefficients.push(Coefficient { name, shape, value });
+        }
+    }
+    vec![joints, shares]
+}
+
+/// Symbols for the components of a joint force; components that are 0 stay so.
+fn joint_force<'g>(
+    writer: &Writer<'_, 'g>,
+    index: usize,
+    force: Vector<'g>,
+    joints: &mut Section<'g>,
+) -> Vector<'g> {
+    let mut component = 0;
+    force.map(|value| {
+        let symbol =
+            Symbol { kind: Kind::LinkForce, number: index + 1, component: Some(component) };
+        component += 1;
+        if value.is_zero() {
+            return value;
+        }
+        let (name, shape) = (symbol.to_string(), shapes::quantity(symbol));
+        let named = writer.graph.symbol(&name);
+        joints.coefficients.push(Coefficient { name, shape, value });
+        named
+    })
+}
+
+fn wrench_names(writer: &Writer<'_, '_>) -> Vec<String> {
+    let names = |(_, wrench): (_, &robot_dynamics::model::Wrench)| {
+        wrench.force.iter().chain(&wrench.moment).cloned().collect::<Vec<_>>()
+    };
+    writer.robot.tips().flat_map(names).collect()
+}
+
+/// Values with all velocities and accelerations 0, and further symbols of choice.
+fn at_rest<'g>(
+    writer: &Writer<'_, 'g>,
+    values: &[Expr<'g>],
+    zero: &dyn Fn(&str) -> bool,
+) -> Vec<Expr<'g>> {
+    walk::rebuild(values, writer.graph, |name| match is_rate(name) || zero(name) {
+        true => writer.graph.zero(),
+        false => writer.graph.symbol(name),
+    })
+}

@@ -1,0 +1,262 @@
+//! The regrouped form: Q = Y(q, q̇, q̈) β, linear in the base parameters.
+
+use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity};
+use robot_dynamics::functions::FunctionKind;
+use robot_dynamics::mechanism::MechanismFriction;
+use robot_symbolic::{Expr, Polynomial};
+
+use super::coefficients::{
+    Coefficient, Section, Sum, as_polynomials, by_name, define_all, expanded,
+};
+use super::loads::{frictions, wrenches};
+use super::{Equation, Group, Writer, driving_force, shapes};
+use crate::base::{self, Formulas, Term, Written};
+use crate::error::Error;
+use crate::math::{Fence, Math};
+
+/// Letters of the coefficients of base parameters.
+const REGRESSOR: [&str; 4] = ["Y", "W", "A", "X"];
+
+pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
+    let derivation = writer.derivation();
+    let found = base::found(&derivation)?;
+    let columns: Vec<Expr<'_>> = derivation
+        .functions(FunctionKind::RegressorBase)
+        .into_iter()
+        .flat_map(|function| function.outputs)
+        .flat_map(|output| output.values)
+        .collect();
+    let columns = writer.with_angle_sums(columns);
+    let (mut groups, parameters) = definitions(writer, &found)?;
+    let forces = writer.economical_forces(false);
+    let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
+    let mut sections = vec![
+        coefficients(writer, &columns, &parameters, &mut sums),
+        wrenches(writer, &forces, &mut sums),
+    ];
+    if writer.options.friction {
+        sections.extend(frictions(writer, "Dry friction", dry, &mut sums));
+    }
+    let introduction = introduction(&found);
+    match expanded(writer, &sections) {
+        Some(polynomials) => {
+            groups.extend(inline(writer, introduction, &sections, &polynomials, sums)?);
+        }
+        None => groups.extend(by_name(writer, TITLE, introduction, &sections, None, sums)?),
+    }
+    Ok(groups)
+}
+
+const TITLE: &str = "Equations of motion, regrouped";
+
+fn introduction(found: &BaseParameters<'_>) -> String {
+    format!(
+        "The driving forces are linear in the base parameters, the fewest combinations of the \
+         parameters of links and drives that determine them: {} of {}. Those that are 0 are left out.",
+        found.base.len(),
+        found.standard.len()
+    )
+}
+
+/// What the names mean.
+const NAMES: &str = "XX to ZZ are entries of a link's tensor of inertia about the origin of its frame, in \
+    its axes and with their signs, MX, MY, MZ its first moment, M its mass; IA is a drive's reflected \
+    inertia, FV, FP, FN its friction, FO its offset, IC the coupling of its rotor. The number of the \
+    link follows; an R marks what others are regrouped under. Parameters that the robot file has as \
+    they are keep their symbols.";
+
+/// The definitions of the standard parameters that are regrouped and of the base parameters, and the
+/// symbols of the base parameters by their columns.
+fn definitions<'g>(
+    writer: &mut Writer<'_, 'g>,
+    found: &BaseParameters<'g>,
+) -> Result<(Vec<Group>, Vec<Option<Expr<'g>>>), Error> {
+    let friction = writer.options.friction;
+    let values = base::polynomials(&found.nominal())?;
+    let is_used = |(parameter, value): &(&BaseParameter<'g>, &Polynomial<'g>)| {
+        !value.is_zero() && (friction || !is_friction(parameter.kept.quantity))
+    };
+    let used = || found.base.iter().zip(&values).filter(is_used);
+    let regrouped = used().filter(|(parameter, _)| parameter.terms.len() > 1);
+    let places = regrouped.flat_map(|(parameter, _)| parameter.terms.iter().map(|term| term.0));
+    let (standard, written) = standard(writer, found, &places.collect::<Vec<_>>())?;
+    let mut equations = vec![];
+    let mut symbols = vec![];
+    for pair in found.base.iter().zip(&values) {
+        symbols.push(match is_used(&pair) {
+            true => Some(parameter(writer, pair.0, pair.1, &written, &mut equations)?),
+            false => None,
+        });
+    }
+    let mut groups = vec![
+        Group::of_definitions("Standard parameters", standard),
+        Group::of_definitions("Base parameters", equations),
+    ];
+    if let Some(first) = groups.iter_mut().find(|group| !group.equations.is_empty()) {
+        first.introduction = NAMES.to_owned();
+    }
+    Ok((groups, symbols))
+}
+
+/// The definitions of the standard parameters at `places`, and how each of all is written; `None` for
+/// those that are 0.
+fn standard<'g>(
+    writer: &mut Writer<'_, 'g>,
+    found: &BaseParameters<'g>,
+    places: &[usize],
+) -> Result<(Vec<Equation>, Vec<Option<Written>>), Error> {
+    let mut equations = vec![];
+    let mut written = vec![];
+    let values: Vec<Expr<'g>> = found.standard.iter().map(|(_, value)| *value).collect();
+    for (place, value) in base::polynomials(&values)?.iter().enumerate() {
+        let Some((parameter, _)) = found.standard.get(place) else { continue };
+        if !places.contains(&place) || value.is_zero() {
+            written.push(None);
+            continue;
+        }
+        let mut text = parameter.name();
+        if let Some(symbol) = symbol_of(value) {
+            text = symbol;
+        } else {
+            writer.define_parameter(&text, base::shape(parameter.quantity, "", parameter.link))?;
+            let left = writer.notation.symbol(&text)?;
+            equations.push(writer.of_polynomial(text.clone(), left, value)?);
+        }
+        written.push(Some(Written { math: writer.notation.symbol(&text)?, text }));
+    }
+    Ok((equations, written))
+}
+
+/// The symbol of a base parameter, with its definition unless the file has it as it is.
+fn parameter<'g>(
+    writer: &mut Writer<'_, 'g>,
+    parameter: &BaseParameter<'g>,
+    value: &Polynomial<'g>,
+    standard: &[Option<Written>],
+    equations: &mut Vec<Equation>,
+) -> Result<Expr<'g>, Error> {
+    if let Some(name) = symbol_of(value) {
+        return Ok(writer.graph.symbol(&name));
+    }
+    let formulas = Formulas { notation: &writer.notation, order: &writer.order };
+    let value = formulas.of_polynomial(value)?;
+    let formula = match parameter.terms.len() {
+        1 => value.clone(),
+        _ => formulas.of_parameter(parameter, standard)?,
+    };
+    let (name, right) = (parameter.name(), base::chained(&formula, &value));
+    writer.define_parameter(&name, base::look(parameter))?;
+    let left = writer.notation.symbol(&name)?;
+    let symbol = writer.graph.symbol(&name);
+    equations.push(Equation { name, text: formula.text, left, right });
+    Ok(symbol)
+}
+
+/// The symbol that a value is, where it is no more.
+fn symbol_of(value: &Polynomial<'_>) -> Option<String> {
+    let value = value.to_expr();
+    value.as_symbol().map(|symbol| value.graph().symbol_name(symbol))
+}
+
+fn is_friction(quantity: Quantity) -> bool {
+    use Quantity::{BackwardFriction, ForwardFriction, Offset, ViscousFriction};
+    matches!(quantity, ViscousFriction | ForwardFriction | BackwardFriction | Offset)
+}
+
+/// The part of friction that grows with the force in the joint: no parameter is a factor of it alone.
+fn dry<'g>(figures: &MechanismFriction<'g>) -> MechanismFriction<'g> {
+    let zero = figures.viscous.graph().zero();
+    MechanismFriction {
+        viscous: zero,
+        coulomb_positive: zero,
+        coulomb_negative: zero,
+        offset: zero,
+        ..figures.clone()
+    }
+}
+
+/// The entries of Y, row by row; those of parameters that are left out are not among them.
+fn coefficients<'g>(
+    writer: &Writer<'_, 'g>,
+    columns: &[Expr<'g>],
+    parameters: &[Option<Expr<'g>>],
+    sums: &mut [Sum<'g>],
+) -> Section<'g> {
+    let letter = writer.notation.free_letter(&REGRESSOR);
+    let mut coefficients = vec![];
+    for ((row, values), sum) in (1..).zip(columns.chunks(parameters.len().max(1))).zip(sums) {
+        let used =
+            values.iter().zip(parameters).filter_map(|(value, name)| Some((*value, (*name)?)));
+        for (column, (value, parameter)) in (1..).zip(used) {
+            if value.is_zero() {
+                continue;
+            }
+            let shape = Math::Row(vec![Math::integer(row), Math::Sign(','), Math::integer(column)]);
+            let shape = Math::Letter(letter.chars().next().unwrap_or('Y')).with_lower(shape);
+            let name = shapes::indexed_name(letter, &[row, column]);
+            sum.push((name.clone(), parameter));
+            coefficients.push(Coefficient { name, shape, value });
+        }
+    }
+    Section { title: "Coefficients of the base parameters", by_symbols: false, coefficients }
+}
+
+/// The driving forces with the coefficients written out, and what else they have under names.
+fn inline<'g>(
+    writer: &mut Writer<'_, 'g>,
+    introduction: String,
+    sections: &[Section<'g>],
+    polynomials: &[Vec<Polynomial<'g>>],
+    sums: Vec<Sum<'g>>,
+) -> Result<Vec<Group>, Error> {
+    let [own, others @ ..] = sections else { return Ok(vec![]) };
+    let [own_polynomials, other_polynomials @ ..] = polynomials else { return Ok(vec![]) };
+    let zeros = define_all(writer, others, other_polynomials)?;
+    let mut equations = vec![];
+    for (index, sum) in sums.into_iter().enumerate() {
+        let mut terms = vec![];
+        for (name, parameter) in sum.into_iter().filter(|(name, _)| !zeros.contains(name)) {
+            let known = own.coefficients.iter().zip(own_polynomials);
+            match known.filter(|(one, _)| one.name == name).map(|(_, value)| value).next() {
+                Some(value) if value.is_zero() => {}
+                Some(value) => terms.push(product(writer, parameter, value)?),
+                None => {
+                    let math = writer.notation.symbol(&name)?;
+                    terms.push(Term { negative: false, written: Written { text: name, math } });
+                }
+            }
+        }
+        let symbol = driving_force(index);
+        let Written { text, math } = base::sum(&terms);
+        let (name, left) = (symbol.to_string(), shapes::quantity(symbol));
+        equations.push(Equation { name, text, left, right: math });
+    }
+    let title = TITLE.to_owned();
+    let mut groups = vec![Group { title, introduction, definitions: false, equations }];
+    groups.extend(as_polynomials(writer, others, other_polynomials)?);
+    Ok(groups)
+}
+
+/// A base parameter times its coefficient, which does not start with a minus.
+fn product<'g>(
+    writer: &Writer<'_, 'g>,
+    parameter: Expr<'g>,
+    coefficient: &Polynomial<'g>,
+) -> Result<Term, Error> {
+    let formulas = Formulas { notation: &writer.notation, order: &writer.order };
+    if coefficient.len() == 1 {
+        let product = base::polynomials(&[parameter * coefficient.to_expr()])?;
+        let written = product.iter().map(|product| formulas.of_polynomial(product)).next();
+        return Ok(Term::of(written.transpose()?.unwrap_or_default()));
+    }
+    let mut sum = Term::of(formulas.of_polynomial(coefficient)?);
+    if sum.negative {
+        sum.written = formulas.of_polynomial(&coefficient.neg())?;
+    }
+    let symbol = parameter.as_symbol();
+    let name = symbol.map(|symbol| writer.graph.symbol_name(symbol)).unwrap_or_default();
+    let fenced = Math::Fenced(Fence::Parentheses, Box::new(sum.written.math));
+    let math = Math::Row(vec![writer.notation.symbol(&name)?, fenced]);
+    let text = format!("{name}*({})", sum.written.text);
+    Ok(Term { negative: sum.negative, written: Written { text, math } })
+}
