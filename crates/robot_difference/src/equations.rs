@@ -46,7 +46,7 @@ pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation
     let pairs = (0..count).map(|place| (place, [before.get(place), after.get(place)]));
     let equations = pairs.map(|(place, pair)| Equation {
         name: format!("{}{}", Kind::DrivingForce.name(), place + 1),
-        terms: terms(pair.map(Option::<&Expr<'_>>::copied)).map_err(|error| error.to_string()),
+        terms: terms(pair.map(Option::<&Expr<'_>>::copied)).map_err(|error| reason(&error)),
     });
     equations
         .filter(|one| one.terms.as_ref().is_ok_and(|terms| !terms.is_empty()) || one.terms.is_err())
@@ -58,6 +58,19 @@ fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g
     let mechanism = Mechanism::new(robot, graph, &exact);
     let solution = newton_euler(&mechanism, Effects { wrench: true, friction: false });
     solution.quantities(Kind::DrivingForce).into_iter().map(|quantity| quantity.value).collect()
+}
+
+/// Why an equation has no terms to compare.
+fn reason(error: &PolynomialError) -> Refusal {
+    match error {
+        PolynomialError::TooManyTerms { limit } => {
+            format!("it is too long: expanded it has more than {limit} terms")
+        }
+        PolynomialError::TooManyProducts { limit } => {
+            format!("it is too long: to expand it takes more than {limit} products of terms")
+        }
+        other => other.to_string(),
+    }
 }
 
 /// Powers of atoms.

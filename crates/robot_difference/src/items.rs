@@ -1,7 +1,7 @@
 //! What the files of two robots say: parameters, links, joints and frames.
 
 use robot_dynamics::model::{
-    Axis, Body, Frame, Joint, JointKind, Link, Move, Parameter, Placement, Robot,
+    Axis, Body, Frame, Joint, JointKind, Link, Move, Parameter, Payload, Placement, Robot,
 };
 use robot_symbolic::{Formula, Rational, print};
 
@@ -102,9 +102,8 @@ fn changed(a: &Item, b: &Item) -> Option<Change> {
 }
 
 fn items(robot: &Robot) -> Vec<Item> {
-    let gravity = vec![("gravity".to_owned(), vector(&robot.gravity))];
     // The name of the robot is nothing that may differ.
-    let whole = Item { kind: ItemKind::Robot, name: String::new(), properties: gravity };
+    let whole = Item { kind: ItemKind::Robot, name: String::new(), properties: of_robot(robot) };
     let mut all = vec![whole];
     all.extend(robot.parameters.iter().map(parameter));
     all.extend(robot.links.iter().map(|one| link(robot, one)));
@@ -115,6 +114,18 @@ fn items(robot: &Robot) -> Vec<Item> {
 
 fn named(name: &str, value: String) -> (String, String) {
     (name.to_owned(), value)
+}
+
+fn of_robot(robot: &Robot) -> Vec<(String, String)> {
+    let mut properties = vec![named("gravity", vector(&robot.gravity))];
+    let snap = robot.snap.map(|snap| named("angles snapped within", format!("{snap:e} rad")));
+    properties.extend(snap);
+    properties.extend(robot.payload.as_ref().map(|payload| {
+        let Payload { mass, center_of_mass, inertia } = payload;
+        let names = std::iter::once(mass).chain(center_of_mass).chain(inertia);
+        named("payload", names.map(String::as_str).collect::<Vec<_>>().join(", "))
+    }));
+    properties
 }
 
 fn parameter(parameter: &Parameter) -> Item {

@@ -75,3 +75,50 @@ fn robots_that_share_no_states_say_so() {
     let joints = compared(a, a).torques.unwrap().joints;
     assert!(joints.iter().all(|one| (0.0..=1.0).contains(&one.state.q[0])));
 }
+
+#[test]
+fn snapping_and_a_payload_are_what_the_file_says() {
+    let text = include_str!("../../../robots/planar_2r.toml");
+    let read = |text: &str| description::read("robot.toml", text).unwrap().robot;
+    let snapping = text.replacen("[robot]\n", "[robot]\nsnap = 1e-4\n", 1);
+    let carrying = format!("{text}\n[payload]\nparent = \"2\"\n");
+    let said = |text: &str, name: &str| {
+        let found = compared(&read(include_str!("../../../robots/planar_2r.toml")), &read(text));
+        let [Change::Changed { kind: ItemKind::Robot, properties, .. }, ..] = &found.changes[..]
+        else {
+            panic!("{:?}", found.changes);
+        };
+        let one = properties.iter().find(|one| one.name == name).unwrap();
+        assert_eq!(one.values[0], None);
+        one.values[1].clone().unwrap()
+    };
+    assert_eq!(said(&snapping, "angles snapped within"), "1e-4 rad");
+    assert!(said(&carrying, "payload").starts_with("payload_mass, "));
+}
+
+/// Axes and arms of symbols: four links have more terms than are expanded.
+#[test]
+fn an_equation_that_is_too_long_says_so() {
+    let links = |length: &str| {
+        let link = |number: usize| {
+            format!(
+                "[[link]]\nname = \"{number}\"\njoint = {{ type = \"revolute\", axis = [\"x\", \"y\", \"z\"] }}\n\
+                 origin = {{ xyz = [\"{length}\", \"x\", \"y\"] }}\nmass = 1\n\
+                 center_of_mass = [\"x\", \"y\", \"z\"]\ninertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
+            )
+        };
+        let text = format!(
+            "format = 1\n[robot]\nname = \"chain\"\n[parameters]\nx = {{ value = 1.0 }}\n\
+             y = {{ value = 1.0 }}\nz = {{ value = 1.0 }}\n{}",
+            (1..=4).map(link).collect::<String>()
+        );
+        description::read("chain.toml", &text).unwrap().robot
+    };
+    let found = compared(&links("x"), &links("z"));
+    let refused = found.equations.iter().filter_map(|one| one.terms.as_ref().err());
+    let reasons: Vec<&String> = refused.collect();
+    assert!(
+        !reasons.is_empty() && reasons.iter().all(|reason| reason.starts_with("it is too long"))
+    );
+    assert!(!found.is_none());
+}

@@ -15,6 +15,7 @@ mod motion;
 mod page;
 mod parts;
 mod plot;
+mod reload;
 mod scheme;
 mod structure;
 mod table;
@@ -30,6 +31,7 @@ use robot_dynamics::model::Robot;
 use formula::Symbols;
 use html::{Node, element, holding};
 use page::{Section, page};
+use reload::Stamp;
 use structure::Structure;
 
 /// What a page is made of.
@@ -65,6 +67,37 @@ const FUNCTIONS: [FunctionKind; 9] = [
 ///
 /// Everything that is wrong with the file or the options.
 pub fn report(input: &Input<'_>) -> Result<String, Errors> {
+    let (robot, sections) = sections(input)?;
+    Ok(page(&robot, sections, None))
+}
+
+/// The page about the robot of a file that is being edited.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reloading {
+    /// The page, which reloads itself where [`Reloading::stamp`] is another page's or gone.
+    pub page: String,
+    /// An SVG picture. It belongs beside the page, under the page's name with `.svg` after it, and is to
+    /// be written after the page.
+    pub stamp: String,
+    /// The same page without what reloads it, as [`report`] gives it.
+    pub still: String,
+}
+
+/// As [`report`], of a page that reloads itself when another is written in its place.
+///
+/// # Errors
+///
+/// As [`report`].
+pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
+    let (robot, sections) = sections(input)?;
+    let still = page(&robot, sections.clone(), None);
+    let stamp = Stamp::of(&still);
+    let page = page(&robot, sections, Some(stamp));
+    Ok(Reloading { page, stamp: stamp.picture(), still })
+}
+
+/// The robot of a file, and what the page says of it.
+fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     let robot = robot_build::read(input.source)?.robot;
     let symbols = Symbols::of(&robot);
     let functions = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
@@ -88,7 +121,7 @@ pub fn report(input: &Input<'_>) -> Result<String, Errors> {
         costs(input, &programs)?,
         evidence(input, &programs),
     ];
-    Ok(page(&robot, sections))
+    Ok((robot, sections))
 }
 
 /// What the scheme shows.

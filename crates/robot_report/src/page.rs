@@ -6,11 +6,15 @@ use robot_dynamics::model::Robot;
 use sha2::{Digest, Sha256};
 
 use crate::html::{Element, Node, element, holding};
+use crate::reload::Stamp;
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
+/// That of a page which reloads itself.
+const RELOAD: &str = include_str!("reload.js");
 
 /// A section of the page.
+#[derive(Clone)]
 pub(crate) struct Section {
     /// Its anchor.
     pub(crate) id: &'static str,
@@ -20,8 +24,8 @@ pub(crate) struct Section {
     pub(crate) body: Vec<Node>,
 }
 
-/// The page of a robot.
-pub(crate) fn page(robot: &Robot, sections: Vec<Section>) -> String {
+/// The page of a robot; with a stamp it reloads itself where the picture beside it has another one.
+pub(crate) fn page(robot: &Robot, sections: Vec<Section>, stamp: Option<Stamp>) -> String {
     let contents = sections.iter().map(|section| {
         let anchor = format!("#{}", section.id);
         holding("li", holding("a", section.title).attribute("href", anchor))
@@ -43,21 +47,25 @@ pub(crate) fn page(robot: &Robot, sections: Vec<Section>) -> String {
         .with(element("main").attribute("id", "content").with_all(main))
         .with(footer())
         .with(element("script").with(Node::Own(SCRIPT)));
-    element("html")
-        .attribute("xmlns", "http://www.w3.org/1999/xhtml")
-        .attribute("lang", "en")
-        .with(head(robot))
-        .with(body)
-        .to_document()
+    let html =
+        element("html").attribute("xmlns", "http://www.w3.org/1999/xhtml").attribute("lang", "en");
+    let (html, body) = match stamp {
+        None => (html, body),
+        Some(stamp) => (
+            html.attribute("data-page", stamp.words()),
+            body.with(element("script").with(Node::Own(RELOAD))),
+        ),
+    };
+    html.with(head(robot, stamp.is_some())).with(body).to_document()
 }
 
-fn head(robot: &Robot) -> Element {
+fn head(robot: &Robot, reloads: bool) -> Element {
     let meta = |name: &'static str, value: &str| {
         element("meta").attribute("name", name).attribute("content", value)
     };
     let policy = element("meta")
         .attribute("http-equiv", "Content-Security-Policy")
-        .attribute("content", policy());
+        .attribute("content", policy(reloads));
     element("head")
         .with(element("meta").attribute("charset", "utf-8"))
         .with(policy)
@@ -68,12 +76,19 @@ fn head(robot: &Robot) -> Element {
         .with(element("style").with(Node::Own(STYLE)))
 }
 
-/// The page's own style and script, by their hashes, and nothing else.
-fn policy() -> String {
-    let hash = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
+/// The page's own style and scripts, by their hashes, and nothing else; of a page that reloads itself the
+/// picture beside it, too.
+fn policy(reloads: bool) -> String {
+    let hash = |text: &str| {
+        let hash = BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
+        format!("'sha256-{hash}'")
+    };
+    let more = match reloads {
+        false => String::new(),
+        true => format!(" {}; img-src 'self' file:", hash(RELOAD)),
+    };
     format!(
-        "default-src 'none'; style-src 'sha256-{}'; script-src 'sha256-{}'; base-uri 'none'; \
-         form-action 'none'",
+        "default-src 'none'; style-src {}; script-src {}{more}; base-uri 'none'; form-action 'none'",
         hash(STYLE),
         hash(SCRIPT)
     )
@@ -100,7 +115,7 @@ mod tests {
     /// Style and script stand in the page as they are: nothing in them may be markup.
     #[test]
     fn style_and_script_have_no_signs_of_markup() {
-        for own in [STYLE, SCRIPT] {
+        for own in [STYLE, SCRIPT, RELOAD] {
             assert!(!own.contains(['<', '&']) && own.len() > 100);
         }
     }

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use robot_build::{Options, Source};
-use robot_report::{Compiled, Input, report};
+use robot_report::{Compiled, Input, reloading, report};
 use roxmltree::{Document, Node, ParsingOptions};
 
 fn page(name: &str, text: &str) -> String {
@@ -176,4 +176,31 @@ fn the_policy_allows_nothing_from_elsewhere() {
     for attribute in ["style", "src", "onclick", "onload"] {
         assert_eq!(words(&document, attribute).count(), 0);
     }
+}
+
+/// A page that reloads itself is the same but for one more script, which the policy names, and pictures.
+#[test]
+fn a_page_that_reloads_itself_is_the_same_page() {
+    let text = include_str!("../../../robots/planar_2r.toml");
+    let of = |text: &str| {
+        let source = Source { name: "planar_2r.toml".to_owned(), text: text.to_owned() };
+        let compiled = Compiled::Unread { reason: "a test.".to_owned() };
+        let options = Options::default();
+        reloading(&Input { source: &source, options: &options, compiled: &compiled }).unwrap()
+    };
+    let found = of(text);
+    assert_eq!(found.still, page("planar_2r.toml", text));
+    assert!(!found.still.contains("img-src") && !found.still.contains("data-page"));
+    let document = parsed(&found.page);
+    let scripts = document.descendants().filter(|node| node.tag_name().name() == "script");
+    assert_eq!(scripts.count(), 2);
+    let policy = words(&document, "content").filter(|word| word.starts_with("'sha256-"));
+    assert_eq!(policy.count(), 3);
+    assert!(found.page.contains("; img-src &#39;self&#39; file:;"));
+    // The page's own stamp is the size of the picture beside it.
+    let own = document.root_element().attribute("data-page").unwrap();
+    let picture = parsed(&found.stamp);
+    let side = |name| picture.root_element().attribute(name).unwrap();
+    assert_eq!(own, format!("{} {}", side("width"), side("height")));
+    assert_ne!(of(&text.replace("value = 3.0", "value = 3.5")).stamp, found.stamp);
 }

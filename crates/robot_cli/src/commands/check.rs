@@ -12,6 +12,7 @@ use robot_dynamics::doctor::{self, Examination};
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::format::Format;
 use crate::text;
 
 #[derive(Args)]
@@ -48,12 +49,6 @@ pub(crate) struct Arguments {
     /// URDF: take inertias that no body has
     #[arg(long)]
     allow_unphysical: bool,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]

@@ -1,16 +1,17 @@
 //! `diff`: in what two robots differ.
 
-mod show;
+pub(crate) mod show;
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use robot_build::{Options as CodeOptions, RobotFile, read};
 use robot_difference::{Difference, Options, difference};
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::format::Format;
 use crate::progress::watched;
 use crate::text;
 
@@ -42,12 +43,6 @@ pub(crate) struct Arguments {
     /// How to show what differs
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    Text,
-    Json,
 }
 
 impl Arguments {

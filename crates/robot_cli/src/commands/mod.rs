@@ -21,6 +21,7 @@ mod show;
 mod simulate;
 mod stats;
 mod torques;
+mod watch;
 
 use clap::Subcommand;
 
@@ -62,6 +63,8 @@ pub(crate) enum Command {
     Compare(compare::Arguments),
     /// Tell in what two robots differ: parameters, terms, operations, torques
     Diff(diff::Arguments),
+    /// Derive a robot at each save of its file, and show what changes
+    Watch(watch::Arguments),
     /// Print the JSON schema of robot files, for editors
     Schema(schema::Arguments),
     /// Show what a robot file says
@@ -101,6 +104,7 @@ impl Command {
             Command::Check(arguments) => arguments.run(terminal),
             Command::Compare(arguments) => arguments.run(terminal),
             Command::Diff(arguments) => arguments.run(terminal),
+            Command::Watch(arguments) => arguments.run(terminal),
             Command::Schema(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
             Command::Completions(arguments) => arguments.run(terminal),

@@ -8,6 +8,7 @@ use serde_json::{Map, Value, json};
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::format::Format;
 use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
 use crate::text;
@@ -52,12 +53,6 @@ pub(crate) struct Arguments {
     /// How to print it
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    Text,
-    Json,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::{Functions, Options, Programs};
+use robot_build::Programs;
 use robot_dynamics::model::Robot;
 use robot_simulation::plot::motion_figure;
 use robot_simulation::{
@@ -14,6 +14,7 @@ use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
 use crate::friction::FrictionArguments;
+use crate::motion;
 use crate::progress::Progress;
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
@@ -69,17 +70,9 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let mut robot = self.robot.read(terminal)?.robot;
-        let wrong = self.settings.wrong(&robot);
-        if !wrong.is_empty() {
-            return Err(Failure::Input(wrong));
-        }
-        self.friction.smooth(&mut robot)?;
+        let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
-        let functions = Functions::Chosen(RobotProgram::functions(friction));
-        let options = Options { functions, ..self.robot.options()? };
-        let name = self.robot.path().display().to_string();
-        let programs = robot_build::programs_of(robot, &name, &options)?;
+        let programs = motion::programs(&self.robot, robot, RobotProgram::functions(friction))?;
         let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?;
         let motion = self.motion(&programs, &program, terminal)?;
         let energies = motion.energies(&program)?;

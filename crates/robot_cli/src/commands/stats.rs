@@ -1,6 +1,6 @@
 //! `stats`: the operations of a robot's functions.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use robot_build::ablation::{Ablation, ablation};
 use robot_build::{Functions, Options, programs, snapping};
 use robot_codegen::{Counts, FunctionCounts, Module};
@@ -9,6 +9,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::counts;
 use crate::failure::Failure;
+use crate::format::Format;
 use crate::progress::watched;
 use crate::robot::{BundleArguments, RobotArgument, functions};
 use crate::text;
@@ -45,12 +46,6 @@ pub(crate) struct Arguments {
     /// How to print them
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Format {
-    Json,
-    Text,
 }
 
 impl Arguments {

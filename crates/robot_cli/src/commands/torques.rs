@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::{Functions, Options};
 use robot_dynamics::model::Robot;
 use robot_simulation::plot::shares_figure;
 use robot_simulation::{Shares, Table, Trajectory, shares};
@@ -12,6 +11,7 @@ use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
 use crate::friction::FrictionArguments;
+use crate::motion;
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
 
@@ -61,19 +61,12 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let mut robot = self.robot.read(terminal)?.robot;
-        let wrong = self.settings.wrong(&robot);
-        if !wrong.is_empty() {
-            return Err(Failure::Input(wrong));
-        }
-        self.friction.smooth(&mut robot)?;
+        let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
         let trajectory = self.trajectory(&robot, terminal)?;
         let wrench = trajectory.wrenches.is_some();
-        let functions = Functions::Chosen(Shares::functions(friction, wrench));
-        let options = Options { functions, ..self.robot.options()? };
-        let name = self.robot.path().display().to_string();
-        let programs = robot_build::programs_of(robot, &name, &options)?;
+        let functions = Shares::functions(friction, wrench);
+        let programs = motion::programs(&self.robot, robot, functions)?;
         let shares = shares(&programs, &self.settings.pairs(), &trajectory, friction)?;
         if let Some(plot) = &self.plot {
             files::write_figure(plot, &shares_figure(&programs.robot, &shares))?;

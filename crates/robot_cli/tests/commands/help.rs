@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::shell::Shell;
-use crate::{complaint, folder, output};
+use crate::{URDF, complaint, folder, output};
 
 /// The names of all commands, as the overview lists them.
 pub(crate) fn commands() -> Vec<String> {
@@ -23,25 +23,6 @@ fn example(command: &str) -> String {
     let lines: Vec<&str> = lines.map(|line| line.strip_prefix("  ").unwrap()).collect();
     lines.join("\n") + "\n"
 }
-
-/// What the examples need beside the robots of the project.
-const URDF: &str = r#"<robot name="pendulum">
-  <link name="base"/>
-  <link name="rod">
-    <inertial>
-      <origin xyz="0.5 0 0" rpy="0 0 0"/>
-      <mass value="2"/>
-      <inertia ixx="0.01" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-  </link>
-  <joint name="swing" type="revolute">
-    <parent link="base"/>
-    <child link="rod"/>
-    <axis xyz="0 1 0"/>
-    <limit lower="-1" upper="1" effort="10" velocity="2"/>
-  </joint>
-</robot>
-"#;
 
 /// Examples that are shown with others' programs, targets that need not be installed.
 const ELSEWHERE: [&str; 2] = ["cargo ", "--target"];
@@ -63,13 +44,16 @@ fn the_examples_of_every_command_run() {
         }
         let shell = Shell::new();
         for name in ["arm.urdf", "robots/arm.urdf"] {
+            // What the examples need beside the robots of the project.
             shell.write(name, URDF);
         }
         shell.write("src/lib.rs", "");
         shell.write("docs/trttr1.printed", include_str!("../../../../docs/trttr1.printed"));
         let here = |script: &&String| ELSEWHERE.iter().all(|mark| !script.contains(mark));
         for script in scripts.iter().filter(here) {
-            let done = shell.run(script);
+            // A watch would go on until Ctrl-C.
+            let end = if command == "watch" { " --saves 0\n" } else { "\n" };
+            let done = shell.run(&(script.trim_end().to_owned() + end));
             let shown = format!("{script}\n{}{}", done.output, done.errors);
             // The answer to a check may be no.
             assert!(done.code == Some(0) || done.code == Some(1) && answers(&command), "{shown}");

@@ -22,6 +22,7 @@ mod shell;
 mod simulate;
 mod stats;
 mod usage;
+mod watch;
 
 use std::path::PathBuf;
 
@@ -70,6 +71,25 @@ fn complaint(code: u8, arguments: &[&str], input: &str) -> String {
 fn robot(name: &str) -> String {
     format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
+
+/// A pendulum in URDF.
+const URDF: &str = r#"<robot name="pendulum">
+  <link name="base"/>
+  <link name="rod">
+    <inertial>
+      <origin xyz="0.5 0 0" rpy="0 0 0"/>
+      <mass value="2"/>
+      <inertia ixx="0.01" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+  </link>
+  <joint name="swing" type="revolute">
+    <parent link="base"/>
+    <child link="rod"/>
+    <axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="10" velocity="2"/>
+  </joint>
+</robot>
+"#;
 
 /// An empty folder for a test.
 fn folder(test: &str) -> PathBuf {

@@ -1,6 +1,6 @@
 //! Wrong usage, and the demonstration.
 
-use crate::{complaint, output, run};
+use crate::{URDF, complaint, output, run};
 
 #[test]
 fn wrong_usage_has_its_own_code() {
@@ -26,23 +26,6 @@ fn the_version_is_that_of_the_package() {
         format!("robot-symbolic {}\n", env!("CARGO_PKG_VERSION"))
     );
 }
-
-const URDF: &str = r#"<robot name="pendulum">
-  <link name="base"/>
-  <link name="rod">
-    <inertial>
-      <origin xyz="0.5 0 0" rpy="0 0 0"/>
-      <mass value="2"/>
-      <inertia ixx="0.01" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/>
-    </inertial>
-  </link>
-  <joint name="swing" type="continuous">
-    <parent link="base"/>
-    <child link="rod"/>
-    <axis xyz="0 1 0"/>
-  </joint>
-</robot>
-"#;
 
 #[test]
 fn an_imported_urdf_gives_the_same_torques() {

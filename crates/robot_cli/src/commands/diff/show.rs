@@ -12,13 +12,22 @@ use serde_json::{Map, Value, json};
 pub(super) fn text(found: &Difference, most: usize) -> String {
     let [a, b] = &found.names;
     let mut shown = format!("{a} -> {b}\n");
-    let mut part = |title: &str, lines: String| {
-        let lines = if lines.is_empty() { "  nothing differs\n".to_owned() } else { lines };
-        shown.push_str(&format!("\n{title}\n{lines}"));
+    let torques = match &found.torques {
+        Ok(found) => torques(found),
+        Err(reason) => refused(reason),
     };
-    part("what the files say", found.changes.iter().map(change).collect());
-    let equations = found.equations.iter().map(|one| equation(one, most)).collect();
-    part("terms of the driving forces", equations);
+    for (title, lines) in parts(found, most).into_iter().chain([(TORQUES, torques)]) {
+        let lines = if lines.is_empty() { "  nothing differs\n".to_owned() } else { lines };
+        // Writing to a string does not fail.
+        let _ = write!(shown, "\n{title}\n{lines}");
+    }
+    shown
+}
+
+const TORQUES: &str = "largest change of the torques";
+
+/// The parts but for the torques, each with its title; empty where nothing differs.
+pub(crate) fn parts(found: &Difference, most: usize) -> [(&'static str, String); 3] {
     let operations = match &found.operations {
         Ok(found) => found
             .iter()
@@ -26,13 +35,14 @@ pub(super) fn text(found: &Difference, most: usize) -> String {
             .collect(),
         Err(reason) => refused(reason),
     };
-    part("operations of a call", operations);
-    let torques = match &found.torques {
-        Ok(found) => torques(found),
-        Err(reason) => refused(reason),
-    };
-    part("largest change of the torques", torques);
-    shown
+    [
+        ("what the files say", found.changes.iter().map(change).collect()),
+        (
+            "terms of the driving forces",
+            found.equations.iter().map(|one| equation(one, most)).collect(),
+        ),
+        ("operations of a call", operations),
+    ]
 }
 
 fn refused(reason: &str) -> String {
@@ -73,8 +83,8 @@ fn equation(equation: &Equation, most: usize) -> String {
     for Term { powers, coefficients } in terms.iter().take(most) {
         // Writing to a string does not fail.
         let _ = match coefficients {
-            [Some(gone), None] => writeln!(shown, "  - {gone} {powers}"),
-            [None, Some(come)] => writeln!(shown, "  + {come} {powers}"),
+            [Some(gone), None] => writeln!(shown, "  - {}", product(gone, powers)),
+            [None, Some(come)] => writeln!(shown, "  + {}", product(come, powers)),
             both => writeln!(shown, "  ~ ({}) {powers}", arrow(both)),
         };
     }
@@ -82,6 +92,22 @@ fn equation(equation: &Equation, most: usize) -> String {
         let _ = writeln!(shown, "    ({more} more)");
     }
     shown
+}
+
+/// `g*m1`, `2 g*m1`, `(-1) g*m1`: the sign of a coefficient is not the one before the line.
+fn product(coefficient: &str, powers: &str) -> String {
+    match (coefficient, powers) {
+        ("1", powers) => powers.to_owned(),
+        (coefficient, "1") => bracketed(coefficient),
+        (coefficient, powers) => format!("{} {powers}", bracketed(coefficient)),
+    }
+}
+
+fn bracketed(coefficient: &str) -> String {
+    match coefficient.starts_with('-') {
+        true => format!("({coefficient})"),
+        false => coefficient.to_owned(),
+    }
 }
 
 fn torques(found: &Torques) -> String {

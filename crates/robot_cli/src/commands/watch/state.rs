@@ -1,0 +1,247 @@
+//! What is known of a robot that is watched, and what a look at its file changes. Pure.
+
+use std::fmt::Write as _;
+
+use robot_build::{Error, Errors, Options, Plan, Source};
+use robot_difference::{Difference, Options as DifferenceOptions, difference};
+use robot_dynamics::diagnostic::{Severity, Style, render};
+use robot_dynamics::doctor;
+use robot_dynamics::model::Robot;
+
+use crate::commands::diff::show;
+
+/// What the files say at a moment.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Look {
+    /// The robot file, or why there is none.
+    pub(super) source: Result<Source, Errors>,
+    /// The plan pinned beside it, or why it does not hold.
+    pub(super) plan: Result<Option<Plan>, Errors>,
+}
+
+/// How changes are shown.
+pub(super) struct Settings {
+    /// The tolerance for angles, rad, where one is given.
+    pub(super) snap: Option<f64>,
+    /// How many terms of each equation are shown at most.
+    pub(super) terms: usize,
+    /// How errors and warnings are shown.
+    pub(super) style: Style,
+}
+
+/// What is known after a look.
+#[derive(Default)]
+pub(super) struct State {
+    /// How many looks there were before.
+    number: usize,
+    /// What last gave a robot.
+    good: Option<Good>,
+    /// What is wrong now; `None` where the file gives a robot.
+    wrong: Option<Vec<Problem>>,
+}
+
+/// A look that gave a robot.
+#[derive(Clone)]
+struct Good {
+    number: usize,
+    source: Source,
+    robot: Robot,
+    plan: Option<Plan>,
+    problems: Vec<Problem>,
+}
+
+/// An error, or a warning.
+#[derive(Clone)]
+struct Problem {
+    /// In a line, without a place: by this it is known again when lines move.
+    line: String,
+    /// In full.
+    text: String,
+}
+
+/// What is to be shown of a look.
+pub(super) struct Shown {
+    /// Which look it is.
+    pub(super) title: String,
+    /// Errors and warnings.
+    pub(super) problems: String,
+    /// What changed.
+    pub(super) changes: String,
+}
+
+impl State {
+    /// Whether the file gives a robot now.
+    pub(super) fn is_good(&self) -> bool {
+        self.good.is_some() && self.wrong.is_none()
+    }
+
+    /// How code is made of the last robot.
+    pub(super) fn options(&self, settings: &Settings) -> Options {
+        let plan = self.good.as_ref().and_then(|good| good.plan.clone());
+        Options { snap: settings.snap, plan, ..Options::default() }
+    }
+
+    /// The state after a look, and what is to be shown of the way there.
+    pub(super) fn after(&self, look: &Look, settings: &Settings) -> (State, Shown) {
+        let number = self.number;
+        let read = look.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
+        match read.and_then(|source| good(number, source, &look.plan, settings.style)) {
+            Ok(good) => {
+                let shown = self.bettered(&good, settings);
+                (State { number: number + 1, good: Some(good), wrong: None }, shown)
+            }
+            Err(wrong) => {
+                let shown = self.worsened(&wrong);
+                (State { number: number + 1, good: self.good.clone(), wrong: Some(wrong) }, shown)
+            }
+        }
+    }
+
+    /// What is shown of a robot.
+    fn bettered(&self, now: &Good, settings: &Settings) -> Shown {
+        let before = self.good.iter().flat_map(|good| &good.problems);
+        let before: Vec<&Problem> = before.chain(self.wrong.iter().flatten()).collect();
+        let problems = texts(absent(&now.problems, &before));
+        let gone = gone(before, &now.problems);
+        let Some(good) = &self.good else {
+            let (coordinates, parameters) =
+                (now.robot.degrees_of_freedom(), now.robot.parameters.len());
+            let changes = format!(
+                "{gone}{}: {coordinates} coordinates, {parameters} parameters; watching\n",
+                now.robot.name
+            );
+            return Shown { title: title(self.number, None), problems, changes };
+        };
+        let found = difference(&good.robot, &now.robot, &compared(good, now, settings));
+        let differences = differences(&found, settings.terms);
+        let none = if differences.is_empty() { "nothing changes in the robot\n" } else { "" };
+        let title = title(self.number, Some(good.number));
+        Shown { title, problems, changes: format!("{gone}{differences}{none}") }
+    }
+
+    /// What is shown of a file that gives no robot.
+    fn worsened(&self, wrong: &[Problem]) -> Shown {
+        let gone = gone(self.wrong.iter().flatten().collect(), wrong);
+        let stands = match &self.good {
+            None => "there is no robot yet; watching".to_owned(),
+            Some(good) => format!("there is no robot; that of {} stands", name(good.number)),
+        };
+        Shown {
+            title: title(self.number, None),
+            problems: texts(wrong.iter().collect()),
+            changes: format!("{gone}{stands}\n"),
+        }
+    }
+}
+
+/// The robot of a file, or all that is wrong with it.
+fn good(
+    number: usize,
+    source: &Source,
+    plan: &Result<Option<Plan>, Errors>,
+    style: Style,
+) -> Result<Good, Vec<Problem>> {
+    let described = robot_build::read(source).map_err(|errors| of_errors(&errors, style))?;
+    let examination = doctor::examine(&described);
+    let mut problems: Vec<Problem> = examination
+        .found
+        .iter()
+        .map(|one| Problem {
+            line: line(one.severity, one.code, &one.message),
+            text: render(source, one, style),
+        })
+        .collect();
+    let (plan, stale) = match plan {
+        Ok(plan) => (plan.clone(), vec![]),
+        Err(errors) => (None, errors.as_slice().to_vec()),
+    };
+    problems.extend(stale.iter().map(|error| {
+        let line = format!("warning: {error}");
+        Problem { text: line.clone(), line }
+    }));
+    Ok(Good { number, source: source.clone(), robot: described.robot, plan, problems })
+}
+
+fn of_errors(errors: &Errors, style: Style) -> Vec<Problem> {
+    let mut found = vec![];
+    for error in errors.as_slice() {
+        match error {
+            Error::Robot(diagnostics) => found.extend(diagnostics.iter().map(|one| Problem {
+                line: line(one.severity, one.code, &one.message),
+                text: render(diagnostics.source(), one, style),
+            })),
+            other => {
+                let line = format!("error: {other}");
+                found.push(Problem { text: line.clone(), line });
+            }
+        }
+    }
+    found
+}
+
+/// `error[R0303]: …`
+fn line(severity: Severity, code: &str, message: &str) -> String {
+    let severity = match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    };
+    format!("{severity}[{code}]: {message}")
+}
+
+/// Those that are not among others.
+fn absent<'p>(problems: &'p [Problem], among: &[&Problem]) -> Vec<&'p Problem> {
+    let is_new = |one: &&Problem| among.iter().all(|other| other.line != one.line);
+    problems.iter().filter(is_new).collect()
+}
+
+fn texts(problems: Vec<&Problem>) -> String {
+    problems.into_iter().map(|one| format!("{}\n\n", one.text.trim_end())).collect()
+}
+
+/// A line for each problem that is no more.
+fn gone(before: Vec<&Problem>, now: &[Problem]) -> String {
+    let is_gone = |one: &&Problem| now.iter().all(|other| other.line != one.line);
+    before.into_iter().filter(is_gone).map(|one| format!("gone: {}\n", one.line)).collect()
+}
+
+/// `save 3`
+fn name(number: usize) -> String {
+    match number {
+        0 => "the start".to_owned(),
+        number => format!("save {number}"),
+    }
+}
+
+/// Nothing for the start; a blank line and `save 3, from save 2:` after it.
+fn title(number: usize, from: Option<usize>) -> String {
+    match (number, from) {
+        (0, _) => String::new(),
+        (number, None) => format!("\n{}:\n", name(number)),
+        (number, Some(from)) => format!("\n{}, from {}:\n", name(number), name(from)),
+    }
+}
+
+/// Under which plans two robots are compared: their own, where both have one; a pin goes stale with each
+/// change of its file, and the default plan beside it would tell of the plan, not of the robot.
+fn compared(before: &Good, now: &Good, settings: &Settings) -> DifferenceOptions {
+    let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;
+    let code = [before, now].map(|one| Options {
+        snap: settings.snap,
+        plan: one.plan.clone().filter(|_| own),
+        ..Options::default()
+    });
+    DifferenceOptions { code, seed: 0, states: 0 }
+}
+
+/// The parts in which something differs, each under its title.
+fn differences(found: &Difference, terms: usize) -> String {
+    let mut shown = String::new();
+    for (title, lines) in show::parts(found, terms) {
+        if !lines.is_empty() {
+            // Writing to a string does not fail.
+            let _ = write!(shown, "{title}\n{lines}");
+        }
+    }
+    shown
+}

@@ -1,0 +1,218 @@
+use std::path::PathBuf;
+use std::time::Duration;
+
+use robot_build::{RobotFile, Source, pin_path, pin_text};
+use robot_dynamics::economical::search::{Measure, search};
+use robot_dynamics::mechanism::MechanismOptions;
+use tempfile::TempDir;
+
+use super::*;
+
+const ARM: &str = include_str!("../../../../../robots/planar_2r.toml");
+
+fn changed(from: &str, to: &str) -> String {
+    assert!(ARM.contains(from), "{from}");
+    ARM.replace(from, to)
+}
+
+fn heavier() -> String {
+    changed("m2 = { value = 3.0", "m2 = { value = 3.5")
+}
+
+fn broken() -> String {
+    changed("mass = \"m2\"", "mass = \"m3\"")
+}
+
+fn look(text: &str) -> Look {
+    let source = Source { name: "arm.toml".to_owned(), text: text.to_owned() };
+    Look { source: Ok(source), plan: Ok(None) }
+}
+
+const SETTINGS: Settings = Settings { snap: None, terms: 20, style: Style::Plain };
+
+/// How the watch ends, and what it shows on either stream.
+fn followed(looks: impl IntoIterator<Item = Look>) -> (bool, String, String) {
+    let (mut output, mut errors) = (vec![], vec![]);
+    let mut terminal = Terminal {
+        input: &mut std::io::empty(),
+        output: &mut output,
+        errors: &mut errors,
+        colours: false,
+        progress: false,
+    };
+    let ended = follow(looks.into_iter(), &SETTINGS, None, &mut terminal);
+    let [output, errors] = [output, errors].map(|bytes| String::from_utf8(bytes).unwrap());
+    (ended.is_ok(), output, errors)
+}
+
+#[test]
+fn values_terms_and_operations_are_told() {
+    let still = changed("gravity = [0, \"-g\", 0]", "gravity = [0, 0, 0]");
+    let (is_good, output, errors) = followed([ARM, &heavier(), &still].map(look));
+    assert!(is_good);
+    let mut parts = output.split("\nsave ");
+    assert_eq!(parts.next(), Some("planar_2r: 2 coordinates, 9 parameters; watching\n"));
+    let value = "1, from the start:\nwhat the files say\n~ parameter m2: value 3 -> 3.5\n";
+    assert_eq!(parts.next(), Some(value));
+    let gravity = parts.next().unwrap();
+    for part in [
+        "2, from save 1:\nwhat the files say\n~ robot: gravity (0, -g, 0) -> (0, 0, 0)\n",
+        "~ parameter m2: value 3.5 -> 3\n",
+        "terms of the driving forces\n  Q1\n  - g*l1*m2*cos(q1)\n",
+        "operations of a call\n",
+        "  inverse_dynamics: ",
+    ] {
+        assert!(gravity.contains(part), "{part} is not in\n{gravity}");
+    }
+    assert!(!gravity.contains("torques"), "{gravity}");
+    // The parameter g is used no longer.
+    assert!(errors.contains("R0601") && !errors.contains("error"), "{errors}");
+}
+
+#[test]
+fn a_broken_file_keeps_the_last_robot() {
+    let moved = format!("# a remark\n\n{}", broken());
+    let (is_good, output, errors) = followed([ARM, &broken(), &moved].map(look));
+    assert!(!is_good);
+    assert_eq!(output.matches("there is no robot; that of the start stands\n").count(), 2);
+    // As long as the file is broken all errors are shown; a line that moves is no other error.
+    assert_eq!(errors.matches("error[R0303]").count(), 2, "{errors}");
+    assert!(errors.contains("arm.toml:") && !output.contains("gone"), "{output}");
+
+    let (is_good, output, _) = followed([ARM, &broken(), &heavier()].map(look));
+    assert!(is_good);
+    let mended = output.split("\nsave 2, from the start:\n").nth(1).unwrap();
+    assert!(mended.starts_with("gone: error[R0303]: "), "{mended}");
+    assert!(mended.ends_with("~ parameter m2: value 3 -> 3.5\n"), "{mended}");
+}
+
+#[test]
+fn a_file_that_is_broken_from_the_start_is_waited_for() {
+    let (is_good, output, errors) = followed([&broken(), ARM].map(look));
+    assert!(is_good && errors.contains("error[R0303]"));
+    assert!(output.starts_with("there is no robot yet; watching\n\nsave 1:\ngone: error"));
+    assert!(output.ends_with("planar_2r: 2 coordinates, 9 parameters; watching\n"), "{output}");
+    assert!(!followed([look(&broken())]).0);
+}
+
+#[test]
+fn warnings_come_and_go() {
+    let unused = changed("[parameters]", "[parameters]\nspare = { value = 1.0, unit = \"m\" }");
+    let looks = [ARM, &unused, &unused.replace("1.0", "2.0"), ARM].map(look);
+    let (_, output, errors) = followed(looks);
+    assert_eq!(errors.matches("warning[R0601]").count(), 1, "{errors}");
+    assert_eq!(output.matches("gone: warning[R0601]").count(), 1, "{output}");
+    assert!(output.contains("\nsave 3, from save 2:\ngone: warning"), "{output}");
+}
+
+#[test]
+fn remarks_change_nothing() {
+    let (_, output, errors) = followed([ARM, &format!("{ARM}# a remark\n")].map(look));
+    assert!(output.ends_with("\nsave 1, from the start:\nnothing changes in the robot\n"));
+    assert_eq!(errors, "");
+}
+
+#[test]
+fn a_stale_plan_is_no_change_of_the_robot() {
+    let robot = robot_build::read(look(ARM).source.as_ref().unwrap()).unwrap().robot;
+    let found = search(&robot, &MechanismOptions::ROUNDED, Measure::Operations).unwrap();
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("arm.toml");
+    std::fs::write(&path, ARM).unwrap();
+    let source = RobotFile::read(&path).unwrap().source;
+    std::fs::write(pin_path(&path), pin_text(&source, &found)).unwrap();
+    let look = || Files::new(&path, &AtomicBool::new(false)).next().unwrap();
+    let pinned = look();
+    assert_eq!(pinned.plan.as_ref().unwrap().as_ref(), Some(&found.plan));
+    std::fs::write(&path, heavier()).unwrap();
+    let stale = look();
+    assert!(stale.plan.is_err());
+    let (is_good, output, errors) = followed([pinned.clone(), stale, pinned]);
+    assert!(is_good && !output.contains("operations"), "{output}");
+    assert!(errors.starts_with("warning: ") && errors.contains("plan is stale"), "{errors}");
+    assert!(output.contains("\ngone: warning: "), "{output}");
+}
+
+/// A file that is watched; what does not happen within a minute ends as a failure.
+struct Watched {
+    folder: TempDir,
+    path: PathBuf,
+}
+
+impl Watched {
+    fn new() -> Watched {
+        let folder = TempDir::new().unwrap();
+        let path = folder.path().join("arm.toml");
+        std::fs::write(&path, ARM).unwrap();
+        Watched { folder, path }
+    }
+
+    /// Another file in the place of the file, as editors save.
+    fn replace(&self, text: &str) {
+        let other = self.folder.path().join("arm.toml~");
+        std::fs::write(&other, text).unwrap();
+        std::fs::rename(other, &self.path).unwrap();
+    }
+}
+
+fn text(look: Option<Look>) -> Option<String> {
+    look.unwrap().source.ok().map(|source| source.text)
+}
+
+#[test]
+fn saves_are_seen_however_editors_save() {
+    let watched = Watched::new();
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let (done, ended) = std::sync::mpsc::channel::<()>();
+        let over = &over;
+        scope.spawn(move || {
+            if ended.recv_timeout(Duration::from_secs(60)).is_err() {
+                over.store(true, Ordering::Relaxed);
+            }
+        });
+        let mut files = Files::new(&watched.path, over);
+        assert_eq!(text(files.next()).as_deref(), Some(ARM));
+        // In place, with as many bytes, then by another file, as often as may be.
+        for _ in 0..3 {
+            std::fs::write(&watched.path, heavier()).unwrap();
+            assert_eq!(text(files.next()), Some(heavier()));
+            watched.replace(ARM);
+            assert_eq!(text(files.next()).as_deref(), Some(ARM));
+        }
+        watched.replace(&broken());
+        assert_eq!(text(files.next()), Some(broken()));
+        std::fs::remove_file(&watched.path).unwrap();
+        let away = files.next().unwrap().source.unwrap_err().to_string();
+        assert!(away.contains("there is no such file"), "{away}");
+        // What is no text is no end, either.
+        std::fs::write(&watched.path, b"\xff\xfe").unwrap();
+        assert!(files.next().unwrap().source.is_err());
+        std::fs::write(&watched.path, ARM).unwrap();
+        assert_eq!(text(files.next()).as_deref(), Some(ARM));
+        over.store(true, Ordering::Relaxed);
+        assert_eq!(files.next(), None);
+        done.send(()).unwrap();
+    });
+}
+
+#[test]
+fn a_save_in_pieces_is_seen_whole() {
+    let away = RobotFile::read(std::path::Path::new("none.toml")).unwrap_err();
+    let away = || Look { source: Err(away.clone()), plan: Ok(None) };
+    let mut settling = files::Settling::default();
+    let mut shown = |look: Look| text(Some(settling.after(look)?)).or(Some("away".to_owned()));
+    assert_eq!((shown(look(ARM)), shown(look(ARM)).as_deref()), (None, Some(ARM)));
+    // As it was, emptied, away, in part, whole.
+    let half = ARM.get(..ARM.len() / 2).unwrap();
+    for piece in [look(ARM), look(""), look(""), away(), away(), look(half), look(&heavier())] {
+        assert_eq!(shown(piece), None);
+    }
+    assert_eq!(shown(look(&heavier())), Some(heavier()));
+    // What stays away is told of, once.
+    let told: Vec<String> = (0..100).filter_map(|_| shown(away())).collect();
+    assert_eq!(told, ["away"]);
+    // A look back at what was shown last is nothing new.
+    assert_eq!((shown(look(ARM)), shown(away()), shown(look(ARM))), (None, None, None));
+    assert_eq!(shown(look(ARM)).as_deref(), Some(ARM));
+}

@@ -1,0 +1,10 @@
+//! How results are shown.
+
+use clap::ValueEnum;
+
+/// For people, or for programs.
+#[derive(Clone, Copy, ValueEnum)]
+pub(crate) enum Format {
+    Text,
+    Json,
+}

@@ -1,0 +1,36 @@
+//! What commands about motions make of a robot file.
+
+use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
+use robot_dynamics::model::Robot;
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::friction::FrictionArguments;
+use crate::robot::RobotArgument;
+use crate::settings::Settings;
+
+/// The robot, all its parameters known and its friction as it is asked for.
+pub(crate) fn robot(
+    file: &RobotArgument,
+    settings: &Settings,
+    friction: &FrictionArguments,
+    terminal: &mut Terminal<'_>,
+) -> Result<Robot, Failure> {
+    let mut robot = file.read(terminal)?.robot;
+    let wrong = settings.wrong(&robot);
+    if !wrong.is_empty() {
+        return Err(Failure::Input(wrong));
+    }
+    friction.smooth(&mut robot)?;
+    Ok(robot)
+}
+
+/// The programs of its functions.
+pub(crate) fn programs(
+    file: &RobotArgument,
+    robot: Robot,
+    functions: Vec<FunctionKind>,
+) -> Result<Programs, Failure> {
+    let options = Options { functions: Functions::Chosen(functions), ..file.options()? };
+    Ok(programs_of(robot, &file.path().display().to_string(), &options)?)
+}

@@ -1,0 +1,51 @@
+//! The page of a robot whose file is being edited: it reloads itself, from disk and without a server.
+
+use sha2::{Digest, Sha256};
+
+/// What the page's script looks at: which page is the newest.
+///
+/// Two numbers, the size of a picture: of what lies beside a page that was opened from a file, a browser
+/// shows its script nothing else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Stamp {
+    width: u16,
+    height: u16,
+}
+
+impl Stamp {
+    /// The stamp of a page with that text.
+    pub(crate) fn of(text: &str) -> Stamp {
+        let side = |[high, low]: [u8; 2]| 1 + u16::from_be_bytes([high, low]) % 4096;
+        let [a, b, c, d, ..] = <[u8; 32]>::from(Sha256::digest(text.as_bytes()));
+        Stamp { width: side([a, b]), height: side([c, d]) }
+    }
+
+    /// As the page bears it: `640 480`.
+    pub(crate) fn words(self) -> String {
+        format!("{} {}", self.width, self.height)
+    }
+
+    /// The picture beside the page.
+    pub(crate) fn picture(self) -> String {
+        let Stamp { width, height } = self;
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"/>\n"
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_page_has_another_stamp() {
+        let [one, other] = ["a page", "another page"].map(Stamp::of);
+        assert_ne!(one, other);
+        assert_eq!(one, Stamp::of("a page"));
+        let picture = one.picture();
+        let picture = roxmltree::Document::parse(&picture).unwrap();
+        let side = |name| picture.root_element().attribute(name).unwrap().to_owned();
+        assert_eq!(format!("{} {}", side("width"), side("height")), one.words());
+    }
+}
