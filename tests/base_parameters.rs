@@ -8,13 +8,13 @@ use nalgebra::DMatrix;
 use robot_dynamics::base_parameters::{BaseParameters, base_parameters, out_of_reach};
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
+use robot_dynamics::model::{BaseFrames, Robot};
 use robot_dynamics::numeric::{
     self,
     random::{Random, Recipe, State},
 };
 use robot_dynamics::random;
-use robot_symbolic::{Expr, Formula, Graph, Rational};
+use robot_symbolic::{Expr, Formula, Graph, Number, Rational};
 
 const STATES: usize = 6;
 const TOLERANCE: f64 = 1e-11;
@@ -62,14 +62,25 @@ fn rank(robot: &Robot, regressor: &[Expr<'_>], states: &[State], label: &str) ->
     rank
 }
 
-/// Everything that base parameters promise.
+/// Everything that base parameters promise, over either parameters of links.
 fn check(robot: &Robot, seed: u64, name: &str) -> usize {
+    let [count, others] = BaseFrames::ALL.map(|base_frames| {
+        let robot = Robot { base_frames, ..robot.clone() };
+        // Where an axis is a parameter, there are base parameters in the file's frames alone.
+        out_of_reach(&robot).is_none().then(|| check_set(&robot, seed, name))
+    });
+    assert!(others.is_none() || others == count, "{name}, seed {seed}: {others:?} in other frames");
+    count.unwrap()
+}
+
+/// Everything that base parameters promise.
+fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
     let mut robot = robot.clone();
     for link in &mut robot.links {
         // What grows with the contact force is not linear in the parameters.
         link.friction.coulomb = Formula::number(&Rational::ZERO);
     }
-    let label = format!("{name}, seed {seed}");
+    let label = format!("{name}, seed {seed}, {}", robot.base_frames.name());
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &OPTIONS, None);
     let found = base_parameters(&derivation).unwrap();
@@ -93,7 +104,9 @@ fn check(robot: &Robot, seed: u64, name: &str) -> usize {
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
         let expected = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         let size = magnitude(&expected).max(1e-3);
-        let representative = found.representative(&values, 0.0);
+        let exact: Vec<Expr<'_>> =
+            values.iter().map(|value| graph.number(Number::Real(*value))).collect();
+        let representative = evaluate(&robot, &found.representative(&exact), &state);
         for (columns, values) in [(&kept, &values), (&full, &representative)] {
             let product = |row: &[f64]| row.iter().zip(values).map(|(y, p)| y * p).sum::<f64>();
             let forces: Vec<f64> = columns.chunks(values.len()).map(product).collect();

@@ -4,6 +4,7 @@
 mod common;
 
 use common::{evaluate, largest_difference, magnitude, robot_files, with_free_axes};
+use robot_build::{BaseFrames, Functions, Options, programs_of};
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::model::Robot;
@@ -150,5 +151,30 @@ fn regressors_cost_little_without_a_search() {
         assert!(count <= flops, "{name}: {count} operations");
         let count = regressor.iter().filter(|entry| !entry.is_zero()).count();
         assert!(count <= entries, "{name}: {count} entries");
+    }
+}
+
+/// What a call of `regressor_base` over moments in frames of Denavit and Hartenberg may cost,
+/// multiplications and additions, and one in the file's frames.
+#[test]
+fn base_regressors_cost_no_more_than_they_did() {
+    let bounds =
+        [("puma560", 614, 646), ("ur5", 493, 540), ("iiwa", 942, 1127), ("panda", 1040, 1150)];
+    for (name, denavit_hartenberg, file) in bounds {
+        let robot = common::robot(name);
+        let most = [(BaseFrames::DenavitHartenberg, denavit_hartenberg), (BaseFrames::File, file)];
+        for (frames, most) in most {
+            let options = Options {
+                functions: Functions::Chosen(vec![FunctionKind::RegressorBase]),
+                base_frames: Some(frames),
+                ..Options::default()
+            };
+            let module = programs_of(robot.clone(), name, &options).unwrap().module;
+            let counts = module.counts(&module.functions[0]).call;
+            let count = counts.mul + counts.add;
+            assert_eq!(counts.operations(), count, "{name}: divisions");
+            println!("{name}, {}: {count}", frames.name());
+            assert!(count <= most, "{name}, {}: {count} operations", frames.name());
+        }
     }
 }

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::backend::rust::{self, RustOptions};
 use robot_codegen::module::Function;
-use robot_dynamics::base_parameters::base_parameters;
+use robot_dynamics::base_parameters::{BaseParameter, base_parameters};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::model::Robot;
@@ -179,7 +179,7 @@ impl Case {
                 let derivation =
                     Derivation::new(&self.robot, &graph, &MechanismOptions::ROUNDED, None);
                 let base = base_parameters(&derivation).unwrap().base;
-                let columns = base.iter().map(|parameter| parameter.column);
+                let columns = base.iter().filter_map(BaseParameter::full_column);
                 Some(columns.filter(|column| inertial.contains(column)).collect())
             }
             _ => None,

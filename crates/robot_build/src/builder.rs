@@ -7,6 +7,7 @@ use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::Scalar;
 use robot_dynamics::economical::Plan;
 use robot_dynamics::functions::Bundle;
+use robot_dynamics::model::BaseFrames;
 
 use crate::cargo::{self, Directives};
 use crate::error::{Error, Errors};
@@ -130,6 +131,13 @@ impl Builder {
     /// what the robot file says with `snap`, or 10⁻⁹.
     pub fn snap(mut self, radians: f64) -> Builder {
         self.options.snap = Some(radians);
+        self
+    }
+
+    /// Over which parameters of links the base parameters are; without this what the robot file says with
+    /// `base_frames`, or those in the file's frames.
+    pub fn base_frames(mut self, frames: BaseFrames) -> Builder {
+        self.options.base_frames = Some(frames);
         self
     }
 

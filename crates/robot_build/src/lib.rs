@@ -55,4 +55,5 @@ pub use robot_codegen::backend::rust::{Scalar, identifier};
 pub use robot_dynamics::diagnostic::Source;
 pub use robot_dynamics::economical::Plan;
 pub use robot_dynamics::functions::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
+pub use robot_dynamics::model::BaseFrames;
 pub use snapping::{Snapping, snapping};

@@ -6,7 +6,7 @@ use robot_dynamics::description::{Code, MAX_BUNDLES, check_bundle_name};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::functions::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
+use robot_dynamics::model::{BaseFrames, Robot};
 
 use crate::error::{Error, Errors};
 
@@ -55,6 +55,9 @@ pub struct Options {
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
     /// for what the robot file says, which is 10⁻⁹ where it says nothing.
     pub snap: Option<f64>,
+    /// Over which parameters of links the base parameters are; `None` for what the robot file says,
+    /// which is the file's frames where it says nothing.
+    pub base_frames: Option<BaseFrames>,
     /// The path of the runtime crate or module in generated code.
     pub runtime: String,
     /// The form of the economical recursion; `None` for one that suits most arms, or is searched.
@@ -85,6 +88,7 @@ impl Default for Options {
             fused: false,
             trigonometry: rust.trigonometry,
             snap: None,
+            base_frames: None,
             runtime: rust.runtime,
             plan: None,
             max_operations: None,

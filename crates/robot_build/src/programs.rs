@@ -84,6 +84,8 @@ pub(crate) fn programs_under(
     codegen: &robot_codegen::Options,
 ) -> Result<Programs, Errors> {
     options.check()?;
+    let base_frames = options.base_frames.unwrap_or(robot.base_frames);
+    let robot = Robot { base_frames, ..robot };
     let (functions, bundles) = options.functions_of(&robot)?;
     let graph = Graph::new();
     let plan = plan_of(&robot, options);

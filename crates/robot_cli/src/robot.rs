@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use robot_build::{
-    ALL_FUNCTIONS, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, RobotFile, Scalar,
-    Source, Trigonometry,
+    ALL_FUNCTIONS, BaseFrames, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, RobotFile,
+    Scalar, Source, Trigonometry,
 };
 use robot_dynamics::description::Described;
 
@@ -22,6 +23,17 @@ pub(crate) struct RobotArgument {
     /// what the robot file says, or 1e-9
     #[arg(long, value_name = "RAD")]
     snap: Option<f64>,
+    /// Over which parameters of links the base parameters are, and the regressor over them: those in
+    /// the file's frames, or first and second moments in frames of Denavit and Hartenberg, for which
+    /// the regressor needs fewer operations; without this what the robot file says, or file
+    #[arg(long, value_name = "FRAMES", value_parser = base_frames())]
+    base_frames: Option<BaseFrames>,
+}
+
+/// The names of frames of base parameters.
+fn base_frames() -> impl TypedValueParser<Value = BaseFrames> {
+    let names = BaseFrames::ALL.map(BaseFrames::name);
+    PossibleValuesParser::new(names).map(|name| BaseFrames::from_name(&name).unwrap_or_default())
 }
 
 impl RobotArgument {
@@ -32,7 +44,9 @@ impl RobotArgument {
 
     /// The robot; warnings are shown.
     pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
-        let described = robot_build::read(&self.source()?)?;
+        let mut described = robot_build::read(&self.source()?)?;
+        let robot = &mut described.robot;
+        robot.base_frames = self.base_frames.unwrap_or(robot.base_frames);
         text::warnings(&described.warnings, terminal)?;
         Ok(described)
     }
@@ -45,7 +59,12 @@ impl RobotArgument {
     /// The default options with the snapping tolerance and the pinned plan; where none is pinned,
     /// the cheapest form is searched.
     pub(crate) fn options(&self) -> Result<Options, Failure> {
-        let options = Options { snap: self.snap, search: true, ..Options::default() };
+        let options = Options {
+            snap: self.snap,
+            base_frames: self.base_frames,
+            search: true,
+            ..Options::default()
+        };
         Ok(RobotFile::read(&self.file)?.with_pin(&options)?)
     }
 

@@ -39,7 +39,7 @@ pub struct BaseEntry {
     /// The name in print.
     pub left: Math,
     /// The column of the full regressor that is this one's.
-    pub column: usize,
+    pub column: Option<usize>,
     /// The formula in standard parameters: those with one figure stand in one term.
     pub formula: Written,
     /// The figure of each standard parameter by its place, as text that reads back.
@@ -88,7 +88,7 @@ pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
         list.push(BaseEntry {
             name: parameter.name(),
             left: look(parameter),
-            column: parameter.column,
+            column: parameter.full_column(),
             formula: formulas.of_parameter(parameter, &standard)?,
             figures: texts?,
             value: formulas.of_polynomial(value)?,

@@ -16,6 +16,26 @@ pub(crate) const TENSOR: usize = 4;
 /// The entries of the tensor in the order of the parameters.
 pub(crate) const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
 
+/// What the last six of a body's parameters are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Moments {
+    /// The inertia tensor I.
+    Inertia,
+    /// The second moments Σ = ∫ r rᵀ dm; I = tr(Σ) 1 − Σ. What is said of a tensor's entries, and its
+    /// turning, holds for them alike.
+    Second,
+}
+
+impl Moments {
+    /// The tensor of these second moments.
+    pub(crate) fn of_second<'g>(self, second: Matrix<'g>) -> Matrix<'g> {
+        match self {
+            Moments::Inertia => Matrix::identity(second.0[0][0].graph()) * second.trace() - second,
+            Moments::Second => second,
+        }
+    }
+}
+
 /// A body by its ten parameters about some origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Body<'g> {

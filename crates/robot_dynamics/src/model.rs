@@ -19,6 +19,8 @@ pub struct Robot {
     /// Constant angles within this many radians of a multiple of π/2 are meant for that multiple;
     /// `None` where the file does not say.
     pub snap: Option<f64>,
+    /// Over which parameters of its links the base parameters are.
+    pub base_frames: BaseFrames,
     /// The symbols that stay parameters of equations and code, in the file's order.
     pub parameters: Vec<Parameter>,
     /// The generalised coordinates q₁ … qₙ.
@@ -29,6 +31,39 @@ pub struct Robot {
     pub frames: Vec<Frame>,
     /// The body that the robot may carry, where the file has one: it is a body of its link too.
     pub payload: Option<Payload>,
+}
+
+/// Over which parameters of links the base parameters are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BaseFrames {
+    /// Mass, first moment and inertia tensor about the origin and in the axes of the link's frame in
+    /// the file.
+    #[default]
+    File,
+    /// Mass, first and second moments in frames of Denavit and Hartenberg, in which the regressor
+    /// needs fewer operations: z is the joint axis, and the origin lies on it where the common normal
+    /// with the axis of the parent's joint meets it.
+    DenavitHartenberg,
+}
+
+impl BaseFrames {
+    /// All choices.
+    pub const ALL: [BaseFrames; 2] = [BaseFrames::File, BaseFrames::DenavitHartenberg];
+
+    /// The name in robot files and options.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            BaseFrames::File => "file",
+            BaseFrames::DenavitHartenberg => "denavit_hartenberg",
+        }
+    }
+
+    /// The choice of that name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<BaseFrames> {
+        BaseFrames::ALL.into_iter().find(|frames| frames.name() == name)
+    }
 }
 
 /// The names of the parameters of a body that is to be set at run time, all of them 0 by default.

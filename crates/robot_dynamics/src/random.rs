@@ -8,8 +8,8 @@ use robot_symbolic::{Formula, Rational};
 pub use crate::numeric::random::{Random, Recipe, State};
 
 use crate::model::{
-    Body, Coordinate, Drive, Frame, Friction, Inertia, Joint, JointKind, Link, Move, Parameter,
-    Placement, Robot, Wrench,
+    BaseFrames, Body, Coordinate, Drive, Frame, Friction, Inertia, Joint, JointKind, Link, Move,
+    Parameter, Placement, Robot, Wrench,
 };
 
 /// A robot: links of 0.2 to 5 kg with offset mass centres and tilted inertias, joints of both kinds
@@ -45,6 +45,7 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
         description: None,
         gravity,
         snap: None,
+        base_frames: BaseFrames::File,
         parameters: vec![],
         coordinates,
         links,

@@ -1,11 +1,13 @@
 //! The arguments of `include_robot!`.
 
-use robot_build::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions, Options, Scalar, Trigonometry};
+use robot_build::{
+    ALL_FUNCTIONS, BaseFrames, Bundle, FunctionKind, Functions, Options, Scalar, Trigonometry,
+};
 use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
 /// The keys, for messages.
-const KEYS: &str = "functions, bundles, snap, scalar, generic, batch, parallel, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
+const KEYS: &str = "functions, bundles, snap, base_frames, scalar, generic, batch, parallel, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
@@ -62,6 +64,10 @@ impl Arguments {
         match key.to_string().as_str() {
             "functions" => self.options.functions = functions(value)?,
             "snap" => self.options.snap = Some(number(value)?),
+            "base_frames" => {
+                let known = BaseFrames::ALL.map(|frames| (frames.name(), frames));
+                self.options.base_frames = Some(one_of(value, &known)?);
+            }
             "scalar" => {
                 let known = [("f64", Scalar::F64), ("f32", Scalar::F32)];
                 self.options.scalar = one_of(value, &known)?;

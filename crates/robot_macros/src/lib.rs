@@ -26,6 +26,7 @@ use proc_macro::TokenStream;
 ///     functions = ["inverse_dynamics", "mass_matrix"], // ["all"] for all; the file's without this
 ///     bundles = { dynamics = ["mass_matrix", "bias"] }, // several functions in one call
 ///     snap = 1e-8,                  // rad; constant angles this near to π/2 · n become that
+///     base_frames = "denavit_hartenberg", // of the base parameters; "file" without this
 ///     scalar = "f32",               // "f64" without this
 ///     generic = true,               // forms `…_generic` over any scalar of the runtime, lanes too
 ///     batch = 8,                    // forms `…_batch` over slices of states, in blocks of so many

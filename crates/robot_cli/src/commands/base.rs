@@ -1,7 +1,9 @@
 //! `base`: the base parameters of a robot.
 
 use clap::{Args, ValueEnum};
+use robot_build::BaseFrames;
 use robot_document::base::{BaseEntry, BaseSet, base};
+use robot_dynamics::model::Robot;
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -25,7 +27,11 @@ driving forces. Each is shown by its formula in these, which are named as by Kha
 value: XX to ZZ are entries of a link's inertia tensor about the origin of its frame, MX, MY, MZ its first
 moment, M its mass; IA is a drive's reflected inertia, FV, FP, FN its friction, FO its offset, IC the
 coupling of its rotor. The number of the link follows. In JSON `column` is the column of the full regressor
-that is the parameter's own; the function regressor_base has these columns alone.")]
+that is the parameter's own; the function regressor_base has these columns alone.
+
+With --base-frames denavit_hartenberg they are first and second moments, SXX for the integral of x^2 dm, in
+frames of Denavit and Hartenberg; the formulas are in the parameters in the file's frames all the same, and
+no column of the full regressor is one's own.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -51,19 +57,22 @@ impl Arguments {
         let set = base(&robot, self.robot.snap()).map_err(failed)?;
         let displayed = |notation| self.layout.displayed(&[set.group()], notation).map_err(failed);
         let shown = match self.format {
-            Format::Text => plain(&robot.name, &set),
+            Format::Text => plain(&robot, &set),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
-            Format::Json => json(&robot.name, &set),
+            Format::Json => json(&robot, &set),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 }
 
 /// `ZZR_2 = …`, its value below, long sums on several lines.
-fn plain(robot: &str, set: &BaseSet) -> String {
+fn plain(robot: &Robot, set: &BaseSet) -> String {
     let (count, all) = (set.list.len(), set.standard.len());
-    let mut shown = format!("{robot}: {count} base parameters of {all}");
+    let mut shown = format!("{}: {count} base parameters of {all}", robot.name);
+    if robot.base_frames == BaseFrames::DenavitHartenberg {
+        shown.push_str(", moments in frames of Denavit and Hartenberg");
+    }
     shown.push_str(if set.rounded { ", with rounded figures\n" } else { "\n" });
     for entry in &set.list {
         let formula = format!("{} = {}", entry.name, entry.formula.text);
@@ -79,9 +88,9 @@ fn plain(robot: &str, set: &BaseSet) -> String {
     shown
 }
 
-/// `{"robot": …, "standard": […], "base": [{"name": …, "column": …, "formula": …, "figures": {…},
+/// `{"robot": …, "frames": …, "rounded": …, "standard": […], "base": [{"name": …, "column": …, "formula": …, "figures": {…},
 /// "value": …}, …]}`
-fn json(robot: &str, set: &BaseSet) -> String {
+fn json(robot: &Robot, set: &BaseSet) -> String {
     let entry = |entry: &BaseEntry| {
         let figures: Map<String, Value> = entry
             .figures
@@ -99,7 +108,8 @@ fn json(robot: &str, set: &BaseSet) -> String {
         })
     };
     let shown = json!({
-        "robot": robot,
+        "robot": robot.name,
+        "frames": robot.base_frames.name(),
         "rounded": set.rounded,
         "standard": set.standard,
         "base": set.list.iter().map(entry).collect::<Vec<_>>(),

@@ -12,11 +12,15 @@
 //! Control of Robots" (2002), section 9.4, whose names are used; the conditions are exact for any tree
 //! ([`told`](self)): first joints along gravity, parallel axes, planar arms.
 //!
+//! Over frames of Denavit and Hartenberg ([`BaseFrames`]) first and second moments are kept in place of
+//! standard parameters; the formulas are in these all the same.
+//!
 //! Where joints share a coordinate, what the mechanism's coordinates tell less than independent ones
 //! would is found by the rank of the columns at seeded states, and the figures are rounded.
 
 mod echelon;
 mod joint;
+mod moments;
 mod regroup;
 mod scalar;
 mod shared;
@@ -25,8 +29,11 @@ mod told;
 
 use robot_symbolic::Expr;
 
+use crate::economical::{Reframed, WorkingFrame};
 use crate::functions::Derivation;
-use crate::model::{Move, Placement, Robot};
+use crate::mechanism::Mechanism;
+use crate::model::{BaseFrames, Link, Move, Placement, Robot};
+use crate::numeric::LINK_PARAMETERS;
 use joint::Joint;
 use regroup::{Form, Kept};
 use scalar::tidied;
@@ -42,21 +49,35 @@ pub struct BaseParameters<'g> {
     /// Whether figures were found at seeded states, and rounded: where joints share a coordinate and
     /// that matters.
     pub rounded: bool,
+    /// Over which parameters of links they are.
+    pub frames: BaseFrames,
 }
 
 /// A base parameter.
 #[derive(Clone, Debug)]
 pub struct BaseParameter<'g> {
-    /// The place of the kept standard parameter, whose column in the full regressor is this one's.
+    /// The place of the kept parameter. Of a standard one, the column of the full regressor that is
+    /// this one's; a moment in another frame has the place of the link's parameter of its number.
     pub column: usize,
-    /// The kept standard parameter.
+    /// The kept parameter: a standard one, or a moment in another frame ([`Quantity::Moment`]).
     pub kept: StandardParameter,
     /// A row of B: the figures of standard parameters by their places, all but those that are 0, in
-    /// order. That of the kept one is 1; no other kept one occurs.
+    /// order. Where the kept ones are standard parameters, that of the kept one is 1, and no other
+    /// kept one occurs.
     pub terms: Vec<(usize, Expr<'g>)>,
+    /// Standard parameters that have this base parameter 1 and all others 0, by their places: the
+    /// kept one alone, or those of a moment of 1 in another frame. Its column of Y_base is their sum in
+    /// the full regressor.
+    pub unit: Vec<(usize, Expr<'g>)>,
 }
 
 impl<'g> BaseParameter<'g> {
+    /// The column of the full regressor that is this one's; `None` for a moment in another frame.
+    #[must_use]
+    pub fn full_column(&self) -> Option<usize> {
+        (!matches!(self.kept.quantity, Quantity::Moment(_))).then_some(self.column)
+    }
+
     /// The name: that of the kept parameter, with an R where others are regrouped under it, as in
     /// `ZZR_2`.
     #[must_use]
@@ -65,10 +86,16 @@ impl<'g> BaseParameter<'g> {
         format!("{}{}_{}", quantity.symbol(), self.mark(), link + 1)
     }
 
-    /// `R` where other parameters are regrouped under the kept one.
+    /// `R` where other parameters are regrouped under the kept one; under a moment, those of other links
+    /// or of drives.
     #[must_use]
     pub fn mark(&self) -> &'static str {
-        if self.terms.len() > 1 { "R" } else { "" }
+        let own = |place: usize| place / LINK_PARAMETERS == self.column / LINK_PARAMETERS;
+        let regrouped = match self.kept.quantity {
+            Quantity::Moment(_) => self.terms.iter().any(|(place, _)| !own(*place)),
+            _ => self.terms.len() > 1,
+        };
+        if regrouped { "R" } else { "" }
     }
 }
 
@@ -94,13 +121,16 @@ impl<'g> BaseParameters<'g> {
     }
 
     /// Standard parameters that have these base parameters, one of many: the kept ones have their
-    /// values, the others are `zero`.
+    /// values, the others are 0.
     #[must_use]
-    pub fn representative<T: Copy>(&self, base: &[T], zero: T) -> Vec<T> {
-        let mut standard = vec![zero; self.standard.len()];
+    pub fn representative(&self, base: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let zero = |(_, value): &(_, Expr<'g>)| value.graph().zero();
+        let mut standard: Vec<Expr<'g>> = self.standard.iter().map(zero).collect();
         for (parameter, value) in self.base.iter().zip(base) {
-            if let Some(place) = standard.get_mut(parameter.column) {
-                *place = *value;
+            for (place, figure) in &parameter.unit {
+                if let Some(sum) = standard.get_mut(*place) {
+                    *sum += *figure * *value;
+                }
             }
         }
         standard
@@ -113,13 +143,15 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
     if out_of_reach(derivation.robot).is_some() {
         return None;
     }
-    let mechanism = &derivation.mechanism;
-    let standard = standard_parameters(mechanism);
+    let reframed = base_frames(derivation);
+    let frames = reframed.as_ref().map(|reframed| reframed.frames.as_slice());
+    let standard = standard_parameters(&derivation.mechanism);
+    let mechanism = reframed.as_ref().map_or(&derivation.mechanism, |moved| &moved.mechanism);
     let parameters: Vec<StandardParameter> =
         standard.iter().map(|(parameter, _)| *parameter).collect();
     let joints: Vec<Joint<'g>> = mechanism.links.iter().map(Joint::new).collect();
     let conditions = told::conditions(mechanism, &joints);
-    let mut kept = regroup::regroup(mechanism, &joints, &conditions, &parameters);
+    let mut kept = regroup::regroup(mechanism, &joints, &conditions, &parameters, frames);
     let one = scalar::Scalar::new(mechanism.graph.one());
     let friction = parameters.iter().enumerate();
     let friction = friction.filter(|(_, parameter)| !regroup::is_inertial(parameter.quantity));
@@ -130,19 +162,55 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
         kept = shared::reduced(derivation, &kept);
     }
     let rounded = kept.len() < before;
-    let base = |(column, form): Kept<'g>| BaseParameter {
-        column,
-        kept: parameters[column],
-        terms: form.into_iter().map(|(place, figure)| (place, tidied(figure.expr))).collect(),
+    let base = |(column, form): Kept<'g>| {
+        let terms = form.into_iter().map(|(place, figure)| (place, tidied(figure.expr))).collect();
+        let (kept, unit) = kept_parameter(mechanism, column, parameters[column], frames);
+        BaseParameter { column, kept, terms, unit }
     };
-    Some(BaseParameters { base: kept.into_iter().map(base).collect(), standard, rounded })
+    let base = kept.into_iter().map(base).collect();
+    Some(BaseParameters { base, standard, rounded, frames: derivation.robot.base_frames })
+}
+
+/// What is kept at a place, and the standard parameters that a unit of it is.
+fn kept_parameter<'g>(
+    mechanism: &Mechanism<'g>,
+    column: usize,
+    parameter: StandardParameter,
+    frames: Option<&[WorkingFrame<'g>]>,
+) -> (StandardParameter, Vec<(usize, Expr<'g>)>) {
+    let StandardParameter { link, quantity } = parameter;
+    match (quantity, frames.and_then(|frames| frames.get(link))) {
+        (Quantity::Link(place), Some(frame)) => {
+            let figures = moments::unit_in_file(frame, place).into_iter().enumerate();
+            let unit = figures.map(|(place, figure)| (LINK_PARAMETERS * link + place, figure));
+            let unit = unit.filter(|(_, figure)| !figure.is_zero()).collect();
+            (StandardParameter { link, quantity: Quantity::Moment(place) }, unit)
+        }
+        _ => (parameter, vec![(column, mechanism.graph.one())]),
+    }
+}
+
+/// The mechanism in the frames over which the robot's base parameters are, where they are not the
+/// file's.
+pub(crate) fn base_frames<'g>(derivation: &Derivation<'_, 'g>) -> Option<Reframed<'g>> {
+    match derivation.robot.base_frames {
+        BaseFrames::File => None,
+        BaseFrames::DenavitHartenberg => Reframed::denavit_hartenberg(&derivation.mechanism),
+    }
 }
 
 /// Why the base parameters of a robot cannot be found: its joints share coordinates, and lengths,
 /// angles, gravity or ratios are parameters, so that the rank at states with given figures proves
-/// nothing.
+/// nothing; or they are to be over frames of Denavit and Hartenberg, and a joint axis is a parameter.
 #[must_use]
 pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
+    let is_free = |link: &Link| link.joint.axis.iter().any(|axis| axis.symbols().next().is_some());
+    if robot.base_frames == BaseFrames::DenavitHartenberg && robot.links.iter().any(is_free) {
+        return Some(
+            "a joint axis depends on parameters, and frames of Denavit and Hartenberg are along it; take \
+             base_frames = \"file\", or give the axis figures",
+        );
+    }
     (has_shared_coordinates(robot) && has_free_geometry(robot)).then_some(
         "joints share a coordinate, and lengths, axes, gravity or ratios are parameters; give them \
          figures",

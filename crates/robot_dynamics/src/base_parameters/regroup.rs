@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use super::echelon::{Echelon, Row};
 use super::joint::Joint;
+use super::moments::{of_moments, to_inertia, to_second, unit_in_frame};
 use super::scalar::Scalar;
 use super::standard::{Quantity, StandardParameter};
 use super::told::DRIVE;
 use crate::body::{FIRST_MOMENT, tensor_place};
+use crate::economical::WorkingFrame;
 use crate::mechanism::{Mechanism, MechanismLink};
 use crate::numeric::LINK_PARAMETERS;
 
@@ -19,11 +21,16 @@ pub(super) type Form<'g> = BTreeMap<usize, Scalar<'g>>;
 pub(super) type Kept<'g> = (usize, Form<'g>);
 
 /// Keeps of the parameters of links, and of the drives' inertias and offsets, as many as are told.
+///
+/// With `frames` of the links, in which the mechanism, its joints and the conditions are, moments are
+/// kept in place of parameters: a kept one is at the place of the parameter of its number. Forms are
+/// of the parameters in the file's frames all the same.
 pub(super) fn regroup<'g>(
     mechanism: &Mechanism<'g>,
     joints: &[Joint<'g>],
     conditions: &[Vec<Row<'g>>],
     standard: &[StandardParameter],
+    frames: Option<&[WorkingFrame<'g>]>,
 ) -> Vec<Kept<'g>> {
     let one = Scalar::new(mechanism.graph.one());
     // Per link, what has come together at each place.
@@ -34,16 +41,35 @@ pub(super) fn regroup<'g>(
     for (column, parameter) in standard.iter().enumerate() {
         if is_inertial(parameter.quantity) {
             let place = parameter.quantity.place();
-            gathered[parameter.link][place].insert(column, one);
+            let frame = frames.and_then(|frames| frames.get(parameter.link));
+            match frame.filter(|_| place < LINK_PARAMETERS) {
+                Some(frame) => {
+                    let figures = unit_in_frame(frame, place);
+                    for (form, figure) in gathered[parameter.link].iter_mut().zip(figures) {
+                        add(form, &Form::from([(column, one)]), Scalar::new(figure));
+                    }
+                }
+                None => {
+                    gathered[parameter.link][place].insert(column, one);
+                }
+            }
             columns[parameter.link][place] = Some(column);
         }
     }
     let mut kept = vec![];
     for (index, link) in mechanism.links.iter().enumerate().rev() {
-        let order: Vec<usize> =
-            preference(link).into_iter().filter(|place| columns[index][*place].is_some()).collect();
-        let row = |row: &Row<'g>| order.iter().map(|place| row[*place]).collect();
-        let told = Echelon::of(conditions[index].iter().map(row));
+        let order: Vec<usize> = preference(link, frames.is_some())
+            .into_iter()
+            .filter(|place| columns[index][*place].is_some())
+            .collect();
+        let told = conditions[index].iter().map(|row| {
+            let row = if frames.is_some() { of_moments(row) } else { row.clone() };
+            order.iter().map(|place| row[*place]).collect()
+        });
+        let told = Echelon::of(told);
+        if frames.is_some() {
+            to_second(&mut gathered[index], one);
+        }
         // What is not told, as a body without effect but on the carrier.
         let mut rest = gathered[index].clone();
         for (pivot, row) in told.rows {
@@ -56,6 +82,9 @@ pub(super) fn regroup<'g>(
             add(&mut rest[place], &regrouped, -one);
             add(&mut regrouped, &gathered[index][place], one);
             kept.extend(columns[index][place].map(|column| (column, regrouped)));
+        }
+        if frames.is_some() {
+            to_inertia(&mut rest, one);
         }
         let Some(parent) = link.parent else { continue };
         for (place, form) in rest.iter().take(LINK_PARAMETERS).enumerate() {
@@ -90,20 +119,22 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
 
 /// The places in the order in which they are kept: of those that the driving forces cannot tell
 /// apart, the first. The recursion computes the first seven of a rotation, the first four of a
-/// translation.
-fn preference(link: &MechanismLink<'_>) -> Vec<usize> {
+/// translation. Of second moments it is that along the axis which a rotation does not tell, of inertia
+/// tensors one across it.
+fn preference(link: &MechanismLink<'_>, second: bool) -> Vec<usize> {
     let size = |component: usize| Scalar::new(link.axis.0[component]).size();
     let z = [0, 1].into_iter().fold(2, |best, k| if size(k) > size(best) { k } else { best });
     let (x, y) = ((z + 1) % 3, (z + 2) % 3);
     let tensor = tensor_place;
     let first = |component: usize| FIRST_MOMENT + component;
-    let of_tensor = [tensor(z, z), tensor(x, x), tensor(x, y), tensor(x, z), tensor(y, z)];
+    let (kept, left) = if second { (y, z) } else { (z, y) };
+    let of_tensor = [tensor(kept, kept), tensor(x, x), tensor(x, y), tensor(x, z), tensor(y, z)];
     let mut order = if link.is_revolute() {
         let told = of_tensor.into_iter().chain([first(x), first(y)]);
-        told.chain([tensor(y, y), first(z), 0]).collect()
+        told.chain([tensor(left, left), first(z), 0]).collect()
     } else {
         let moments = [0, first(0), first(1), first(2)].into_iter();
-        moments.chain(of_tensor).chain([tensor(y, y)]).collect::<Vec<usize>>()
+        moments.chain(of_tensor).chain([tensor(left, left)]).collect::<Vec<usize>>()
     };
     order.extend(DRIVE.map(Quantity::place));
     order

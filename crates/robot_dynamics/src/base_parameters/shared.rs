@@ -4,7 +4,7 @@ use robot_symbolic::{Expr, Number, SymbolId, walk};
 
 use super::regroup::{Kept, add};
 use super::scalar::Scalar;
-use crate::functions::{Derivation, standard_columns};
+use crate::functions::{Derivation, base_columns};
 use crate::numeric::random::Random;
 
 /// The seed of the states.
@@ -74,7 +74,7 @@ fn norm(column: &[f64]) -> f64 {
 /// The columns of the kept parameters at states enough to tell them apart, a few of them at rest.
 fn sampled<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Vec<f64>> {
     let graph = derivation.mechanism.graph;
-    let all = standard_columns(derivation);
+    let all = base_columns(derivation);
     let rows = derivation.mechanism.degrees_of_freedom;
     let entries: Vec<Expr<'g>> = kept.iter().flat_map(|(column, _)| all[*column].clone()).collect();
     let states = 3 * kept.len() / rows.max(1) + 12;

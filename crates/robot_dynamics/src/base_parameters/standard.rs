@@ -12,6 +12,10 @@ pub enum Quantity {
     /// One of the link's ten: m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz, with the first
     /// moment h and the tensor I about the origin of the link's frame, in its axes; kg, kg m, kg m².
     Link(usize),
+    /// One of the link's ten in frames of Denavit and Hartenberg, of which base parameters may be made
+    /// ([`BaseFrames`](crate::model::BaseFrames)): m, h_x, h_y, h_z, and the second moments
+    /// Σ_xx = ∫ x² dm, Σ_xy, Σ_yy, Σ_xz, Σ_yz, Σ_zz.
+    Moment(usize),
     /// The drive's inertia reflected to the joint, kg m² or kg.
     ReflectedInertia,
     /// Viscous friction, N m s/rad or N s/m.
@@ -30,6 +34,10 @@ pub enum Quantity {
 /// The names of a link's ten parameters, as Khalil and Dombre have them.
 const NAMES: [&str; LINK_PARAMETERS] = ["M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ"];
 
+/// The same where the last six are second moments.
+const MOMENTS: [&str; LINK_PARAMETERS] =
+    ["M", "MX", "MY", "MZ", "SXX", "SXY", "SYY", "SXZ", "SYZ", "SZZ"];
+
 impl Quantity {
     /// Those of a drive.
     pub const DRIVE: [Quantity; 6] = [
@@ -46,6 +54,7 @@ impl Quantity {
     pub fn symbol(self) -> &'static str {
         match self {
             Quantity::Link(place) => NAMES.get(place).copied().unwrap_or_default(),
+            Quantity::Moment(place) => MOMENTS.get(place).copied().unwrap_or_default(),
             Quantity::ReflectedInertia => "IA",
             Quantity::ViscousFriction => "FV",
             Quantity::ForwardFriction => "FP",
@@ -59,9 +68,10 @@ impl Quantity {
     #[must_use]
     pub fn meaning(self) -> &'static str {
         match self {
-            Quantity::Link(0) => "mass",
-            Quantity::Link(1..=3) => "first moment",
+            Quantity::Link(0) | Quantity::Moment(0) => "mass",
+            Quantity::Link(1..=3) | Quantity::Moment(1..=3) => "first moment",
             Quantity::Link(_) => "moment of inertia",
+            Quantity::Moment(_) => "second moment",
             Quantity::ReflectedInertia => "reflected inertia",
             Quantity::ViscousFriction => "viscous friction",
             Quantity::ForwardFriction => "forward friction",
@@ -74,7 +84,7 @@ impl Quantity {
     /// The place among the quantities that inertias and positions are told by.
     pub(super) fn place(self) -> usize {
         match self {
-            Quantity::Link(place) => place,
+            Quantity::Link(place) | Quantity::Moment(place) => place,
             Quantity::RotorCoupling => LINK_PARAMETERS + 1,
             Quantity::ReflectedInertia => LINK_PARAMETERS + 2,
             _ => LINK_PARAMETERS,
@@ -122,7 +132,7 @@ pub fn standard_parameters<'g>(mechanism: &Mechanism<'g>) -> Vec<(StandardParame
 fn drive_figure<'g>(link: &MechanismLink<'g>, quantity: Quantity) -> Expr<'g> {
     let friction = &link.friction;
     match quantity {
-        Quantity::Link(_) => link.mass.graph().zero(),
+        Quantity::Link(_) | Quantity::Moment(_) => link.mass.graph().zero(),
         Quantity::ReflectedInertia => link.reflected_inertia,
         Quantity::ViscousFriction => friction.viscous,
         Quantity::ForwardFriction => friction.coulomb_positive,

@@ -33,6 +33,7 @@ pub(super) fn robot(
         description: draft.description,
         gravity: draft.gravity,
         snap: draft.snap,
+        base_frames: draft.base_frames,
         parameters: parameters.0,
         coordinates: Vec::new(),
         links: Vec::new(),

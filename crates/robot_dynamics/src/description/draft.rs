@@ -7,7 +7,7 @@ use robot_symbolic::{Formula, Rational};
 use super::locations::{BodyLocation, FrameLocation, LinkLocation};
 use super::reader::Named;
 use crate::diagnostic::Span;
-use crate::model::{Body, Drive, Friction, JointKind, Placement, Wrench};
+use crate::model::{BaseFrames, Body, Drive, Friction, JointKind, Placement, Wrench};
 
 /// What a file says of a robot.
 #[derive(Clone)]
@@ -17,6 +17,7 @@ pub(super) struct Draft {
     pub(super) gravity: [Formula; 3],
     pub(super) gravity_place: Option<Span>,
     pub(super) snap: Option<f64>,
+    pub(super) base_frames: BaseFrames,
     pub(super) links: Vec<DraftLink>,
     pub(super) frames: Vec<DraftFrame>,
     pub(super) payload: Option<DraftPayload>,

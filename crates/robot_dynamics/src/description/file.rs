@@ -10,12 +10,13 @@ use super::frames::tables;
 use super::names::Kind;
 use super::placement::zero;
 use super::reader::{Named, Reader};
-use super::shape::{LINK, ROBOT, ROBOT_FILE};
+use super::shape::{BASE_FRAMES, LINK, ROBOT, ROBOT_FILE};
 use super::table::{Table, Value};
 use super::value::quantity;
 use super::{budget, dh, frames, link, parameters, payload, syntax, tree, wanted};
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::mechanism::MechanismOptions;
+use crate::model::BaseFrames;
 
 /// The format that this reader reads.
 const FORMAT: i64 = 1;
@@ -50,9 +51,18 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     if !complete {
         return None;
     }
-    let Head { name, description, gravity, gravity_place, snap } = head;
-    let mut draft =
-        Draft { name, description, gravity, gravity_place, snap, links, frames, payload };
+    let Head { name, description, gravity, gravity_place, snap, base_frames } = head;
+    let mut draft = Draft {
+        name,
+        description,
+        gravity,
+        gravity_place,
+        snap,
+        base_frames,
+        links,
+        frames,
+        payload,
+    };
     let order = tree::order(reader, &mut draft)?;
     Some(Lowered { draft, order, parameters, wanted, budgets })
 }
@@ -86,6 +96,7 @@ struct Head {
     gravity: [Formula; 3],
     gravity_place: Option<Span>,
     snap: Option<f64>,
+    base_frames: BaseFrames,
 }
 
 /// Reads `[robot]`.
@@ -97,6 +108,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
         gravity: [zero(), zero(), Formula::number(&down)],
         gravity_place: None,
         snap: None,
+        base_frames: BaseFrames::File,
     };
     let entry = root.require(reader, "robot", "[robot]");
     let Some(mut table) = entry.and_then(|entry| reader.table(entry.value, &ROBOT)) else {
@@ -113,6 +125,10 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
         head.gravity_place = Some(entry.value.span());
     }
     head.snap = table.get("snap").and_then(|entry| snap(reader, entry.value));
+    if let Some(entry) = table.get("base_frames") {
+        let word = reader.word(entry.value, "frames of base parameters", BASE_FRAMES);
+        head.base_frames = word.and_then(BaseFrames::from_name).unwrap_or_default();
+    }
     table.finish(reader);
     head
 }

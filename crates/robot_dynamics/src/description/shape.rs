@@ -4,6 +4,7 @@
 //! format is made of the same shapes.
 
 use crate::functions::ALL_FUNCTIONS;
+use crate::model::BaseFrames;
 
 /// A table of the file.
 #[derive(Debug)]
@@ -106,6 +107,9 @@ pub const CONVENTIONS: &[&str] = &["standard", "modified"];
 /// Points that a tensor is about.
 pub const POINTS: &[&str] = &["center_of_mass", "origin"];
 
+/// Frames of base parameters.
+pub const BASE_FRAMES: &[&str] = &[BaseFrames::File.name(), BaseFrames::DenavitHartenberg.name()];
+
 /// Names that may be variables in code, as a regular expression.
 pub const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]{0,63}$";
 /// Names of links, joints and frames, as a regular expression.
@@ -161,6 +165,11 @@ pub static ROBOT: Shape = Shape {
             "snap",
             Number,
             "Constant angles within this many radians of a multiple of pi/2 become that multiple; 1e-9 where it is left out.",
+        ),
+        key(
+            "base_frames",
+            Word(BASE_FRAMES),
+            "Over which parameters of links the base parameters are: first moments and inertia tensors in the file's frames, which is so where it is left out, or first and second moments in frames of Denavit and Hartenberg.",
         ),
     ],
 };

@@ -78,15 +78,15 @@ pub(crate) struct Base<'g> {
 
 /// What a plan may not exceed, from the robot's own size.
 #[derive(Clone, Copy, Debug)]
-struct Limits {
+pub(super) struct Limits {
     /// How far an origin may be shifted along its axis, m.
-    shift: f64,
+    pub(super) shift: f64,
     /// Mass, first and second moment of a residual.
     residual: [f64; 3],
 }
 
 impl Limits {
-    fn of(mechanism: &Mechanism<'_>) -> Limits {
+    pub(super) fn of(mechanism: &Mechanism<'_>) -> Limits {
         let size = |expr: Expr<'_>| expr.as_number().map_or(0.0, |number| number.to_f64().abs());
         let links = &mechanism.links;
         let mass: f64 = links.iter().map(|link| size(link.mass)).sum();

@@ -11,6 +11,9 @@ use crate::vector::{Matrix, Vector};
 /// Axes closer to parallel than this sine squared have no common normal worth dividing by.
 const NEARLY_PARALLEL: f64 = 1e-4;
 
+/// Axes whose sine squared is not above this are parallel but for rounding.
+const PARALLEL: f64 = 1e-24;
+
 /// A frame fixed to a link.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WorkingFrame<'g> {
@@ -31,17 +34,19 @@ pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFr
         let parent_axis = link.parent.map(|parent| frames[parent].axes.column(2));
         let flipped = parent_axis.is_some_and(|parent| parent == -axis);
         let z = if flipped { -link.axis } else { link.axis };
-        let axes = axes_about(z)?;
+        let known = z.0.iter().all(|component| component.as_number().is_some());
+        let axes = if known { axes_about(z)? } else { return None };
         frames.push(WorkingFrame { axes, origin: Vector::zero(mechanism.graph), flipped });
     }
     Some(frames)
 }
 
 /// A right-handed triad with the given z; a permutation of the coordinate axes where z is one.
-fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
+///
+/// `None` where it depends on parameters.
+pub(crate) fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     let graph = z.0[0].graph();
-    let numbers = z.0.map(|component| component.as_number().map(|number| number.to_f64()));
-    let [Some(a), Some(b), Some(c)] = numbers else {
+    let [Some(a), Some(b), Some(c)] = z.0.map(figure) else {
         return None;
     };
     let unit = Matrix::identity(graph);
@@ -66,6 +71,38 @@ fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     };
     let y = z.cross(x);
     Some(Matrix([x, y, z].map(|axis| axis.0)).transpose())
+}
+
+/// The value of a constant.
+fn figure(expr: Expr<'_>) -> Option<f64> {
+    let value = expr.evaluate(|_| f64::NAN);
+    value.is_finite().then_some(value)
+}
+
+/// How far from a link's origin, along its joint axis, the common normal meets it with the axis of its
+/// parent's joint: the one through the parent's origin where the axes are parallel. All in frames of the
+/// file with z along the joint axes, but for the parent's origin, which is in its frame in the file.
+///
+/// `None` where that depends on parameters, is farther than `farthest`, or the axes are so close to
+/// parallel that the normal has no sure place.
+pub(crate) fn normal_with_parent<'g>(
+    link: &MechanismLink<'g>,
+    axes: Matrix<'g>,
+    parent_axes: Matrix<'g>,
+    parent_origin: Vector<'g>,
+    farthest: f64,
+) -> Option<Expr<'g>> {
+    let back = axes.transpose() * link.rotation.transpose();
+    let direction = back * parent_axes.column(2);
+    let point = back * (parent_origin - link.translation);
+    let axis = Axis { direction, point, has_place: true };
+    let sine_squared = figure(axis.sine_squared())?;
+    let foot = match sine_squared {
+        ..=PARALLEL => Some(point.0[2]),
+        ..=NEARLY_PARALLEL => None,
+        _ => Some(axis.foot()),
+    };
+    foot.filter(|foot| figure(*foot).is_none_or(|foot| foot.abs() <= farthest))
 }
 
 /// Places the working frames as the plan says, from the base outward; origins that would lie farther
@@ -201,11 +238,19 @@ impl<'g> Axis<'g> {
 
     /// Where the common normal with the z axis meets it.
     fn foot_on_z(&self) -> Option<Expr<'g>> {
-        let (Vector([ex, ey, ez]), Vector([_, _, z])) = (self.direction, self.point);
-        let sine_squared = ex * ex + ey * ey;
-        let size = sine_squared.as_number()?.to_f64();
-        let foot = z - ez * self.point.dot(self.direction);
-        (size > NEARLY_PARALLEL).then(|| foot / sine_squared)
+        let size = self.sine_squared().as_number()?.to_f64();
+        (size > NEARLY_PARALLEL).then(|| self.foot())
+    }
+
+    fn sine_squared(&self) -> Expr<'g> {
+        let Vector([x, y, _]) = self.direction;
+        x * x + y * y
+    }
+
+    /// The same where the axes are known not to be parallel.
+    fn foot(&self) -> Expr<'g> {
+        let along = self.direction.0[2] * self.point.dot(self.direction);
+        (self.point.0[2] - along) / self.sine_squared()
     }
 
     /// Sine and cosine of the turn about z that puts x along the common normal.

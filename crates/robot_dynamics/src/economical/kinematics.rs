@@ -144,7 +144,8 @@ impl<'g> Recursion<'g> {
         vectors.into_iter().flat_map(|vector| vector.0).collect()
     }
 
-    fn ways(&self) -> Ways<'_, 'g> {
+    /// Ways through the axes of parallel groups, as `angle_sum` has it for motions.
+    pub(super) fn ways(&self) -> Ways<'_, 'g> {
         Ways::new(&self.chain, |index| self.plans[index].angle_sum)
     }
 }

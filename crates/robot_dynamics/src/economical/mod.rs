@@ -25,6 +25,7 @@ mod outward;
 pub mod pin;
 pub mod plan;
 mod posture;
+mod reframed;
 mod regressor;
 mod rotation;
 pub mod search;
@@ -37,13 +38,15 @@ use crate::mechanism::Mechanism;
 use crate::vector::Vector;
 use chain::{Base, Chain};
 pub use derivatives::TorqueDerivatives;
+pub(crate) use frames::WorkingFrame;
 use inward::TipWrench;
 pub use kinematics::Pose;
 use outward::{Accelerations, LinkState};
 use plan::LinkPlan;
 pub use plan::Plan;
+pub(crate) use reframed::Reframed;
 pub use regressor::{Column, RegressorColumns};
-pub(crate) use regressor::{unit_rotor, unit_wrenches};
+pub(crate) use regressor::{regressor, unit_rotor, unit_wrenches};
 pub(crate) use spatial::Wrench;
 
 /// The economical recursion of a mechanism under a plan: its links in working frames, with

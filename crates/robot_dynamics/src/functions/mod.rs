@@ -22,7 +22,7 @@ mod sharing;
 pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
 pub use kind::FunctionKind;
 pub use plans::search_plan;
-pub(crate) use regressor::standard_columns;
+pub(crate) use regressor::base_columns;
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use crate::economical::{Plan, Recursion};

@@ -59,6 +59,8 @@ impl FunctionKind {
                 | FunctionKind::Gravity
                 | FunctionKind::ForwardKinematics
                 | FunctionKind::LinkWrenches
+                | FunctionKind::Regressor
+                | FunctionKind::RegressorBase
                 | FunctionKind::BaseParameters
         )
     }
@@ -72,8 +74,6 @@ impl FunctionKind {
                 | FunctionKind::Energies
                 | FunctionKind::CoriolisMatrix
                 | FunctionKind::InverseDynamicsDerivatives
-                | FunctionKind::Regressor
-                | FunctionKind::RegressorBase
         ) || self.chooses_accelerations()
     }
 

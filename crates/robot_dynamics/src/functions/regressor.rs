@@ -4,11 +4,13 @@ use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output, plain};
 use crate::base_parameters::{
-    BaseParameter, BaseParameters, Quantity, StandardParameter, base_parameters,
+    BaseParameter, BaseParameters, Quantity, StandardParameter, base_frames, base_parameters,
     standard_parameters,
 };
-use crate::economical::{Column, RegressorColumns};
+use crate::body::Moments;
+use crate::economical::{self, Column, RegressorColumns};
 use crate::mechanism::MechanismLink;
+use crate::model::BaseFrames;
 use crate::numeric::LINK_PARAMETERS;
 
 /// Y with Y π = τ.
@@ -30,7 +32,7 @@ pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
 /// Y over the base parameters.
 pub(super) fn regressor_base<'g>(derivation: &Derivation<'_, 'g>) -> Option<Function<'g>> {
     let base = base_parameters(derivation)?;
-    let columns = standard_columns(derivation);
+    let columns = base_columns(derivation);
     let kept: Vec<&Column<'g>> =
         base.base.iter().filter_map(|parameter| columns.get(parameter.column)).collect();
     let doc = [
@@ -38,10 +40,15 @@ pub(super) fn regressor_base<'g>(derivation: &Derivation<'_, 'g>) -> Option<Func
          parameters that determine the driving forces: they are Y β. Without wrenches, and without the \
          dry friction that grows with the contact force."
             .to_owned(),
-        format!(
-            "Its columns are those of the full regressor at {}.",
-            columns_and_names(&base).join(", ")
-        ),
+        match base.frames {
+            BaseFrames::File => format!(
+                "Its columns are those of the full regressor at {}.",
+                columns_and_names(&base).join(", ")
+            ),
+            BaseFrames::DenavitHartenberg => {
+                format!("Its columns are those of {}. {OF_DENAVIT_HARTENBERG}", names(&base))
+            }
+        },
     ];
     Some(function(derivation, FunctionKind::RegressorBase, &doc, &kept))
 }
@@ -49,15 +56,17 @@ pub(super) fn regressor_base<'g>(derivation: &Derivation<'_, 'g>) -> Option<Func
 /// β of the base parameters, from the file's parameters.
 pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Function<'g>> {
     let base = base_parameters(derivation)?;
-    let names: Vec<String> = base.base.iter().map(BaseParameter::name).collect();
-    let names = format!("In the order {}.", names.join(", "));
+    let mut order = format!("In the order {}.", names(&base));
+    if base.frames == BaseFrames::DenavitHartenberg {
+        order = format!("{order} {OF_DENAVIT_HARTENBERG}");
+    }
     let doc = [
         "The base parameters β, which times the regressor over them are the driving forces: each an \
          inertial or drive parameter, with R where others are regrouped under it. XX to ZZ are entries \
          of a link's inertia tensor about the origin of its frame, MX to MZ its first moment, M its mass; \
          IA is a drive's reflected inertia, FV, FP and FN its friction, FO its offset, IC the coupling of \
          its rotor.",
-        &names,
+        &order,
     ];
     let values = base.nominal();
     Some(derivation.of_kind(
@@ -72,6 +81,18 @@ pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Functio
             values,
         )],
     ))
+}
+
+/// Over which parameters of links a base set is that is not in the file's frames.
+const OF_DENAVIT_HARTENBERG: &str = "They are over frames of Denavit and Hartenberg: of each link z is the \
+    joint axis, and the origin lies on it where the common normal with the axis of the parent's joint \
+    meets it, through the parent's origin where the axes are parallel, at the file's where there is no \
+    parent or no rotation; x is the file's as near as that allows. There SXX, SXY, SYY, SXZ, SYZ, SZZ \
+    are the second moments ∫ x² dm, ∫ x y dm and so on, MX, MY, MZ the first.";
+
+/// The names of the base parameters, in their order.
+fn names(base: &BaseParameters<'_>) -> String {
+    base.base.iter().map(BaseParameter::name).collect::<Vec<_>>().join(", ")
 }
 
 /// The columns of base parameters in the full regressor, and their names.
@@ -142,16 +163,32 @@ fn drive_meaning(
 }
 
 /// The columns of the full regressor, one for each of [`standard_parameters`].
-pub(crate) fn standard_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Column<'g>> {
+fn standard_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Column<'g>> {
+    let columns = economical::regressor(&derivation.mechanism, Moments::Inertia);
+    with_drives(derivation, &columns.unwrap_or_else(|| plain::regressor(derivation)))
+}
+
+/// The columns from which those of the base parameters are taken: at a base parameter's `column` lies
+/// its own.
+pub(crate) fn base_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Column<'g>> {
+    let columns = base_frames(derivation)
+        .and_then(|reframed| economical::regressor(&reframed.mechanism, Moments::Second));
+    match columns {
+        Some(columns) => with_drives(derivation, &columns),
+        None => standard_columns(derivation),
+    }
+}
+
+/// Those of the links with those of the drives.
+fn with_drives<'g>(
+    derivation: &Derivation<'_, 'g>,
+    RegressorColumns { links, rotors }: &RegressorColumns<'g>,
+) -> Vec<Column<'g>> {
     let mechanism = &derivation.mechanism;
-    let recursion = derivation.recursion.as_ref();
-    let RegressorColumns { links, rotors } = recursion
-        .and_then(|recursion| recursion.regressor(mechanism))
-        .unwrap_or_else(|| plain::regressor(derivation));
     let column = |(place, (parameter, _)): (usize, (StandardParameter, Expr<'g>))| {
         let link = &mechanism.links[parameter.link];
         match parameter.quantity {
-            Quantity::Link(_) => links[place].clone(),
+            Quantity::Link(_) | Quantity::Moment(_) => links[place].clone(),
             Quantity::RotorCoupling => rotors[parameter.link].clone(),
             quantity => drive_column(link, quantity, mechanism.degrees_of_freedom),
         }
@@ -173,7 +210,7 @@ fn drive_column<'g>(
         Quantity::ForwardFriction => (sign * sign + sign) / 2,
         Quantity::BackwardFriction => (sign - sign * sign) / 2,
         Quantity::Offset => graph.one(),
-        Quantity::Link(_) | Quantity::RotorCoupling => graph.zero(),
+        Quantity::Link(_) | Quantity::Moment(_) | Quantity::RotorCoupling => graph.zero(),
     };
     let mut column = vec![graph.zero(); coordinates];
     column[link.coordinate] = share * link.ratio;

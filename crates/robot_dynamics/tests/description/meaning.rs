@@ -3,7 +3,7 @@
 use robot_dynamics::description::{Budget, Code, Limit, MAX_BUNDLES, check_bundle_name};
 use robot_dynamics::diagnostic::code;
 use robot_dynamics::functions::{FunctionKind, Functions};
-use robot_dynamics::model::{JointKind, Move, Robot};
+use robot_dynamics::model::{BaseFrames, JointKind, Move, Robot};
 use robot_dynamics::numeric::Mechanism;
 use robot_dynamics::numeric::random::Random;
 use robot_symbolic::{Formula, Rational};
@@ -321,4 +321,16 @@ fn bundles_have_names_of_their_own() {
     let many = format!("[code.bundles]\n{}\n", many.join("\n"));
     let found = errors(&arm(&format!("{}{many}", revolute("1", ""))));
     assert_eq!(found.iter().next().unwrap().code, code::LIMIT, "{found}");
+}
+
+#[test]
+fn frames_of_base_parameters_are_chosen_by_a_word() {
+    let text = |line: &str| arm(&format!("{line}\n{}", revolute("1", "")));
+    assert_eq!(read(&text("")).robot.base_frames, BaseFrames::File);
+    for frames in BaseFrames::ALL {
+        let line = format!("base_frames = \"{}\"", frames.name());
+        assert_eq!(read(&text(&line)).robot.base_frames, frames);
+    }
+    let found = errors(&text("base_frames = \"dh\""));
+    assert_eq!(found.iter().next().unwrap().code, code::UNKNOWN_WORD, "{found}");
 }

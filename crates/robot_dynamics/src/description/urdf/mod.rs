@@ -26,6 +26,7 @@ use super::reader::{Named, Reader};
 use super::wanted::Wanted;
 use super::{Lowered, tree};
 use crate::diagnostic::{Diagnostic, code, quote};
+use crate::model::BaseFrames;
 use element::{Element, JOINT, ROBOT};
 use joint::UrdfJoint;
 use link::UrdfLink;
@@ -50,6 +51,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
         gravity: [zero(), zero(), Formula::number(&down)],
         gravity_place: None,
         snap: None,
+        base_frames: BaseFrames::File,
         links: connected.links,
         frames: Vec::new(),
         payload: None,

@@ -1,0 +1,73 @@
+//! Base parameters over second moments: from a link's parameters in the file's frame to first and second
+//! moments in another frame, and back.
+
+use robot_symbolic::Expr;
+
+use super::echelon::Row;
+use super::regroup::{Form, add};
+use super::scalar::Scalar;
+use crate::body::{Body, ENTRIES, Moments, TENSOR};
+use crate::economical::WorkingFrame;
+use crate::numeric::LINK_PARAMETERS;
+
+/// Per tensor of six figures by place: those on the diagonal.
+fn is_diagonal(place: usize) -> bool {
+    ENTRIES.get(place).is_some_and(|(row, column)| row == column)
+}
+
+/// The ten parameters of a body in a frame, of a unit of one of them in the file's.
+pub(super) fn unit_in_frame<'g>(
+    frame: &WorkingFrame<'g>,
+    parameter: usize,
+) -> [Expr<'g>; LINK_PARAMETERS] {
+    let unit = Body::unit(frame.origin.0[0].graph(), parameter);
+    unit.about(-frame.origin).turned(frame.axes.transpose()).parameters()
+}
+
+/// The ten parameters in the file's frame of a body that has a unit of one moment in another.
+pub(super) fn unit_in_file<'g>(
+    frame: &WorkingFrame<'g>,
+    moment: usize,
+) -> [Expr<'g>; LINK_PARAMETERS] {
+    let unit = Body::unit(frame.origin.0[0].graph(), moment);
+    let body = Body { tensor: Moments::Inertia.of_second(unit.tensor), ..unit };
+    body.turned(frame.axes).about(frame.origin).parameters()
+}
+
+/// A linear function of a body's parameters as one of its moments: with I = tr(Σ) 1 − Σ, f(Σ_xx) is
+/// f(I_yy) + f(I_zz) and f(Σ_xy) is −f(I_xy).
+pub(super) fn of_moments<'g>(function: &Row<'g>) -> Row<'g> {
+    let mut row = function.clone();
+    for place in 0..ENTRIES.len() {
+        let others = (0..ENTRIES.len()).filter(|other| is_diagonal(*other) && *other != place);
+        row[TENSOR + place] = match is_diagonal(place) {
+            true => others.map(|other| function[TENSOR + other]).reduce(|a, b| a + b),
+            false => None,
+        }
+        .unwrap_or_else(|| -function[TENSOR + place]);
+    }
+    row
+}
+
+/// Forms of a body's parameters to forms of its moments: Σ = tr(I)/2 1 − I.
+pub(super) fn to_second<'g>(forms: &mut [Form<'g>], one: Scalar<'g>) {
+    exchange(forms, one, one / Scalar::integer(one, 2));
+}
+
+/// Forms of a body's moments to forms of its parameters: I = tr(Σ) 1 − Σ.
+pub(super) fn to_inertia<'g>(forms: &mut [Form<'g>], one: Scalar<'g>) {
+    exchange(forms, one, one);
+}
+
+/// A symmetric tensor to its trace times `share`, less itself.
+fn exchange<'g>(forms: &mut [Form<'g>], one: Scalar<'g>, share: Scalar<'g>) {
+    let mut trace = Form::new();
+    for place in (0..ENTRIES.len()).filter(|place| is_diagonal(*place)) {
+        add(&mut trace, &forms[TENSOR + place], share);
+    }
+    for place in 0..ENTRIES.len() {
+        let mut form = if is_diagonal(place) { trace.clone() } else { Form::new() };
+        add(&mut form, &forms[TENSOR + place], -one);
+        forms[TENSOR + place] = form;
+    }
+}
