@@ -7,9 +7,11 @@ mod common;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use robot_build::{Options, Source, generate};
+use robot_build::{FunctionKind, Functions, Options, Source, generate};
 use robot_document::{EquationOptions, Form, equations};
 use robot_dynamics::description::{MAX_BYTES, read_toml};
+use robot_dynamics::economical::search::{Measure, search};
+use robot_dynamics::mechanism::MechanismOptions;
 use robot_symbolic::print::latex::Trigonometry;
 
 fn source(text: String) -> Source {
@@ -55,6 +57,36 @@ fn sixty_four_joints_end_in_code() {
     assert!(code.contains("pub const DOF: usize = 64;"));
     let found = read_toml("robot.toml", &chain(65)).unwrap_err().to_string();
     assert!(found.contains("at most 64"), "{found}");
+}
+
+/// Where nothing is pinned commands search a plan: for a long chain not to the end.
+#[test]
+fn a_search_over_sixty_four_joints_ends_early() {
+    let robot = robot_build::read(&source(chain(64))).unwrap().robot;
+    let options = MechanismOptions::ROUNDED;
+    let found = timed("search over 64 joints", || search(&robot, &options, Measure::Operations));
+    let found = found.unwrap();
+    println!("{} forms, {} operations", found.tried, found.operations);
+    assert!(found.cut_short && found.plan.fits(64));
+    let short = robot_build::read(&source(chain(3))).unwrap().robot;
+    assert!(!search(&short, &options, Measure::Operations).unwrap().cut_short);
+}
+
+/// All functions of 64 joints are millions of expressions: that is said, without making them.
+#[test]
+fn all_functions_of_sixty_four_joints_are_refused() {
+    let file = source(chain(64));
+    for functions in [
+        Functions::All,
+        Functions::Chosen(vec![FunctionKind::ForwardDynamicsDerivatives]),
+        Functions::Chosen(vec![FunctionKind::InverseDynamicsDerivatives]),
+    ] {
+        let options = Options { functions: functions.clone(), ..Options::default() };
+        let found = timed(&format!("{functions:?} of 64 joints"), || generate(&file, &options));
+        let message = found.unwrap_err().to_string();
+        assert!(message.contains("more than 500000 expressions"), "{message}");
+        assert!(message.contains("choose fewer functions"), "{message}");
+    }
 }
 
 /// 1 MiB of expressions: a mass of as many products as a file holds.

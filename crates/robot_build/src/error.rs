@@ -69,15 +69,13 @@ pub enum Error {
     },
     /// Functions of more expressions than code is made of.
     #[error(
-        "{name}: the functions are {nodes} expressions, at most {limit} become code; choose fewer \
+        "{name}: the functions are more than {limit} expressions, which do not become code; choose fewer \
          functions, or give figures as numbers where the file has long expressions"
     )]
     TooLarge {
         /// The robot file.
         name: String,
-        /// The expressions of the functions.
-        nodes: usize,
-        /// How many there may be.
+        /// How many expressions there may be.
         limit: usize,
     },
     /// A file that cannot be read or written.

@@ -87,17 +87,15 @@ pub(crate) fn programs_under(
     let base_frames = options.base_frames.unwrap_or(robot.base_frames);
     let robot = Robot { base_frames, ..robot };
     let (functions, bundles) = options.functions_of(&robot)?;
-    let graph = Graph::new();
+    let graph = Graph::limited(MAX_NODES);
     let plan = plan_of(&robot, options);
     if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
         return Err(Errors::from(Error::Plan { name: name.to_owned() }));
     }
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
     let specification = specification::module(&derivation, &functions, &bundles);
-    let nodes = graph.len();
-    if nodes > MAX_NODES {
-        let limit = MAX_NODES;
-        return Err(Errors::from(Error::TooLarge { name: name.to_owned(), nodes, limit }));
+    if graph.is_full() {
+        return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit: MAX_NODES }));
     }
     let module = Module::compile(&specification, codegen)
         .map_err(|errors| Errors::of_code(name, &errors))?;

@@ -13,12 +13,15 @@ pub(crate) fn module<'g>(
     bundles: &[Bundle],
 ) -> ModuleSpec<'g> {
     let robot = derivation.robot;
+    // A graph that is full holds nothing of use: the caller says so.
+    let is_full = || derivation.mechanism.graph.is_full();
     ModuleSpec {
         name: robot.name.to_lowercase(),
         doc: module_doc(robot),
         parameters: robot.parameters.iter().map(parameter).collect(),
         functions: functions
             .iter()
+            .filter(|_| !is_full())
             .flat_map(|kind| derivation.functions(*kind))
             .chain(bundles.iter().map(|bundle| derivation.bundle(bundle)))
             .map(function)

@@ -51,25 +51,39 @@ impl<'g> SymmetricMatrix<'g> {
     /// 6.5). A division per row whose pivot is not constant, no branch: A is taken for positive
     /// definite.
     #[must_use]
-    pub fn solve(mut self, mut right: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        let mut reciprocals = right.clone();
+    pub fn solve(self, right: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        self.solve_all(vec![right]).into_iter().flatten().collect()
+    }
+
+    /// As [`SymmetricMatrix::solve`], for several right sides, with one factorisation.
+    #[must_use]
+    pub fn solve_all(mut self, mut right: Vec<Vec<Expr<'g>>>) -> Vec<Vec<Expr<'g>>> {
+        let mut reciprocals: Vec<Expr<'g>> = vec![];
         for pivot in (0..self.order).rev() {
-            let reciprocal = right[pivot].graph().one() / self.at(pivot, pivot);
-            reciprocals[pivot] = reciprocal;
-            let known = right[pivot];
-            for (row, value) in right.iter_mut().enumerate().take(pivot) {
+            let diagonal = self.at(pivot, pivot);
+            let reciprocal = diagonal.graph().one() / diagonal;
+            reciprocals.push(reciprocal);
+            for row in 0..pivot {
                 let factor = self.at(pivot, row) * reciprocal;
-                *value -= factor * known;
+                for side in &mut right {
+                    side[row] = side[row] - factor * side[pivot];
+                }
                 for column in 0..=row {
                     self.add(row, column, -(factor * self.at(pivot, column)));
                 }
             }
         }
+        reciprocals.reverse();
+        right.into_iter().map(|side| self.outward(&reciprocals, &side)).collect()
+    }
+
+    /// The solution from the first row to the last, once the matrix is L below D.
+    fn outward(&self, reciprocals: &[Expr<'g>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut solution: Vec<Expr<'g>> = vec![];
-        for row in 0..self.order.min(right.len()) {
+        for (row, (value, reciprocal)) in right.iter().zip(reciprocals).enumerate() {
             let known = solution.iter().enumerate();
-            let rest = known.fold(right[row], |rest, (column, x)| rest - self.at(row, column) * *x);
-            solution.push(rest * reciprocals[row]);
+            let rest = known.fold(*value, |rest, (column, x)| rest - self.at(row, column) * *x);
+            solution.push(rest * *reciprocal);
         }
         solution
     }

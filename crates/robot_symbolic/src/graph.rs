@@ -136,6 +136,8 @@ pub(crate) enum Folding {
 pub struct Graph {
     inner: RefCell<Inner>,
     atoms: RefCell<AtomTable>,
+    /// The most nodes that operations may make; `None` without limit.
+    limit: Option<usize>,
 }
 
 #[derive(Default)]
@@ -160,6 +162,22 @@ impl Graph {
     #[must_use]
     pub fn new() -> Graph {
         Graph::default()
+    }
+
+    /// An empty graph that operations fill up to so many nodes: a derivation that is too long ends soon,
+    /// without memory for what nobody can use.
+    ///
+    /// Where the graph [is full](Graph::is_full), operations give one of their operands in place of a new
+    /// node, so that nothing that was derived means anything.
+    #[must_use]
+    pub fn limited(nodes: usize) -> Graph {
+        Graph { limit: Some(nodes), ..Graph::default() }
+    }
+
+    /// Whether the limit of the graph was reached: its expressions are of no use then.
+    #[must_use]
+    pub fn is_full(&self) -> bool {
+        self.limit.is_some_and(|limit| self.len() >= limit)
     }
 
     /// The symbol of that name, the same at each call.
@@ -310,6 +328,8 @@ impl Graph {
     pub(crate) fn intern(&self, node: Node) -> Id {
         let mut inner = self.inner.borrow_mut();
         let Inner { nodes, index, .. } = &mut *inner;
+        let is_full = self.limit.is_some_and(|limit| nodes.len() >= limit);
+        let instead = if is_full { node.operands().next() } else { None };
         let hash = |node: &Node| FxBuildHasher.hash_one(node);
         let entry = index.entry(
             hash(&node),
@@ -319,11 +339,35 @@ impl Graph {
         match entry {
             hashbrown::hash_table::Entry::Occupied(known) => Id(*known.get()),
             hashbrown::hash_table::Entry::Vacant(free) => {
+                if let Some(operand) = instead {
+                    return operand;
+                }
                 let id = nodes.len() as u32;
                 free.insert(id);
                 nodes.push(node);
                 Id(id)
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Graph;
+
+    #[test]
+    fn a_limited_graph_fills_up_and_says_so() {
+        let (limited, free) = (Graph::limited(50), Graph::new());
+        let grown = |graph: &Graph| {
+            let x = graph.symbol("x");
+            (1..100).fold(x, |sum, k| sum * x + graph.symbol(&format!("y{k}")));
+            (graph.len(), graph.is_full())
+        };
+        let (nodes, is_full) = grown(&limited);
+        // Symbols are made past the limit, operations are not.
+        assert!(is_full && (50..=50 + 100).contains(&nodes), "{nodes}");
+        let (nodes, is_full) = grown(&free);
+        assert!(!is_full && nodes > 200, "{nodes}");
+        assert!(!Graph::limited(50).is_full());
     }
 }

@@ -45,8 +45,12 @@ impl Arguments {
         };
         writeln!(
             terminal.output,
-            "{}: {} multiplications and additions, {} with multiply-adds; the best of {} forms\n",
-            robot.name, found.operations, found.instructions, found.tried
+            "{}: {} multiplications and additions, {} with multiply-adds; the best of {} forms{}\n",
+            robot.name,
+            found.operations,
+            found.instructions,
+            found.tried,
+            if found.cut_short { ", and the robot is too long to try more" } else { "" }
         )?;
         let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
         write!(terminal.output, "{}", text::table(&rows(&found.plan, &names)))?;

@@ -21,6 +21,12 @@ const MAX_SWEEPS: usize = 6;
 const DESCENTS: usize = 2;
 /// Plans after which no new descent begins.
 const MAX_TRIES: usize = 3000;
+/// Operations, summed over the candidates, after which a search ends with the best plan so far: the time
+/// of a search goes with them. The longest arms of seven joints take some two million and a second;
+/// chains of dozens of joints end here, in about the same time.
+const MAX_WORK: usize = 2_500_000;
+/// The same for searches that count several functions, of which each may be ten times as long.
+const MAX_WORK_FOR: usize = 40 * MAX_WORK;
 
 /// What a search minimises.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,6 +61,9 @@ pub struct Found {
     pub instructions: usize,
     /// How many plans were generated and counted.
     pub tried: usize,
+    /// Whether the search ended early, for the length of the mechanism: then it is the best plan that
+    /// was met, and others were not tried.
+    pub cut_short: bool,
 }
 
 /// What a search counts and checks of a candidate.
@@ -123,6 +132,7 @@ pub fn search_for(
     let of_mechanism: ObjectiveOf<'_, '_> = &|recursion| objective(&mechanism, recursion);
     let reference = of_mechanism(&Recursion::from_base(&mechanism, &base, &file)).checked;
     let mut search = Search::new(robot, &mechanism, &base, of_mechanism, &reference);
+    search.max_work = MAX_WORK_FOR;
     Some(search.run(scope))
 }
 
@@ -164,6 +174,8 @@ struct Search<'m, 'g> {
     reference: Vec<Vec<f64>>,
     measure: Measure,
     tried: usize,
+    work: usize,
+    max_work: usize,
 }
 
 impl<'m, 'g> Search<'m, 'g> {
@@ -181,8 +193,18 @@ impl<'m, 'g> Search<'m, 'g> {
         let states: Vec<Vec<f64>> =
             (0..4).map(|state| test_state(state, graph.symbol_count())).collect();
         let reference = states.iter().map(|state| evaluate(reference, state)).collect();
-        let measure = Measure::Operations;
-        Search { mechanism, base, objective, parameters, states, reference, measure, tried: 0 }
+        Search {
+            mechanism,
+            base,
+            objective,
+            parameters,
+            states,
+            reference,
+            measure: Measure::Operations,
+            tried: 0,
+            work: 0,
+            max_work: MAX_WORK,
+        }
     }
 
     /// The best of the descents from the cheapest of a few plans, and of further descents from
@@ -202,7 +224,7 @@ impl<'m, 'g> Search<'m, 'g> {
         }
         // Out of a dead end by a few changes at random, from there downhill again.
         let mut steps = Steps(1);
-        while self.tried < MAX_TRIES && !plan.links.is_empty() {
+        while self.tried < MAX_TRIES && !self.is_spent() && !plan.links.is_empty() {
             let kicked = self.kick(scope, &plan, &mut steps);
             let cost = self.cost(&kicked);
             let (cost, candidate) = self.descend(scope, kicked, cost);
@@ -210,10 +232,10 @@ impl<'m, 'g> Search<'m, 'g> {
                 (best, plan) = (cost, candidate);
             }
         }
-        let tried = self.tried;
+        let (tried, cut_short) = (self.tried, self.is_spent());
         let count = self.operations(&self.candidate(&plan).counted);
         let (operations, instructions) = (count.flops(), count.instructions());
-        Found { plan, measure: self.measure, operations, instructions, tried }
+        Found { plan, measure: self.measure, operations, instructions, tried, cut_short }
     }
 
     /// A plan with a few options changed.
@@ -233,8 +255,19 @@ impl<'m, 'g> Search<'m, 'g> {
     }
 
     fn cost(&mut self, plan: &Plan) -> usize {
+        let candidate = self.candidate(plan);
+        self.cost_of(&candidate)
+    }
+
+    fn cost_of(&mut self, candidate: &Objective<'g>) -> usize {
+        let count = self.operations(&candidate.counted);
         self.tried += 1;
-        self.measure.of(&self.operations(&self.candidate(plan).counted))
+        self.work += count.flops();
+        self.measure.of(&count)
+    }
+
+    fn is_spent(&self) -> bool {
+        self.work >= self.max_work
     }
 
     fn operations(&self, roots: &[Expr<'g>]) -> Operations {
@@ -243,9 +276,8 @@ impl<'m, 'g> Search<'m, 'g> {
 
     /// The cost where it is below a bound and the values are right.
     fn better(&mut self, plan: &Plan, bound: usize) -> Option<usize> {
-        self.tried += 1;
         let candidate = self.candidate(plan);
-        let cost = self.measure.of(&self.operations(&candidate.counted));
+        let cost = self.cost_of(&candidate);
         (cost < bound && self.is_accurate(&candidate.checked)).then_some(cost)
     }
 
@@ -303,7 +335,7 @@ impl<'m, 'g> Search<'m, 'g> {
     fn try_link(&mut self, plan: &mut Plan, cost: &mut usize, link: usize, change: &Change) {
         let mut candidate = plan.clone();
         change(&mut candidate.links[link]);
-        if candidate.links[link] == plan.links[link] {
+        if candidate.links[link] == plan.links[link] || self.is_spent() {
             return;
         }
         if let Some(lower) = self.better(&candidate, *cost) {
@@ -314,6 +346,9 @@ impl<'m, 'g> Search<'m, 'g> {
     fn descend_unit(&mut self, plan: &mut Plan, cost: &mut usize) {
         let components = (0..plan.links.len()).flat_map(|link| (0..3).map(move |k| (link, k)));
         for unit in components {
+            if self.is_spent() {
+                return;
+            }
             let candidate = Plan { unit_length: Some(unit), ..plan.clone() };
             if let Some(lower) = self.better(&candidate, *cost) {
                 (*plan, *cost) = (candidate, lower);

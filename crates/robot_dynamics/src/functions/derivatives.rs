@@ -72,26 +72,26 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
     let graph = derivation.mechanism.graph;
     let matrix = mass_matrix::matrix(derivation);
     let order = matrix.order();
-    let columns = |column: &dyn Fn(usize) -> Vec<Expr<'g>>| {
-        let mut solved = SquareMatrix::zero(graph, order);
-        for index in 0..order {
-            for (row, entry) in matrix.clone().solve(column(index)).into_iter().enumerate() {
-                solved.add(row, index, entry);
-            }
-        }
-        solved
-    };
     let negative = |matrix: &SquareMatrix<'g>, column| {
         matrix.column(column).into_iter().map(|entry| -entry).collect()
     };
-    let unit = |column: usize| {
-        (0..order).map(|row| graph.integer(i64::from(row == column))).collect::<Vec<_>>()
+    let unit =
+        |column| (0..order).map(|row| graph.integer(i64::from(row == column))).collect::<Vec<_>>();
+    let sides = (0..order).map(|column| negative(&torques.positions, column));
+    let sides = sides.chain((0..order).map(|column| negative(&torques.velocities, column)));
+    let solved = matrix.solve_all(sides.chain((0..order).map(unit)).collect());
+    let part = |first: usize| {
+        let mut part = SquareMatrix::zero(graph, order);
+        for (column, entries) in solved.iter().skip(first).take(order).enumerate() {
+            for (row, entry) in entries.iter().enumerate() {
+                part.add(row, column, *entry);
+            }
+        }
+        part
     };
     let output = |name, doc, per, matrix: SquareMatrix<'g>| {
         matrix_output(name, doc, &format!("the unit of qdd per {per}"), &matrix)
     };
-    let by_positions = columns(&|column| negative(&torques.positions, column));
-    let by_velocities = columns(&|column| negative(&torques.velocities, column));
     derivation.of_kind(
         FunctionKind::ForwardDynamicsDerivatives,
         &["The derivatives of forward dynamics without friction and wrenches: the entry in row i \
@@ -100,9 +100,9 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
              ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018)."],
         derivation.coordinate_inputs(["q", "qd", "tau"]),
         vec![
-            output("dqdd_dq", "∂q̈/∂q, row by row", "rad or m", by_positions),
-            output("dqdd_dqd", "∂q̈/∂q̇, row by row", "rad/s or m/s", by_velocities),
-            output("dqdd_dtau", "∂q̈/∂τ = M⁻¹, row by row", "N m or N", columns(&unit)),
+            output("dqdd_dq", "∂q̈/∂q, row by row", "rad or m", part(0)),
+            output("dqdd_dqd", "∂q̈/∂q̇, row by row", "rad/s or m/s", part(order)),
+            output("dqdd_dtau", "∂q̈/∂τ = M⁻¹, row by row", "N m or N", part(2 * order)),
         ],
     )
 }
