@@ -5,6 +5,7 @@
 //! three spellings: `\sin q_2`, `s_2` or `c_{23}`, and `sq_2` or `c^2q_5`.
 
 mod lexer;
+mod symbol;
 #[cfg(test)]
 mod tests;
 mod translate;

@@ -5,25 +5,8 @@ use std::ops::Range;
 use super::super::error::ParseError;
 use super::super::{MAX_DEPTH, MAX_TOKENS};
 use super::lexer::{self, FONTS, FRACTIONS, Token};
+use super::symbol::ACCENTS;
 use super::{Infix, Names};
-
-/// Signs over a letter, which are part of the symbol.
-const ACCENTS: [&str; 14] = [
-    r"\bar",
-    r"\hat",
-    r"\tilde",
-    r"\vec",
-    r"\dot",
-    r"\ddot",
-    r"\dddot",
-    r"\check",
-    r"\breve",
-    r"\overline",
-    r"\underline",
-    r"\widehat",
-    r"\widetilde",
-    r"\overrightarrow",
-];
 
 /// Sizes of brackets.
 const SIZES: [&str; 14] = [
@@ -39,6 +22,7 @@ const FUNCTIONS: [(&str, &str); 5] =
 const BRACKETS: [(&str, &str); 4] =
     [("(", ")"), ("[", "]"), (r"\{", r"\}"), (r"\lvert", r"\rvert")];
 
+/// LaTeX in infix text.
 pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseError> {
     let tokens = lexer::tokens(latex);
     if tokens.len() > MAX_TOKENS {
@@ -51,21 +35,22 @@ pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseEr
     Ok(translator.infix)
 }
 
-struct Translator<'t, 'n> {
+/// What is read, and what has been written of it.
+pub(super) struct Translator<'t, 'n> {
     tokens: &'t [Token<'t>],
-    place: usize,
+    pub(super) place: usize,
     depth: usize,
-    names: &'n Names<'n>,
+    pub(super) names: &'n Names<'n>,
     infix: Infix,
 }
 
 impl<'t> Translator<'t, '_> {
-    fn peek(&self) -> &'t str {
+    pub(super) fn peek(&self) -> &'t str {
         self.tokens.get(self.place).map_or("", |token| token.text)
     }
 
     /// The bytes of the token at hand; empty at the end.
-    fn here(&self) -> Range<usize> {
+    pub(super) fn here(&self) -> Range<usize> {
         let end = self.infix.end;
         self.tokens.get(self.place).map_or(end..end, |token| token.span.clone())
     }
@@ -76,12 +61,12 @@ impl<'t> Translator<'t, '_> {
         found
     }
 
-    fn emit(&mut self, text: &str, source: Range<usize>) {
+    pub(super) fn emit(&mut self, text: &str, source: Range<usize>) {
         self.infix.pieces.push((self.infix.text.len(), source));
         self.infix.text.push_str(text);
     }
 
-    fn fault<T>(&self, message: impl Into<String>, help: &str) -> Result<T, ParseError> {
+    pub(super) fn fault<T>(&self, message: impl Into<String>, help: &str) -> Result<T, ParseError> {
         Err(ParseError::new(self.here(), message).help(help))
     }
 
@@ -245,7 +230,7 @@ impl<'t> Translator<'t, '_> {
     }
 
     /// The argument of a command as a sum in brackets: a group, or one token.
-    fn argument(&mut self) -> Result<(), ParseError> {
+    pub(super) fn argument(&mut self) -> Result<(), ParseError> {
         let here = self.here();
         self.deeper()?;
         self.emit("(", here.clone());
@@ -287,7 +272,11 @@ impl<'t> Translator<'t, '_> {
         }
     }
 
-    fn exponent(&mut self, exponent: &str, start: Range<usize>) -> Result<(), ParseError> {
+    pub(super) fn exponent(
+        &mut self,
+        exponent: &str,
+        start: Range<usize>,
+    ) -> Result<(), ParseError> {
         let span = start.start..self.before().max(start.end);
         match exponent.parse::<i64>() {
             Ok(value) if value < 0 => self.emit(&format!("^({value})"), span),
@@ -301,13 +290,13 @@ impl<'t> Translator<'t, '_> {
     }
 
     /// The end of the token before.
-    fn before(&self) -> usize {
+    pub(super) fn before(&self) -> usize {
         let before = self.place.checked_sub(1).and_then(|place| self.tokens.get(place));
         before.map_or(0, |token| token.span.end)
     }
 
     /// The key of a group, or of one letter, digit or command.
-    fn capture(&mut self) -> Result<String, ParseError> {
+    pub(super) fn capture(&mut self) -> Result<String, ParseError> {
         let start = self.place;
         match self.peek() {
             "{" => {
@@ -354,7 +343,7 @@ impl<'t> Translator<'t, '_> {
     }
 
     /// A function of what follows: a bracket, or a symbol with perhaps a number before it.
-    fn applied(
+    pub(super) fn applied(
         &mut self,
         name: &str,
         start: Range<usize>,
@@ -383,136 +372,13 @@ impl<'t> Translator<'t, '_> {
             None => Ok(()),
         }
     }
-
-    /// Whether a symbol or an angle in brackets comes next.
-    fn starts_symbol(&self) -> bool {
-        let text = self.peek();
-        let accented = FONTS.contains(&text) || ACCENTS.contains(&text);
-        accented || text.starts_with(|letter: char| letter.is_ascii_alphabetic()) || is_sign(text)
-    }
-
-    /// A symbol with its indices, or a sine or cosine in a short spelling.
-    fn symbol(&mut self) -> Result<(), ParseError> {
-        let first = self.here();
-        if !(self.starts_symbol() || self.peek() == "{") {
-            return Err(unknown(self.peek(), first));
-        }
-        let base = self.capture()?;
-        let [lower, upper] = self.indices()?;
-        let span = first.start..self.before();
-        let key = match &lower {
-            Some(index) => format!("{base}_{}", index.key),
-            None => base.clone(),
-        };
-        let whole = upper.as_ref().map(|index| format!("{key}^{}", index.key));
-        if let Some(name) = whole.as_ref().and_then(|whole| (self.names)(whole)) {
-            self.emit(&name, span);
-            return Ok(());
-        }
-        let function = match base.as_str() {
-            "s" => "sin",
-            "c" => "cos",
-            _ => "",
-        };
-        let integer = upper.as_ref().is_none_or(|index| index.key.parse::<i64>().is_ok());
-        if !function.is_empty() && integer && (self.names)(&key).is_none() {
-            let exponent = upper.clone().map(|index| (index.key, index.span));
-            match &lower {
-                Some(index) => return self.of_index(function, first, index, exponent),
-                None if self.starts_symbol() || matches!(self.peek(), "(" | r"\left") => {
-                    return self.applied(function, first, exponent);
-                }
-                None => {}
-            }
-        }
-        match upper {
-            Some(index) if integer => {
-                self.name(&key, span);
-                self.exponent(&index.key, index.span)
-            }
-            _ => {
-                self.name(whole.as_ref().unwrap_or(&key), span);
-                Ok(())
-            }
-        }
-    }
-
-    /// The lower and the upper index at hand, in either order.
-    fn indices(&mut self) -> Result<[Option<Index>; 2], ParseError> {
-        let mut indices = [None, None];
-        loop {
-            let here = self.here();
-            let side = match self.peek() {
-                "_" => 0,
-                "^" => 1,
-                _ => return Ok(indices),
-            };
-            if indices.get(side).is_some_and(Option::is_some) {
-                return self.fault("a second index at one symbol", "put the first in brackets");
-            }
-            self.place += 1;
-            let place = self.place;
-            let key = self.capture()?;
-            let index = Some(Index { key, place, span: here.start..self.before() });
-            if let Some(free) = indices.get_mut(side) {
-                *free = index;
-            }
-        }
-    }
-
-    /// `s_2`, `c_{23}`, `s_{\theta}`: a function of the sum of numbered joints, or of an angle.
-    fn of_index(
-        &mut self,
-        function: &str,
-        first: Range<usize>,
-        index: &Index,
-        exponent: Option<(String, Range<usize>)>,
-    ) -> Result<(), ParseError> {
-        match joints(&index.key) {
-            Some(angle) => {
-                self.emit(function, first);
-                self.emit(&format!("({angle})"), index.span.clone());
-            }
-            None => {
-                let after = self.place;
-                self.emit(function, first);
-                self.place = index.place;
-                self.argument()?;
-                self.place = after;
-            }
-        }
-        match exponent {
-            Some((exponent, place)) => self.exponent(&exponent, place),
-            None => Ok(()),
-        }
-    }
-
-    /// The name of a symbol, or a plain one made of its LaTeX.
-    fn name(&mut self, key: &str, span: Range<usize>) {
-        let name = (self.names)(key).unwrap_or_else(|| plain(key));
-        self.emit(&name, span);
-    }
-}
-
-/// An index of a symbol.
-#[derive(Clone)]
-struct Index {
-    key: String,
-    /// Its first token.
-    place: usize,
-    span: Range<usize>,
-}
-
-/// Whether a command is a Greek letter or another sign for a symbol.
-fn is_sign(command: &str) -> bool {
-    command.starts_with('\\') && crate::print::latex::check_name(command).is_ok()
 }
 
 fn first_digit(text: &str) -> Option<&str> {
     text.get(..1).filter(|first| first.as_bytes().iter().all(u8::is_ascii_digit))
 }
 
-fn unknown(text: &str, span: Range<usize>) -> ParseError {
+pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
     let shown: String = text.chars().take(24).flat_map(char::escape_debug).collect();
     let message = match text {
         "" => "the formula ends where something is missing".to_owned(),
@@ -522,41 +388,4 @@ fn unknown(text: &str, span: Range<usize>) -> ParseError {
         "read are symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, brackets, indices \
          and powers",
     )
-}
-
-/// `q2+q3` of `23`, `q2-q3` of `2-3`, `q2+q10` of `2,10`.
-fn joints(index: &str) -> Option<String> {
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    let apart = index.contains(',');
-    let mut angle = String::new();
-    let mut rest = index;
-    while !rest.is_empty() {
-        let minus = rest.starts_with('-');
-        rest = rest.strip_prefix(['-', '+', ',']).unwrap_or(rest);
-        let end = rest.find(['-', '+', ',']).unwrap_or(rest.len());
-        let (numbers, after) = rest.split_at(end);
-        if !digits(numbers) {
-            return None;
-        }
-        let single = !apart && !numbers.contains('0');
-        let count = if single { 1 } else { numbers.len() };
-        for number in 0..numbers.len() / count {
-            let joint = numbers.get(number * count..(number + 1) * count)?;
-            angle.push(if minus && number == 0 { '-' } else { '+' });
-            angle.push('q');
-            angle.push_str(joint);
-        }
-        rest = after;
-    }
-    angle.strip_prefix('+').map(str::to_owned).or((!angle.is_empty()).then_some(angle))
-}
-
-/// A name of the letters and digits of a key.
-fn plain(key: &str) -> String {
-    if key == r"\pi" {
-        return "pi".to_owned();
-    }
-    let name: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
-    let begins = name.starts_with(|first: char| first.is_ascii_alphabetic());
-    if begins && !super::super::is_reserved(&name) { name } else { format!("_{name}") }
 }
