@@ -3,7 +3,7 @@
 use clap::Args;
 use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
-use robot_document::{Equation, Error, Group, typst};
+use robot_document::{Equation, Error, Group, html, typst};
 
 /// The narrowest and the widest line, cm.
 const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
@@ -11,10 +11,10 @@ const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 /// How displayed equations are laid out.
 #[derive(Args)]
 pub(crate) struct LayoutArguments {
-    /// The width of the lines of LaTeX and Typst, such as 8.5cm
+    /// The width of the lines of LaTeX, Typst and MathML, such as 8.5cm
     #[arg(long, value_name = "WIDTH", value_parser = centimetres, default_value = "16cm")]
     width: f64,
-    /// Number the equations of LaTeX and Typst, each with a label such as eq:Q1
+    /// Number the equations; those of LaTeX and Typst get labels such as eq:Q1
     #[arg(long)]
     numbers: bool,
 }
@@ -24,17 +24,25 @@ pub(crate) struct LayoutArguments {
 pub(crate) enum Notation {
     Latex,
     Typst,
+    /// A page of HTML.
+    Mathml,
 }
 
 impl LayoutArguments {
-    /// Displayed equations, a comment before each group where there are several.
-    pub(crate) fn displayed(&self, groups: &[Group], notation: Notation) -> Result<String, Error> {
-        let comment = match notation {
-            Notation::Latex => "%",
-            Notation::Typst => "//",
+    /// Displayed equations, a comment before each group where there are several; a page has the title.
+    pub(crate) fn displayed(
+        &self,
+        title: &str,
+        groups: &[Group],
+        notation: Notation,
+    ) -> Result<String, Error> {
+        let layout = Layout::of_centimetres(self.width);
+        let (comment, print): (_, Print) = match notation {
+            Notation::Latex => ("%", latex::equations),
+            Notation::Typst => ("//", typst::equations),
+            Notation::Mathml => return html::page(title, groups, layout, self.numbers),
         };
         let mut shown = String::new();
-        let layout = Layout::of_centimetres(self.width);
         for group in groups {
             if groups.len() > 1 {
                 shown.push_str(&format!("{comment} {}\n", group.title));
@@ -44,14 +52,14 @@ impl LayoutArguments {
                 equation: equation.clone(),
             };
             let list: Vec<NumberedEquation> = group.equations.iter().map(numbered).collect();
-            shown.push_str(&match notation {
-                Notation::Latex => latex::equations(&list, layout),
-                Notation::Typst => typst::equations(&list, layout),
-            }?);
+            shown.push_str(&print(&list, layout)?);
         }
         Ok(shown)
     }
 }
+
+/// A printer of displayed equations.
+type Print = fn(&[NumberedEquation], Layout) -> Result<String, Error>;
 
 /// `8.5cm` or `8.5`, in centimetres.
 pub(crate) fn centimetres(text: &str) -> Result<f64, String> {

@@ -20,6 +20,12 @@ use crate::order::Order;
 const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
 
+/// What the names mean.
+pub(crate) const NAMES: &str = "XX to ZZ are entries of a link's tensor of inertia about the origin of \
+    its frame, in its axes and with their signs, MX, MY, MZ its first moment, M its mass; IA is a drive's \
+    reflected inertia, FV, FP, FN its friction, FO its offset, IC the coupling of its rotor. The number of \
+    the link follows; an R marks what others are regrouped under.";
+
 /// The base parameters of a robot, written.
 #[derive(Clone, Debug)]
 pub struct BaseSet {
@@ -102,10 +108,9 @@ impl BaseSet {
     /// The formulas as displayed equations, each with the value behind the formula.
     #[must_use]
     pub fn group(&self) -> Group {
-        Group::of_definitions(
-            "Base parameters",
-            self.list.iter().map(BaseEntry::equation).collect(),
-        )
+        let equations = self.list.iter().map(BaseEntry::equation).collect();
+        let group = Group::of_definitions("Base parameters", equations);
+        Group { introduction: NAMES.to_owned(), ..group }
     }
 }
 

@@ -3,7 +3,7 @@
 //! [`forms`] puts the equations of motion in the form that is asked for; each side of an equation is a
 //! [`math::Math`], a layout of pieces that no notation owns. A [`document::Document`] holds headings,
 //! text, tables and equations, still in no notation; [`robot`] fills one from a robot. Each notation
-//! is a printer of its own: [`latex`], [`mathml`], [`typst`]. [`meaning`] goes the way back, from a formula to the expression
+//! is a printer of its own: [`latex`], [`mathml`], [`typst`]; [`html`] makes a page. [`meaning`] goes the way back, from a formula to the expression
 //! that it stands for, so that tests can prove what was printed.
 
 pub mod base;
@@ -11,6 +11,7 @@ pub mod breaking;
 pub mod document;
 mod error;
 pub mod forms;
+pub mod html;
 pub mod latex;
 pub mod math;
 pub mod mathml;

@@ -45,7 +45,12 @@ pub fn formula(math: &Math) -> Markup {
         }
         Math::Accent(accent, inside) => {
             let sign = leaf("mo", above(*accent)).with("stretchy", stretches(*accent));
-            inner("mover", vec![formula(inside), sign]).with("accent", "true")
+            let whole = inner("mover", vec![formula(inside), sign]);
+            // As accents, dots touch the letter in Chromium.
+            match accent {
+                Accent::Dot | Accent::DoubleDot => whole,
+                _ => whole.with("accent", "true"),
+            }
         }
         Math::Styled(style, inside) => styled(*style, inside),
         Math::Fraction(parts) => inner("mfrac", parts.iter().map(formula).collect()),
@@ -63,6 +68,19 @@ pub fn formula(math: &Math) -> Markup {
     }
 }
 
+/// The MathML of a line or a term that goes on with a sum: the sign that it starts with stands between
+/// it and what is before.
+#[must_use]
+pub fn continued(math: &Math) -> Markup {
+    let mut markup = formula(math);
+    if let Content::Elements(parts) = &mut markup.content
+        && let Some(sign) = parts.first_mut().filter(|part| part.name == "mo")
+    {
+        sign.attributes.push(("form", "infix"));
+    }
+    markup
+}
+
 fn leaf(name: &'static str, text: &str) -> Markup {
     Markup { name, attributes: vec![], content: Content::Text(text.to_owned()) }
 }
@@ -72,7 +90,9 @@ fn inner(name: &'static str, elements: Vec<Markup>) -> Markup {
 }
 
 impl Markup {
-    fn with(mut self, name: &'static str, value: &'static str) -> Markup {
+    /// The element with one more attribute.
+    #[must_use]
+    pub fn with(mut self, name: &'static str, value: &'static str) -> Markup {
         self.attributes.push((name, value));
         self
     }
@@ -252,7 +272,7 @@ mod tests {
         let rate = Math::Accent(Accent::DoubleDot, Box::new(Math::Letter('q')));
         assert_eq!(
             shown(&rate.with_lower(Math::integer(2)).with_upper(Math::integer(3))),
-            "<msubsup><mover accent=\"true\"><mi>q</mi><mo stretchy=\"false\">\u{a8}</mo></mover>\
+            "<msubsup><mover><mi>q</mi><mo stretchy=\"false\">\u{a8}</mo></mover>\
              <mn>2</mn><mn>3</mn></msubsup>"
         );
         assert_eq!(

@@ -17,12 +17,8 @@ pub(crate) fn math(formula: &Math) -> Element {
 
 /// A term of a sum: a sign before it stands between it and the term before.
 pub(crate) fn term(pieces: &[Math], is_first: bool) -> Element {
-    let mut markup = mathml::formula(&Math::Row(pieces.to_vec()));
-    if let Content::Elements(parts) = &mut markup.content
-        && let Some(sign) = parts.first_mut().filter(|part| part.name == "mo" && !is_first)
-    {
-        sign.attributes.push(("form", "infix"));
-    }
+    let term = Math::Row(pieces.to_vec());
+    let markup = if is_first { mathml::formula(&term) } else { mathml::continued(&term) };
     holding("math", of_markup(markup))
 }
 

@@ -47,6 +47,8 @@ enum Format {
     Text,
     Latex,
     Typst,
+    /// A page of HTML with formulas in MathML, as browsers set them
+    Mathml,
     Json,
 }
 
@@ -55,11 +57,13 @@ impl Arguments {
         let robot = self.robot.read(terminal)?.robot;
         let failed = |error| failed(&self.robot, &error);
         let set = base(&robot, self.robot.snap()).map_err(failed)?;
-        let displayed = |notation| self.layout.displayed(&[set.group()], notation).map_err(failed);
+        let displayed =
+            |notation| self.layout.displayed(&robot.name, &[set.group()], notation).map_err(failed);
         let shown = match self.format {
             Format::Text => plain(&robot, &set),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
+            Format::Mathml => displayed(Notation::Mathml)?,
             Format::Json => json(&robot, &set),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)

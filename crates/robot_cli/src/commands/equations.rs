@@ -48,6 +48,8 @@ enum Format {
     Text,
     Latex,
     Typst,
+    /// A page of HTML with formulas in MathML, as browsers set them
+    Mathml,
     Json,
 }
 
@@ -58,12 +60,14 @@ impl Arguments {
         let failed = |error| failed(&self.robot, &error);
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
-        let displayed =
-            |notation| self.layout.displayed(&equations.groups, notation).map_err(failed);
+        let displayed = |notation| {
+            self.layout.displayed(&robot.name, &equations.groups, notation).map_err(failed)
+        };
         let shown = match self.format {
             Format::Text => plain(&equations),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
+            Format::Mathml => displayed(Notation::Mathml)?,
             Format::Json => json(&robot.name, &equations),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)

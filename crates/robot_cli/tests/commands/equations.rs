@@ -189,3 +189,24 @@ fn a_symbol_with_the_name_of_a_base_parameter_is_refused() {
     let told = complaint(1, &["equations", path.to_str().unwrap(), "--form", "regrouped"], "");
     assert!(told.contains("has a symbol `ZZR_1` of its own"), "{told}");
 }
+
+#[test]
+fn mathml_is_a_page_of_its_own() {
+    let file = robot("trttr1");
+    let page = output(&["equations", &file, "--form", "grouped", "--format", "mathml"], "");
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"), "{page}");
+    for part in ["<h1>TRTTR1</h1>", "<h2>Mass matrix</h2>", "<math display=\"block\"><mtable "] {
+        assert!(page.contains(part), "{part} is not in {page}");
+    }
+    for outside in ["http", "src=", "href=", "<script"] {
+        assert!(!page.contains(outside), "{outside} is in {page}");
+    }
+    let count = |page: &str| page.matches("<mtr>").count();
+    let narrow = output(
+        &["equations", &file, "--form", "grouped", "--format", "mathml", "--width", "6"],
+        "",
+    );
+    assert!(count(&narrow) > count(&page));
+    let page = output(&["base", &file, "--format", "mathml", "--numbers"], "");
+    assert!(page.contains("<mtext>(20)</mtext>"), "{page}");
+}

@@ -58,13 +58,6 @@ fn introduction(found: &BaseParameters<'_>) -> String {
     )
 }
 
-/// What the names mean.
-const NAMES: &str = "XX to ZZ are entries of a link's tensor of inertia about the origin of its frame, in \
-    its axes and with their signs, MX, MY, MZ its first moment, M its mass; IA is a drive's reflected \
-    inertia, FV, FP, FN its friction, FO its offset, IC the coupling of its rotor. The number of the \
-    link follows; an R marks what others are regrouped under. Parameters that the robot file has as \
-    they are keep their symbols.";
-
 /// The definitions of the standard parameters that are regrouped and of the base parameters, and the
 /// symbols of the base parameters by their columns.
 fn definitions<'g>(
@@ -93,7 +86,10 @@ fn definitions<'g>(
         Group::of_definitions("Base parameters", equations),
     ];
     if let Some(first) = groups.iter_mut().find(|group| !group.equations.is_empty()) {
-        first.introduction = NAMES.to_owned();
+        first.introduction = format!(
+            "{} Parameters that the robot file has as they are keep their symbols.",
+            base::NAMES
+        );
     }
     Ok((groups, symbols))
 }
@@ -140,9 +136,14 @@ fn parameter<'g>(
     }
     let formulas = Formulas { notation: &writer.notation, order: &writer.order };
     let value = formulas.of_polynomial(value)?;
-    let formula = match parameter.terms.len() {
-        1 => value.clone(),
-        _ => formulas.of_parameter(parameter, standard)?,
+    // By the file's own symbols the formula would be the value once more.
+    let is_defined = |(place, _): &(usize, Expr<'g>)| {
+        let written = standard.get(*place).and_then(Option::as_ref);
+        written.is_some_and(|written| writer.notation.is_defined(&written.text))
+    };
+    let formula = match parameter.terms.iter().any(is_defined) {
+        true => formulas.of_parameter(parameter, standard)?,
+        false => value.clone(),
     };
     let (name, right) = (parameter.name(), base::chained(&formula, &value));
     writer.define_parameter(&name, base::look(parameter))?;
