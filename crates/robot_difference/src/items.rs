@@ -1,9 +1,8 @@
 //! What the files of two robots say: parameters, links, joints and frames.
 
-use robot_dynamics::model::{
-    Axis, Body, Frame, Joint, JointKind, Link, Move, Parameter, Payload, Placement, Robot,
-};
-use robot_symbolic::{Formula, Rational, print};
+use robot_document::words;
+use robot_dynamics::model::{Body, Frame, Joint, Link, Move, Parameter, Payload, Placement, Robot};
+use robot_symbolic::{Formula, print};
 
 /// What an item is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,14 +134,9 @@ fn parameter(parameter: &Parameter) -> Item {
     Item { kind: ItemKind::Parameter, name: parameter.name.clone(), properties }
 }
 
-fn carrier(robot: &Robot, link: Option<usize>) -> String {
-    let link = link.and_then(|index| robot.links.get(index));
-    link.map_or("base", |link| &link.name).to_owned()
-}
-
 fn link(robot: &Robot, link: &Link) -> Item {
     let mut properties = vec![
-        named("parent", carrier(robot, link.parent)),
+        named("parent", words::carrier(robot, link.parent).to_owned()),
         named("placement", placement(&link.placement)),
     ];
     for body in &link.bodies {
@@ -171,13 +165,9 @@ fn figures(body: &Body) -> Vec<(String, String)> {
 fn joint(robot: &Robot, link: &Link) -> Item {
     let Link { joint, friction, drive, .. } = link;
     let Joint { kind, axis, coordinate, ratio, offset, .. } = joint;
-    let kind = match kind {
-        JointKind::Revolute => "rotation",
-        JointKind::Prismatic => "translation",
-    };
     let mut properties = vec![
         named("moves", link.name.clone()),
-        named("kind", kind.to_owned()),
+        named("kind", words::motion(*kind).to_owned()),
         named("axis", vector(axis)),
         named("coordinate", format!("q{}", coordinate + 1)),
         named("ratio", formula(ratio)),
@@ -203,7 +193,7 @@ fn joint(robot: &Robot, link: &Link) -> Item {
 
 fn frame(robot: &Robot, frame: &Frame) -> Item {
     let mut properties = vec![
-        named("link", carrier(robot, frame.link)),
+        named("link", words::carrier(robot, frame.link).to_owned()),
         named("placement", placement(&frame.placement)),
     ];
     properties.extend(frame.wrench.as_ref().map(|wrench| {
@@ -227,20 +217,12 @@ fn vector(entries: &[Formula; 3]) -> String {
 
 /// The moves that move anything.
 fn placement(placement: &Placement) -> String {
-    let zero = print::exact_text(&Rational::ZERO);
-    let moves = placement.0.iter().filter_map(|step| match step {
-        Move::Translate(by) if by.iter().all(|entry| formula(entry) == zero) => None,
-        Move::Translate(by) => Some(format!("to {}", vector(by))),
-        Move::Rotate(_, angle) if formula(angle) == zero => None,
+    let one = |step: &Move| match step {
+        Move::Translate(by) => format!("to {}", vector(by)),
         Move::Rotate(axis, angle) => {
-            let axis = match axis {
-                Axis::X => "x",
-                Axis::Y => "y",
-                Axis::Z => "z",
-            };
-            Some(format!("turned about {axis} by {}", formula(angle)))
+            format!("turned about {} by {}", words::axis(*axis), formula(angle))
         }
-    });
-    let moves: Vec<String> = moves.collect();
+    };
+    let moves: Vec<String> = words::moves(placement).map(one).collect();
     if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
 }

@@ -22,6 +22,7 @@ pub mod robot;
 mod signs;
 pub mod typst;
 pub mod width;
+pub mod words;
 
 pub use error::{Centimetres, Error};
 pub use forms::{Equation, EquationOptions, Equations, Form, Group, equations};

@@ -1,5 +1,6 @@
 //! What the robot file says, in tables: joints, masses, parameters.
 
+use robot_document::words;
 use robot_dynamics::model::{Body, Inertia, Link, Parameter, Robot};
 use robot_symbolic::Formula;
 use robot_symbolic::print::exact_text;
@@ -17,12 +18,12 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
                    frame that the ones before it made; lengths in m, angles in rad.";
     let mut table = Table::new(caption, columns);
     for (index, link) in robot.links.iter().enumerate() {
-        let motion = text::motion(link.joint.kind);
+        let motion = words::motion(link.joint.kind);
         let coordinate = robot.coordinates.get(link.joint.coordinate);
         let limits = coordinate.and_then(|coordinate| coordinate.limits.as_ref());
         let limits = limits.map(|limits| limits.each_ref().map(robot_symbolic::Rational::to_f64));
         let cells: [Node; 6] = [
-            parent(robot, link.parent).into(),
+            words::carrier(robot, link.parent).into(),
             link.joint.name.as_str().into(),
             format!("{motion} by {}", position(robot, link)).into(),
             vector(&link.joint.axis).into(),
@@ -47,7 +48,8 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
             let names = wrench.force.iter().chain(&wrench.moment);
             names.map(String::as_str).collect::<Vec<_>>().join(", ")
         });
-        let cells = [parent(robot, frame.link), text::moves(robot, &frame.placement), wrench];
+        let carrier = words::carrier(robot, frame.link).to_owned();
+        let cells = [carrier, text::moves(robot, &frame.placement), wrench];
         let part = frame.link.map_or_else(String::new, parts::link);
         table.row(&part, frame.name.as_str(), cells);
     }
@@ -125,7 +127,7 @@ fn position(robot: &Robot, link: &Link) -> String {
         true => coordinate,
         false => format!("({}) {coordinate}", text::with_value(robot, &joint.ratio)),
     };
-    match text::is_zero(&joint.offset) {
+    match words::is_zero(&joint.offset) {
         true => turned,
         false => format!("{turned} + ({})", text::with_value(robot, &joint.offset)),
     }
@@ -138,9 +140,4 @@ fn vector(components: &[Formula; 3]) -> String {
         Some((name, _)) => (*name).to_owned(),
         None => format!("({})", components.each_ref().map(text::plain).join(", ")),
     }
-}
-
-fn parent(robot: &Robot, link: Option<usize>) -> String {
-    let link = link.and_then(|index| robot.links.get(index));
-    link.map_or_else(|| "base".to_owned(), |link| link.name.clone())
 }

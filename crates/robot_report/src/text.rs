@@ -1,6 +1,7 @@
 //! Values of robot files in words and numbers.
 
-use robot_dynamics::model::{Axis, JointKind, Move, Placement, Robot};
+use robot_document::words;
+use robot_dynamics::model::{Move, Placement, Robot};
 use robot_symbolic::{Formula, Rational};
 
 /// The nominal value of a parameter; NaN where it has none.
@@ -12,11 +13,6 @@ pub(crate) fn nominal(robot: &Robot, name: &str) -> f64 {
 /// The nominal value of a formula; NaN where a parameter of it has none.
 pub(crate) fn value(robot: &Robot, formula: &Formula) -> f64 {
     formula.evaluate(|name| nominal(robot, name))
-}
-
-/// Whether a formula is the number 0.
-pub(crate) fn is_zero(formula: &Formula) -> bool {
-    formula.as_number().is_some_and(|number| number.is_zero())
 }
 
 /// A formula as its text; with its nominal value where that is not the same.
@@ -60,26 +56,16 @@ pub(crate) fn number(value: f64) -> String {
 /// The moves of a placement, those by nothing left out: `move (l4, 0, l3)`, `turn z by π/2`.
 pub(crate) fn moves(robot: &Robot, placement: &Placement) -> String {
     let one = |step: &Move| match step {
-        Move::Translate(by) if by.iter().all(is_zero) => None,
         Move::Translate(by) => {
             let parts = by.each_ref().map(|part| with_value(robot, part));
-            Some(format!("move ({})", parts.join(", ")))
+            format!("move ({})", parts.join(", "))
         }
-        Move::Rotate(_, angle) if is_zero(angle) => None,
         Move::Rotate(axis, angle) => {
-            Some(format!("turn {} by {}", axis_name(*axis), with_value(robot, angle)))
+            format!("turn {} by {}", words::axis(*axis), with_value(robot, angle))
         }
     };
-    let moves: Vec<String> = placement.0.iter().filter_map(one).collect();
+    let moves: Vec<String> = words::moves(placement).map(one).collect();
     if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
-}
-
-/// `rotation` or `translation`.
-pub(crate) fn motion(kind: JointKind) -> &'static str {
-    match kind {
-        JointKind::Revolute => "rotation",
-        JointKind::Prismatic => "translation",
-    }
 }
 
 /// A name with the number at its end below the line: `l₄`.
@@ -96,14 +82,6 @@ pub(crate) fn shortened(text: &str, characters: usize) -> String {
         return text.to_owned();
     }
     text.chars().take(characters.saturating_sub(1)).chain(['…']).collect()
-}
-
-fn axis_name(axis: Axis) -> &'static str {
-    match axis {
-        Axis::X => "x",
-        Axis::Y => "y",
-        Axis::Z => "z",
-    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use robot_build::{FunctionKind, snapping};
+use robot_document::words;
 use robot_dynamics::model::{JointKind, Robot};
 
 use crate::Terminal;
@@ -47,16 +48,17 @@ fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
 fn joints(robot: &Robot) -> Vec<Vec<String>> {
     let mut rows = vec![row(["link", "parent", "joint", "motion", "coordinate", "bodies"])];
     for link in &robot.links {
-        let parent = link.parent.and_then(|parent| robot.links.get(parent));
         let axis: Vec<&str> = link.joint.axis.iter().map(robot_symbolic::Formula::text).collect();
-        let motion = match link.joint.kind {
-            JointKind::Revolute => format!("rotation about ({})", axis.join(", ")),
-            JointKind::Prismatic => format!("translation along ({})", axis.join(", ")),
+        let direction = match link.joint.kind {
+            JointKind::Revolute => "about",
+            JointKind::Prismatic => "along",
         };
+        let motion = words::motion(link.joint.kind);
+        let motion = format!("{motion} {direction} ({})", axis.join(", "));
         let bodies: Vec<&str> = link.bodies.iter().map(|body| body.name.as_str()).collect();
         rows.push(vec![
             link.name.clone(),
-            parent.map_or("base", |parent| &parent.name).to_owned(),
+            words::carrier(robot, link.parent).to_owned(),
             link.joint.name.clone(),
             motion,
             format!("q{}", link.joint.coordinate + 1),

@@ -1,7 +1,7 @@
 //! The tables of links and masses.
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::{Axis, JointKind, Move, Placement, Robot};
+use robot_dynamics::model::{Move, Placement, Robot};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use super::{heading, paragraph};
@@ -9,6 +9,7 @@ use crate::document::{Block, Inline, Table};
 use crate::error::Error;
 use crate::math::Math;
 use crate::notation::Notation;
+use crate::words;
 
 type Cell = Vec<Inline>;
 
@@ -53,21 +54,15 @@ impl Formulas<'_> {
 
     fn placement(&self, placement: &Placement) -> Result<Cell, Error> {
         let mut cell: Cell = vec![];
-        for step in &placement.0 {
+        for step in words::moves(placement) {
             let shown = match step {
-                Move::Translate(vector) if vector.iter().all(is_zero) => continue,
-                Move::Rotate(_, angle) if is_zero(angle) => continue,
                 Move::Translate(vector) => {
                     let Some(Inline::Math(vector)) = self.vector(vector)?.pop() else { continue };
                     Math::Row(vec![Math::Word("T".to_owned()), vector])
                 }
                 Move::Rotate(axis, angle) => {
-                    let letter = match axis {
-                        Axis::X => 'x',
-                        Axis::Y => 'y',
-                        Axis::Z => 'z',
-                    };
-                    let name = Math::Word("R".to_owned()).with_lower(Math::Letter(letter));
+                    let axis = Math::Letter(words::axis(*axis));
+                    let name = Math::Word("R".to_owned()).with_lower(axis);
                     let angle = Box::new(self.math(angle)?);
                     Math::Row(vec![name, Math::Fenced(crate::math::Fence::Parentheses, angle)])
                 }
@@ -79,10 +74,6 @@ impl Formulas<'_> {
         }
         Ok(if cell.is_empty() { vec![Inline::text("none")] } else { cell })
     }
-}
-
-fn is_zero(formula: &Formula) -> bool {
-    formula.as_number().is_some_and(|number| number.is_zero())
 }
 
 fn gravity(robot: &Robot, formulas: &Formulas<'_>) -> Result<Block, Error> {
@@ -97,23 +88,18 @@ fn heads(names: &[&str]) -> Vec<Cell> {
 }
 
 fn carrier(robot: &Robot, link: Option<usize>) -> Cell {
-    let name = link.and_then(|index| robot.links.get(index)).map_or("base", |link| &link.name);
-    vec![Inline::text(name)]
+    vec![Inline::text(words::carrier(robot, link))]
 }
 
 fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     let mut rows = vec![];
     for (index, link) in robot.links.iter().enumerate() {
-        let kind = match link.joint.kind {
-            JointKind::Revolute => "rotation",
-            JointKind::Prismatic => "translation",
-        };
         let name = format!("q{}", link.joint.coordinate + 1);
         rows.push(vec![
             vec![Inline::Math(Math::integer(index + 1))],
             vec![Inline::text(&link.name)],
             carrier(robot, link.parent),
-            vec![Inline::text(kind)],
+            vec![Inline::text(words::motion(link.joint.kind))],
             formulas.vector(&link.joint.axis)?,
             vec![Inline::Math(formulas.notation.symbol(&name)?)],
             formulas.placement(&link.placement)?,

@@ -1,6 +1,7 @@
 //! The drawing of a layout.
 
 use nalgebra::Vector2;
+use robot_document::words;
 use robot_dynamics::model::{JointKind, Robot};
 use robot_symbolic::Formula;
 
@@ -139,7 +140,7 @@ impl<'r> Drawing<'r> {
             JointKind::Revolute => symbols::cylinder(view, origin, axis),
             JointKind::Prismatic => symbols::slider(view, origin, axis, &place.rotation),
         };
-        let motion = text::motion(link.joint.kind);
+        let motion = words::motion(link.joint.kind);
         group
             .with(holding("title", format!("joint {}, {motion}", link.joint.name)))
             .with(symbols::axis(view, origin, axis))
@@ -282,7 +283,7 @@ impl<'r> Drawing<'r> {
             words.push_str(&format!(
                 "Link {} hangs on {carrier} by a {}. ",
                 link.name,
-                text::motion(link.joint.kind)
+                words::motion(link.joint.kind)
             ));
         }
         words.trim_end().to_owned()

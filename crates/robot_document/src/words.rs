@@ -1,0 +1,43 @@
+//! What is said of a robot in tables and lists, in the same words everywhere.
+
+use robot_dynamics::model::{Axis, JointKind, Move, Placement, Robot};
+use robot_symbolic::Formula;
+
+/// The name of the link that carries something, by its index; `base` where no link does.
+#[must_use]
+pub fn carrier(robot: &Robot, link: Option<usize>) -> &str {
+    link.and_then(|index| robot.links.get(index)).map_or("base", |link| &link.name)
+}
+
+/// How a joint moves: `rotation` or `translation`.
+#[must_use]
+pub const fn motion(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "rotation",
+        JointKind::Prismatic => "translation",
+    }
+}
+
+/// `x`, `y` or `z`.
+#[must_use]
+pub const fn axis(axis: Axis) -> char {
+    match axis {
+        Axis::X => 'x',
+        Axis::Y => 'y',
+        Axis::Z => 'z',
+    }
+}
+
+/// Whether a formula is the number 0.
+#[must_use]
+pub fn is_zero(formula: &Formula) -> bool {
+    formula.as_number().is_some_and(|number| number.is_zero())
+}
+
+/// The moves of a placement but for those by nothing.
+pub fn moves(placement: &Placement) -> impl Iterator<Item = &Move> {
+    placement.0.iter().filter(|step| match step {
+        Move::Translate(by) => !by.iter().all(is_zero),
+        Move::Rotate(_, angle) => !is_zero(angle),
+    })
+}
