@@ -14,7 +14,7 @@ use robot_document::{EquationOptions, Equations, Form, equations};
 use robot_dynamics::description::read_toml;
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
+use robot_dynamics::model::{BaseFrames, Robot};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
 use robot_dynamics::quantity::Kind;
 use robot_symbolic::print::latex::Trigonometry;
@@ -160,6 +160,14 @@ fn every_form_of_every_robot_reads_back_as_the_program() {
         for form in Form::ALL {
             check(&robot, &in_form(form), &[8.2, 16.0]);
         }
+    }
+}
+
+#[test]
+fn moments_in_other_frames_read_back_as_the_program() {
+    for robot in robots() {
+        let robot = Robot { base_frames: BaseFrames::DenavitHartenberg, ..robot };
+        check(&robot, &in_form(Form::Regrouped), &[16.0]);
     }
 }
 

@@ -5,32 +5,60 @@ use serde_json::Value;
 
 use crate::{complaint, folder, output, robot};
 
-fn base(name: &str) -> Value {
-    serde_json::from_str(&output(&["base", &robot(name), "--format", "json"], "")).unwrap()
+fn base(name: &str, frames: &str) -> Value {
+    let robot = robot(name);
+    let arguments = ["base", &robot, "--format", "json", "--base-frames", frames];
+    serde_json::from_str(&output(&arguments, "")).unwrap()
+}
+
+/// The formula of a base parameter says what its figures say, and both read back.
+fn hold(entry: &Value) {
+    let parse = |text: &Value| Formula::parse(text.as_str().unwrap()).unwrap();
+    parse(&entry["value"]);
+    // A number of its own for each name: the figures are the formula's.
+    let value = |name: &str| name.bytes().fold(0.5, |sum, byte| sum * 0.7 + f64::from(byte));
+    let formula = parse(&entry["formula"]).evaluate(value);
+    let figures = entry["figures"].as_object().unwrap().iter();
+    let sum: f64 = figures.map(|(name, figure)| parse(figure).evaluate(value) * value(name)).sum();
+    assert!((formula - sum).abs() <= 1e-9 * sum.abs(), "{entry}");
 }
 
 #[test]
 fn formulas_and_values_read_back() {
     for (name, count) in [("puma560", 36), ("trttr1", 20), ("planar_3r", 9)] {
-        let set = base(name);
+        let set = base(name, "file");
         let list = set["base"].as_array().unwrap();
         assert_eq!(list.len(), count, "{name}");
         for entry in list {
-            let parse = |text: &Value| Formula::parse(text.as_str().unwrap()).unwrap();
-            parse(&entry["value"]);
-            // A number of its own for each name: the figures are the formula's.
-            let value =
-                |name: &str| name.bytes().fold(0.5, |sum, byte| sum * 0.7 + f64::from(byte));
-            let formula = parse(&entry["formula"]).evaluate(value);
-            let figures = entry["figures"].as_object().unwrap().iter();
-            let sum: f64 =
-                figures.map(|(name, figure)| parse(figure).evaluate(value) * value(name)).sum();
-            assert!((formula - sum).abs() <= 1e-9 * sum.abs(), "{name}: {entry}");
+            hold(entry);
             let kept =
                 set["standard"][entry["column"].as_u64().unwrap() as usize].as_str().unwrap();
             assert_eq!(entry["name"].as_str().unwrap().replacen("R_", "_", 1), kept);
             assert_eq!(entry["figures"][kept], "1");
         }
+    }
+}
+
+#[test]
+fn moments_in_other_frames_are_written_in_the_parameters_of_the_file() {
+    for (name, count) in [("puma560", 36), ("trttr1", 20), ("planar_3r", 9)] {
+        let set = base(name, "denavit_hartenberg");
+        assert_eq!(set["frames"], "denavit_hartenberg");
+        let list = set["base"].as_array().unwrap();
+        assert_eq!(list.len(), count, "{name}");
+        for entry in list {
+            hold(entry);
+            let drive = entry["name"].as_str().unwrap().starts_with(['F', 'I']);
+            assert_eq!(entry["column"].is_null(), !drive, "{name}: {entry}");
+        }
+    }
+    let shown = output(&["base", &robot("planar_2r"), "--base-frames", "denavit_hartenberg"], "");
+    for line in [
+        "planar_2r: 6 base parameters of 20, moments in frames of Denavit and Hartenberg",
+        "MXR_1 = MX_1 + l1*M_2",
+        "SYY_2 = ZZ_2",
+    ] {
+        assert!(shown.lines().any(|shown| shown == line), "{line} is not in {shown}");
     }
 }
 

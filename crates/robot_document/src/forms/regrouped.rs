@@ -1,8 +1,9 @@
 //! The regrouped form: Q = Y(q, q̇, q̈) β, linear in the base parameters.
 
-use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity};
+use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, StandardParameter};
 use robot_dynamics::functions::FunctionKind;
 use robot_dynamics::mechanism::MechanismFriction;
+use robot_dynamics::model::BaseFrames;
 use robot_symbolic::{Expr, Polynomial};
 
 use super::coefficients::{
@@ -58,6 +59,12 @@ fn introduction(found: &BaseParameters<'_>) -> String {
     )
 }
 
+/// What the names of base parameters mean where they are moments in other frames.
+const MOMENTS: &str = "In the names of base parameters SXX is the second moment ∫ x² dm of a link, SXY ∫ x y dm \
+    and so on, MX, MY, MZ the first moment, in frames of Denavit and Hartenberg: z is the joint axis, and \
+    the origin lies on it where the common normal with the axis of the parent's joint meets it; a D marks one \
+    that differs from the file's of the same name beside it.";
+
 /// The definitions of the standard parameters that are regrouped and of the base parameters, and the
 /// symbols of the base parameters by their columns.
 fn definitions<'g>(
@@ -86,8 +93,12 @@ fn definitions<'g>(
         Group::of_definitions("Base parameters", equations),
     ];
     if let Some(first) = groups.iter_mut().find(|group| !group.equations.is_empty()) {
+        let moments = match found.frames {
+            BaseFrames::File => String::new(),
+            BaseFrames::DenavitHartenberg => format!(" {MOMENTS}"),
+        };
         first.introduction = format!(
-            "{} Parameters that the robot file has as they are keep their symbols.",
+            "{}{moments} Parameters that the robot file has as they are keep their symbols.",
             base::NAMES
         );
     }
@@ -145,12 +156,28 @@ fn parameter<'g>(
         true => formulas.of_parameter(parameter, standard)?,
         false => value.clone(),
     };
-    let (name, right) = (parameter.name(), base::chained(&formula, &value));
-    writer.define_parameter(&name, base::look(parameter))?;
+    let (mut name, mut look) = (parameter.name(), base::look(parameter));
+    if let Some(known) = standard.iter().flatten().find(|known| known.text == name) {
+        if is_itself(parameter, known, standard) {
+            return Ok(writer.graph.symbol(&name));
+        }
+        // Of a link's moment in another frame and the parameter of the same name in the file's.
+        let StandardParameter { link, quantity } = parameter.kept;
+        name = format!("{}D_{}", quantity.symbol(), link + 1);
+        look = base::shape(quantity, "D", link);
+    }
+    let right = base::chained(&formula, &value);
+    writer.define_parameter(&name, look)?;
     let left = writer.notation.symbol(&name)?;
     let symbol = writer.graph.symbol(&name);
     equations.push(Equation { name, text: formula.text, left, right });
     Ok(symbol)
+}
+
+/// Whether a base parameter is the standard one of its name.
+fn is_itself(parameter: &BaseParameter<'_>, known: &Written, standard: &[Option<Written>]) -> bool {
+    let [(place, figure)] = parameter.terms.as_slice() else { return false };
+    figure.is_one() && standard.get(*place).is_some_and(|one| one.as_ref() == Some(known))
 }
 
 /// The symbol that a value is, where it is no more.
