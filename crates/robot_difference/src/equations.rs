@@ -19,6 +19,13 @@ const LIMITS: PolynomialOptions = PolynomialOptions {
     max_products: 1_000_000,
 };
 
+/// Driving forces that are too long after which no further one is expanded: joints farther inward have
+/// longer ones.
+const MAX_REFUSED: usize = 3;
+/// Why it is not.
+const FARTHER_OUT: &str =
+    "it is not expanded, for three driving forces farther out are too long already";
+
 /// A driving force whose terms differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Equation {
@@ -43,14 +50,26 @@ pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation
     let [of_a, of_b] = &options.code;
     let (before, after) = (forces(a, &graph, of_a.snap), forces(b, &graph, of_b.snap));
     let count = before.len().max(after.len());
-    let pairs = (0..count).map(|place| (place, [before.get(place), after.get(place)]));
-    let equations = pairs.map(|(place, pair)| Equation {
-        name: format!("{}{}", Kind::DrivingForce.name(), place + 1),
-        terms: terms(pair.map(Option::<&Expr<'_>>::copied)).map_err(|error| reason(&error)),
-    });
+    let (mut equations, mut refused) = (vec![], 0);
+    for place in (0..count).rev() {
+        let pair = [before.get(place), after.get(place)].map(Option::<&Expr<'_>>::copied);
+        // Equal expressions of one graph are one node: nothing is to be expanded.
+        if pair[0] == pair[1] {
+            continue;
+        }
+        let terms = match refused {
+            MAX_REFUSED => Err(FARTHER_OUT.to_owned()),
+            _ => terms(pair).map_err(|error| reason(&error)),
+        };
+        refused += usize::from(terms.is_err() && refused < MAX_REFUSED);
+        if terms.as_ref().is_ok_and(Vec::is_empty) {
+            continue;
+        }
+        let name = format!("{}{}", Kind::DrivingForce.name(), place + 1);
+        equations.push(Equation { name, terms });
+    }
+    equations.reverse();
     equations
-        .filter(|one| one.terms.as_ref().is_ok_and(|terms| !terms.is_empty()) || one.terms.is_err())
-        .collect()
 }
 
 fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g>> {
@@ -77,10 +96,6 @@ fn reason(error: &PolynomialError) -> Refusal {
 type Powers = Vec<(Id, i32)>;
 
 fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
-    // Equal expressions of one graph are one node: nothing is to be expanded.
-    if pair[0] == pair[1] {
-        return Ok(vec![]);
-    }
     let mut texts: BTreeMap<Powers, (String, [Option<Number>; 2])> = BTreeMap::new();
     for (side, expr) in pair.into_iter().enumerate() {
         let Some(expr) = expr else { continue };

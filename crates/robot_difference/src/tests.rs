@@ -122,3 +122,31 @@ fn an_equation_that_is_too_long_says_so() {
     );
     assert!(!found.is_none());
 }
+
+/// Sixty-four joints end soon: what is longer than what is too long already is not tried.
+#[test]
+fn long_chains_are_compared_soon() {
+    let chain = |mass: &str| {
+        let link = |number: usize| {
+            let axis = ["x", "y", "z"][number % 3];
+            format!(
+                "[[link]]\nname = \"{number}\"\njoint = {{ type = \"revolute\", axis = \"{axis}\" }}\n\
+                 origin = {{ xyz = [0.1, 0.2, 0] }}\nmass = {mass}\ncenter_of_mass = [0.1, 0.2, 0.3]\n\
+                 inertia = {{ xx = 0.2, yy = 0.2, zz = 0.3 }}\n"
+            )
+        };
+        let links: String = (1..=64).map(link).collect();
+        description::read("chain.toml", &format!("format = 1\n[robot]\nname = \"chain\"\n{links}"))
+            .unwrap()
+            .robot
+    };
+    let start = std::time::Instant::now();
+    let found = compared(&chain("1"), &chain("2"));
+    println!("difference of 64 joints: {:.2} s", start.elapsed().as_secs_f64());
+    let reasons: Vec<&String> =
+        found.equations.iter().filter_map(|one| one.terms.as_ref().err()).collect();
+    let count = |text: &str| reasons.iter().filter(|reason| reason.starts_with(text)).count();
+    assert_eq!(count("it is too long"), 3);
+    assert!(count("it is not expanded") > 40);
+    assert!(found.operations.is_err() && found.torques.is_ok());
+}

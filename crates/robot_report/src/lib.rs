@@ -48,6 +48,10 @@ pub struct Input<'a> {
 /// The function whose costs are taken apart.
 const FUNCTION: FunctionKind = FunctionKind::InverseDynamics;
 
+/// The most coordinates of a robot whose costs are taken apart by options: each takes the derivation of
+/// its code once more.
+const MOST_COORDINATES: usize = 16;
+
 /// The functions whose costs are told.
 const FUNCTIONS: [FunctionKind; 9] = [
     FunctionKind::InverseDynamics,
@@ -166,13 +170,17 @@ fn structure(robot: &Robot) -> Section {
 }
 
 fn costs(input: &Input<'_>, programs: &Programs) -> Result<Section, Errors> {
-    let functions = Functions::Chosen(vec![FUNCTION]);
-    let options = Options { functions, ..input.options.clone() };
-    let ablation = ablation(input.source, &options)?;
+    let by_option = if programs.robot.coordinates.len() > MOST_COORDINATES {
+        Some(holding("p", "The robot has too many coordinates to count without each option."))
+    } else {
+        let functions = Functions::Chosen(vec![FUNCTION]);
+        let ablation = ablation(input.source, &Options { functions, ..input.options.clone() })?;
+        costs::options(&ablation, FUNCTION.name())
+    };
     let parts = [
         Some(costs::functions(&programs.module)),
         costs::passes(&programs.module, FUNCTION.name()),
-        costs::options(&ablation, FUNCTION.name()),
+        by_option,
     ];
     let body = parts.into_iter().flatten().map(Node::from).collect();
     Ok(Section { id: "costs", title: "Operations", body })
