@@ -200,7 +200,7 @@ fn friction_reads_back() {
     let mut with_friction = robots.iter().filter(|robot| robot.has_friction()).peekable();
     assert!(with_friction.peek().is_some());
     for robot in with_friction {
-        for form in [Form::Grouped, Form::Recursive, Form::Compact, Form::Regrouped] {
+        for form in Form::ALL {
             check(robot, &EquationOptions { friction: true, ..in_form(form) }, &[8.2, 16.0]);
         }
     }

@@ -1,5 +1,7 @@
 //! `equations`: what is printed reads back and has the values of the numeric solver.
 
+use std::collections::BTreeMap;
+
 use robot_dynamics::description::read_toml;
 use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
 use robot_symbolic::Formula;
@@ -32,22 +34,33 @@ fn value(robot: &robot_dynamics::model::Robot, name: &str) -> f64 {
 }
 
 fn quantities(arguments: &[&str]) -> Map<String, Value> {
+    shown(arguments)["quantities"].as_object().unwrap().clone()
+}
+
+fn shown(arguments: &[&str]) -> Value {
     let file = robot("trttr1");
     let arguments = [&["equations", &file, "--format", "json"], arguments].concat();
     let shown: Value = serde_json::from_str(&output(&arguments, "")).unwrap();
     assert_eq!(shown["robot"], "TRTTR1");
-    shown["quantities"].as_object().unwrap().clone()
+    shown
 }
 
 /// What the equations say, by name, and the numeric mechanism.
 fn evaluated(arguments: &[&str]) -> (Vec<(String, f64)>, Mechanism) {
     let text = std::fs::read_to_string(robot("trttr1")).unwrap();
     let robot = read_toml("trttr1.toml", &text).unwrap().robot;
-    let values = quantities(arguments).into_iter().map(|(name, text)| {
+    let shown = shown(arguments);
+    let mut defined: BTreeMap<String, f64> = BTreeMap::new();
+    let evaluate = |text: &Value, defined: &BTreeMap<String, f64>| {
         let formula = Formula::parse(text.as_str().unwrap()).unwrap();
-        let number = formula.evaluate(|name| value(&robot, name));
-        (name, number)
-    });
+        formula.evaluate(|name| defined.get(name).copied().unwrap_or_else(|| value(&robot, name)))
+    };
+    for (name, text) in shown["definitions"].as_object().into_iter().flatten() {
+        let number = evaluate(text, &defined);
+        defined.insert(name.clone(), number);
+    }
+    let quantities = shown["quantities"].as_object().unwrap().iter();
+    let values = quantities.map(|(name, text)| (name.clone(), evaluate(text, &defined)));
     (values.collect(), Mechanism::nominal(&robot).unwrap())
 }
 

@@ -1,11 +1,10 @@
 //! The compact form: what is used again has a name.
 
-use robot_dynamics::quantity::Kind;
 use robot_symbolic::{Expr, Graph, walk};
 use rustc_hash::FxHashSet;
 
 use super::naming::{Named, worth_naming};
-use super::{Equation, Group, Writer, shapes};
+use super::{Equation, Group, Writer, of_driving_force, shapes};
 use crate::error::Error;
 use crate::order::is_motion;
 
@@ -14,13 +13,10 @@ const PARAMETER_LETTERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
 const STATE_LETTERS: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
-    let mut quantities = writer.quantities();
+    let mut quantities = writer.quantities(writer.options.friction);
     let forces = writer.economical_forces(writer.options.friction);
     for quantity in &mut quantities {
-        if quantity.symbol.kind == Kind::DrivingForce {
-            let force = quantity.symbol.number.checked_sub(1).and_then(|at| forces.get(at));
-            quantity.value = force.copied().unwrap_or(quantity.value);
-        }
+        quantity.value = of_driving_force(quantity, &forces).unwrap_or(quantity.value);
     }
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     let target = Graph::new();

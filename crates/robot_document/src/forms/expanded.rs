@@ -1,10 +1,12 @@
 //! The expanded form: products multiplied out, angle sums resolved or kept, s² replaced by 1 − c²,
 //! like terms merged.
 
-use robot_dynamics::quantity::Kind;
-use robot_symbolic::{AngleSums, Polynomial, PolynomialOptions};
+use robot_dynamics::quantity::{Kind, Quantity};
+use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
-use super::{Equation, Group, Writer, shapes};
+use super::coefficients::Coefficient;
+use super::loads::{friction_shares, whole};
+use super::{Equation, Group, Writer, of_driving_force, shapes};
 use crate::error::Error;
 
 /// What an expansion may cost: under a second, and more terms than anybody reads.
@@ -17,18 +19,17 @@ const LIMITS: PolynomialOptions = PolynomialOptions {
 const MAX_TERMS: usize = 20_000;
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
-    let mut quantities = writer.quantities();
+    let mut quantities = writer.quantities(false);
     if writer.options.angle_sums == AngleSums::Keep {
         // Only the economical recursion has sines and cosines of sums.
-        let forces = writer.economical_forces(writer.options.friction);
+        let forces = writer.economical_forces(false);
         for quantity in &mut quantities {
-            if quantity.symbol.kind == Kind::DrivingForce {
-                let force = quantity.symbol.number.checked_sub(1).and_then(|at| forces.get(at));
-                quantity.value = force.copied().unwrap_or(quantity.value);
-            }
+            quantity.value = of_driving_force(quantity, &forces).unwrap_or(quantity.value);
         }
     }
-    let values: Vec<_> = quantities.iter().map(|quantity| quantity.value).collect();
+    let joints = with_friction(writer, &mut quantities)?;
+    let mut values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
+    values.extend(joints.iter().map(|force| force.value));
     let polynomials = writer
         .polynomials(&values, &LIMITS)
         .map_err(|error| Error::TooLong { reason: error.to_string() })?;
@@ -39,15 +40,48 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         );
         return Err(Error::TooLong { reason });
     }
-    let mut equations: Vec<Equation> = vec![];
-    for (quantity, polynomial) in quantities.iter().zip(&polynomials) {
+    let (of_quantities, of_joints) = polynomials.split_at(quantities.len().min(polynomials.len()));
+    let (mut forces, mut equations): (Vec<Equation>, Vec<Equation>) = (vec![], vec![]);
+    for (quantity, polynomial) in quantities.iter().zip(of_quantities) {
         let left = shapes::quantity(quantity.symbol);
         equations.push(writer.of_polynomial(quantity.symbol.to_string(), left, polynomial)?);
+    }
+    for (force, polynomial) in joints.into_iter().zip(of_joints) {
+        forces.push(writer.of_polynomial(force.name, force.shape, polynomial)?);
     }
     let introduction =
         "Products are multiplied out, even powers of sines are replaced by cosines, \
                         and like terms are merged."
             .to_owned();
     let title = "Equations of motion, expanded".to_owned();
-    Ok(vec![Group { title, introduction, definitions: false, equations }])
+    Ok(vec![
+        Group { title, introduction, definitions: false, equations },
+        Group::of_definitions("Forces in the joints", forces),
+    ])
+}
+
+/// Adds friction to the driving forces. The forces in the joints that dry friction asks for stand under
+/// its root by names, for no line holds them expanded.
+fn with_friction<'g>(
+    writer: &mut Writer<'_, 'g>,
+    quantities: &mut [Quantity<'g>],
+) -> Result<Vec<Coefficient<'g>>, Error> {
+    let of_forces = |quantity: &Quantity<'_>| quantity.symbol.kind == Kind::DrivingForce;
+    if !writer.options.friction || !quantities.iter().any(of_forces) {
+        return Ok(vec![]);
+    }
+    let (joints, shares) = friction_shares(writer, whole);
+    for quantity in quantities {
+        if let Some(share) = of_driving_force(quantity, &shares) {
+            quantity.value += share;
+        }
+    }
+    let used: Vec<String> =
+        walk::symbols(&shares).into_iter().map(|symbol| writer.graph.symbol_name(symbol)).collect();
+    let mut forces = joints.coefficients;
+    forces.retain(|force| used.contains(&force.name));
+    for force in &forces {
+        writer.define(&force.name, force.shape.clone())?;
+    }
+    Ok(forces)
 }

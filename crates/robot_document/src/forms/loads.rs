@@ -79,22 +79,8 @@ pub(super) fn frictions<'g>(
     if !writer.options.friction {
         return vec![];
     }
-    let mechanism = writer.derivation().mechanism;
-    let iterations = writer.iterations(Effects { wrench: true, friction: false });
-    let mut joints =
-        Section { title: "Forces in the joints", by_symbols: false, coefficients: vec![] };
+    let (joints, values) = friction_shares(writer, part);
     let mut shares = Section { title, by_symbols: true, coefficients: vec![] };
-    let mut values = vec![writer.graph.zero(); sums.len()];
-    for (index, (link, LinkWrench { force, .. })) in
-        mechanism.links.iter().zip(&iterations.wrenches).enumerate()
-    {
-        let mut named = *force;
-        if !link.friction.coulomb.is_zero() {
-            named = joint_force(writer, index, *force, &mut joints);
-        }
-        let share = friction(&part(&link.friction), link.kind, link.axis, named, link.velocity);
-        values[link.coordinate] += share * link.ratio;
-    }
     for (index, (value, sum)) in values.into_iter().zip(sums).enumerate() {
         if !value.is_zero() {
             let name = format!("Q_f{}", index + 1);
@@ -106,6 +92,30 @@ pub(super) fn frictions<'g>(
         }
     }
     vec![joints, shares]
+}
+
+/// The shares of friction in the driving forces, by symbols for the joint forces that dry friction asks
+/// for, and these.
+pub(super) fn friction_shares<'g>(
+    writer: &Writer<'_, 'g>,
+    part: fn(&MechanismFriction<'g>) -> MechanismFriction<'g>,
+) -> (Section<'g>, Vec<Expr<'g>>) {
+    let mechanism = writer.derivation().mechanism;
+    let iterations = writer.iterations(Effects { wrench: true, friction: false });
+    let mut joints =
+        Section { title: "Forces in the joints", by_symbols: false, coefficients: vec![] };
+    let mut values = vec![writer.graph.zero(); mechanism.degrees_of_freedom];
+    for (index, (link, LinkWrench { force, .. })) in
+        mechanism.links.iter().zip(&iterations.wrenches).enumerate()
+    {
+        let mut named = *force;
+        if !link.friction.coulomb.is_zero() {
+            named = joint_force(writer, index, *force, &mut joints);
+        }
+        let share = friction(&part(&link.friction), link.kind, link.axis, named, link.velocity);
+        values[link.coordinate] += share * link.ratio;
+    }
+    (joints, values)
 }
 
 /// Symbols for the components of a joint force; components that are 0 stay so.
@@ -123,7 +133,9 @@ fn joint_force<'g>(
         if value.is_zero() {
             return value;
         }
-        let (name, shape) = (symbol.to_string(), shapes::quantity(symbol));
+        // Without the dot of a quantity, so that text reads back.
+        let name = symbol.to_string().replace('.', "_");
+        let shape = shapes::quantity(symbol);
         let named = writer.graph.symbol(&name);
         joints.coefficients.push(Coefficient { name, shape, value });
         named

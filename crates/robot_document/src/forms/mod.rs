@@ -227,9 +227,9 @@ impl<'g> Writer<'_, 'g> {
         }
     }
 
-    /// The quantities that are asked for.
-    fn quantities(&self) -> Vec<Quantity<'g>> {
-        let effects = Effects { wrench: true, friction: self.options.friction };
+    /// The quantities that are asked for, with friction or without.
+    fn quantities(&self, friction: bool) -> Vec<Quantity<'g>> {
+        let effects = Effects { wrench: true, friction };
         let iterations = self.iterations(effects);
         self.options.kinds.iter().flat_map(|kind| iterations.quantities(*kind)).collect()
     }
@@ -280,4 +280,10 @@ impl<'g> Writer<'_, 'g> {
 /// The symbol of a driving force.
 fn driving_force(index: usize) -> Symbol {
     Symbol { kind: Kind::DrivingForce, number: index + 1, component: None }
+}
+
+/// The value of the coordinate that a driving force moves; of other quantities none.
+fn of_driving_force<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
+    let place = quantity.symbol.number.checked_sub(1)?;
+    values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::DrivingForce)
 }
