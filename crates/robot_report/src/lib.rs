@@ -8,6 +8,7 @@
 mod costs;
 mod drawing;
 mod equations;
+mod error;
 mod evidence;
 mod formula;
 mod html;
@@ -22,6 +23,7 @@ mod table;
 mod tables;
 mod text;
 
+pub use error::{Error, MOST_COORDINATES, presentable};
 pub use evidence::Compiled;
 
 use robot_build::ablation::ablation;
@@ -48,10 +50,6 @@ pub struct Input<'a> {
 /// The function whose costs are taken apart.
 const FUNCTION: FunctionKind = FunctionKind::InverseDynamics;
 
-/// The most coordinates of a robot whose costs are taken apart by options: each takes the derivation of
-/// its code once more.
-const MOST_COORDINATES: usize = 16;
-
 /// The functions whose costs are told.
 const FUNCTIONS: [FunctionKind; 9] = [
     FunctionKind::InverseDynamics,
@@ -69,8 +67,8 @@ const FUNCTIONS: [FunctionKind; 9] = [
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options.
-pub fn report(input: &Input<'_>) -> Result<String, Errors> {
+/// Everything that is wrong with the file or the options; a robot too long for a page.
+pub fn report(input: &Input<'_>) -> Result<String, Error> {
     let (robot, sections) = sections(input)?;
     Ok(page(&robot, sections, None))
 }
@@ -92,7 +90,7 @@ pub struct Reloading {
 /// # Errors
 ///
 /// As [`report`].
-pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
+pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
     let (robot, sections) = sections(input)?;
     let still = page(&robot, sections.clone(), None);
     let stamp = Stamp::of(&still);
@@ -101,8 +99,9 @@ pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
 }
 
 /// The robot of a file, and what the page says of it.
-fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
+fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
     let robot = robot_build::read(input.source)?.robot;
+    presentable(&robot)?;
     let symbols = Symbols::of(&robot);
     let functions = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
     let functions = Functions::Chosen(functions.collect());
@@ -157,30 +156,18 @@ const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on
     it changes the entry, at random values of all symbols, parameters included.";
 
 fn structure(robot: &Robot) -> Section {
-    let body = match Structure::of(robot) {
-        Some(found) => {
-            let grids = found.build().map(Node::from);
-            std::iter::once(Node::from(holding("p", STRUCTURE))).chain(grids).collect()
-        }
-        None => {
-            vec![holding("p", "The robot has too many coordinates to show its matrices.").into()]
-        }
-    };
+    let grids = Structure::of(robot).build().map(Node::from);
+    let body = std::iter::once(Node::from(holding("p", STRUCTURE))).chain(grids).collect();
     Section { id: "structure", title: "Structure of the equations", body }
 }
 
 fn costs(input: &Input<'_>, programs: &Programs) -> Result<Section, Errors> {
-    let by_option = if programs.robot.coordinates.len() > MOST_COORDINATES {
-        Some(holding("p", "The robot has too many coordinates to count without each option."))
-    } else {
-        let functions = Functions::Chosen(vec![FUNCTION]);
-        let ablation = ablation(input.source, &Options { functions, ..input.options.clone() })?;
-        costs::options(&ablation, FUNCTION.name())
-    };
+    let functions = Functions::Chosen(vec![FUNCTION]);
+    let ablation = ablation(input.source, &Options { functions, ..input.options.clone() })?;
     let parts = [
         Some(costs::functions(&programs.module)),
         costs::passes(&programs.module, FUNCTION.name()),
-        by_option,
+        costs::options(&ablation, FUNCTION.name()),
     ];
     let body = parts.into_iter().flatten().map(Node::from).collect();
     Ok(Section { id: "costs", title: "Operations", body })

@@ -21,8 +21,6 @@ use crate::text;
 const STATES: usize = 4;
 /// Changes smaller than this are rounding: entries are of the size of the robot's figures.
 const ROUNDING: f64 = 1e-10;
-/// Matrices of more rows than this are not looked into: their entries are long, and there are many.
-const MAX_ROWS: usize = 24;
 /// The seed of the states.
 const SEED: u64 = 6;
 
@@ -42,11 +40,8 @@ pub(crate) struct Structure {
 }
 
 impl Structure {
-    /// The structure of a robot; `None` where it has too many coordinates.
-    pub(crate) fn of(robot: &Robot) -> Option<Structure> {
-        if robot.degrees_of_freedom() > MAX_ROWS {
-            return None;
-        }
+    /// The structure of a robot.
+    pub(crate) fn of(robot: &Robot) -> Structure {
         let graph = Graph::new();
         let exact = MechanismOptions::EXACT.with_snap(None, robot);
         let mechanism = Mechanism::new(robot, &graph, &exact);
@@ -67,7 +62,7 @@ impl Structure {
             places.filter_map(|place| entries.get(place).cloned()).collect()
         };
         let matrix = |index| (0..count).map(|number| row(index, number)).collect();
-        Some(Structure { mass: matrix(0), coriolis: matrix(1) })
+        Structure { mass: matrix(0), coriolis: matrix(1) }
     }
 
     /// Both matrices as coloured tables.
@@ -179,7 +174,7 @@ mod tests {
     fn structure(file: &str) -> Structure {
         let path = format!("{}/../../robots/{file}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        Structure::of(&robot_dynamics::description::read_toml(file, &text).unwrap().robot).unwrap()
+        Structure::of(&robot_dynamics::description::read_toml(file, &text).unwrap().robot)
     }
 
     #[test]

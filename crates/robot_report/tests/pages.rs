@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use robot_build::{Options, Source};
-use robot_report::{Compiled, Input, reloading, report};
+use robot_report::{Compiled, Input, MOST_COORDINATES, reloading, report};
 use roxmltree::{Document, Node, ParsingOptions};
 
 fn page(name: &str, text: &str) -> String {
@@ -28,6 +28,29 @@ fn parsed(page: &str) -> Document<'_> {
 fn words<'a>(document: &'a Document<'a>, attribute: &'a str) -> impl Iterator<Item = &'a str> {
     let nodes = document.descendants().filter_map(move |node| node.attribute(attribute));
     nodes.flat_map(str::split_whitespace)
+}
+
+/// A plane chain of so many joints.
+fn chain(joints: usize) -> String {
+    let link = |number: usize| {
+        format!(
+            "[[link]]\nname = \"{number}\"\njoint = {{ type = \"revolute\", axis = \"z\" }}\n\
+             origin = {{ xyz = [0.1, 0, 0] }}\nmass = 1\ncenter_of_mass = [0.1, 0, 0]\n\
+             inertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
+        )
+    };
+    let links: String = (1..=joints).map(link).collect();
+    format!("format = 1\n[robot]\nname = \"chain\"\n{links}")
+}
+
+#[test]
+fn robots_too_long_for_a_page_are_refused() {
+    let source = Source { name: "chain.toml".to_owned(), text: chain(MOST_COORDINATES + 1) };
+    let compiled = Compiled::Unread { reason: "a test.".to_owned() };
+    let input = Input { source: &source, options: &Options::default(), compiled: &compiled };
+    let message = report(&input).unwrap_err().to_string();
+    assert!(message.starts_with("chain has 25 coordinates"), "{message}");
+    assert_eq!(reloading(&input).unwrap_err().to_string(), message);
 }
 
 #[test]

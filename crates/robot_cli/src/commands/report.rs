@@ -3,7 +3,7 @@
 use clap::Args;
 use robot_build::{Options, Source};
 use robot_evidence::{Compiler, Profile, prove};
-use robot_report::{Compiled, Input, report};
+use robot_report::{Compiled, Input, presentable, report};
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;
@@ -36,8 +36,8 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let options = self.robot.options()?;
-        // Read first, so that warnings are shown and no compiler starts for a file that is wrong.
-        self.robot.read(terminal)?;
+        // Read first, so that warnings are shown and no compiler starts for a page that cannot be.
+        presentable(&self.robot.read(terminal)?.robot)?;
         let source = self.robot.source()?;
         let page = watched("writing", terminal, || self.page(&source, &options))?;
         self.output.deliver(page, terminal)
