@@ -95,6 +95,7 @@ mod tests {
             operations: 7,
             instructions: 5,
             tried: 1,
+            cut_short: false,
         };
         std::fs::write(pin_path(&path), pin_text(&file.source, &found)).unwrap();
         assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));

@@ -139,10 +139,10 @@ impl Group {
 }
 
 impl Equation {
-    /// A label for the equation: its name in letters, digits and `-`.
+    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component.
     #[must_use]
     pub fn label(&self) -> String {
-        self.name.replace(['.', '_'], "-")
+        self.name.replace('_', "-").replace('.', ":")
     }
 }
 
