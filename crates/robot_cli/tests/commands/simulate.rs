@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::pages::blocks;
 use crate::{complaint, folder, output, robot, run};
 
 /// The columns of CSV by name.
@@ -97,7 +98,7 @@ fn run_line(line: &str, folder: &Path) {
     }
     let is_file = |word: &str| {
         let extension = Path::new(word).extension().and_then(|extension| extension.to_str());
-        matches!(extension, Some("csv" | "svg" | "png"))
+        matches!(extension, Some("csv" | "svg" | "png" | "toml"))
     };
     let placed = words.iter().skip(1).map(|word| {
         if let Some(name) = word.strip_prefix("robots/").and_then(|name| name.strip_suffix(".toml"))
@@ -128,10 +129,17 @@ fn the_commands_of_the_document_make_its_pictures() {
     let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
     let document = std::fs::read_to_string(format!("{docs}/simulation.md")).unwrap();
     let folder = folder("simulate-docs");
+    for block in blocks(&document) {
+        if let Some(name) = block.value("file") {
+            std::fs::write(folder.join(name), &block.text).unwrap();
+        }
+    }
     for line in document.lines().filter(|line| line.starts_with("robot-symbolic ")) {
         run_line(line, &folder);
     }
-    for name in ["planar_2r.svg", "puma560.svg", "torques.svg"] {
+    let pictures =
+        ["planar_2r.svg", "pendulum.svg", "double_pendulum.svg", "puma560.svg", "torques.svg"];
+    for name in pictures {
         assert!(document.contains(&format!("(simulation/{name})")), "{name}");
         let kept = std::fs::read_to_string(format!("{docs}/simulation/{name}")).unwrap();
         let made = std::fs::read_to_string(folder.join(name)).unwrap();
