@@ -6,6 +6,7 @@
 
 mod book;
 mod build_script;
+mod bundles;
 #[path = "../common/mod.rs"]
 mod common;
 mod forms;
