@@ -49,7 +49,7 @@ pub use generate::{Generated, generate};
 pub use options::{DEFAULT_BATCH, DEFAULT_FUNCTIONS, Options};
 pub use paths::RobotFile;
 pub use pin::{pin_path, pin_text};
-pub use programs::{Programs, programs, programs_of, read};
+pub use programs::{Programs, planned, programs, programs_of, read};
 pub use robot_codegen::Trigonometry;
 pub use robot_codegen::backend::rust::{Scalar, identifier};
 pub use robot_dynamics::diagnostic::Source;

@@ -76,6 +76,12 @@ pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
     if options.search { given.or_else(searched) } else { given }
 }
 
+/// The options with the plan that they ask for: what is made with them several times searches once.
+#[must_use]
+pub fn planned(robot: &Robot, options: &Options) -> Options {
+    Options { plan: plan_of(robot, options), search: false, ..options.clone() }
+}
+
 /// As [`programs_of`], with passes of choice.
 pub(crate) fn programs_under(
     robot: Robot,

@@ -31,9 +31,19 @@ pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> R
     Ok(())
 }
 
+/// The width of printed sums, in columns.
+const COLUMNS: usize = 100;
+
+/// `Q1 = …` on lines, the further ones indented.
+pub(crate) fn sum(whole: &str) -> String {
+    let mut lines = wrapped(whole, COLUMNS).join("\n    ");
+    lines.push('\n');
+    lines
+}
+
 /// A sum on lines of so many columns, broken before signs: within parentheses only where what they hold
 /// fits no line.
-pub(crate) fn wrapped(text: &str, columns: usize) -> Vec<&str> {
+fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     let mut breaks: Vec<(usize, usize)> = vec![];
     let mut depth = 0_usize;
     for (place, character) in text.char_indices() {

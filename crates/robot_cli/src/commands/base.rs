@@ -13,9 +13,6 @@ use crate::forms::failed;
 use crate::robot::RobotArgument;
 use crate::text;
 
-/// The width of text, in columns.
-const COLUMNS: usize = 100;
-
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic base robots/puma560.toml
@@ -79,15 +76,8 @@ fn plain(robot: &Robot, set: &BaseSet) -> String {
     }
     shown.push_str(if set.rounded { ", with rounded figures\n" } else { "\n" });
     for entry in &set.list {
-        let formula = format!("{} = {}", entry.name, entry.formula.text);
-        let value = format!("  = {}", entry.value.text);
-        for whole in [formula, value] {
-            for (place, line) in text::wrapped(&whole, COLUMNS).iter().enumerate() {
-                shown.push_str(if place == 0 { "" } else { "    " });
-                shown.push_str(line);
-                shown.push('\n');
-            }
-        }
+        shown.push_str(&text::sum(&format!("{} = {}", entry.name, entry.formula.text)));
+        shown.push_str(&text::sum(&format!("  = {}", entry.value.text)));
     }
     shown
 }

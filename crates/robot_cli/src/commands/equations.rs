@@ -12,9 +12,6 @@ use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
 
-/// The width of text, in columns.
-const COLUMNS: usize = 100;
-
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic equations robots/trttr1.toml
@@ -83,12 +80,7 @@ pub(super) fn plain(equations: &Equations) -> String {
             shown.push_str(&format!("{gap}{}\n\n", group.title));
         }
         for equation in &group.equations {
-            let whole = format!("{} = {}", equation.name, equation.text);
-            for (place, line) in text::wrapped(&whole, COLUMNS).iter().enumerate() {
-                shown.push_str(if place == 0 { "" } else { "    " });
-                shown.push_str(line);
-                shown.push('\n');
-            }
+            shown.push_str(&text::sum(&format!("{} = {}", equation.name, equation.text)));
         }
     }
     shown

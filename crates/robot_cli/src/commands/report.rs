@@ -1,7 +1,7 @@
 //! `report`: a page about a robot.
 
 use clap::Args;
-use robot_build::{Options, Source};
+use robot_build::{Options, Source, planned};
 use robot_evidence::{Compiler, Profile, prove};
 use robot_report::{Compiled, Input, presentable, report};
 
@@ -37,9 +37,10 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let options = self.robot.options()?;
         // Read first, so that warnings are shown and no compiler starts for a page that cannot be.
-        presentable(&self.robot.read(terminal)?.robot)?;
+        let robot = self.robot.read(terminal)?.robot;
+        presentable(&robot)?;
         let source = self.robot.source()?;
-        let page = watched("writing", terminal, || self.page(&source, &options))?;
+        let page = watched("writing", terminal, || self.page(&source, &planned(&robot, &options)))?;
         self.output.deliver(page, terminal)
     }
 
