@@ -12,6 +12,10 @@ use crate::generate::counts;
 use crate::options::Options;
 use crate::programs::{plan_of, programs_under, read};
 
+/// Functions of more expressions than this are not derived again and again: all functions of an arm of
+/// seven joints are some tens of thousands.
+const MAX_NODES: usize = 40_000;
+
 /// The functions with one option or pass left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ablation {
@@ -66,7 +70,7 @@ pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Err
     let plan = plan_of(&robot, options).unwrap_or_else(|| Plan::default_for(&robot));
     let counted = |without, plan: Plan, codegen: &robot_codegen::Options| -> Result<_, Errors> {
         let options = Options { plan: Some(plan), search: false, ..options.clone() };
-        let programs = programs_under(robot.clone(), &source.name, &options, codegen)?;
+        let programs = programs_under(robot.clone(), &source.name, &options, codegen, MAX_NODES)?;
         Ok(Ablation { without, counts: counts(&programs.module) })
     };
     let codegen = options.codegen();

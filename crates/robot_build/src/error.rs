@@ -69,8 +69,8 @@ pub enum Error {
     },
     /// Functions of more expressions than code is made of.
     #[error(
-        "{name}: the functions are more than {limit} expressions, which do not become code; choose fewer \
-         functions, or give figures as numbers where the file has long expressions"
+        "{name}: the functions are more than {limit} expressions, too many for this; choose fewer functions, \
+         or give figures as numbers where the file has long expressions"
     )]
     TooLarge {
         /// The robot file.

@@ -65,7 +65,7 @@ pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> 
 ///
 /// Everything that is wrong with the options.
 pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Programs, Errors> {
-    programs_under(robot, name, options, &options.codegen())
+    programs_under(robot, name, options, &options.codegen(), MAX_NODES)
 }
 
 /// The plan that the options give, or that is searched.
@@ -82,18 +82,19 @@ pub fn planned(robot: &Robot, options: &Options) -> Options {
     Options { plan: plan_of(robot, options), search: false, ..options.clone() }
 }
 
-/// As [`programs_of`], with passes of choice.
+/// As [`programs_of`], with passes of choice, of so many expressions at most.
 pub(crate) fn programs_under(
     robot: Robot,
     name: &str,
     options: &Options,
     codegen: &robot_codegen::Options,
+    limit: usize,
 ) -> Result<Programs, Errors> {
     options.check()?;
     let base_frames = options.base_frames.unwrap_or(robot.base_frames);
     let robot = Robot { base_frames, ..robot };
     let (functions, bundles) = options.functions_of(&robot)?;
-    let graph = Graph::limited(MAX_NODES);
+    let graph = Graph::limited(limit);
     let plan = plan_of(&robot, options);
     if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
         return Err(Errors::from(Error::Plan { name: name.to_owned() }));
@@ -101,7 +102,7 @@ pub(crate) fn programs_under(
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
     let specification = specification::module(&derivation, &functions, &bundles);
     if graph.is_full() {
-        return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit: MAX_NODES }));
+        return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit }));
     }
     let module = Module::compile(&specification, codegen)
         .map_err(|errors| Errors::of_code(name, &errors))?;

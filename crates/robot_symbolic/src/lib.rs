@@ -64,7 +64,7 @@ pub use expr::{Expr, View};
 pub use formula::{Formula, ParseError};
 pub use graph::{Function, Graph, Id, SymbolId};
 pub use number::Number;
-pub use operations::{Operations, operations};
+pub use operations::{Counter, Operations, operations};
 pub use polynomial::{AngleSums, Monomial, Polynomial, PolynomialError, PolynomialOptions};
 pub use rational::Rational;
 pub use spelling::nearest_word;

@@ -37,52 +37,118 @@ impl Operations {
 
 /// The operations that `roots` need each time the symbols change that are not `free`: what depends
 /// on free symbols and constants alone is computed beforehand and costs nothing.
+///
+/// Who counts often on one graph uses a [`Counter`].
 #[must_use]
 pub fn operations(roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operations {
-    let mut count = Operations::default();
-    let Some(graph) = roots.first().map(|root| root.graph()) else { return count };
-    graph.with_nodes(|nodes| {
-        let roots = || roots.iter().map(|root| root.id());
-        let mut varies = vec![false; nodes.len()];
-        for id in visit(nodes, roots(), |_| true) {
-            varies[id.index()] = match nodes[id.index()] {
-                Node::Symbol(symbol) => !free(symbol),
-                node => node.operands().any(|operand| varies[operand.index()]),
-            };
-        }
-        let needed = visit(nodes, roots(), |id| varies[id.index()]);
-        let uses = uses(nodes, roots(), &needed);
-        let fuses = |id: Id| {
-            let id = unsigned(nodes, id);
-            let is_product = matches!(nodes[id.index()], Node::Mul(..));
-            is_product && varies[id.index()] && uses[id.index()] == 1
-        };
-        for id in needed {
-            if let Node::Add(a, b) | Node::Sub(a, b) = nodes[id.index()] {
-                count.fusible += usize::from(fuses(a) || fuses(b));
-            }
-            match nodes[id.index()] {
-                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Neg(_) => {}
-                Node::Mul(..) => count.multiplications += 1,
-                Node::Add(..) | Node::Sub(..) => count.additions += 1,
-                Node::Div(..) => count.divisions += 1,
-                Node::Call(Function::Sin | Function::Cos, _) => count.trigonometric += 1,
-                Node::Call(..) => count.other += 1,
-            }
-        }
-    });
-    count
+    Counter::default().count(roots, free)
 }
 
-/// How often each node is an operand of `needed` nodes or a root; a change of sign is part of its use.
-fn uses(nodes: &[Node], roots: impl Iterator<Item = Id>, needed: &[Id]) -> Vec<u32> {
-    let mut uses = vec![0; nodes.len()];
-    let users = needed.iter().map(|id| nodes[id.index()]);
-    let users = users.filter(|node| !matches!(node, Node::Neg(_)));
-    for id in users.flat_map(Node::operands).chain(roots) {
-        uses[unsigned(nodes, id).index()] += 1;
+/// Counts as [`operations`] does, again and again on one graph: its table of the nodes is kept, so that
+/// a count takes the time of what is below its roots, however much else the graph has.
+#[derive(Clone, Debug, Default)]
+pub struct Counter {
+    marks: Vec<Mark>,
+    count: u64,
+}
+
+/// What a count knows of a node.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mark {
+    /// The last count that met the node; the rest is of that count.
+    met: u64,
+    /// Whether it depends on symbols that are not free.
+    varies: bool,
+    /// Whether it has to be computed at each change.
+    needed: bool,
+    /// How often what is needed uses it.
+    uses: u32,
+}
+
+impl Counter {
+    /// The operations that `roots` need each time the symbols change that are not `free`.
+    pub fn count(&mut self, roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operations {
+        let Some(graph) = roots.first().map(|root| root.graph()) else {
+            return Operations::default();
+        };
+        let roots: Vec<Id> = roots.iter().map(|root| root.id()).collect();
+        graph.with_nodes(|nodes| {
+            self.mark_varying(nodes, &roots, free);
+            let needed = self.mark_needed(nodes, &roots);
+            self.mark_uses(nodes, &roots, &needed);
+            self.sum(nodes, &needed)
+        })
     }
-    uses
+
+    /// Meets what is below the roots, operands first, and marks what varies.
+    fn mark_varying(&mut self, nodes: &[Node], roots: &[Id], free: impl Fn(SymbolId) -> bool) {
+        self.count += 1;
+        self.marks.resize(nodes.len().max(self.marks.len()), Mark::default());
+        let mut found = vec![];
+        let mut pending = roots.to_vec();
+        while let Some(id) = pending.pop() {
+            let mark = &mut self.marks[id.index()];
+            if mark.met != self.count {
+                *mark = Mark { met: self.count, ..Mark::default() };
+                found.push(id);
+                pending.extend(nodes[id.index()].operands());
+            }
+        }
+        found.sort_unstable();
+        for id in found {
+            self.marks[id.index()].varies = match nodes[id.index()] {
+                Node::Symbol(symbol) => !free(symbol),
+                node => node.operands().any(|operand| self.marks[operand.index()].varies),
+            };
+        }
+    }
+
+    /// What varies below the roots, in any order.
+    fn mark_needed(&mut self, nodes: &[Node], roots: &[Id]) -> Vec<Id> {
+        let mut needed = vec![];
+        let mut pending = roots.to_vec();
+        while let Some(id) = pending.pop() {
+            let mark = &mut self.marks[id.index()];
+            if mark.varies && !std::mem::replace(&mut mark.needed, true) {
+                needed.push(id);
+                pending.extend(nodes[id.index()].operands());
+            }
+        }
+        needed
+    }
+
+    /// How often each node is an operand of `needed` nodes or a root; a change of sign is part of its
+    /// use.
+    fn mark_uses(&mut self, nodes: &[Node], roots: &[Id], needed: &[Id]) {
+        let users = needed.iter().map(|id| nodes[id.index()]);
+        let users = users.filter(|node| !matches!(node, Node::Neg(_)));
+        for id in users.flat_map(Node::operands).chain(roots.iter().copied()) {
+            self.marks[unsigned(nodes, id).index()].uses += 1;
+        }
+    }
+
+    fn sum(&self, nodes: &[Node], needed: &[Id]) -> Operations {
+        let fuses = |id: Id| {
+            let id = unsigned(nodes, id);
+            let mark = self.marks[id.index()];
+            matches!(nodes[id.index()], Node::Mul(..)) && mark.varies && mark.uses == 1
+        };
+        let mut sum = Operations::default();
+        for id in needed {
+            match nodes[id.index()] {
+                Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Neg(_) => {}
+                Node::Mul(..) => sum.multiplications += 1,
+                Node::Add(a, b) | Node::Sub(a, b) => {
+                    sum.additions += 1;
+                    sum.fusible += usize::from(fuses(a) || fuses(b));
+                }
+                Node::Div(..) => sum.divisions += 1,
+                Node::Call(Function::Sin | Function::Cos, _) => sum.trigonometric += 1,
+                Node::Call(..) => sum.other += 1,
+            }
+        }
+        sum
+    }
 }
 
 /// The node without its changes of sign.
@@ -93,24 +159,9 @@ fn unsigned(nodes: &[Node], mut id: Id) -> Id {
     id
 }
 
-/// The nodes below `roots` for which `enter` holds, operands first.
-fn visit(nodes: &[Node], roots: impl Iterator<Item = Id>, enter: impl Fn(Id) -> bool) -> Vec<Id> {
-    let mut seen = vec![false; nodes.len()];
-    let mut found = vec![];
-    let mut pending: Vec<Id> = roots.collect();
-    while let Some(id) = pending.pop() {
-        if enter(id) && !std::mem::replace(&mut seen[id.index()], true) {
-            found.push(id);
-            pending.extend(nodes[id.index()].operands());
-        }
-    }
-    found.sort_unstable();
-    found
-}
-
 #[cfg(test)]
 mod tests {
-    use crate::{Graph, operations};
+    use crate::{Counter, Graph, operations};
 
     #[test]
     fn shared_nodes_count_once_and_free_ones_not_at_all() {
@@ -122,6 +173,21 @@ mod tests {
         let count = operations(&roots, |symbol| symbol.index() == 0);
         assert_eq!((count.multiplications, count.additions, count.trigonometric), (2, 1, 1));
         assert_eq!(operations(&roots, |_| false).flops(), 6);
+    }
+
+    #[test]
+    fn counts_on_a_graph_that_grows_know_nothing_of_each_other() {
+        let g = Graph::new();
+        let mut counter = Counter::default();
+        let mut sum = g.symbol("a") * g.symbol("b");
+        for name in ["c", "d", "e", "f"] {
+            sum = sum * g.symbol(name) + g.symbol("a");
+            for free in 0..3 {
+                let is_free = |symbol: crate::SymbolId| symbol.index() < free;
+                assert_eq!(counter.count(&[sum, -sum], is_free), operations(&[sum, -sum], is_free));
+            }
+        }
+        assert_eq!(counter.count(&[], |_| false).flops(), 0);
     }
 
     #[test]

@@ -25,6 +25,10 @@ use crate::cost::Cost;
 use crate::counts::{Counts, PassCounts};
 use crate::program::Program;
 
+/// Values, summed over the rounds, after which no further round begins: the first saves nearly all, and
+/// for functions of dozens of joints each takes a second. Those of arms have some thousands.
+const MAX_WORK: usize = 100_000;
+
 /// Which passes run, and what they minimise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -112,15 +116,21 @@ pub(crate) fn run(
     runner.note("as built");
     runner.take("value numbering", value_numbering::run);
     runner.take("dead code", dead_code::run);
-    for _ in 0..options.rounds {
+    let mut work = 0;
+    for round in 0..options.rounds {
+        work += runner.program.operations().len();
         let factored = options.factoring && runner.attempt("factoring", factoring::run);
         let reused = options.pair_reuse && runner.attempt("pair reuse", pair_reuse::run);
+        if round > 0 && !factored && !reused {
+            // The program is as resubstitution left it, and that had found nothing more.
+            break;
+        }
         let effort = options.resubstitution;
         let replaced = effort != Resubstitution::Off
             && runner.attempt("resubstitution", |program| {
                 resubstitution::run(program, &samples, effort)
             });
-        if !factored && !reused && !replaced {
+        if !(factored || reused || replaced) || work > MAX_WORK {
             break;
         }
     }

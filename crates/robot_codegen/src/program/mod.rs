@@ -14,7 +14,7 @@ pub use layout::{Block, Layout, Limits, Part};
 use robot_symbolic::Function;
 
 /// The value that an operation of a [`Program`] computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Value(pub(crate) u32);
 
 impl Value {

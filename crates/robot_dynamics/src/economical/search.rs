@@ -4,7 +4,9 @@
 //! that a plan's cost is what the code will have. A plan is taken only where its torques agree with
 //! those of the paper's iterations at test states.
 
-use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
+use std::collections::BTreeSet;
+
+use robot_symbolic::{Counter, Expr, Graph, Operations, SymbolId, walk};
 
 use super::Recursion;
 use super::chain::Base;
@@ -22,8 +24,9 @@ const DESCENTS: usize = 2;
 /// Plans after which no new descent begins.
 const MAX_TRIES: usize = 3000;
 /// Operations, summed over the candidates, after which a search ends with the best plan so far: the time
-/// of a search goes with them. The longest arms of seven joints take some two million and a second;
-/// chains of dozens of joints end here, in about the same time.
+/// of a search goes with them. The longest arms of seven joints take some two million and a second.
+/// A chain of dozens of joints, of which not even the first sweep would fit, is not descended from at
+/// all: its plan is the best of the uniform ones.
 const MAX_WORK: usize = 2_500_000;
 /// The same for searches that count several functions, of which each may be ten times as long.
 const MAX_WORK_FOR: usize = 40 * MAX_WORK;
@@ -169,7 +172,8 @@ struct Search<'m, 'g> {
     base: &'m Base<'g>,
     objective: ObjectiveOf<'m, 'g>,
     /// The robot's parameters: all other symbols are inputs.
-    parameters: Vec<SymbolId>,
+    parameters: BTreeSet<SymbolId>,
+    counter: Counter,
     states: Vec<Vec<f64>>,
     reference: Vec<Vec<f64>>,
     measure: Measure,
@@ -198,6 +202,7 @@ impl<'m, 'g> Search<'m, 'g> {
             base,
             objective,
             parameters,
+            counter: Counter::default(),
             states,
             reference,
             measure: Measure::Operations,
@@ -216,6 +221,9 @@ impl<'m, 'g> Search<'m, 'g> {
         }
         ranked.sort_by_key(|(cost, _)| *cost);
         let (mut best, mut plan) = ranked[0].clone();
+        if !self.can_sweep(scope, &plan, best) {
+            self.end();
+        }
         for (cost, start) in ranked.into_iter().take(DESCENTS) {
             let found = self.descend(scope, start, cost);
             if found.0 < best {
@@ -233,9 +241,18 @@ impl<'m, 'g> Search<'m, 'g> {
             }
         }
         let (tried, cut_short) = (self.tried, self.is_spent());
-        let count = self.operations(&self.candidate(&plan).counted);
+        let candidate = self.candidate(&plan);
+        let count = self.operations(&candidate.counted);
         let (operations, instructions) = (count.flops(), count.instructions());
         Found { plan, measure: self.measure, operations, instructions, tried, cut_short }
+    }
+
+    /// Whether there is work left for all changes of all links once.
+    fn can_sweep(&self, scope: Scope, plan: &Plan, cost: usize) -> bool {
+        let links = plan.links.iter().enumerate();
+        let changes: usize =
+            links.map(|(link, plan)| self.alternatives(scope, plan, link).len()).sum();
+        self.work + changes * cost <= self.max_work
     }
 
     /// A plan with a few options changed.
@@ -266,12 +283,18 @@ impl<'m, 'g> Search<'m, 'g> {
         self.measure.of(&count)
     }
 
+    /// Lets nothing more be tried.
+    fn end(&mut self) {
+        self.work = self.max_work;
+    }
+
     fn is_spent(&self) -> bool {
         self.work >= self.max_work
     }
 
-    fn operations(&self, roots: &[Expr<'g>]) -> Operations {
-        operations(roots, |symbol| self.parameters.contains(&symbol))
+    fn operations(&mut self, roots: &[Expr<'g>]) -> Operations {
+        let Search { counter, parameters, .. } = self;
+        counter.count(roots, |symbol| parameters.contains(&symbol))
     }
 
     /// The cost where it is below a bound and the values are right.

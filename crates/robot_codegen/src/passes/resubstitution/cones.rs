@@ -1,6 +1,7 @@
 //! How many operations depend on a value alone.
 
 use std::cell::{Cell, RefCell};
+use std::ops::Deref;
 
 use crate::program::{Operation, Program, Stage, Value};
 
@@ -8,15 +9,45 @@ use crate::program::{Operation, Program, Stage, Value};
 /// visit all of them, and n queries n² values. Robots of 64 joints stay far below.
 const MAX_VISITS: u64 = 30_000_000;
 
+/// What a value is computed from: at most three values, in place, for there are many of these lists.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Operands {
+    values: [Value; 3],
+    len: u8,
+}
+
+impl FromIterator<Value> for Operands {
+    fn from_iter<I: IntoIterator<Item = Value>>(values: I) -> Operands {
+        let mut operands = Operands::default();
+        for (place, value) in operands.values.iter_mut().zip(values) {
+            *place = value;
+            operands.len += 1;
+        }
+        operands
+    }
+}
+
+impl Deref for Operands {
+    type Target = [Value];
+
+    fn deref(&self) -> &[Value] {
+        &self.values[..usize::from(self.len)]
+    }
+}
+
 /// The operations of a program under replacement, with their uses.
 pub(super) struct Cones {
-    operands: Vec<Vec<Value>>,
+    operands: Vec<Operands>,
     costs: Vec<usize>,
     early: Vec<bool>,
     /// How often what is needed uses each value. The queries change it and change it back.
     uses: RefCell<Vec<usize>>,
     /// The values that queries have visited.
     visits: Cell<u64>,
+    /// For each value the last query of [`Cones::depend_on`] that met it.
+    met: RefCell<Vec<u64>>,
+    /// How many of these queries there were.
+    queries: Cell<u64>,
 }
 
 impl Cones {
@@ -30,8 +61,10 @@ impl Cones {
             operands: program.values().map(|(_, op)| op.operands().collect()).collect(),
             costs: program.values().map(cost).collect(),
             uses: RefCell::new(program.uses().into_iter().map(|uses| uses as usize).collect()),
+            met: RefCell::new(vec![0; early.len()]),
             early,
             visits: Cell::new(0),
+            queries: Cell::new(0),
         }
     }
 
@@ -70,28 +103,31 @@ impl Cones {
     }
 
     /// Computes a value from other operands.
-    pub(super) fn replace(&mut self, value: Value, operands: &[Value], cost: usize) {
+    pub(super) fn replace(&mut self, value: Value, operands: Operands, cost: usize) {
         let mut uses = self.uses.borrow_mut();
-        for operand in operands {
+        for operand in operands.iter() {
             self.hold(*operand, &mut uses);
         }
         for operand in self.operands(value) {
             self.release(*operand, &mut uses);
         }
         drop(uses);
-        self.operands[value.index()] = operands.to_vec();
+        self.operands[value.index()] = operands;
         self.costs[value.index()] = cost;
     }
 
     /// Whether any of some values depends on a value.
     pub(super) fn depend_on(&self, values: &[Value], value: Value) -> bool {
-        let mut seen = vec![false; self.operands.len()];
+        let query = self.queries.get() + 1;
+        self.queries.set(query);
+        let mut met = self.met.borrow_mut();
         let mut pending = values.to_vec();
         while let Some(next) = pending.pop() {
             if next == value {
                 return true;
             }
-            if !std::mem::replace(&mut seen[next.index()], true) {
+            if std::mem::replace(&mut met[next.index()], query) != query {
+                self.visits.set(self.visits.get() + 1);
                 pending.extend(self.operands(next));
             }
         }

@@ -11,9 +11,11 @@
 //! evaluation that it replaces. That is evidence, no proof. Two numbers near 1 that have nothing to do
 //! with each other agree to within such a tolerance by a chance of some 10⁻¹⁵; there are six points, of
 //! which pairs share the values of parameters, so that even where parameters alone decide three are
-//! left: 10⁻⁴⁵, times the millions of pairs that are compared. But the points are fixed, the same for
-//! every program, and values of one program are not unrelated; no bound follows for them. What code
-//! computes is therefore held against independent solvers at other points, by the tests.
+//! left: 10⁻⁴⁵, times the millions of pairs that are compared. Where that rounding may be large, as in
+//! long recursions, whose bounds grow with each joint, agreement is no evidence, and nothing is replaced.
+//! But the points are fixed, the same for every program, and values of one program are not unrelated; no
+//! bound follows for them. The results are therefore compared once more at other points, and what code
+//! computes is held against independent solvers by the tests.
 //!
 //! Absolute values, signs and roots are taken for unrelated numbers, so that nothing follows from the
 //! sign that an argument happens to have at the points.
@@ -23,7 +25,7 @@ mod samples;
 
 use rustc_hash::FxHashMap;
 
-use self::cones::Cones;
+use self::cones::{Cones, Operands};
 use self::samples::Sample;
 pub(crate) use self::samples::Samples;
 use super::Resubstitution;
@@ -38,15 +40,15 @@ const GROWTH: f64 = 4.0;
 /// of two, where that saves operations. Reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) -> Program {
-    let mut program = super::dead_code::run(program);
+    let mut found = super::dead_code::run(program);
     for _ in 0..ROUNDS {
-        let mut search = Search::new(&program, samples);
+        let mut search = Search::new(&found, samples);
         if effort == Resubstitution::Off || !search.sweep(effort) {
             break;
         }
-        program = search.program();
+        found = search.program();
     }
-    program
+    if samples.agree(program, &found) { found } else { program.clone() }
 }
 
 /// What a value can be computed as.
@@ -67,12 +69,12 @@ enum Form {
 }
 
 impl Form {
-    fn operands(self) -> Vec<Value> {
+    fn operands(self) -> Operands {
         match self {
-            Form::Constant(_) => vec![],
-            Form::Equal(a, _) | Form::Multiple(_, a) => vec![a],
+            Form::Constant(_) => Operands::default(),
+            Form::Equal(a, _) | Form::Multiple(_, a) => [a].into_iter().collect(),
             Form::Sum((a, _), (b, _)) | Form::Product(a, b, _) | Form::SumMultiple(a, _, b) => {
-                vec![a, b]
+                [a, b].into_iter().collect()
             }
         }
     }
@@ -169,7 +171,7 @@ impl<'p> Search<'p> {
                 self.try_pairs(value, room, &mut best);
             }
             if let Some(form) = best.form {
-                self.cones.replace(value, &form.operands(), form.cost());
+                self.cones.replace(value, form.operands(), form.cost());
                 self.forms[value.index()] = Some(form);
                 changed = true;
             }
@@ -267,13 +269,11 @@ impl<'p> Search<'p> {
     }
 
     /// The values that equal ± a sample.
-    fn equal_to(&self, sample: &Sample) -> Vec<(Value, bool)> {
-        let candidates = near(&self.by_size, key(sample.value(0)));
-        let equal = candidates.filter_map(|value| {
+    fn equal_to(&self, sample: &Sample) -> impl Iterator<Item = (Value, bool)> {
+        near(&self.by_size, key(sample.value(0))).filter_map(|value| {
             let negative = sample.equals(&self.samples[value.index()])?;
             Some((value, negative))
-        });
-        equal.collect()
+        })
     }
 
     /// Takes a form where it saves more than the best so far and does not need the value itself.
@@ -389,6 +389,43 @@ mod tests {
             Counts::of_calls(&found).operations(),
             Counts::of_calls(&program).operations() - 2
         );
+    }
+
+    /// cos kθ by its recursion: bounds of rounding grow with each step, the values do not.
+    #[test]
+    fn a_long_recursion_is_not_taken_for_rounding() {
+        let mut b = Builder::new();
+        let (one, two, cosine) = (b.constant(1.0), b.constant(2.0), b.load(Source::Cos(0)));
+        let twice = b.mul(two, cosine);
+        let mut values = vec![one, cosine];
+        for k in 1..400 {
+            let product = b.mul(twice, values[k]);
+            values.push(b.sub(product, values[k - 1]));
+        }
+        let program = b.finish(vec![values[400]]);
+        let mut angles = Builder::new();
+        let angle = angles.load(Source::Input(0));
+        let samples = Samples::new(&angles.finish(vec![angle]));
+        let last = samples.of(&program)[program.results()[0].index()];
+        assert!(last.rounding() > 1.0 && !last.is_constant() && !last.is_regular());
+        let found = run(&program, &samples, Resubstitution::Multiples);
+        assert!(samples.agree(&program, &found));
+        assert_eq!(Counts::of(&found).operations(), Counts::of(&program).operations());
+    }
+
+    #[test]
+    fn other_results_do_not_agree() {
+        let program = |constant: f64| {
+            let mut b = Builder::new();
+            let (x, y) = (b.load(Source::Input(0)), b.load(Source::Input(1)));
+            let (factor, difference) = (b.constant(constant), b.sub(x, y));
+            let results = vec![b.mul(factor, x), b.call(Function::Sqrt, difference)];
+            b.finish(results)
+        };
+        let samples = Samples::unrelated();
+        assert!(samples.agree(&program(1.5), &program(1.5)));
+        assert!(samples.agree(&program(1.5), &program(1.5 + 1e-15)));
+        assert!(!samples.agree(&program(1.5), &program(1.5 + 1e-6)));
     }
 
     #[test]

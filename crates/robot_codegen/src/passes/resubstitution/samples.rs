@@ -14,30 +14,85 @@ const POINTS: usize = SETS * POINTS_PER_SET;
 /// The unit of rounding of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// What loads read at the points: parameters and inputs of either sign and sizes near 1, and the
-/// sines and cosines of a function's angles, which may depend on each other.
+/// How far an evaluation may round, in the measure of what it adds up, for agreement to within that
+/// rounding to be evidence: beyond it, as after dozens of joints, everything would agree.
+const TRUST: f64 = 1e-9;
+
+/// The points at which values are compared, and others at which the result is checked.
 pub(crate) struct Samples {
-    angles: Option<Vec<[DoubleDouble; POINTS]>>,
+    compared: Points,
+    checked: Points,
 }
 
 impl Samples {
     /// The samples for a function with these angles.
     pub(crate) fn new(angles: &Program) -> Samples {
-        let unrelated = Samples { angles: None };
-        let samples = unrelated.of(angles);
-        let results = angles.results().iter();
-        let angles = results.map(|value| samples[value.index()].values).collect();
-        Samples { angles: Some(angles) }
+        Samples {
+            compared: Points::new(Use::Compare, angles),
+            checked: Points::new(Use::Check, angles),
+        }
     }
 
     /// Samples for angles that nothing relates.
     #[cfg(test)]
     pub(super) fn unrelated() -> Samples {
-        Samples { angles: None }
+        let [compared, checked] =
+            [Use::Compare, Use::Check].map(|used| Points { used, angles: None });
+        Samples { compared, checked }
+    }
+
+    /// The samples of all values of a program, for comparison.
+    pub(super) fn of(&self, program: &Program) -> Vec<Sample> {
+        self.compared.of(program)
+    }
+
+    /// Whether two programs have the same results at points that were not compared, as far as there are
+    /// results: the root of a number below 0 is none.
+    pub(super) fn agree(&self, before: &Program, after: &Program) -> bool {
+        let results = |program: &Program| -> Vec<Sample> {
+            let samples = self.checked.of(program);
+            program.results().iter().map(|value| samples[value.index()]).collect()
+        };
+        let (before, after) = (results(before), results(after));
+        (0..POINTS).all(|point| {
+            let sizes = before.iter().map(|sample| sample.value(point).abs());
+            let largest = sizes.filter(|size| size.is_finite()).fold(0.0, f64::max);
+            before.iter().zip(&after).all(|(before, after)| {
+                let size = before.value(point).abs();
+                let difference = (after.values[point] - before.values[point]).to_f64().abs();
+                !size.is_finite() || difference <= TRUST * size.max(TRUST * largest)
+            })
+        })
+    }
+}
+
+/// What points are for.
+#[derive(Clone, Copy, PartialEq)]
+enum Use {
+    /// To find values that agree. The values of functions are unrelated numbers here: see the first
+    /// lines of `resubstitution`.
+    Compare,
+    /// To check what was made of them.
+    Check,
+}
+
+/// What loads read at the points: parameters and inputs of either sign and sizes near 1, and the
+/// sines and cosines of a function's angles, which may depend on each other.
+struct Points {
+    used: Use,
+    angles: Option<Vec<[DoubleDouble; POINTS]>>,
+}
+
+impl Points {
+    fn new(used: Use, angles: &Program) -> Points {
+        let samples = Points { used, angles: None }.of(angles);
+        let results = angles.results().iter();
+        let angles = results.map(|value| samples[value.index()].values).collect();
+        Points { used, angles: Some(angles) }
     }
 
     /// The samples of all values of a program.
-    pub(super) fn of(&self, program: &Program) -> Vec<Sample> {
+    fn of(&self, program: &Program) -> Vec<Sample> {
         let mut samples: Vec<Sample> = Vec::with_capacity(program.operations().len());
         for (value, operation) in program.values() {
             let at = |operand: Value| &samples[operand.index()];
@@ -50,8 +105,10 @@ impl Samples {
                 Operation::Div(a, b) => at(a).over(at(b)),
                 Operation::Neg(a) => Sample { values: at(a).values.map(|x| -x), ..*at(a) },
                 Operation::MulAdd(a, b, c) => at(a).times(at(b)).plus(at(c)),
-                // Not their values: see the module's first lines.
-                Operation::Call(..) => Sample::exact(unrelated_numbers(3, value.0, false)),
+                Operation::Call(function, a) if self.used == Use::Check => {
+                    Sample::exact(at(a).values.map(|x| x.apply(function)))
+                }
+                Operation::Call(..) => Sample::exact(self.numbers(3, value.0, false)),
             };
             samples.push(sample);
         }
@@ -60,9 +117,9 @@ impl Samples {
 
     fn load(&self, source: Source) -> [DoubleDouble; POINTS] {
         match source {
-            Source::Parameter(index) => unrelated_numbers(0, index, true),
-            Source::Field(index) => unrelated_numbers(1, index, true),
-            Source::Input(index) => unrelated_numbers(2, index, false),
+            Source::Parameter(index) => self.numbers(0, index, true),
+            Source::Field(index) => self.numbers(1, index, true),
+            Source::Input(index) => self.numbers(2, index, false),
             Source::Sin(index) => self.angle(index).map(|angle| angle.apply(Function::Sin)),
             Source::Cos(index) => self.angle(index).map(|angle| angle.apply(Function::Cos)),
         }
@@ -70,7 +127,12 @@ impl Samples {
 
     fn angle(&self, index: u32) -> [DoubleDouble; POINTS] {
         let known = self.angles.as_ref().and_then(|angles| angles.get(index as usize));
-        known.copied().unwrap_or_else(|| unrelated_numbers(4, index, false))
+        known.copied().unwrap_or_else(|| self.numbers(4, index, false))
+    }
+
+    fn numbers(&self, kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble; POINTS] {
+        let kind = if self.used == Use::Check { kind + 8 } else { kind };
+        unrelated_numbers(kind, index, same_in_set)
     }
 }
 
@@ -93,53 +155,77 @@ fn unrelated_numbers(kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble;
 pub(super) struct Sample {
     values: [DoubleDouble; POINTS],
     errors: [f64; POINTS],
+    /// Whether the bounds are far below what the evaluation adds up, all the way.
+    is_trusted: bool,
 }
 
 impl Sample {
     fn exact(values: [DoubleDouble; POINTS]) -> Sample {
-        Sample { values, errors: [0.0; POINTS] }
+        Sample { values, errors: [0.0; POINTS], is_trusted: true }
     }
 
     fn new(value: impl Fn(usize) -> DoubleDouble, inherited: impl Fn(usize) -> f64) -> Sample {
         let values: [DoubleDouble; POINTS] = std::array::from_fn(value);
         let error = |point: usize| inherited(point) + UNIT * values[point].to_f64().abs();
-        Sample { values, errors: std::array::from_fn(error) }
+        Sample { values, errors: std::array::from_fn(error), is_trusted: true }
     }
 
     fn plus(&self, other: &Sample) -> Sample {
-        Sample::new(
+        let sum = Sample::new(
             |point| self.values[point] + other.values[point],
             |point| self.errors[point] + other.errors[point],
-        )
+        );
+        sum.trusted_as_sum_of(self, other)
     }
 
     /// The difference, or the sum where the sign of the other is changed.
     pub(super) fn minus(&self, other: &Sample, negative: bool) -> Sample {
         let sign = if negative { -1.0 } else { 1.0 };
-        Sample::new(
+        let difference = Sample::new(
             |point| self.values[point] - other.values[point] * sign.into(),
             |point| self.errors[point] + other.errors[point],
-        )
+        );
+        difference.trusted_as_sum_of(self, other)
+    }
+
+    fn trusted_as_sum_of(self, a: &Sample, b: &Sample) -> Sample {
+        let is_small = |point: usize| {
+            let size = a.value(point).abs().max(b.value(point).abs());
+            let nothing = a.vanishes_at(point) && b.vanishes_at(point);
+            nothing || self.errors[point] <= TRUST * size
+        };
+        self.trusted_as_product_of(a, b, (0..POINTS).all(is_small))
+    }
+
+    fn trusted_as_product_of(self, a: &Sample, b: &Sample, is_small: bool) -> Sample {
+        Sample { is_trusted: a.is_trusted && b.is_trusted && is_small, ..self }
     }
 
     fn times(&self, other: &Sample) -> Sample {
-        Sample::new(
+        let product = Sample::new(
             |point| self.values[point] * other.values[point],
             |point| {
                 self.errors[point] * other.value(point).abs()
                     + self.value(point).abs() * other.errors[point]
             },
-        )
+        );
+        product.trusted_as_product_of(self, other, true)
     }
 
     pub(super) fn over(&self, other: &Sample) -> Sample {
-        Sample::new(
+        let quotient = Sample::new(
             |point| self.values[point] / other.values[point],
             |point| {
                 let quotient = (self.value(point) / other.value(point)).abs();
                 (self.errors[point] + quotient * other.errors[point]) / other.value(point).abs()
             },
-        )
+        );
+        quotient.trusted_as_product_of(self, other, true)
+    }
+
+    /// Whether the value at a point is all rounding.
+    fn vanishes_at(&self, point: usize) -> bool {
+        self.value(point).abs() <= self.errors[point]
     }
 
     /// The value at a point.
@@ -152,20 +238,23 @@ impl Sample {
         self.errors.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Whether the value is finite and, up to rounding, not 0 at every point.
+    /// Whether agreement with the value is evidence, and the value finite and, up to rounding, not 0 at
+    /// every point.
     pub(super) fn is_regular(&self) -> bool {
-        (0..POINTS).all(|point| {
-            let size = self.value(point).abs();
-            size.is_finite() && size > 1e3 * self.errors[point]
-        })
+        self.is_trusted
+            && (0..POINTS).all(|point| {
+                let size = self.value(point).abs();
+                size.is_finite() && size > 1e3 * self.errors[point]
+            })
     }
 
     /// Whether the value is, up to rounding, the same at all points.
     pub(super) fn is_constant(&self) -> bool {
-        (1..POINTS).all(|point| {
-            let difference = (self.values[point] - self.values[0]).to_f64().abs();
-            difference <= self.errors[point].min(self.errors[0])
-        })
+        self.is_trusted
+            && (1..POINTS).all(|point| {
+                let difference = (self.values[point] - self.values[0]).to_f64().abs();
+                difference <= self.errors[point].min(self.errors[0])
+            })
     }
 
     /// The constant that the value is: where its evaluation rounds least; 0 where rounding is all.
@@ -173,7 +262,7 @@ impl Sample {
         let errors = self.errors.iter().copied().enumerate();
         let least = errors.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(point, _)| point);
         let value = self.value(least);
-        if value.abs() <= self.errors[least] { 0.0 } else { value }
+        if self.vanishes_at(least) { 0.0 } else { value }
     }
 
     /// Whether the value is another's (`Some(false)`) or its negative (`Some(true)`), to within the
@@ -197,7 +286,8 @@ impl Sample {
             let expected = ratio.values[first(point)] * other.values[point];
             (self.values[point] - expected).to_f64().abs() <= self.errors[point]
         });
-        steady.then(|| Sample { values: ratio.values, errors: self.relative_errors(other) })
+        let errors = self.relative_errors(other);
+        steady.then_some(Sample { errors, ..ratio })
     }
 
     /// How far off a factor of another value may be before this value leaves its own rounding.
