@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use common::{evaluate, largest_difference, magnitude, robot_files};
 use robot_dynamics::economical::{
-    Plan, Recursion,
+    Plan, Recursion, Solver,
     plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
 };
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -34,7 +34,7 @@ enum Shown {
     Torques,
     /// The mass matrix.
     MassMatrix,
-    /// The accelerations, by the torques that they ask for.
+    /// The accelerations of each solver that applies, by the torques that they ask for.
     Accelerations,
 }
 
@@ -128,6 +128,7 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
     let off = |plan: &mut LinkPlan| plan.composite_sum = false;
     let on = |plan: &mut LinkPlan| plan.composite_sum = true;
     add("composite sum".to_owned(), Shown::MassMatrix, &off, &on);
+    add("composite sum, accelerations".to_owned(), Shown::Accelerations, &off, &on);
     let base = Plan::uniform(links, base);
     for (link, turned) in (0..links).flat_map(|link| [(link, false), (link, true)]) {
         let mut on = base.clone();
@@ -139,8 +140,10 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
     }
     for unit in (0..links).map(|link| (link, link % 3)) {
         let on = Plan { unit_length: Some(unit), ..base.clone() };
-        let option = "unit of length".to_owned();
-        found.push(Forced { option, shown: Shown::Torques, off: base.clone(), on });
+        for (what, shown) in [("", Shown::Torques), (", accelerations", Shown::Accelerations)] {
+            let (option, off) = (format!("unit of length{what}"), base.clone());
+            found.push(Forced { option, shown, off, on: on.clone() });
+        }
     }
     found
 }
@@ -160,7 +163,11 @@ impl<'g> Bench<'_, 'g> {
         match shown {
             Shown::Torques => recursion.inverse_dynamics(false),
             Shown::MassMatrix => recursion.mass_matrix().rows(),
-            Shown::Accelerations => recursion.forward_dynamics(&self.tau, false),
+            Shown::Accelerations => {
+                let by = |solver| recursion.forward_dynamics(&self.tau, false, solver);
+                let ways = [Solver::MassMatrix, Solver::ArticulatedBodies].map(by);
+                ways.into_iter().flatten().flatten().collect()
+            }
         }
     }
 
@@ -176,7 +183,11 @@ impl<'g> Bench<'_, 'g> {
                     let matrix = self.solver.mass_matrix(q).unwrap();
                     (found, matrix.as_slice().to_vec())
                 }
-                Shown::Accelerations => (self.torques(q, qd, &found), tau.clone()),
+                Shown::Accelerations => {
+                    let ways = found.chunks(tau.len());
+                    let torques = ways.clone().flat_map(|way| self.torques(q, qd, way)).collect();
+                    (torques, ways.flat_map(|_| tau.clone()).collect())
+                }
             };
             worst = worst.max(largest_difference(&found, &expected));
             size = size.max(magnitude(&expected));

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use robot_build::{FunctionKind, Functions, Options, Source, generate};
+use robot_document::base::base;
 use robot_document::{EquationOptions, Form, equations};
 use robot_dynamics::description::{MAX_BYTES, read_toml};
 use robot_dynamics::economical::search::{Measure, search};
@@ -57,6 +58,20 @@ fn sixty_four_joints_end_in_code() {
     assert!(code.contains("pub const DOF: usize = 64;"));
     let found = read_toml("robot.toml", &chain(65)).unwrap_err().to_string();
     assert!(found.contains("at most 64"), "{found}");
+}
+
+/// Each function alone ends in code or in the message that it is too long.
+#[test]
+fn every_function_of_sixty_four_joints_ends() {
+    let file = source(chain(64));
+    let robot = robot_build::read(&file).unwrap().robot;
+    for kind in FunctionKind::of(&robot) {
+        let options = Options { functions: Functions::Chosen(vec![kind]), ..Options::default() };
+        match timed(kind.name(), || generate(&file, &options)) {
+            Ok(generated) => println!("    {} bytes of code", generated.code.len()),
+            Err(errors) => assert!(errors.to_string().contains("expressions"), "{errors}"),
+        }
+    }
 }
 
 /// Where nothing is pinned commands search a plan: for a long chain not to the end.
@@ -238,4 +253,11 @@ fn equations_that_nobody_can_read_end_in_a_message() {
     let found = timed("grouped", || equations(&robot, &options));
     let message = found.err().unwrap().to_string();
     assert!(message.contains("64 coordinates") && message.contains("recursive"), "{message}");
+    let options = EquationOptions { form: Form::Regrouped, ..options };
+    let found = timed("regrouped", || equations(&robot, &options));
+    let message = found.err().unwrap().to_string();
+    assert!(message.contains("more than 300000 expressions"), "{message}");
+    let found = timed("base parameters", || base(&robot, None));
+    let message = found.err().unwrap().to_string();
+    assert!(message.contains("more than 300000 expressions"), "{message}");
 }

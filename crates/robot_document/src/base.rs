@@ -10,7 +10,7 @@ use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use crate::error::Error;
-use crate::forms::{Equation, Group};
+use crate::forms::{Equation, Group, MAX_NODES};
 use crate::latex;
 use crate::math::{Fence, Math, Style};
 use crate::notation::Notation;
@@ -71,10 +71,13 @@ pub struct Written {
 /// A robot whose base parameters are out of reach; formulas that are too long to be of use; symbols
 /// that would look alike.
 pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
-    let graph = Graph::new();
+    let graph = Graph::limited(MAX_NODES);
     let options = MechanismOptions::EXACT.with_snap(snap, robot);
     let derivation = Derivation::new(robot, &graph, &options, None);
     let found = found(&derivation)?;
+    if graph.is_full() {
+        return Err(Error::TooManyExpressions { limit: MAX_NODES });
+    }
     let notation = Notation::new(robot, Trigonometry::Named)?;
     let formulas = Formulas { notation: &notation, order: &Order::new(robot) };
     let standard: Vec<Option<Written>> = found

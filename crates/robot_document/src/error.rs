@@ -28,6 +28,15 @@ pub enum Error {
         /// The most that there are coefficients for.
         limit: usize,
     },
+    /// More expressions than anybody reads, on the way to the equations or base parameters.
+    #[error(
+        "more than {limit} expressions are needed for this; the forms `--form recursive` and `compact` need \
+         fewest, and figures of frames that are multiples of π/2 make them shorter (`--snap`)"
+    )]
+    TooManyExpressions {
+        /// The most that are derived.
+        limit: usize,
+    },
     /// Base parameters that cannot be found or written out.
     #[error("the base parameters are not to be had: {reason}")]
     Base {

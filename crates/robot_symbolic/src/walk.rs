@@ -24,6 +24,23 @@ pub fn reachable<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     found
 }
 
+/// Whether `root` is made of more than `limit` expressions, itself and each other once; what is beyond is
+/// not looked at.
+#[must_use]
+pub fn is_longer_than(root: Expr<'_>, limit: usize) -> bool {
+    let mut seen = rustc_hash::FxHashSet::default();
+    let mut pending = vec![root];
+    while let Some(expr) = pending.pop() {
+        if seen.insert(expr.id()) {
+            if seen.len() > limit {
+                return true;
+            }
+            pending.extend(expr.operands());
+        }
+    }
+    false
+}
+
 /// The symbols that `roots` depend on, in order of their first use in the graph.
 #[must_use]
 pub fn symbols(roots: &[Expr<'_>]) -> Vec<SymbolId> {
@@ -195,6 +212,15 @@ impl<'g> Expr<'g> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lengths_count_shared_expressions_once() {
+        let g = Graph::new();
+        let x = g.symbol("x");
+        let doubled = (0..40).fold(x + 1, |sum, _| sum * sum);
+        assert!(is_longer_than(doubled, 42) && !is_longer_than(doubled, 43));
+        assert!(!is_longer_than(x, 1) && is_longer_than(x, 0));
+    }
 
     #[test]
     fn derivatives_agree_with_differences() {

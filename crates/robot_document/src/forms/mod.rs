@@ -158,13 +158,16 @@ impl Equations {
     }
 }
 
+/// Equations of more expressions than this are not derived to the end: those of arms have some thousands.
+pub(crate) const MAX_NODES: usize = 300_000;
+
 /// The equations of a robot.
 ///
 /// # Errors
 ///
 /// Equations that are too long, with the forms to use instead; symbols that would look alike.
 pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, Error> {
-    let graph = Graph::new();
+    let graph = Graph::limited(MAX_NODES);
     let mut writer = Writer {
         robot,
         options,
@@ -173,13 +176,16 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         order: Order::new(robot),
     };
     let groups = match options.form {
-        Form::Expanded => expanded::groups(&mut writer)?,
-        Form::Grouped => grouped::groups(&mut writer)?,
-        Form::Recursive => recursive::groups(&mut writer)?,
-        Form::Compact => compact::groups(&mut writer)?,
-        Form::Regrouped => regrouped::groups(&mut writer)?,
+        Form::Expanded => expanded::groups(&mut writer),
+        Form::Grouped => grouped::groups(&mut writer),
+        Form::Recursive => recursive::groups(&mut writer),
+        Form::Compact => compact::groups(&mut writer),
+        Form::Regrouped => regrouped::groups(&mut writer),
     };
-    let groups = groups.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    if graph.is_full() {
+        return Err(Error::TooManyExpressions { limit: MAX_NODES });
+    }
+    let groups = groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
     Ok(Equations { groups, notation: writer.notation })
 }
 

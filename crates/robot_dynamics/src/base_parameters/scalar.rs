@@ -19,6 +19,10 @@ const EXPANSION: PolynomialOptions = PolynomialOptions {
     max_products: 100_000,
 };
 
+/// Longer expressions, by their nodes, are left as they are: those of chains about skew axes, whose sines
+/// and cosines stand in every figure.
+const SHORT: usize = 100;
+
 /// An expression in constants and parameters, with its values at seeded values of the parameters.
 ///
 /// A figure that vanishes is the constant 0. Rational numbers decide that exactly. Of the others, a
@@ -87,8 +91,8 @@ fn is_rational(polynomial: &Polynomial<'_>) -> bool {
 
 /// The canonical form of an expression where it is short and without sums in denominators.
 pub(super) fn tidied(expr: Expr<'_>) -> Expr<'_> {
-    let simple = walk::reachable(&[expr]).len() <= 3;
-    if simple || expr.as_number().is_some() {
+    let is_simple = !walk::is_longer_than(expr, 3);
+    if is_simple || expr.as_number().is_some() || walk::is_longer_than(expr, SHORT) {
         return expr;
     }
     match Polynomial::of(expr, &EXPANSION) {

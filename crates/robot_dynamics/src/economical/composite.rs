@@ -125,7 +125,8 @@ impl<'g> Inward<'g> for Wrench<'g> {
     }
 }
 
-fn symmetric<'g>(entry: impl Fn(usize, usize) -> Expr<'g>) -> Matrix<'g> {
+/// A symmetric matrix from its upper triangle, so that both are one expression.
+pub(crate) fn symmetric<'g>(entry: impl Fn(usize, usize) -> Expr<'g>) -> Matrix<'g> {
     Matrix::from_fn(|a, b| entry(a.min(b), a.max(b)))
 }
 

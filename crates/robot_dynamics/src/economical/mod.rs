@@ -9,6 +9,7 @@
 //! Sources: Khalil and Kleinfinger 1987 (regrouping, modified Denavit–Hartenberg frames), Balafoutis
 //! and Patel 1991 (the tensor U), with further options of this project's own, named in [`plan`].
 
+mod articulated;
 mod chain;
 mod composite;
 mod derivatives;
@@ -48,6 +49,15 @@ pub(crate) use reframed::Reframed;
 pub use regressor::{Column, RegressorColumns};
 pub(crate) use regressor::{regressor, unit_rotor, unit_wrenches};
 pub(crate) use spatial::Wrench;
+
+/// How forward dynamics solves M q̈ = b.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solver {
+    /// By the mass matrix and its decomposition: for few joints.
+    MassMatrix,
+    /// Joint by joint, without the matrix: for many. Applies where each coordinate moves one joint.
+    ArticulatedBodies,
+}
 
 /// The economical recursion of a mechanism under a plan: its links in working frames, with
 /// regrouped inertias.
@@ -105,12 +115,24 @@ impl<'g> Recursion<'g> {
     /// q̈ for the driving forces `tau`, with the tips' wrenches where `wrench` asks for them.
     ///
     /// By M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own driving forces
-    /// cheap ([`LinkPlan::free`]).
+    /// cheap ([`LinkPlan::free`]); `None` where the solver does not apply.
     #[must_use]
-    pub fn forward_dynamics(&self, tau: &[Expr<'g>], wrench: bool) -> Vec<Expr<'g>> {
+    pub fn forward_dynamics(
+        &self,
+        tau: &[Expr<'g>],
+        wrench: bool,
+        solver: Solver,
+    ) -> Option<Vec<Expr<'g>>> {
+        if solver == Solver::ArticulatedBodies && !articulated::applies(&self.chain) {
+            return None;
+        }
         let (torques, states) = self.torques(&self.chain, Accelerations::Free, wrench);
-        let excess = tau.iter().zip(torques).map(|(tau, torque)| *tau - torque).collect();
-        let mut accelerations = self.mass_matrix().solve(excess);
+        let excess: Vec<Expr<'g>> =
+            tau.iter().zip(torques).map(|(tau, torque)| *tau - torque).collect();
+        let mut accelerations = match solver {
+            Solver::MassMatrix => self.mass_matrix().solve(excess),
+            Solver::ArticulatedBodies => articulated::solve(&self.chain, &self.plans, &excess),
+        };
         for (link, state) in self.chain.links.iter().zip(&states) {
             let rate = match link.is_revolute() {
                 true => state.rate,
@@ -120,7 +142,7 @@ impl<'g> Recursion<'g> {
                 accelerations[link.coordinate] += rate / link.ratio;
             }
         }
-        accelerations
+        Some(accelerations)
     }
 
     fn torques(

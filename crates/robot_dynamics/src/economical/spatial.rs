@@ -28,6 +28,14 @@ impl<'g> Twist<'g> {
         self.angular.dot(wrench.moment) + self.linear.dot(wrench.force)
     }
 
+    pub(crate) fn plus(&self, other: &Twist<'g>) -> Twist<'g> {
+        Twist { angular: self.angular + other.angular, linear: self.linear + other.linear }
+    }
+
+    pub(crate) fn times(&self, rate: Expr<'g>) -> Twist<'g> {
+        Twist { angular: self.angular * rate, linear: self.linear * rate }
+    }
+
     /// The same motion about an origin at `arm`.
     fn about(self, arm: Vector<'g>) -> Twist<'g> {
         Twist { linear: self.linear + self.angular.cross(arm), ..self }

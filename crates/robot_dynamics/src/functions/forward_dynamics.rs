@@ -3,6 +3,11 @@
 use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output, mass_matrix};
+use crate::economical::{Recursion, Solver};
+
+/// Joints beyond which the mass matrix is not tried: its decomposition grows with their third power, and
+/// articulated bodies need fewer operations from some ten joints on.
+const MOST_BY_MATRIX: usize = 16;
 
 /// q̈ of M q̈ = τ − C q̇ − g.
 pub(super) fn forward_dynamics<'g>(
@@ -39,9 +44,27 @@ pub(super) fn forward_dynamics<'g>(
 pub(super) fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
     let tau = derivation.coordinate_symbols("tau");
     if let Some(recursion) = &derivation.recursion {
-        return recursion.forward_dynamics(&tau, wrench);
+        return by_recursion(derivation, recursion, &tau, wrench);
     }
     let bias = derivation.paper_torques(wrench, &["qdd"]);
     let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();
     mass_matrix::matrix(derivation).solve(excess)
+}
+
+/// By the solver that needs fewer operations.
+fn by_recursion<'g>(
+    derivation: &Derivation<'_, 'g>,
+    recursion: &Recursion<'g>,
+    tau: &[Expr<'g>],
+    wrench: bool,
+) -> Vec<Expr<'g>> {
+    let by = |solver| recursion.forward_dynamics(tau, wrench, solver);
+    let articulated = by(Solver::ArticulatedBodies);
+    let matrix = match articulated {
+        Some(_) if tau.len() > MOST_BY_MATRIX => None,
+        _ => by(Solver::MassMatrix),
+    };
+    let ways = [matrix, articulated].into_iter().flatten();
+    let cheapest = ways.min_by_key(|values| derivation.operations(values).flops());
+    cheapest.unwrap_or_default()
 }

@@ -1,0 +1,261 @@
+//! Articulated bodies: the solution of M x = b in a number of operations that grows with the number of
+//! links, not with its third power.
+//!
+//! R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 7.2, for a mechanism at rest and
+//! without gravity: what moves and pulls it is in b. Each joint is eliminated on the way inward, from
+//! the inertia that its link and all that it carries show to its parent.
+
+use robot_symbolic::{Expr, Graph};
+
+use super::chain::{Chain, ChainLink};
+use super::composite::{Inward, symmetric};
+use super::inertia::PseudoInertia;
+use super::plan::{LinkPlan, Place};
+use super::rotation::{ConstantRotation, Plane};
+use super::spatial::{Twist, Ways, Wrench};
+use crate::vector::{Matrix, Vector};
+
+/// The inertia that a link and all that it carries show where their joints are free.
+///
+/// Unlike that of one rigid body its mass may depend on the direction: a motion (ω, v) asks for the
+/// moment I ω + H v and the force Hᵀ ω + M v.
+#[derive(Clone, Copy, Debug)]
+struct ArticulatedInertia<'g> {
+    /// I, symmetric.
+    turning: Matrix<'g>,
+    /// H.
+    coupling: Matrix<'g>,
+    /// M, symmetric.
+    mass: Matrix<'g>,
+}
+
+/// A joint eliminated.
+#[derive(Clone, Debug)]
+struct Eliminated<'g> {
+    /// U = I S and the moment of the drive's gyroscopic rotor: what a unit acceleration of the joint
+    /// asks of the parent, in home axes.
+    asked: Wrench<'g>,
+    /// 1/D, D = Sᵀ U and the drive's reflected inertia.
+    reciprocal: Expr<'g>,
+    /// u = b − Sᵀ p.
+    force: Expr<'g>,
+}
+
+/// Whether each coordinate moves one joint: elsewhere joints cannot be eliminated one by one.
+pub(crate) fn applies(chain: &Chain<'_>) -> bool {
+    (0..chain.links.len()).all(|link| chain.drives_alone(link))
+}
+
+/// x of M x = b, both by coordinates; a division for each joint. M is taken for positive definite.
+pub(crate) fn solve<'g>(
+    chain: &Chain<'g>,
+    plans: &[LinkPlan],
+    right: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
+    let ways = Ways::new(chain, |index| plans[index].composite_sum);
+    let joints = inward(&ways, right);
+    outward(&ways, &joints)
+}
+
+/// Eliminates the joints, from the tips to the base.
+fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>]) -> Vec<Eliminated<'g>> {
+    let chain = ways.chain;
+    let zero = Carried::zero(chain.graph);
+    // What children hand over, in the link's own axes and in its home axes.
+    let mut own: Vec<Carried<'g>> = chain
+        .links
+        .iter()
+        .map(|link| Carried { inertia: ArticulatedInertia::of(&link.inertia), ..zero })
+        .collect();
+    let mut at_home = vec![zero; chain.links.len()];
+    let mut joints = vec![];
+    for (index, link) in chain.links.iter().enumerate().rev() {
+        let posture = &ways.postures[index];
+        let carried = own[index].turned(&posture.group_turn).plus(&at_home[index]);
+        let joint = carried.joint(ways, index, right[link.coordinate]);
+        if let Some(parent) = link.parent {
+            let rest = carried.without(&joint, link, chain.unit);
+            if ways.is_joined(index) {
+                at_home[parent] = at_home[parent].plus(&rest.moved(ways.arm_at_home(index)).1);
+            } else {
+                let moved = rest.rotated(&link.rotation).moved(posture.origin).1;
+                own[parent] = own[parent].plus(&moved);
+            }
+        }
+        joints.push(joint);
+    }
+    joints.reverse();
+    joints
+}
+
+/// The accelerations of the joints, from the base to the tips.
+fn outward<'g>(ways: &Ways<'_, 'g>, joints: &[Eliminated<'g>]) -> Vec<Expr<'g>> {
+    let chain = ways.chain;
+    let mut solution = vec![chain.graph.zero(); chain.degrees_of_freedom];
+    // Of each link, in its home axes.
+    let mut motions: Vec<Twist<'g>> = vec![];
+    for (index, (link, joint)) in chain.links.iter().zip(joints).enumerate() {
+        let carried = link.parent.map(|parent| {
+            let place = Place { link: parent, turned: true };
+            let own = match ways.is_joined(index) {
+                true => motions[parent],
+                false => ways.twist_outward(place, &motions[parent]),
+            };
+            ways.twist_outward(Place { link: index, turned: false }, &own)
+        });
+        // s = (u − Uᵀ A) / D
+        let held = carried.map(|motion| motion.dot(&joint.asked));
+        let rate = held.map_or(joint.force, |held| joint.force - held) * joint.reciprocal;
+        solution[link.coordinate] = rate / link.ratio;
+        let by_joint = ways.joint_twist(index).times(rate);
+        motions.push(carried.map_or(by_joint, |motion| motion.plus(&by_joint)));
+    }
+    solution
+}
+
+/// What a link and all that it carries ask for: an inertia's wrench and one that no motion changes.
+#[derive(Clone, Copy, Debug)]
+struct Carried<'g> {
+    inertia: ArticulatedInertia<'g>,
+    wrench: Wrench<'g>,
+}
+
+impl<'g> Carried<'g> {
+    fn joint(&self, ways: &Ways<'_, 'g>, index: usize, right: Expr<'g>) -> Eliminated<'g> {
+        let link = &ways.chain.links[index];
+        let direction = ways.joint_twist(index);
+        let mut asked = self.inertia.asks_for(&direction);
+        let pivot = direction.dot(&asked) + link.reflected_inertia;
+        asked.moment.0[2] += link.rotor_coupling;
+        Eliminated {
+            asked,
+            reciprocal: pivot.graph().one() / pivot,
+            force: right / link.ratio - direction.dot(&self.wrench),
+        }
+    }
+
+    /// What is left where the joint gives way: I − U Uᵀ/D, and p + U u/D.
+    fn without(&self, joint: &Eliminated<'g>, link: &ChainLink<'g>, unit: Expr<'g>) -> Carried<'g> {
+        let Eliminated { asked, reciprocal, force } = joint;
+        let share = Wrench { force: asked.force * *reciprocal, moment: asked.moment * *reciprocal };
+        let inertia = self.inertia.minus_product(asked, &share);
+        // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ with the reflected inertia r and the rotor's k, which a
+        // joint that slides does not feel itself: 0 without a drive.
+        let felt = if link.is_revolute() { link.rotor_coupling } else { unit.graph().zero() };
+        let kept = (link.reflected_inertia - felt) * *reciprocal;
+        let mut along = Wrench { force: asked.force * kept, moment: asked.moment * kept };
+        along.moment.0[2] -= link.rotor_coupling;
+        let wrench = Wrench { force: share.force * *force, moment: share.moment * *force };
+        Carried {
+            inertia: inertia.with_along_joint(&along, link.is_revolute(), unit),
+            wrench: self.wrench.plus(&wrench),
+        }
+    }
+}
+
+impl<'g> Inward<'g> for Carried<'g> {
+    fn zero(graph: &'g Graph) -> Self {
+        Carried { inertia: ArticulatedInertia::zero(graph), wrench: Wrench::zero(graph) }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        let (a, b) = (&self.inertia, &other.inertia);
+        let inertia = ArticulatedInertia {
+            turning: a.turning + b.turning,
+            coupling: a.coupling + b.coupling,
+            mass: a.mass + b.mass,
+        };
+        Carried { inertia, wrench: self.wrench.plus(&other.wrench) }
+    }
+
+    fn turned(&self, plane: &Plane<'g>) -> Self {
+        let inertia = ArticulatedInertia {
+            turning: plane.forward_symmetric(self.inertia.turning),
+            coupling: plane.forward_tensor(self.inertia.coupling),
+            mass: plane.forward_symmetric(self.inertia.mass),
+        };
+        Carried { inertia, wrench: self.wrench.turned(plane) }
+    }
+
+    fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self {
+        let inertia = ArticulatedInertia {
+            turning: rotation.forward_symmetric(self.inertia.turning),
+            coupling: rotation.forward_tensor(self.inertia.coupling),
+            mass: rotation.forward_symmetric(self.inertia.mass),
+        };
+        Carried { inertia, wrench: self.wrench.rotated(rotation) }
+    }
+
+    fn moved(&self, arm: Vector<'g>) -> (Self, Self) {
+        let moved = Carried { inertia: self.inertia.about(arm), wrench: self.wrench.about(arm) };
+        (Carried::zero(arm.0[0].graph()), moved)
+    }
+}
+
+impl<'g> ArticulatedInertia<'g> {
+    fn zero(graph: &'g Graph) -> Self {
+        let zero = Matrix::zero(graph);
+        ArticulatedInertia { turning: zero, coupling: zero, mass: zero }
+    }
+
+    /// Of one rigid body: I = tr(Σ) 1 − Σ, H = \[h\]×, M = m 1.
+    fn of(body: &PseudoInertia<'g>) -> Self {
+        let one = Matrix::identity(body.mass.graph());
+        ArticulatedInertia {
+            turning: one * body.second.trace() - body.second,
+            coupling: Matrix::skew(body.first),
+            mass: one * body.mass,
+        }
+    }
+
+    fn asks_for(&self, motion: &Twist<'g>) -> Wrench<'g> {
+        let Twist { angular, linear } = *motion;
+        Wrench {
+            force: self.coupling.transpose() * angular + self.mass * linear,
+            moment: self.turning * angular + self.coupling * linear,
+        }
+    }
+
+    /// Minus the product of two wrenches of which one is a multiple of the other.
+    fn minus_product(&self, a: &Wrench<'g>, b: &Wrench<'g>) -> Self {
+        let minus = |Matrix(entries): Matrix<'g>, a: Vector<'g>, b: Vector<'g>| {
+            move |i: usize, j: usize| entries[i][j] - a.0[i] * b.0[j]
+        };
+        ArticulatedInertia {
+            turning: symmetric(minus(self.turning, a.moment, b.moment)),
+            coupling: Matrix::from_fn(minus(self.coupling, a.moment, b.force)),
+            mass: symmetric(minus(self.mass, a.force, b.force)),
+        }
+    }
+
+    /// With the wrench known that a unit acceleration along the joint asks for.
+    fn with_along_joint(mut self, along: &Wrench<'g>, revolute: bool, unit: Expr<'g>) -> Self {
+        let Wrench { force, moment } = *along;
+        for k in 0..3 {
+            if revolute {
+                (self.turning.0[k][2], self.turning.0[2][k]) = (moment.0[k], moment.0[k]);
+                self.coupling.0[2][k] = force.0[k];
+            } else {
+                // In the chain's unit of length a translation of one metre is 1/unit.
+                self.coupling.0[k][2] = moment.0[k] * unit;
+                let entry = force.0[k] * unit;
+                (self.mass.0[k][2], self.mass.0[2][k]) = (entry, entry);
+            }
+        }
+        self
+    }
+
+    /// The same about an origin from which its own lies at `arm` = p: H + P M and I − H P + P (H + P M)ᵀ
+    /// with P = \[p\]×.
+    fn about(&self, arm: Vector<'g>) -> Self {
+        let p = Matrix::skew(arm);
+        let coupling = self.coupling + p * self.mass;
+        let (Matrix(before), Matrix(after)) = (self.coupling * p, p * coupling.transpose());
+        let Matrix(turning) = self.turning;
+        ArticulatedInertia {
+            turning: symmetric(|i, j| turning[i][j] - before[i][j] + after[i][j]),
+            coupling,
+            mass: self.mass,
+        }
+    }
+}
