@@ -64,7 +64,7 @@ fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
 
 /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
 pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
-    let accelerations = forward_dynamics::accelerations(derivation, false);
+    let accelerations = forward_dynamics::by_matrix(derivation, false);
     let recursion = derivation.recursion.as_ref();
     let torques = recursion
         .and_then(|recursion| recursion.torque_derivatives_at(&accelerations))

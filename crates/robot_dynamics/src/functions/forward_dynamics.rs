@@ -3,11 +3,13 @@
 use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output, mass_matrix};
-use crate::economical::{Recursion, Solver};
+use crate::economical::Solver;
 
-/// Joints beyond which the mass matrix is not tried: its decomposition grows with their third power, and
-/// articulated bodies need fewer operations from some ten joints on.
-const MOST_BY_MATRIX: usize = 16;
+/// Coordinates up to which M is decomposed without a look at articulated bodies: these need fewer
+/// operations from some ten joints on, and share nothing with other functions of a bundle.
+const FEW: usize = 8;
+/// Coordinates beyond which M is not tried: its decomposition grows with their third power.
+const MANY: usize = 16;
 
 /// q̈ of M q̈ = τ − C q̇ − g.
 pub(super) fn forward_dynamics<'g>(
@@ -40,31 +42,36 @@ pub(super) fn forward_dynamics<'g>(
     )
 }
 
-/// q̈ for the symbols τ.
-pub(super) fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
-    let tau = derivation.coordinate_symbols("tau");
-    if let Some(recursion) = &derivation.recursion {
-        return by_recursion(derivation, recursion, &tau, wrench);
+/// q̈ for the symbols τ, by the solver that needs fewer operations.
+fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
+    let coordinates = derivation.mechanism.degrees_of_freedom;
+    let articulated = match &derivation.recursion {
+        Some(recursion) if coordinates > FEW => {
+            let tau = derivation.coordinate_symbols("tau");
+            recursion.forward_dynamics(&tau, wrench, Solver::ArticulatedBodies)
+        }
+        _ => None,
+    };
+    match articulated {
+        Some(values) if coordinates > MANY => values,
+        Some(values) => {
+            let by_matrix = by_matrix(derivation, wrench);
+            let cost = |values: &[Expr<'g>]| derivation.operations(values).flops();
+            if cost(&values) < cost(&by_matrix) { values } else { by_matrix }
+        }
+        None => by_matrix(derivation, wrench),
     }
-    let bias = derivation.paper_torques(wrench, &["qdd"]);
-    let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();
-    mass_matrix::matrix(derivation).solve(excess)
 }
 
-/// By the solver that needs fewer operations.
-fn by_recursion<'g>(
-    derivation: &Derivation<'_, 'g>,
-    recursion: &Recursion<'g>,
-    tau: &[Expr<'g>],
-    wrench: bool,
-) -> Vec<Expr<'g>> {
-    let by = |solver| recursion.forward_dynamics(tau, wrench, solver);
-    let articulated = by(Solver::ArticulatedBodies);
-    let matrix = match articulated {
-        Some(_) if tau.len() > MOST_BY_MATRIX => None,
-        _ => by(Solver::MassMatrix),
-    };
-    let ways = [matrix, articulated].into_iter().flatten();
-    let cheapest = ways.min_by_key(|values| derivation.operations(values).flops());
-    cheapest.unwrap_or_default()
+/// q̈ for the symbols τ, by the decomposition of M: for what needs that anyway.
+pub(super) fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
+    let tau = derivation.coordinate_symbols("tau");
+    let recursion = derivation.recursion.as_ref();
+    let by_recursion = recursion
+        .and_then(|recursion| recursion.forward_dynamics(&tau, wrench, Solver::MassMatrix));
+    by_recursion.unwrap_or_else(|| {
+        let bias = derivation.paper_torques(wrench, &["qdd"]);
+        let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();
+        mass_matrix::matrix(derivation).solve(excess)
+    })
 }
