@@ -72,12 +72,15 @@ pub struct Written {
 /// that would look alike.
 pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
     let graph = Graph::limited(MAX_NODES);
+    let set = written(robot, snap, &graph);
+    // What was written on the way means nothing then.
+    if graph.is_full() { Err(Error::TooManyExpressions { limit: MAX_NODES }) } else { set }
+}
+
+fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, Error> {
     let options = MechanismOptions::EXACT.with_snap(snap, robot);
-    let derivation = Derivation::new(robot, &graph, &options, None);
+    let derivation = Derivation::new(robot, graph, &options, None);
     let found = found(&derivation)?;
-    if graph.is_full() {
-        return Err(Error::TooManyExpressions { limit: MAX_NODES });
-    }
     let notation = Notation::new(robot, Trigonometry::Named)?;
     let formulas = Formulas { notation: &notation, order: &Order::new(robot) };
     let standard: Vec<Option<Written>> = found
