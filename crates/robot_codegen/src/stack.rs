@@ -2,7 +2,7 @@
 
 use crate::counts::Counts;
 use crate::module::Function;
-use crate::program::{Layout, Limits, Program};
+use crate::program::{Layout, Limits, Program, Value};
 
 /// What a function takes apart from its values: return addresses, saved registers, places of
 /// arguments, an expression's values while it is computed.
@@ -14,8 +14,9 @@ const FIXED: usize = 256;
 /// Without optimisation rustc gives every named value a place of its own. There are the statements
 /// of the program, those that leave a block twice more, as a part of its tuple and by their outer name;
 /// the entries of inputs, angles, sines and cosines, each twice: in its array and
-/// where a pattern takes it; and the outputs four times: as numbers, as rows, as arrays and as the
-/// result. Optimised code takes less. This is no proof: tests hold it against what the compiler
+/// where a pattern takes it; the outputs four times: as numbers, as rows, as arrays and as the
+/// result; and one in four of the values that wait inside an expression for another one, for the rest
+/// of which registers last. Optimised code takes less. This is no proof: tests hold it against what the compiler
 /// makes of every robot of the project, and `robot-symbolic prove` measures.
 #[must_use]
 pub fn estimate(function: &Function, scalar: usize) -> usize {
@@ -25,7 +26,18 @@ pub fn estimate(function: &Function, scalar: usize) -> usize {
     let angles = 3 * function.angles.results().len();
     let outputs = function.core.results().len();
     let leaving: usize = programs.iter().map(|program| leaving(program)).sum();
-    FIXED + scalar * (statements + 2 * leaving + 2 * (inputs + angles) + 4 * outputs)
+    let held: usize = programs.iter().map(|program| held(program)).sum();
+    FIXED + scalar * (statements + held / 4 + 2 * leaving + 2 * (inputs + angles) + 4 * outputs)
+}
+
+/// The values without a name that wait for another operand of what uses them.
+fn held(program: &Program) -> usize {
+    let layout = Layout::new(program, &Limits::default());
+    let is_inside =
+        |value: &Value| !layout.is_named(*value) && !program.operation(*value).is_leaf();
+    let inside =
+        program.operations().iter().map(|operation| operation.operands().filter(is_inside));
+    inside.map(|operands| operands.count().saturating_sub(1)).sum()
 }
 
 /// The values that leave blocks, where there are several.

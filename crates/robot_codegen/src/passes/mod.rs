@@ -6,6 +6,7 @@
 //! Each pass is a function in a file of its own and proved on random programs to keep the values:
 //! to the last bit where it does not reassociate, else to rounding.
 
+pub mod arrival;
 pub mod dead_code;
 pub mod factoring;
 pub mod fusing;
@@ -18,6 +19,7 @@ pub mod signs;
 #[cfg(test)]
 mod testing;
 pub mod value_numbering;
+mod waiting;
 
 use self::resubstitution::Samples;
 pub use self::schedule::Schedule;
@@ -40,6 +42,8 @@ pub struct Options {
     pub resubstitution: Resubstitution,
     /// How often these run in turn, at most; they end when none saves anything.
     pub rounds: usize,
+    /// The order of sums and products: [`arrival`], and [`product_last`] where multiply-adds follow.
+    pub arrival: bool,
     /// [`signs`] into differences.
     pub signs: bool,
     /// Whether products and sums become multiply-adds.
@@ -58,6 +62,7 @@ impl Default for Options {
             pair_reuse: true,
             resubstitution: Resubstitution::Multiples,
             rounds: 4,
+            arrival: true,
             signs: true,
             fused: Fused::Never,
             schedule: Schedule::Throughput,
@@ -75,6 +80,7 @@ impl Options {
             factoring: false,
             pair_reuse: false,
             resubstitution: Resubstitution::Off,
+            arrival: false,
             signs: false,
             schedule: Schedule::Construction,
             ..Options::default()
@@ -141,10 +147,13 @@ pub(crate) fn run(
 pub(crate) fn finish(program: &Program, options: &Options) -> (Program, Vec<PassCounts>) {
     let mut runner = Runner { program: program.clone(), cost: options.cost, report: vec![] };
     runner.take("constructor", dead_code::run);
-    if options.fused == Fused::WhereTarget {
-        if can_put_products_last(&runner.program) {
-            runner.take("product last", product_last::run);
-        }
+    let fused = options.fused == Fused::WhereTarget;
+    if options.arrival && fused {
+        runner.take_order("product last", |program| fusing::run(program), product_last::run);
+    } else if options.arrival {
+        runner.take_order("arrival", Program::clone, arrival::run);
+    }
+    if fused {
         runner.take("fusing", fusing::run);
     }
     if options.signs {
@@ -152,13 +161,6 @@ pub(crate) fn finish(program: &Program, options: &Options) -> (Program, Vec<Pass
     }
     runner.take("schedule", |program| schedule::run(&dead_code::run(program), options.schedule));
     (runner.program, runner.report)
-}
-
-/// Whether no result waits longer where sums have their products last: a product then fuses with
-/// what comes before it, but a sum that was a tree is a chain.
-fn can_put_products_last(program: &Program) -> bool {
-    let wait = |program: &Program| schedule::longest_chain(&fusing::run(program));
-    wait(&product_last::run(program)) <= wait(program)
 }
 
 /// The passes for programs off the path of a call.
@@ -187,6 +189,26 @@ impl Runner {
     /// Takes the result of a pass.
     fn take(&mut self, name: &'static str, pass: impl Fn(&Program) -> Program) {
         self.program = pass(&self.program);
+        self.note(name);
+    }
+
+    /// Takes the result of a pass where, `finished`, no result waits longer, for what was a tree of sums can
+    /// have become a chain, and where no operation is added.
+    fn take_order(
+        &mut self,
+        name: &'static str,
+        finished: impl Fn(&Program) -> Program,
+        pass: impl Fn(&Program) -> Program,
+    ) {
+        let measure = |program: &Program| {
+            let program = finished(program);
+            (waiting::longest_chain(&program), Counts::of(&program).operations())
+        };
+        let candidate = pass(&self.program);
+        let ((wait, count), (longest, most)) = (measure(&candidate), measure(&self.program));
+        if wait <= longest && count <= most {
+            self.program = candidate;
+        }
         self.note(name);
     }
 

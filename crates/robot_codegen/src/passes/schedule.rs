@@ -2,8 +2,6 @@
 
 mod throughput;
 
-pub(super) use throughput::longest_chain;
-
 use crate::program::{Operation, Program, Value};
 
 /// The order of statements.

@@ -132,11 +132,11 @@ pub mod planar_arm {
             let t1 = cq2 * self.k2;
             let t2 = c3 * self.k1;
             let t3 = self.k2 * sq2;
-            let t4 = t1 + self.k4;
-            let t5 = qdd2 * self.k4 + (t2 + qdd1 * t4);
-            let t6 = qdd2 * t4 + (t2 + qdd1 * (t1 * 2.0 + self.k3));
-            let t7 = t6 - t3 * (qd2 * (qd2 + 2.0 * qd1));
-            [cq1 * self.k5 + t7, t3 * (qd1 * qd1) + t5]
+            let t4 = self.k4 + t1;
+            let t5 = qdd2 * t4 + (cq1 * self.k5 + t2);
+            let t6 = t5 - (qd2 + 2.0 * qd1) * (qd2 * t3);
+            let t7 = t3 * (qd1 * qd1) + (t2 + qdd2 * self.k4);
+            [qdd1 * (self.k3 + t1 * 2.0) + t6, t4 * qdd1 + t7]
         }
         /// `inverse_dynamics` of many states, 8 at a time: entry i of each slice is of state i.
         ///
@@ -241,12 +241,11 @@ pub mod planar_arm {
             let t1 = cq2 * T::from_f64(self.k2);
             let t2 = c3 * T::from_f64(self.k1);
             let t3 = T::from_f64(self.k2) * sq2;
-            let t4 = t1 + T::from_f64(self.k4);
-            let t5 = qdd2 * T::from_f64(self.k4) + (t2 + qdd1 * t4);
-            let t6 = qdd2 * t4
-                + (t2 + qdd1 * (t1 * T::from_f64(2.0) + T::from_f64(self.k3)));
-            let t7 = t6 - t3 * (qd2 * (qd2 + T::from_f64(2.0) * qd1));
-            [cq1 * T::from_f64(self.k5) + t7, t3 * (qd1 * qd1) + t5]
+            let t4 = T::from_f64(self.k4) + t1;
+            let t5 = qdd2 * t4 + (cq1 * T::from_f64(self.k5) + t2);
+            let t6 = t5 - (qd2 + T::from_f64(2.0) * qd1) * (qd2 * t3);
+            let t7 = t3 * (qd1 * qd1) + (t2 + qdd2 * T::from_f64(self.k4));
+            [qdd1 * (T::from_f64(self.k3) + t1 * T::from_f64(2.0)) + t6, t4 * qdd1 + t7]
         }
     }
     /// The outputs of mass_matrix.
@@ -280,10 +279,10 @@ pub mod planar_arm {
             let [cq2] = *c;
             let t1 = cq2 * self.k2;
             let t2 = t1 + self.k4;
-            let t3 = t1 * 2.0 + self.k3;
+            let t3 = self.k3 + 2.0 * t1;
             MassMatrix {
                 m: [[t3, t2], [t2, self.k4]],
-                trace: self.k4 + t3,
+                trace: t3 + self.k4,
             }
         }
         /// `mass_matrix` of many states, 8 at a time: entry i of each slice is of state i.
@@ -366,10 +365,10 @@ pub mod planar_arm {
             let [cq2] = *c;
             let t1 = cq2 * T::from_f64(self.k2);
             let t2 = t1 + T::from_f64(self.k4);
-            let t3 = t1 * T::from_f64(2.0) + T::from_f64(self.k3);
+            let t3 = T::from_f64(self.k3) + T::from_f64(2.0) * t1;
             MassMatrix {
                 m: [[t3, t2], [t2, T::from_f64(self.k4)]],
-                trace: T::from_f64(self.k4) + t3,
+                trace: t3 + T::from_f64(self.k4),
             }
         }
     }

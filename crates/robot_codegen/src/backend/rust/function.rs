@@ -16,6 +16,7 @@ use super::syntax;
 use super::variables::Variables;
 use crate::module::Function;
 use crate::program::{Operation, Program, Source};
+use crate::trigonometry::Trigonometry;
 
 /// Functions of more operations than this are not offered for inlining into other crates.
 const INLINE_LIMIT: usize = 2000;
@@ -24,6 +25,7 @@ const INLINE_LIMIT: usize = 2000;
 pub(super) struct Names {
     pub(super) plain: Ident,
     pub(super) sc: Ident,
+    apart: Ident,
     angles: Ident,
 }
 
@@ -32,6 +34,7 @@ impl Names {
         Names {
             plain: plain.clone(),
             sc: derived(namer, plain, "sc"),
+            apart: derived(namer, plain, "apart"),
             angles: derived(namer, plain, "angles"),
         }
     }
@@ -95,7 +98,40 @@ impl<'s, 'a> Methods<'s, 'a> {
             methods.extend(self.angles());
         }
         methods.extend(self.arithmetic_of_angles());
+        methods.extend(self.has_wrapper().then(|| self.wrapper()));
         methods
+    }
+
+    /// Whether the arithmetic stays out of line where single states are computed: after calls of the
+    /// library's sine and cosine, of which LLVM can keep nothing in registers, it comes out 3 to 7 %
+    /// slower inlined, where it has more inputs than them (`docs/performance.md`).
+    fn is_apart(&self) -> bool {
+        let function = self.function;
+        let calls = self.scope.options.trigonometry == Trigonometry::Standard;
+        calls && used_inputs(function, &function.core).contains(&true)
+    }
+
+    /// Whether that takes a method of its own, for loops need the arithmetic inlined.
+    fn has_wrapper(&self) -> bool {
+        self.is_apart() && self.is_in_loops()
+    }
+
+    /// The arithmetic out of line.
+    fn wrapper(&mut self) -> ImplItem {
+        let function = self.function;
+        let variables = Variables::new(self.scope, function);
+        let used = used_inputs(function, &function.core);
+        let parameters = self.sc_parameters(&variables, &used);
+        let (s, c) = (&variables.sines, &variables.cosines);
+        let (name, method) = (&self.names.apart, &self.names.sc);
+        let arguments = variables.chosen(&used);
+        let returned = outputs::returned(self.scope, function, self.number);
+        parse_quote! {
+            #[inline(never)]
+            fn #name(&self, #(#parameters),*) -> #returned {
+                self.#method(#s, #c, #(#arguments),*)
+            }
+        }
     }
 
     /// Whether every angle is a plain entry of an input.
@@ -117,7 +153,8 @@ impl<'s, 'a> Methods<'s, 'a> {
         let circular = self.number.circular_array();
         let (s, c) = (&variables.sines, &variables.cosines);
         statements.push(parse_quote!(let (#s, #c) = #circular(#angles);));
-        let (method, arguments) = (&self.names.sc, variables.chosen(&in_core));
+        let method = if self.has_wrapper() { &self.names.apart } else { &self.names.sc };
+        let arguments = variables.chosen(&in_core);
         let value = parse_quote!(self.#method(&#s, &#c, #(#arguments),*));
         let parameters = self.input_parameters(&variables, &vec![true; used.len()]);
         let docs = self.doc();
@@ -178,13 +215,18 @@ impl<'s, 'a> Methods<'s, 'a> {
         let function = self.function;
         let variables = Variables::new(self.scope, function);
         let used = used_inputs(function, &function.core);
-        let array = syntax::array_type(&self.number.ty(), function.angles.results().len());
-        let (s, c) = (&variables.sines, &variables.cosines);
-        let mut parameters = vec![quote!(#s: &#array), quote!(#c: &#array)];
-        parameters.extend(self.input_parameters(&variables, &used));
+        let parameters = self.sc_parameters(&variables, &used);
         let (name, docs) = (self.names.sc.clone(), self.sc_doc());
         let statements = variables.take_angles(&function.core).to_vec();
         self.core(variables, &name, &docs, &parameters, statements)
+    }
+
+    /// Sines, cosines, and the inputs used besides.
+    fn sc_parameters(&self, variables: &Variables, used: &[bool]) -> Vec<TokenStream> {
+        let array = syntax::array_type(&self.number.ty(), self.function.angles.results().len());
+        let (s, c) = (&variables.sines, &variables.cosines);
+        let inputs = self.input_parameters(variables, used);
+        [quote!(#s: &#array), quote!(#c: &#array)].into_iter().chain(inputs).collect()
     }
 
     fn core(
@@ -231,7 +273,8 @@ impl<'s, 'a> Methods<'s, 'a> {
     ) -> ImplItem {
         let docs = doc::attributes(docs);
         let (generics, clause) = (self.number.generics(), self.number.where_clause());
-        let inline = self.inline();
+        let apart = *name == self.names.sc && self.is_apart() && !self.is_in_loops();
+        let inline = if apart { Some(quote!(#[inline(never)])) } else { self.inline() };
         let returned = outputs::returned(self.scope, self.function, self.number);
         let signature = parse_quote! {
             #(#docs)*
@@ -246,8 +289,12 @@ impl<'s, 'a> Methods<'s, 'a> {
     /// inlined into it for the loop to be vectorised.
     fn inline(&self) -> Option<TokenStream> {
         let short = self.function.core.operations().len() <= INLINE_LIMIT;
-        let in_loops = self.scope.options.batch.is_some() && !self.number.is_generic();
-        short.then(|| if in_loops { quote!(#[inline(always)]) } else { quote!(#[inline]) })
+        short
+            .then(|| if self.is_in_loops() { quote!(#[inline(always)]) } else { quote!(#[inline]) })
+    }
+
+    fn is_in_loops(&self) -> bool {
+        self.scope.options.batch.is_some() && !self.number.is_generic()
     }
 
     fn input_parameters(&self, variables: &Variables, include: &[bool]) -> Vec<TokenStream> {

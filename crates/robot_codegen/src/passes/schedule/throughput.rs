@@ -52,11 +52,6 @@ fn heights(program: &Program) -> Vec<u32> {
     heights
 }
 
-/// Cycles that the result waited for longest takes, were there room for everything at once.
-pub(in crate::passes) fn longest_chain(program: &Program) -> u32 {
-    heights(program).into_iter().max().unwrap_or(0)
-}
-
 pub(super) fn run(program: &Program) -> Program {
     let mut list = List::new(program);
     while !list.is_empty() {
@@ -228,7 +223,7 @@ mod tests {
 
     #[test]
     fn the_longest_chain_is_that_of_the_latencies() {
-        assert_eq!(longest_chain(&two_chains()), 20 * 2 + 2);
+        assert_eq!(heights(&two_chains()).into_iter().max(), Some(20 * 2 + 2));
     }
 
     #[test]

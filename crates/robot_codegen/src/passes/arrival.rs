@@ -1,0 +1,74 @@
+//! Arrival order: sums and products take their operands as these become known, so that no result
+//! waits for more than it must.
+//!
+//! A recursion hands each link the sums of the link before it. Where those come last into a sum, each
+//! link adds one operation to the chain that a call waits for, in place of one for each term.
+
+use super::nary::Node;
+use super::waiting::Waiting;
+use crate::program::Program;
+
+/// Orders the terms of each sum and the factors of each product by when they are known. Reassociates.
+#[must_use]
+pub fn run(program: &Program) -> Program {
+    ordered(program, false).view.program()
+}
+
+/// The program in that order, all settled; `fused` says whether products will become part of multiply-adds.
+pub(super) fn ordered(program: &Program, fused: bool) -> Waiting {
+    let mut waiting = Waiting::new(program, fused);
+    for id in waiting.ids() {
+        match waiting.view.node(id).clone() {
+            Node::Sum(mut terms) => {
+                // Of what is known at once, the product is last, which then fuses.
+                terms.sort_by_key(|term| {
+                    let node = term.node;
+                    (waiting.known(node), waiting.fuses(node), term.negative)
+                });
+                waiting.view.replace(id, Node::Sum(terms));
+            }
+            Node::Product(mut factors) => {
+                factors.sort_by_key(|factor| waiting.known(*factor));
+                waiting.view.replace(id, Node::Product(factors));
+            }
+            Node::Leaf(_) | Node::Quotient(..) | Node::Call(..) => {}
+        }
+        waiting.settle(id);
+    }
+    waiting
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::testing::assert_same_values;
+    use crate::passes::waiting::{PRODUCT, SUM, longest_chain};
+    use crate::program::{Builder, Source};
+
+    #[test]
+    fn values_stay() {
+        assert_same_values("arrival order", run);
+    }
+
+    /// Ten sums, each of the one before it, of a product and of three inputs: what is known late stands first.
+    fn recursion() -> Program {
+        let mut b = Builder::new();
+        let mut late = b.load(Source::Input(0));
+        for index in 0..10 {
+            let [x, y, z] = [1, 2, 3].map(|input| b.load(Source::Input(3 * index + input)));
+            let product = b.mul(x, late);
+            let shared = b.add(product, x);
+            let sum = b.add(shared, y);
+            late = b.add(sum, z);
+        }
+        b.finish(vec![late])
+    }
+
+    #[test]
+    fn what_is_known_late_comes_last() {
+        let (program, ordered) = (recursion(), run(&recursion()));
+        // A product and three sums a link. A product and one sum, but for the first, of which nothing is late.
+        assert_eq!(longest_chain(&program), 10 * (PRODUCT + 3 * SUM));
+        assert_eq!(longest_chain(&ordered), 3 * SUM + 9 * (PRODUCT + SUM));
+    }
+}

@@ -1,0 +1,120 @@
+//! When values are known: cycles from the start of a call, were there room for everything at once.
+//!
+//! The figures are those of current x86-64 cores (Zen 4, after Fog's instruction tables); on 64-bit ARM
+//! cores their ratios are much the same.
+
+use super::nary::{Id, Nary, Node, Term};
+use crate::program::{Operation, Program};
+
+/// From the operands of a sum to its value.
+pub(super) const SUM: u32 = 3;
+/// From the factors of a product to its value.
+pub(super) const PRODUCT: u32 = 3;
+/// From the operands of a multiply-add to its value.
+pub(super) const FUSED: u32 = 4;
+/// From the operands of a quotient to its value.
+pub(super) const QUOTIENT: u32 = 13;
+/// From the argument of a function to its value.
+pub(super) const CALL: u32 = 20;
+
+/// Cycles from the start of a program to the last of its results.
+pub(super) fn longest_chain(program: &Program) -> u32 {
+    let mut known: Vec<u32> = Vec::with_capacity(program.operations().len());
+    for operation in program.operations() {
+        let ready = operation.operands().map(|operand| known[operand.index()]).max().unwrap_or(0);
+        known.push(ready + latency(*operation));
+    }
+    program.results().iter().map(|value| known[value.index()]).max().unwrap_or(0)
+}
+
+/// Cycles from the operands of an operation to its value; signs are part of the instructions that follow.
+fn latency(operation: Operation) -> u32 {
+    match operation {
+        Operation::Constant(_) | Operation::Load(_) | Operation::Neg(_) => 0,
+        Operation::Add(..) | Operation::Sub(..) => SUM,
+        Operation::Mul(..) => PRODUCT,
+        Operation::MulAdd(..) => FUSED,
+        Operation::Div(..) => QUOTIENT,
+        Operation::Call(..) => CALL,
+    }
+}
+
+/// A program as sums and products, and when the nodes settled so far are known.
+pub(super) struct Waiting {
+    pub(super) view: Nary,
+    uses: Vec<u32>,
+    fused: bool,
+    known: Vec<u32>,
+}
+
+impl Waiting {
+    /// Nothing is settled; `fused` says whether products will become part of multiply-adds.
+    pub(super) fn new(program: &Program, fused: bool) -> Waiting {
+        let view = Nary::new(program);
+        let (uses, known) = (view.uses(), vec![0; view.len()]);
+        Waiting { view, uses, fused, known }
+    }
+
+    /// All nodes of the program, operands before what uses them.
+    pub(super) fn ids(&self) -> std::ops::Range<Id> {
+        0..self.known.len() as Id
+    }
+
+    /// When a node is known; of a product that fuses, when its factors are.
+    pub(super) fn known(&self, id: Id) -> u32 {
+        self.known[id as usize]
+    }
+
+    /// When the first term of a sum is known, which fuses with nothing.
+    pub(super) fn known_first(&self, id: Id) -> u32 {
+        self.known(id) + if self.fuses(id) { PRODUCT } else { 0 }
+    }
+
+    /// Whether a node is a product that becomes part of a multiply-add where something precedes it in
+    /// the one sum that uses it.
+    pub(super) fn fuses(&self, id: Id) -> bool {
+        let own = self.fused && self.uses[id as usize] == 1 && !self.view.is_early(id);
+        own && matches!(self.view.node(id), Node::Product(factors) if factors.len() > 1)
+    }
+
+    /// Cycles that a term adds to the sum of those before it.
+    pub(super) fn added_by(&self, term: &Term) -> u32 {
+        if self.fuses(term.node) { FUSED } else { SUM }
+    }
+
+    /// When a sum is known that takes its terms in this order.
+    pub(super) fn sum(&self, terms: &[Term]) -> u32 {
+        let Some((first, rest)) = terms.split_first() else { return 0 };
+        rest.iter().fold(self.known_first(first.node), |sum, term| {
+            sum.max(self.known(term.node)) + self.added_by(term)
+        })
+    }
+
+    /// Settles when a node is known, whose operands are settled. What needs no inputs is known at once.
+    pub(super) fn settle(&mut self, id: Id) {
+        if self.view.is_early(id) {
+            return;
+        }
+        self.known[id as usize] = match self.view.node(id) {
+            Node::Leaf(_) => 0,
+            Node::Quotient(a, b) => self.known(*a).max(self.known(*b)) + QUOTIENT,
+            Node::Call(_, term) => self.known(term.node) + CALL,
+            Node::Sum(terms) => self.sum(terms),
+            Node::Product(factors) => {
+                let last = if self.fuses(id) { 0 } else { PRODUCT };
+                self.product(factors) + if factors.len() > 1 { last } else { 0 }
+            }
+        };
+    }
+
+    /// When the last multiplication of a product can start, which takes its factors in this order.
+    fn product(&self, factors: &[Id]) -> u32 {
+        let Some((first, rest)) = factors.split_first() else { return 0 };
+        let mut ready = self.known(*first);
+        for (place, factor) in rest.iter().enumerate() {
+            let before = if place == 0 { ready } else { ready + PRODUCT };
+            ready = before.max(self.known(*factor));
+        }
+        ready
+    }
+}
