@@ -59,6 +59,14 @@ impl<'g> ChainLink<'g> {
         self.kind == JointKind::Revolute
     }
 
+    /// Whether the link's mass is spread alike all round the joint axis, so that no turn about it shows.
+    fn is_symmetric(&self) -> bool {
+        let Matrix(second) = self.inertia.second;
+        let [x, y, _] = self.inertia.first.0;
+        let even = (second[0][0] - second[1][1]).is_zero();
+        even && [second[0][1], second[0][2], second[1][2], x, y].iter().all(|entry| entry.is_zero())
+    }
+
     /// Whether the axis is parallel to the parent's.
     pub(crate) fn is_parallel(&self) -> bool {
         self.axis.0[0].is_zero() && self.axis.0[1].is_zero() && self.axis.0[2].is_one()
@@ -132,6 +140,25 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Pla
         chain.rescale(link, component);
     }
     chain
+}
+
+impl<'g> Chain<'g> {
+    /// The chain without the turns that no driving force depends on: of the last links whose mass is spread
+    /// alike all round their joint axis, but those that `turns` names. The working frame of such a link may
+    /// stay behind while the link turns in it: its velocities are the same vectors, and its inertia has the
+    /// same entries.
+    pub(crate) fn without_idle_turns(&self, turns: impl Fn(usize) -> bool) -> Chain<'g> {
+        let mut chain = self.clone();
+        let (zero, one) = (self.graph.zero(), self.graph.one());
+        for (index, link) in chain.links.iter_mut().enumerate() {
+            let is_last = self.links.iter().all(|other| other.parent != Some(index));
+            if is_last && link.is_revolute() && link.is_symmetric() && !turns(index) {
+                link.motion[0] = zero;
+                link.rotation.turn = (zero, one);
+            }
+        }
+        chain
+    }
 }
 
 type Displacement<'g> = (Matrix<'g>, Vector<'g>);

@@ -151,21 +151,22 @@ impl<'g> Recursion<'g> {
         accelerations: Accelerations,
         wrench: bool,
     ) -> (Vec<Expr<'g>>, Vec<LinkState<'g>>) {
-        let states = outward::outward(chain, &self.plans, accelerations);
         let tips = if wrench { &self.tips[..] } else { &[] };
+        let chain = &chain.without_idle_turns(|link| tips.iter().any(|tip| tip.link == link));
+        let states = outward::outward(chain, &self.plans, accelerations);
         (inward::inward(chain, &self.plans, &states, tips), states)
     }
 
     /// g(q): the driving forces that hold the mechanism at rest.
     #[must_use]
     pub fn gravity(&self) -> Vec<Expr<'g>> {
-        gravity::gravity(&self.chain, &self.plans)
+        gravity::gravity(&self.chain.without_idle_turns(|_| false), &self.plans)
     }
 
     /// M(q), drives included.
     #[must_use]
     pub fn mass_matrix(&self) -> SymmetricMatrix<'g> {
-        mass_matrix::mass_matrix(&self.chain, &self.plans)
+        mass_matrix::mass_matrix(&self.chain.without_idle_turns(|_| false), &self.plans)
     }
 }
 

@@ -102,9 +102,11 @@ impl<'s, 'a> Methods<'s, 'a> {
         methods
     }
 
-    /// Whether the arithmetic stays out of line where single states are computed: after calls of the
-    /// library's sine and cosine, of which LLVM can keep nothing in registers, it comes out 3 to 7 %
-    /// slower inlined, where it has more inputs than them (`docs/performance.md`).
+    /// Whether the arithmetic stays out of line where single states are computed, on x86-64 with
+    /// multiply-adds: after calls of the library's sine and cosine, over which LLVM can keep nothing in
+    /// registers, it comes out 3 to 7 % slower inlined, where it has more inputs than them. Without
+    /// multiply-adds LLVM makes vectors of sines that were stored a moment ago, and waits for them
+    /// (`docs/performance.md`).
     fn is_apart(&self) -> bool {
         let function = self.function;
         let calls = self.scope.options.trigonometry == Trigonometry::Standard;
@@ -126,8 +128,9 @@ impl<'s, 'a> Methods<'s, 'a> {
         let (name, method) = (&self.names.apart, &self.names.sc);
         let arguments = variables.chosen(&used);
         let returned = outputs::returned(self.scope, function, self.number);
+        let inline = out_of_line(&quote!(inline(always)));
         parse_quote! {
-            #[inline(never)]
+            #inline
             fn #name(&self, #(#parameters),*) -> #returned {
                 self.#method(#s, #c, #(#arguments),*)
             }
@@ -274,7 +277,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let docs = doc::attributes(docs);
         let (generics, clause) = (self.number.generics(), self.number.where_clause());
         let apart = *name == self.names.sc && self.is_apart() && !self.is_in_loops();
-        let inline = if apart { Some(quote!(#[inline(never)])) } else { self.inline() };
+        let inline = if apart { Some(out_of_line(&quote!(inline))) } else { self.inline() };
         let returned = outputs::returned(self.scope, self.function, self.number);
         let signature = parse_quote! {
             #(#docs)*
@@ -347,6 +350,14 @@ impl<'s, 'a> Methods<'s, 'a> {
         } else {
             vec![format!("those of `{name}`")]
         }
+    }
+}
+
+/// Out of line on x86-64 with multiply-adds, elsewhere as said.
+fn out_of_line(elsewhere: &TokenStream) -> TokenStream {
+    quote! {
+        #[cfg_attr(target_feature = "fma", inline(never))]
+        #[cfg_attr(not(target_feature = "fma"), #elsewhere)]
     }
 }
 
