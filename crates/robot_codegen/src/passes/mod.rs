@@ -149,7 +149,7 @@ pub(crate) fn finish(program: &Program, options: &Options) -> (Program, Vec<Pass
     runner.take("constructor", dead_code::run);
     let fused = options.fused == Fused::WhereTarget;
     if options.arrival && fused {
-        runner.take_order("product last", |program| fusing::run(program), product_last::run);
+        runner.take_order("product last", fusing::run, product_last::run);
     } else if options.arrival {
         runner.take_order("arrival", Program::clone, arrival::run);
     }
