@@ -260,4 +260,5 @@ fn equations_that_nobody_can_read_end_in_a_message() {
     let found = timed("base parameters", || base(&robot, None));
     let message = found.err().unwrap().to_string();
     assert!(message.contains("more than 300000 expressions"), "{message}");
+    assert!(message.contains("base parameters") && !message.contains("--form"), "{message}");
 }

@@ -4,7 +4,7 @@
 
 mod common;
 
-use robot_build::{Options, Source, programs};
+use robot_build::{Functions, Options, Source, programs};
 use robot_dynamics::economical::{
     Plan, Recursion,
     plan::{LinkPlan, Turn},
@@ -112,12 +112,26 @@ fn a_wrench_at_the_tip_needs_the_turn() {
     let (name, text) =
         common::robot_files().into_iter().find(|(name, _)| name == "puma560").unwrap();
     let source = Source { name, text };
-    let module = programs(&source, &Options::default()).unwrap().module;
+    let options = Options { functions: Functions::All, ..Options::default() };
+    let module = programs(&source, &options).unwrap().module;
     let angles = |name: &str| {
         let function = module.functions.iter().find(|function| function.name == name).unwrap();
         function.angles.results().len()
     };
-    assert_eq!(angles("inverse_dynamics"), 4);
-    assert_eq!(angles("inverse_dynamics_wrench"), 5);
-    assert_eq!(angles("link_wrenches"), 5);
+    for name in [
+        "inverse_dynamics",
+        "mass_matrix",
+        "bias",
+        "gravity",
+        "forward_dynamics",
+        "energies",
+        "coriolis_matrix",
+        "inverse_dynamics_derivatives",
+        "forward_dynamics_derivatives",
+    ] {
+        assert_eq!(angles(name), 4, "{name}");
+    }
+    for name in ["inverse_dynamics_wrench", "forward_dynamics_wrench", "link_wrenches"] {
+        assert_eq!(angles(name), 5, "{name}");
+    }
 }

@@ -73,8 +73,15 @@ pub struct Written {
 pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
     let graph = Graph::limited(MAX_NODES);
     let set = written(robot, snap, &graph);
-    // What was written on the way means nothing then.
-    if graph.is_full() { Err(Error::TooManyExpressions { limit: MAX_NODES }) } else { set }
+    if graph.is_full() {
+        // What was written on the way means nothing then.
+        let reason = format!(
+            "more than {MAX_NODES} expressions are needed for them; figures of frames that are multiples of \
+             π/2 make them shorter (`--snap`)"
+        );
+        return Err(Error::Base { reason });
+    }
+    set
 }
 
 fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, Error> {

@@ -28,7 +28,7 @@ pub enum Error {
         /// The most that there are coefficients for.
         limit: usize,
     },
-    /// More expressions than anybody reads, on the way to the equations or base parameters.
+    /// More expressions than anybody reads, on the way to the equations.
     #[error(
         "more than {limit} expressions are needed for this; the forms `--form recursive` and `compact` need \
          fewest, and figures of frames that are multiples of π/2 make them shorter (`--snap`)"

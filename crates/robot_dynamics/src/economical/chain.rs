@@ -4,6 +4,7 @@ use robot_symbolic::{Expr, Graph};
 
 use super::frames::{self, WorkingFrame};
 use super::inertia::PseudoInertia;
+use super::inward::TipWrench;
 use super::plan::{Entry, LinkPlan, Plan};
 use super::rotation::ConstantRotation;
 use crate::mechanism::Mechanism;
@@ -144,15 +145,16 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Pla
 
 impl<'g> Chain<'g> {
     /// The chain without the turns that no driving force depends on: of the last links whose mass is spread
-    /// alike all round their joint axis, but those that `turns` names. The working frame of such a link may
+    /// alike all round their joint axis, but those at which a wrench acts. The working frame of such a link may
     /// stay behind while the link turns in it: its velocities are the same vectors, and its inertia has the
     /// same entries.
-    pub(crate) fn without_idle_turns(&self, turns: impl Fn(usize) -> bool) -> Chain<'g> {
+    pub(crate) fn without_idle_turns(&self, tips: &[TipWrench<'g>]) -> Chain<'g> {
         let mut chain = self.clone();
         let (zero, one) = (self.graph.zero(), self.graph.one());
         for (index, link) in chain.links.iter_mut().enumerate() {
             let is_last = self.links.iter().all(|other| other.parent != Some(index));
-            if is_last && link.is_revolute() && link.is_symmetric() && !turns(index) {
+            let is_loaded = tips.iter().any(|tip| tip.link == index);
+            if is_last && link.is_revolute() && link.is_symmetric() && !is_loaded {
                 link.motion[0] = zero;
                 link.rotation.turn = (zero, one);
             }

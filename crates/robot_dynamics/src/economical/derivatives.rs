@@ -66,6 +66,7 @@ impl<'g> Recursion<'g> {
     }
 
     fn torque_derivatives_of(&self, chain: &Chain<'g>) -> TorqueDerivatives<'g> {
+        let chain = &chain.without_idle_turns(&[]);
         let states = outward::outward(chain, &self.plans, Accelerations::Given);
         let ways = Ways::new(chain, |index| self.plans[index].composite_sum);
         let motions = Motions::new(&ways, &states, chain.graph.integer(2));
@@ -111,7 +112,7 @@ impl<'g> Recursion<'g> {
         if self.chain.is_gyroscopic() {
             return None;
         }
-        let mut chain = self.chain.clone();
+        let mut chain = self.chain.without_idle_turns(&[]);
         for link in &mut chain.links {
             link.motion[2] = chain.graph.zero();
         }

@@ -12,7 +12,7 @@ impl<'g> Recursion<'g> {
     /// moves with both.
     #[must_use]
     pub fn kinetic_energy(&self) -> Expr<'g> {
-        let chain = &self.chain;
+        let chain = &self.chain.without_idle_turns(&[]);
         let ways = Ways::new(chain, |index| self.plans[index].angle_sum);
         // Angular velocity, in home and own axes, and velocity of the origin in own axes.
         let (mut home, mut own): (Vec<Vector<'g>>, Vec<Vector<'g>>) = (vec![], vec![]);
@@ -60,7 +60,7 @@ impl<'g> Recursion<'g> {
     /// Potential energy of the weight, J; 0 where all mass is in the base frame's origin.
     #[must_use]
     pub fn potential_energy(&self) -> Expr<'g> {
-        weight_in_base(&self.chain, &self.plans)
+        weight_in_base(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 }
 

@@ -131,7 +131,9 @@ impl<'g> Recursion<'g> {
             tau.iter().zip(torques).map(|(tau, torque)| *tau - torque).collect();
         let mut accelerations = match solver {
             Solver::MassMatrix => self.mass_matrix().solve(excess),
-            Solver::ArticulatedBodies => articulated::solve(&self.chain, &self.plans, &excess),
+            Solver::ArticulatedBodies => {
+                articulated::solve(&self.chain.without_idle_turns(&[]), &self.plans, &excess)
+            }
         };
         for (link, state) in self.chain.links.iter().zip(&states) {
             let rate = match link.is_revolute() {
@@ -152,7 +154,7 @@ impl<'g> Recursion<'g> {
         wrench: bool,
     ) -> (Vec<Expr<'g>>, Vec<LinkState<'g>>) {
         let tips = if wrench { &self.tips[..] } else { &[] };
-        let chain = &chain.without_idle_turns(|link| tips.iter().any(|tip| tip.link == link));
+        let chain = &chain.without_idle_turns(tips);
         let states = outward::outward(chain, &self.plans, accelerations);
         (inward::inward(chain, &self.plans, &states, tips), states)
     }
@@ -160,13 +162,13 @@ impl<'g> Recursion<'g> {
     /// g(q): the driving forces that hold the mechanism at rest.
     #[must_use]
     pub fn gravity(&self) -> Vec<Expr<'g>> {
-        gravity::gravity(&self.chain.without_idle_turns(|_| false), &self.plans)
+        gravity::gravity(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 
     /// M(q), drives included.
     #[must_use]
     pub fn mass_matrix(&self) -> SymmetricMatrix<'g> {
-        mass_matrix::mass_matrix(&self.chain.without_idle_turns(|_| false), &self.plans)
+        mass_matrix::mass_matrix(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 }
 
