@@ -83,8 +83,12 @@ pub fn max_stack(programs: &Programs, options: &Options, function: &str) -> Opti
 pub(crate) fn check(programs: &Programs, source: &Source, options: &Options) -> Result<(), Errors> {
     let (mut found, mut errors) = (vec![], vec![]);
     for function in &programs.module.functions {
+        let limits: Vec<_> = limits(programs, &function.name).collect();
+        if limits.is_empty() && options.max_operations.is_none() && options.max_stack.is_none() {
+            continue;
+        }
         let [operations, stack] = figures(programs, function, options);
-        for (max_operations, max_stack) in limits(programs, &function.name) {
+        for (max_operations, max_stack) in limits {
             found.extend(max_operations.and_then(|limit| excess(operations, limit)));
             found.extend(max_stack.and_then(|limit| excess(stack, limit)));
         }

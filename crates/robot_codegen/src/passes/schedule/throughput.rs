@@ -71,6 +71,8 @@ struct List<'p> {
     missing: Vec<usize>,
     /// For each value, the operations that still need it, and one where it is a result.
     needed: Vec<usize>,
+    /// For each operation, the operands that no other needs any more: their lives end with it.
+    ends: Vec<isize>,
     /// The cycle in which the operands of each operation are there.
     start: Vec<u32>,
     /// Operations whose operands are there, the one waited for longest first.
@@ -91,6 +93,7 @@ impl<'p> List<'p> {
             users: vec![vec![]; count],
             missing: vec![0; count],
             needed: vec![0; count],
+            ends: vec![0; count],
             start: vec![0; count],
             ready: BTreeSet::new(),
             waiting: BTreeMap::new(),
@@ -108,6 +111,9 @@ impl<'p> List<'p> {
                 list.needed[index] += 1;
                 list.missing[value.index()] += usize::from(!program.operation(operand).is_leaf());
             }
+        }
+        for (value, _) in program.values() {
+            list.note_end(value);
         }
         for (value, operation) in program.values() {
             if operation.is_leaf() {
@@ -137,7 +143,7 @@ impl<'p> List<'p> {
             let operation = self.program.operation(value);
             // Registers are short and nothing frees one: what is under way may.
             let under_way = products + sums < PRODUCTS + SUMS || !self.waiting.is_empty();
-            if under_way && self.alive >= REGISTERS && self.growth(operation) > 0 {
+            if under_way && self.alive >= REGISTERS && self.growth(value) > 0 {
                 break;
             }
             if is_sum(operation) {
@@ -155,35 +161,43 @@ impl<'p> List<'p> {
         let candidates = self.ready.iter().map(|(_, value)| *value);
         let mut candidates = candidates
             .filter(|value| if is_sum(self.program.operation(*value)) { sums } else { products });
-        if self.alive < REGISTERS {
-            return candidates.next();
+        let first = candidates.next()?;
+        if self.alive < REGISTERS || self.growth(first) <= 0 {
+            return Some(first);
         }
-        // Of equals the first, which is waited for longest.
-        candidates.min_by_key(|value| self.growth(self.program.operation(*value)).max(0))
+        // Of those that add no value the one waited for longest.
+        Some(candidates.find(|value| self.growth(*value) <= 0).unwrap_or(first))
     }
 
     /// By how much the number of values alive grows where an operation starts.
-    fn growth(&self, operation: Operation) -> isize {
-        let ends = distinct(operation).filter(|operand| {
-            self.needed[operand.index()] == 1 && !self.program.operation(*operand).is_leaf()
-        });
-        1 - ends.count() as isize
+    fn growth(&self, value: Value) -> isize {
+        1 - self.ends[value.index()]
+    }
+
+    /// Tells the users of a value where but one still needs it; for those that have started it is the same.
+    fn note_end(&mut self, value: Value) {
+        if self.needed[value.index()] == 1 && !self.program.operation(value).is_leaf() {
+            for user in &self.users[value.index()] {
+                self.ends[user.index()] += 1;
+            }
+        }
     }
 
     fn begin(&mut self, value: Value, operation: Operation) {
         self.ready.remove(&(Reverse(self.height[value.index()]), value));
-        self.alive += self.growth(operation);
+        self.alive += self.growth(value);
         for operand in distinct(operation) {
             self.needed[operand.index()] -= 1;
+            self.note_end(operand);
         }
         self.order.push(value, operation);
         let there = self.now + latency(operation);
-        for user in std::mem::take(&mut self.users[value.index()]) {
+        for user in &self.users[value.index()] {
             let index = user.index();
             self.start[index] = self.start[index].max(there);
             self.missing[index] -= 1;
             if self.missing[index] == 0 {
-                self.waiting.entry(self.start[index]).or_default().push(user);
+                self.waiting.entry(self.start[index]).or_default().push(*user);
             }
         }
     }
