@@ -1,5 +1,6 @@
 //! Pinned plans beside robot files: `panda.plan` beside `panda.toml`.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use robot_dynamics::diagnostic::Source;
@@ -14,10 +15,14 @@ use crate::paths::RobotFile;
 /// A pin is a few kilobytes; a larger file is none.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Where the pin of a robot file lies: beside it, with the ending `plan`.
+/// Where the pin of a robot file lies: beside it, with the ending `plan` in place of `toml` and after any
+/// other, so that `ur5.toml`, imported from `ur5.urdf`, has a pin of its own.
 #[must_use]
 pub fn pin_path(robot: &Path) -> PathBuf {
-    robot.with_extension("plan")
+    match robot.extension().and_then(OsStr::to_str) {
+        None | Some("toml") => robot.with_extension("plan"),
+        Some(other) => robot.with_extension(format!("{other}.plan")),
+    }
 }
 
 /// The text of a pin of what a search found for a robot file.
@@ -76,6 +81,13 @@ mod tests {
     const ROBOT: &str = "format = 1\n[robot]\nname = \"pendulum\"\n[[link]]\nname = \"1\"\n\
         joint = { type = \"revolute\", axis = \"y\" }\nmass = 2\n\
         center_of_mass = [0.5, 0, 0]\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
+
+    #[test]
+    fn a_robot_file_and_the_urdf_it_comes_from_have_pins_of_their_own() {
+        let pin = |robot: &str| pin_path(Path::new(robot));
+        assert_eq!(pin("arms/ur5.toml"), Path::new("arms/ur5.plan"));
+        assert_eq!(pin("arms/ur5.urdf"), Path::new("arms/ur5.urdf.plan"));
+    }
 
     #[test]
     fn a_pin_is_taken_and_a_stale_one_refused() {

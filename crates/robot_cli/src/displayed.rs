@@ -12,7 +12,7 @@ const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 #[derive(Args)]
 pub(crate) struct LayoutArguments {
     /// The width of the lines of LaTeX, Typst and MathML, such as 8.5cm
-    #[arg(long, value_name = "WIDTH", value_parser = centimetres, default_value = "16cm")]
+    #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true, default_value = "16cm")]
     width: f64,
     /// Number the equations; those of LaTeX and Typst get labels such as eq:Q1
     #[arg(long)]

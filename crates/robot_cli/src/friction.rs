@@ -14,7 +14,7 @@ pub(crate) struct FrictionArguments {
     friction: bool,
     /// Take tanh(qd / WIDTH) for the sign of a velocity in dry friction that has no smoothing, rad/s
     /// or m/s
-    #[arg(long, value_name = "WIDTH", requires = "friction")]
+    #[arg(long, value_name = "WIDTH", requires = "friction", allow_hyphen_values = true)]
     smoothing: Option<f64>,
 }
 

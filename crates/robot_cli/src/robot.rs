@@ -9,6 +9,7 @@ use robot_build::{
     Scalar, Source, Trigonometry,
 };
 use robot_dynamics::description::Described;
+use robot_dynamics::mechanism::MechanismOptions;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -21,13 +22,20 @@ pub(crate) struct RobotArgument {
     file: PathBuf,
     /// Constant angles this near to a multiple of π/2, in radians, become that multiple; without this
     /// what the robot file says, or 1e-9
-    #[arg(long, value_name = "RAD")]
+    #[arg(long, value_name = "RAD", value_parser = snap, allow_hyphen_values = true)]
     snap: Option<f64>,
     /// Over which parameters of links the base parameters are, and the regressor over them: those in
     /// the file's frames, or first and second moments in frames of Denavit and Hartenberg, for which
     /// the regressor needs fewer operations; without this what the robot file says, or file
     #[arg(long, value_name = "FRAMES", value_parser = base_frames())]
     base_frames: Option<BaseFrames>,
+}
+
+/// A snapping tolerance.
+fn snap(text: &str) -> Result<f64, String> {
+    let most = MechanismOptions::MAX_SNAP;
+    let angle = text.parse().ok().filter(|angle| (0.0..=most).contains(angle));
+    angle.ok_or_else(|| format!("it is an angle in radians between 0 and {most}"))
 }
 
 /// The names of frames of base parameters.

@@ -10,7 +10,7 @@ use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use crate::error::Error;
-use crate::forms::{Equation, Group, MAX_NODES};
+use crate::forms::{Equation, Group, MAX_NODES, check_snap};
 use crate::latex;
 use crate::math::{Fence, Math, Style};
 use crate::notation::Notation;
@@ -54,6 +54,10 @@ pub struct BaseEntry {
     pub value: Written,
 }
 
+/// What helps where formulas of base parameters are too long.
+const SHORTER: &str =
+    "angles between frames that are multiples of π/2 make them shorter (`--snap`)";
+
 /// A formula in both notations that a reader may want.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
@@ -71,14 +75,12 @@ pub struct Written {
 /// A robot whose base parameters are out of reach; formulas that are too long to be of use; symbols
 /// that would look alike.
 pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
+    check_snap(snap)?;
     let graph = Graph::limited(MAX_NODES);
     let set = written(robot, snap, &graph);
     if graph.is_full() {
         // What was written on the way means nothing then.
-        let reason = format!(
-            "more than {MAX_NODES} expressions are needed for them; figures of frames that are multiples of \
-             π/2 make them shorter (`--snap`)"
-        );
+        let reason = format!("more than {MAX_NODES} expressions are needed for them; {SHORTER}");
         return Err(Error::Base { reason });
     }
     set
@@ -159,7 +161,8 @@ pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameter
 
 /// Figures and values, expanded.
 pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
-    Polynomial::of_all(values, &LIMITS).map_err(|error| Error::Base { reason: error.to_string() })
+    Polynomial::of_all(values, &LIMITS)
+        .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })
 }
 
 /// The figures of a base parameter, expanded.

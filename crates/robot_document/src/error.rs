@@ -37,6 +37,12 @@ pub enum Error {
         /// The most that are derived.
         limit: usize,
     },
+    /// A tolerance that is no angle.
+    #[error("the snapping tolerance {snap} is no angle in radians between 0 and 0.1")]
+    Snap {
+        /// The tolerance as text.
+        snap: String,
+    },
     /// Base parameters that cannot be found or written out.
     #[error("the base parameters are not to be had: {reason}")]
     Base {

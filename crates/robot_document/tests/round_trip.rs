@@ -10,7 +10,7 @@ use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
 use robot_document::math::Math;
 use robot_document::meaning::meaning;
-use robot_document::{EquationOptions, Equations, Form, equations};
+use robot_document::{EquationOptions, Equations, Form, base::base, equations};
 use robot_dynamics::description::read_toml;
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::MechanismOptions;
@@ -38,6 +38,17 @@ fn robots() -> Vec<Robot> {
         .collect();
     assert!(robots.len() >= 9);
     robots
+}
+
+#[test]
+fn a_tolerance_that_is_no_small_angle_is_refused() {
+    let robot = robots().remove(0);
+    for snap in [1.0, -1e-3, f64::NAN, f64::INFINITY] {
+        let options = EquationOptions { snap: Some(snap), ..EquationOptions::default() };
+        let found = equations(&robot, &options).map(|_| ()).unwrap_err().to_string();
+        assert!(found.contains("between 0 and 0.1"), "{found}");
+        assert!(base(&robot, Some(snap)).is_err(), "{snap}");
+    }
 }
 
 /// The values of the quantities as the program has them, by their names.

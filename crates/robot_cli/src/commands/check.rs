@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::{Error, RobotFile};
 use robot_dynamics::description::Options;
-use robot_dynamics::diagnostic::{Diagnostics, Severity, Style, code};
+use robot_dynamics::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
 use robot_dynamics::doctor::{self, Examination};
 
 use crate::Terminal;
@@ -101,7 +101,10 @@ impl Arguments {
             friction: false,
         };
         let examination = match RobotFile::read(path) {
-            Ok(file) => doctor::check(&file.source.name, &file.source.text, &options),
+            Ok(file) => {
+                let examination = doctor::check(&file.source.name, &file.source.text, &options);
+                with_pin(examination, &file)
+            }
             Err(errors) => match errors.as_slice() {
                 // Bytes that are no text.
                 [Error::Robot(found)] => Examination::refused((**found).clone()),
@@ -123,6 +126,18 @@ impl Arguments {
         });
         Diagnostics::new(found.source().clone(), wanted.cloned().collect())
     }
+}
+
+/// The same, and whether builds refuse the plan that is pinned beside the file.
+fn with_pin(examination: Examination, file: &RobotFile) -> Examination {
+    let Err(errors) = file.with_pin(&robot_build::Options::default()) else { return examination };
+    let Examination { found, choices } = examination;
+    let pins = errors.as_slice().iter().map(|error| {
+        Diagnostic::warning(code::PIN, error.to_string())
+            .help("no code is made of the file until then")
+    });
+    let list = found.iter().cloned().chain(pins).collect();
+    Examination { found: Diagnostics::new(found.source().clone(), list), choices }
 }
 
 impl Report {

@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
     columns: u8,
     /// The width of a column, such as 8.5cm; without this what fits A4
-    #[arg(long, value_name = "WIDTH", value_parser = centimetres)]
+    #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true)]
     width: Option<f64>,
     /// The file to write; without this the document is printed
     #[arg(short, long, value_name = "FILE")]

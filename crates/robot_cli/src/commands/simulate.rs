@@ -33,13 +33,13 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     /// How long to simulate, s
-    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    #[arg(long, value_name = "S", default_value_t = 10.0, allow_hyphen_values = true)]
     time: f64,
     /// The time between lines of the output, s
-    #[arg(long, value_name = "S", default_value_t = 0.01)]
+    #[arg(long, value_name = "S", default_value_t = 0.01, allow_hyphen_values = true)]
     step: f64,
     /// The error that a step may make in a component y of q and qd: TOLERANCE (1 + |y|)
-    #[arg(long, default_value_t = 1e-9)]
+    #[arg(long, default_value_t = 1e-9, allow_hyphen_values = true)]
     tolerance: f64,
     /// The most steps of the integrator
     #[arg(long, value_name = "STEPS", default_value_t = SimulationOptions::default().max_steps)]

@@ -42,10 +42,10 @@ pub(crate) struct Arguments {
     )]
     expressions: Vec<String>,
     /// How long the expressions are followed, s
-    #[arg(long, value_name = "S", requires = "expressions")]
+    #[arg(long, value_name = "S", requires = "expressions", allow_hyphen_values = true)]
     time: Option<f64>,
     /// The time between lines of the output where the motion is expressions, s
-    #[arg(long, value_name = "S", default_value_t = 0.01)]
+    #[arg(long, value_name = "S", default_value_t = 0.01, allow_hyphen_values = true)]
     step: f64,
     #[command(flatten)]
     friction: FrictionArguments,

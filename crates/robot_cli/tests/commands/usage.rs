@@ -1,6 +1,6 @@
 //! Wrong usage, and the demonstration.
 
-use crate::{URDF, complaint, output, run};
+use crate::{URDF, complaint, output, robot, run};
 
 #[test]
 fn wrong_usage_has_its_own_code() {
@@ -8,6 +8,20 @@ fn wrong_usage_has_its_own_code() {
         assert!(complaint(2, arguments, "").contains("error:"), "{arguments:?}");
     }
     assert!(complaint(1, &["stats", "none.toml"], "").contains("there is no such file"));
+}
+
+/// A command that took a larger angle would print equations of another robot.
+#[test]
+fn a_tolerance_that_is_no_small_angle_is_refused() {
+    let file = robot("ur5");
+    for command in ["equations", "document", "base", "show", "search", "stats", "generate", "watch"]
+    {
+        for snap in ["1", "-1e-3", "nan", "inf", "0.1000001", "right"] {
+            let found = complaint(2, &[command, &file, "--snap", snap], "");
+            assert!(found.contains("between 0 and 0.1"), "{command} {snap}: {found}");
+        }
+    }
+    output(&["equations", &file, "--snap", "0.1", "--form", "compact"], "");
 }
 
 #[test]

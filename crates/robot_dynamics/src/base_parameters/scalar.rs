@@ -19,6 +19,10 @@ const EXPANSION: PolynomialOptions = PolynomialOptions {
     max_products: 100_000,
 };
 
+/// What a tidied figure may hold: a longer one is no tidier for having no brackets.
+const TIDY: PolynomialOptions =
+    PolynomialOptions { max_terms: 100, max_products: 10_000, ..EXPANSION };
+
 /// Longer expressions, by their nodes, are left as they are: those of chains about skew axes, whose sines
 /// and cosines stand in every figure.
 const SHORT: usize = 100;
@@ -92,10 +96,11 @@ fn is_rational(polynomial: &Polynomial<'_>) -> bool {
 /// The canonical form of an expression where it is short and without sums in denominators.
 pub(super) fn tidied(expr: Expr<'_>) -> Expr<'_> {
     let is_simple = !walk::is_longer_than(expr, 3);
-    if is_simple || expr.as_number().is_some() || walk::is_longer_than(expr, SHORT) {
+    let is_done = is_simple || expr.as_number().is_some() || expr.graph().is_full();
+    if is_done || walk::is_longer_than(expr, SHORT) {
         return expr;
     }
-    match Polynomial::of(expr, &EXPANSION) {
+    match Polynomial::of(expr, &TIDY) {
         Ok(polynomial) => {
             let whole = |atom: &Expr<'_>| !matches!(atom.view(), View::Add(..) | View::Sub(..));
             if polynomial.atoms().iter().all(whole) { polynomial.to_expr() } else { expr }

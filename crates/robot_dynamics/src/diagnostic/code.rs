@@ -81,4 +81,5 @@ codes! {
     TAKEN_ANGLE = "R0707", "An angle is taken for a multiple of π/2.";
     BUDGET = "R0801", "A function costs more than its budget.";
     LACKING = "R0802", "A function is asked for that the robot lacks.";
+    PIN = "R0803", "The plan pinned beside the file is not for it.";
 }

@@ -9,9 +9,9 @@ use robot_dynamics::doctor::{Examination, check};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/diagnostics");
 
-/// Two concern the bytes of a file, which no page can show; what a function costs is known where code
-/// is generated.
-const WITHOUT_EXAMPLE: [&str; 3] = [code::TOO_LARGE, code::NOT_TEXT, code::BUDGET];
+/// Two concern the bytes of a file, which no page can show; what a function costs and whether its pinned plan is
+/// its own, is known where code is generated.
+const WITHOUT_EXAMPLE: [&str; 4] = [code::TOO_LARGE, code::NOT_TEXT, code::BUDGET, code::PIN];
 
 /// The examples of a page as files.
 fn examples(page: &str) -> Vec<(&'static str, &str)> {

@@ -83,19 +83,13 @@ impl Default for PolynomialOptions {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PolynomialError {
     /// More terms at once than the options allow.
-    #[error(
-        "the expanded form has more than {limit} terms; keep the expression factored, or raise \
-         `max_terms`"
-    )]
+    #[error("the expanded form has more than {limit} terms")]
     TooManyTerms {
         /// [`PolynomialOptions::max_terms`].
         limit: usize,
     },
     /// More products of terms than the options allow.
-    #[error(
-        "the expansion takes more than {limit} products of terms; keep the expression factored, \
-         or raise `max_products`"
-    )]
+    #[error("the expansion takes more than {limit} products of terms")]
     TooManyProducts {
         /// [`PolynomialOptions::max_products`].
         limit: u64,
