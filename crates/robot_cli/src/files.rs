@@ -1,5 +1,6 @@
 //! Files that commands read and write.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use robot_simulation::plot::Figure;
@@ -27,15 +28,22 @@ pub(crate) fn write_figure(path: &Path, figure: &Figure) -> Result<(), Failure> 
     write(path, &bytes)
 }
 
+/// Tables of states and torques are no larger; a device may have no end.
+const MAX_BYTES: u64 = 1 << 28;
+
 /// The name of a file as messages show it, and its text; `-` is standard input.
 pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, String), Failure> {
     let (mut name, mut bytes) = (path.display().to_string(), vec![]);
     if name == "-" {
         name = "standard input".to_owned();
-        terminal.input.read_to_end(&mut bytes)?;
+        (&mut *terminal.input).take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     } else {
-        bytes = std::fs::read(path)
-            .map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
+        let read = std::fs::File::open(path)
+            .and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
+        read.map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
+    }
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(Failure::input(format!("{name} has more than {} MiB", MAX_BYTES >> 20)));
     }
     let text = String::from_utf8(bytes)
         .map_err(|error| Failure::input(format!("{name} is not UTF-8 text: {error}")))?;

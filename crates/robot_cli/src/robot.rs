@@ -207,10 +207,19 @@ fn kinds(names: &[String], more: &[&str]) -> Result<Vec<FunctionKind>, Failure> 
     for name in names {
         match FunctionKind::from_name(name) {
             Some(kind) => kinds.push(kind),
-            None => wrong.push(unknown_function(name, more)),
+            None => wrong.push(unknown_function(name, more) + of_one_frame(name)),
         }
     }
     if wrong.is_empty() { Ok(kinds) } else { Err(Failure::Usage(wrong)) }
+}
+
+/// What is said besides where a name may be that of one frame's function.
+fn of_one_frame(name: &str) -> &'static str {
+    if name.starts_with("jacobian_") {
+        " Functions of frames are chosen for all named frames at once: `jacobian`, `jacobian_dot_qd`."
+    } else {
+        ""
+    }
 }
 
 /// What is said of a name that is no function's nor one of some further words.

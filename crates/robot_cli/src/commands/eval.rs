@@ -103,8 +103,11 @@ impl Arguments {
                 let names: Vec<&str> =
                     several.iter().map(|function| function.name.as_str()).collect();
                 let found = several.iter().find(|function| function.name == self.function);
-                let unknown = || text::unknown("function", &self.function, &names);
-                found.ok_or_else(|| Failure::Usage(vec![unknown()]))
+                let choice = || {
+                    let (kind, names) = (&self.function, names.join("`, `"));
+                    format!("`{kind}` is a function of each named frame; choose one of `{names}`")
+                };
+                found.ok_or_else(|| Failure::Usage(vec![choice()]))
             }
         }
     }

@@ -27,6 +27,15 @@ fn a_value_is_found_in_text_and_json() {
 }
 
 #[test]
+fn a_parameter_without_a_value_is_named() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let path = folder("diff_value").join("unknown.toml");
+    std::fs::write(&path, text.replace("m2 = { value = 3.0,", "m2 = {")).unwrap();
+    let shown = run(&["diff", &robot("planar_2r"), path.to_str().unwrap(), "--states", "5"]).output;
+    assert!(shown.contains("no nominal values of `m2`\n"), "{shown}");
+}
+
+#[test]
 fn wrong_files_are_no_difference() {
     assert!(complaint(2, &["diff", &robot("planar_2r"), "nowhere.toml"], "").contains("nowhere"));
     assert!(complaint(2, &["diff", &robot("planar_2r")], "").contains("<B>"));

@@ -17,6 +17,13 @@ fn mechanism(name: &str, settings: &[(&str, f64)]) -> Mechanism {
     .unwrap()
 }
 
+#[test]
+#[cfg(target_os = "linux")]
+fn a_device_without_end_is_refused() {
+    let arguments = ["eval", &robot("scara"), "--function", "gravity", "--states", "/dev/zero"];
+    assert!(complaint(1, &arguments, "").contains("/dev/zero has more than"));
+}
+
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
 }
