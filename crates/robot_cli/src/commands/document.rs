@@ -41,8 +41,16 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true)]
     width: Option<f64>,
     /// The file to write; without this the document is printed
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = source_path)]
     output: Option<PathBuf>,
+}
+
+/// A path of something that is typeset.
+fn source_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_typeset = path.extension().is_some_and(|extension| extension == "pdf");
+    let refusal = "what is written is typeset by LaTeX or Typst; name it NAME.tex or NAME.typ";
+    if is_typeset { Err(refusal.to_owned()) } else { Ok(path) }
 }
 
 #[derive(Clone, Copy, ValueEnum)]

@@ -25,6 +25,12 @@ fn a_tolerance_that_is_no_small_angle_is_refused() {
 }
 
 #[test]
+fn a_document_is_no_pdf() {
+    let found = complaint(2, &["document", &robot("planar_2r"), "-o", "arm.pdf"], "");
+    assert!(found.contains("NAME.tex"), "{found}");
+}
+
+#[test]
 fn without_a_command_the_demonstration_runs() {
     let shown = output(&[], "");
     assert_eq!(shown, output(&["demo"], ""));
