@@ -5,6 +5,7 @@
 mod common;
 
 use robot_build::{Functions, Options, Source, programs};
+use robot_codegen::Module;
 use robot_dynamics::economical::{
     Plan, Recursion,
     plan::{LinkPlan, Turn},
@@ -19,6 +20,10 @@ struct Last {
     axis: &'static str,
     center_of_mass: &'static str,
     inertia: &'static str,
+}
+
+fn last(axis: &'static str, center_of_mass: &'static str, inertia: &'static str) -> Last {
+    Last { axis, center_of_mass, inertia }
 }
 
 /// Joints about x and y, and a last one about an axis, with a gyroscopic rotor.
@@ -58,22 +63,18 @@ fn sines(last: &Last) -> usize {
     }
     let source = Source { name: "arm.toml".to_owned(), text };
     let module = programs(&source, &Options::default()).unwrap().module;
-    let inverse = module.functions.iter().find(|function| function.name == "inverse_dynamics");
-    inverse.unwrap().angles.results().len()
+    angles(&module, "inverse_dynamics")
+}
+
+/// The number of angles whose sines a function takes.
+fn angles(module: &Module, name: &str) -> usize {
+    module.function(name).unwrap().angles.results().len()
 }
 
 #[test]
 fn a_symmetric_last_link_is_not_turned() {
-    let about_z = Last {
-        axis: "z",
-        center_of_mass: "[0, 0, 0.05]",
-        inertia: "{ xx = 0.02, yy = 0.02, zz = 0.03 }",
-    };
-    let about_y = Last {
-        axis: "y",
-        center_of_mass: "[0, 0.05, 0]",
-        inertia: "{ xx = 0.02, yy = 0.03, zz = 0.02 }",
-    };
+    let about_z = last("z", "[0, 0, 0.05]", "{ xx = 0.02, yy = 0.02, zz = 0.03 }");
+    let about_y = last("y", "[0, 0.05, 0]", "{ xx = 0.02, yy = 0.03, zz = 0.02 }");
     for last in [about_z, about_y] {
         // Gravity along z: the first joint, about x, turns what it acts on.
         assert_eq!(sines(&last), 2, "about {}", last.axis);
@@ -82,26 +83,10 @@ fn a_symmetric_last_link_is_not_turned() {
 
 #[test]
 fn what_is_not_symmetric_is_turned() {
-    let off_axis = Last {
-        axis: "z",
-        center_of_mass: "[0.001, 0, 0.05]",
-        inertia: "{ xx = 0.02, yy = 0.02, zz = 0.03 }",
-    };
-    let uneven = Last {
-        axis: "z",
-        center_of_mass: "[0, 0, 0.05]",
-        inertia: "{ xx = 0.02, yy = 0.021, zz = 0.03 }",
-    };
-    let askew = Last {
-        axis: "z",
-        center_of_mass: "[0, 0, 0.05]",
-        inertia: "{ xx = 0.02, yy = 0.02, zz = 0.03, xz = 0.001 }",
-    };
-    let about_another_axis = Last {
-        axis: "y",
-        center_of_mass: "[0, 0, 0]",
-        inertia: "{ xx = 0.02, yy = 0.02, zz = 0.03 }",
-    };
+    let off_axis = last("z", "[0.001, 0, 0.05]", "{ xx = 0.02, yy = 0.02, zz = 0.03 }");
+    let uneven = last("z", "[0, 0, 0.05]", "{ xx = 0.02, yy = 0.021, zz = 0.03 }");
+    let askew = last("z", "[0, 0, 0.05]", "{ xx = 0.02, yy = 0.02, zz = 0.03, xz = 0.001 }");
+    let about_another_axis = last("y", "[0, 0, 0]", "{ xx = 0.02, yy = 0.02, zz = 0.03 }");
     for last in [off_axis, uneven, askew, about_another_axis] {
         assert_eq!(sines(&last), 3, "{} {}", last.center_of_mass, last.inertia);
     }
@@ -114,10 +99,6 @@ fn a_wrench_at_the_tip_needs_the_turn() {
     let source = Source { name, text };
     let options = Options { functions: Functions::All, ..Options::default() };
     let module = programs(&source, &options).unwrap().module;
-    let angles = |name: &str| {
-        let function = module.functions.iter().find(|function| function.name == name).unwrap();
-        function.angles.results().len()
-    };
     for name in [
         "inverse_dynamics",
         "mass_matrix",
@@ -129,9 +110,9 @@ fn a_wrench_at_the_tip_needs_the_turn() {
         "inverse_dynamics_derivatives",
         "forward_dynamics_derivatives",
     ] {
-        assert_eq!(angles(name), 4, "{name}");
+        assert_eq!(angles(&module, name), 4, "{name}");
     }
     for name in ["inverse_dynamics_wrench", "forward_dynamics_wrench", "link_wrenches"] {
-        assert_eq!(angles(name), 5, "{name}");
+        assert_eq!(angles(&module, name), 5, "{name}");
     }
 }

@@ -68,8 +68,8 @@ def main():
         figure = figures.get((peer, robot, function))
         return "" if figure is None else f"{figure:.0f}" if figure >= 100 else f"{figure:.1f}"
 
-    def ratio(figures, ours, peer, function):
-        pairs = [(figures.get((peer, robot, function)), figures.get((ours, robot, function))) for robot in ROBOTS]
+    def ratio(chosen, ours, peer, function):
+        pairs = [(chosen.get((peer, robot, function)), chosen.get((ours, robot, function))) for robot in ROBOTS]
         if any(None in pair for pair in pairs):
             return ""
         return f"{geometric_mean([theirs / own for theirs, own in pairs]):.2f}"

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use robot_dynamics::diagnostic::{Diagnostics, quote};
 use robot_dynamics::functions::{ALL_FUNCTIONS, FunctionKind};
+use robot_dynamics::mechanism::WrongSnap;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -41,11 +42,8 @@ pub enum Error {
     #[error("no functions are chosen; name some, or leave the choice out for all that there are")]
     NoFunctions,
     /// A tolerance that is no angle.
-    #[error("the snapping tolerance {snap} is no angle in radians between 0 and 0.1")]
-    Snap {
-        /// The tolerance as text.
-        snap: String,
-    },
+    #[error(transparent)]
+    Snap(#[from] WrongSnap),
     /// A number of states that is no size of a block.
     #[error(
         "a batch in blocks of {states} states is not possible; choose 1 to {most}, 8 is a good number"

@@ -169,10 +169,8 @@ impl Options {
     /// What is wrong with the options, whatever the robot.
     pub(crate) fn check(&self) -> Result<(), Errors> {
         let mut errors = self.wrong_bundles();
-        let possible = 0.0..=MechanismOptions::MAX_SNAP;
-        if let Some(snap) = self.snap.filter(|snap| !possible.contains(snap)) {
-            errors.push(Error::Snap { snap: snap.to_string() });
-        }
+        let snap = self.snap.map(MechanismOptions::check_snap);
+        errors.extend(snap.and_then(Result::err).map(Error::Snap));
         if let Some(states) = self.batch.filter(|states| !(1..=MAX_BATCH).contains(states)) {
             errors.push(Error::Batch { states, most: MAX_BATCH });
         }

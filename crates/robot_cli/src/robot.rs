@@ -33,8 +33,8 @@ pub(crate) struct RobotArgument {
 
 /// A snapping tolerance.
 fn snap(text: &str) -> Result<f64, String> {
+    let angle = text.parse().ok().and_then(|angle| MechanismOptions::check_snap(angle).ok());
     let most = MechanismOptions::MAX_SNAP;
-    let angle = text.parse().ok().filter(|angle| (0.0..=most).contains(angle));
     angle.ok_or_else(|| format!("it is an angle in radians between 0 and {most}"))
 }
 

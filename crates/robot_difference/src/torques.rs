@@ -57,12 +57,6 @@ pub struct Torques {
     pub joints: Vec<Torque>,
 }
 
-/// The parameters without a nominal value, with commas between.
-fn without_value(robot: &Robot) -> String {
-    let parameters = robot.parameters.iter().filter(|parameter| parameter.value.is_none());
-    parameters.map(|parameter| format!("`{}`", parameter.name)).collect::<Vec<_>>().join(", ")
-}
-
 /// The largest change of the torque in each joint.
 pub(crate) fn largest(a: &Robot, b: &Robot, options: &Options) -> Result<Torques, Refusal> {
     let drawn = StateBox {
@@ -73,10 +67,7 @@ pub(crate) fn largest(a: &Robot, b: &Robot, options: &Options) -> Result<Torques
         acceleration: 5.0,
     };
     let solver = |robot: &Robot| {
-        Mechanism::nominal(robot).map_err(|error| match without_value(robot).as_str() {
-            "" => format!("{}: {error}", robot.name),
-            names => format!("{}: no nominal values of {names}", robot.name),
-        })
+        Mechanism::nominal(robot).map_err(|error| format!("{}: {error}", robot.name))
     };
     let (before, after) = (solver(a)?, solver(b)?);
     let loads = Loads { friction: true, ..Loads::default() };

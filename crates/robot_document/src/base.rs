@@ -10,7 +10,7 @@ use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use crate::error::Error;
-use crate::forms::{Equation, Group, MAX_NODES, check_snap};
+use crate::forms::{Equation, Group, MAX_NODES};
 use crate::latex;
 use crate::math::{Fence, Math, Style};
 use crate::notation::Notation;
@@ -19,6 +19,10 @@ use crate::order::Order;
 /// What expansions may cost: more terms than anybody reads.
 const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
+
+/// What helps where formulas of base parameters are too long.
+const SHORTER: &str =
+    "angles between frames that are multiples of π/2 make them shorter (`--snap`)";
 
 /// What the names mean.
 pub(crate) const NAMES: &str = "XX to ZZ are entries of a link's tensor of inertia about the origin of \
@@ -54,10 +58,6 @@ pub struct BaseEntry {
     pub value: Written,
 }
 
-/// What helps where formulas of base parameters are too long.
-const SHORTER: &str =
-    "angles between frames that are multiples of π/2 make them shorter (`--snap`)";
-
 /// A formula in both notations that a reader may want.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
@@ -75,7 +75,7 @@ pub struct Written {
 /// A robot whose base parameters are out of reach; formulas that are too long to be of use; symbols
 /// that would look alike.
 pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
-    check_snap(snap)?;
+    snap.map(MechanismOptions::check_snap).transpose()?;
     let graph = Graph::limited(MAX_NODES);
     let set = written(robot, snap, &graph);
     if graph.is_full() {

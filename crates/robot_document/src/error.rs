@@ -1,5 +1,6 @@
 //! Why equations cannot be printed.
 
+use robot_dynamics::mechanism::WrongSnap;
 use robot_symbolic::print::TooLarge;
 
 use crate::latex::ReadError;
@@ -38,11 +39,8 @@ pub enum Error {
         limit: usize,
     },
     /// A tolerance that is no angle.
-    #[error("the snapping tolerance {snap} is no angle in radians between 0 and 0.1")]
-    Snap {
-        /// The tolerance as text.
-        snap: String,
-    },
+    #[error(transparent)]
+    Snap(#[from] WrongSnap),
     /// Base parameters that cannot be found or written out.
     #[error("the base parameters are not to be had: {reason}")]
     Base {

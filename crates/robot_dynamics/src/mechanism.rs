@@ -29,12 +29,33 @@ impl MechanismOptions {
     /// For code: irrational constants as floating-point numbers.
     pub const ROUNDED: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: true };
 
+    /// The tolerance, where it is one.
+    ///
+    /// # Errors
+    ///
+    /// An angle below 0 or above [`Self::MAX_SNAP`], and what is no number.
+    pub fn check_snap(snap: f64) -> Result<f64, WrongSnap> {
+        if (0.0..=Self::MAX_SNAP).contains(&snap) {
+            Ok(snap)
+        } else {
+            Err(WrongSnap(snap.to_string()))
+        }
+    }
+
     /// The same with a tolerance: the one given, else the robot file's, else [`Self::SNAP`].
     #[must_use]
     pub fn with_snap(self, given: Option<f64>, robot: &Robot) -> MechanismOptions {
         MechanismOptions { snap: given.or(robot.snap).unwrap_or(Self::SNAP), ..self }
     }
 }
+
+/// A snapping tolerance that is none, as text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the snapping tolerance {0} is no angle in radians between 0 and {most}",
+    most = MechanismOptions::MAX_SNAP
+)]
+pub struct WrongSnap(String);
 
 /// A robot in symbols.
 ///

@@ -167,7 +167,7 @@ pub(crate) const MAX_NODES: usize = 300_000;
 ///
 /// Equations that are too long, with the forms to use instead; symbols that would look alike.
 pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, Error> {
-    check_snap(options.snap)?;
+    options.snap.map(MechanismOptions::check_snap).transpose()?;
     let graph = Graph::limited(MAX_NODES);
     let mut writer = Writer {
         robot,
@@ -188,12 +188,6 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     }
     let groups = groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
     Ok(Equations { groups, notation: writer.notation })
-}
-
-/// Refuses a snapping tolerance that is no small angle.
-pub(crate) fn check_snap(snap: Option<f64>) -> Result<(), Error> {
-    let wrong = snap.filter(|snap| !(0.0..=MechanismOptions::MAX_SNAP).contains(snap));
-    wrong.map_or(Ok(()), |snap| Err(Error::Snap { snap: snap.to_string() }))
 }
 
 /// What the forms share.

@@ -136,7 +136,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
 /// `snap = 1e-6`: an angle, rad.
 fn snap(reader: &mut Reader<'_>, value: Value<'_>) -> Option<f64> {
     let snap = reader.number(value, "an angle in radians, `snap = 1e-6`")?.to_f64();
-    if (0.0..=MechanismOptions::MAX_SNAP).contains(&snap) {
+    if MechanismOptions::check_snap(snap).is_ok() {
         return Some(snap);
     }
     let most = MechanismOptions::MAX_SNAP;

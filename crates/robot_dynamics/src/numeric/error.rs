@@ -30,6 +30,9 @@ pub enum NumericError {
     /// The mechanism cannot be: every fault that was found.
     #[error("no such mechanism: {}", listed(.0))]
     Mechanism(Vec<Fault>),
+    /// The mechanism cannot be at nominal values, for these parameters have none.
+    #[error("no nominal values of `{}`", .0.join("`, `"))]
+    WithoutValues(Vec<String>),
     /// Arguments of wrong length: every one of them.
     #[error("{}", listed(.0))]
     Lengths(Vec<Mismatch>),

@@ -43,9 +43,14 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// Those of [`Mechanism::from_robot`]; a parameter without a nominal value has none.
+    /// Those of [`Mechanism::from_robot`]; where parameters have no nominal value,
+    /// [`NumericError::WithoutValues`] in their place.
     pub fn nominal(robot: &model::Robot) -> Result<Self, NumericError> {
-        Mechanism::from_robot(robot, &|name| nominal_value(robot, name))
+        Mechanism::from_robot(robot, &|name| nominal_value(robot, name)).map_err(|error| {
+            let without = robot.parameters.iter().filter(|parameter| parameter.value.is_none());
+            let names: Vec<String> = without.map(|parameter| parameter.name.clone()).collect();
+            if names.is_empty() { error } else { NumericError::WithoutValues(names) }
+        })
     }
 }
 
