@@ -3,7 +3,8 @@
 
 mod common;
 
-use common::{evaluate, largest_difference, magnitude, read, robot_files, with_free_axes};
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude, read, robot_files, with_free_axes};
 use nalgebra::DMatrix;
 use robot_dynamics::base_parameters::{BaseParameters, base_parameters, out_of_reach};
 use robot_dynamics::functions::{Derivation, FunctionKind};
@@ -110,8 +111,9 @@ fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
         for (columns, values) in [(&kept, &values), (&full, &representative)] {
             let product = |row: &[f64]| row.iter().zip(values).map(|(y, p)| y * p).sum::<f64>();
             let forces: Vec<f64> = columns.chunks(values.len()).map(product).collect();
-            let error = largest_difference(&forces, expected.as_slice()) / size;
-            assert!(error <= TOLERANCE, "{label}: forces are off by {error:e}");
+            let layout = Layout::per_joint(&robot, "driving forces");
+            let off = Off::of(&layout, &forces, expected.as_slice(), size);
+            assert!(off.error <= TOLERANCE, "{label}: {off}");
         }
     }
     count
@@ -135,9 +137,10 @@ fn check_columns(
     }
     let kept = DMatrix::from_row_slice(kept.len() / count, count, kept);
     let expected = DMatrix::from_row_slice(kept.nrows(), all, full);
-    let product = kept * figures;
-    let error = largest_difference(product.as_slice(), expected.as_slice()) / size;
-    assert!(error <= TOLERANCE, "{label}: columns are off by {error:e}");
+    let (product, expected) = ((kept * figures).transpose(), expected.transpose());
+    let layout = Layout::new(robot, "columns", &[robot.degrees_of_freedom(), all]);
+    let off = Off::of(&layout, product.as_slice(), expected.as_slice(), size);
+    assert!(off.error <= TOLERANCE, "{label}: {off}");
 }
 
 #[test]

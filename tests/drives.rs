@@ -201,8 +201,9 @@ fn a_rotor_across_its_carriers_axis_in_closed_form() {
     let found = moment.0.map(|component| of_rotor(component.substitute(only_second)));
     // J N (q̈₂ x + q̇₁ q̇₂ y)
     let expected = [0.01 * 7.0, 0.01 * 15.0, 0.0];
-    for (found, expected) in found.into_iter().zip(expected) {
-        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    for (axis, (found, expected)) in ["x", "y", "z"].iter().zip(found.into_iter().zip(expected)) {
+        let what = "the moment of the rotor of joint 2 on link 1";
+        assert!((found - expected).abs() < 1e-12, "{what}, {axis}: {found} for {expected}");
     }
 }
 

@@ -4,13 +4,12 @@
 
 mod common;
 
+use common::place::{Layout, Off};
+use common::plans::random_plan;
 use common::solver::{expected, state};
-use common::{evaluate, largest_difference, magnitude, robot_files, with_free_axes};
-use robot_dynamics::economical::{
-    Plan, Recursion,
-    plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
-};
-use robot_dynamics::functions::{Derivation, FunctionKind, search_plan};
+use common::{evaluate, magnitude, robot_files, with_free_axes};
+use robot_dynamics::economical::{Plan, Recursion};
+use robot_dynamics::functions::{Derivation, FunctionKind, Output, search_plan};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::model::Robot;
 use robot_dynamics::numeric::{
@@ -41,43 +40,17 @@ const KINDS: [FunctionKind; 13] = [
     FunctionKind::ForwardDynamicsDerivatives,
 ];
 
-fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
+fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Output<'g>> {
     let functions = derivation.functions(kind).into_iter();
     let outputs: Vec<_> = functions.flat_map(|function| function.outputs).collect();
     for output in &outputs {
         assert_eq!(output.values.len(), output.shape.iter().product::<usize>(), "{}", output.name);
     }
-    outputs.into_iter().flat_map(|output| output.values).collect()
+    outputs
 }
 
-/// A plan with every option drawn at random.
-fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
-    let mut link = |index: usize| LinkPlan {
-        origin: [
-            Origin::File,
-            Origin::NextNormal,
-            Origin::PreviousNormal,
-            Origin::ZeroXz,
-            Origin::ZeroYz,
-            Origin::MassCentre,
-            Origin::Parent,
-        ][random.index(7)],
-        turn: [Turn::File, Turn::NextNormal, Turn::FirstMoment][random.index(3)],
-        angle_sum: random.once_in(2),
-        column: random.once_in(2),
-        doubled: random.once_in(2),
-        diagonal: random.once_in(2),
-        moment: [0; 3].map(|_| random.once_in(2)),
-        residual: [0; 3].map(|_| random.once_in(3).then(|| Entry::ALL[random.index(8)])),
-        free: FreeRate::ALL[random.index(6)],
-        composite_sum: random.once_in(2),
-        meeting: random
-            .once_in(2)
-            .then(|| Place { link: random.index(index + 1), turned: random.once_in(2) }),
-    };
-    let links: Vec<LinkPlan> = (0..robot.links.len()).map(&mut link).collect();
-    let unit_length = random.once_in(2).then(|| (random.index(links.len()), random.index(3)));
-    Plan { links, unit_length }
+fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
+    outputs(derivation, kind).into_iter().flat_map(|output| output.values).collect()
 }
 
 /// The worst error of each function, relative to its largest value over the states.
@@ -101,16 +74,18 @@ fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64; KINDS.len()]) {
         let slow = *kind == FunctionKind::InverseDynamicsDerivatives;
         let derivations = derivations.iter().take(if slow { 1 } else { usize::MAX });
         for (number, derivation) in derivations.enumerate() {
-            let roots = values(derivation, *kind);
+            let outputs = outputs(derivation, *kind);
+            let layout = Layout::of(robot, &outputs);
+            let roots: Vec<_> = outputs.into_iter().flat_map(|output| output.values).collect();
             for (state, expected) in states.iter().zip(&expected) {
                 let found = evaluate(robot, &roots, state);
-                let error = largest_difference(&found, expected) / size;
+                let off = Off::of(&layout, &found, expected, size);
                 let function = kind.name();
                 assert!(
-                    error <= TOLERANCE,
-                    "{name}, seed {seed}, plan {number}: {function} is off by {error:e}\n{drawn:?}"
+                    off.error <= TOLERANCE,
+                    "{name}, seed {seed}, plan {number}: {function} is {off}\n{drawn:?}"
                 );
-                *worst = worst.max(error);
+                *worst = worst.max(off.error);
             }
         }
     }
@@ -194,8 +169,10 @@ fn three_ways_to_the_derivatives_agree_with_the_numeric_solver() {
             let size = magnitude(&expected).max(1e-3);
             for (way, roots) in ways.iter().enumerate() {
                 let found = evaluate(&robot, roots, &state);
-                let error = largest_difference(&found, &expected) / size;
-                assert!(error <= TOLERANCE, "seed {seed}, way {way}: off by {error:e}");
+                let order = robot.degrees_of_freedom();
+                let layout = Layout::new(&robot, "∂τ/∂q, then ∂τ/∂q̇", &[2, order, order]);
+                let off = Off::of(&layout, &found, &expected, size);
+                assert!(off.error <= TOLERANCE, "seed {seed}, way {way}: {off}");
             }
         }
     }

@@ -19,7 +19,8 @@ mod common;
 use std::collections::BTreeMap;
 
 use common::complex_step::derivative;
-use common::{evaluate, largest_difference, magnitude, robot_files, with_free_axes};
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude, robot_files, with_free_axes};
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3};
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::MechanismOptions;
@@ -114,11 +115,32 @@ impl<'g> Subject<'_, 'g> {
         DMatrix::from_columns(&columns)
     }
 
-    /// Holds values to a fraction of `size`, or of the largest where that is more.
+    /// Holds a value, or one per coordinate, or a matrix column by column, a row per coordinate, to a
+    /// fraction of `size`, or of the largest where that is more.
     fn hold(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
+        let rows = self.state.q.len();
+        if found.len() < rows {
+            return self.hold_rows(what, found, expected, size);
+        }
+        let by_rows = |values: &[f64]| -> Vec<f64> {
+            let columns = values.len() / rows;
+            (0..values.len())
+                .map(|place| values[place % columns * rows + place / columns])
+                .collect()
+        };
+        let layout = Layout::new(self.robot, what, &[rows, found.len() / rows]);
+        self.hold_as(&layout, &by_rows(found), &by_rows(expected), size);
+    }
+
+    /// Holds values whose rows are not coordinates.
+    fn hold_rows(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
+        self.hold_as(&Layout::new(self.robot, what, &[1, found.len()]), found, expected, size);
+    }
+
+    fn hold_as(&self, layout: &Layout<'_>, found: &[f64], expected: &[f64], size: f64) {
         let size = magnitude(expected).max(size).max(1e-3);
-        let error = largest_difference(found, expected) / size;
-        assert!(error <= TOLERANCE, "{}: {what} is off by {error:e}", self.name);
+        let off = Off::of(layout, found, expected, size);
+        assert!(off.error <= TOLERANCE, "{}: {off}", self.name);
     }
 
     fn check(&self) {
@@ -138,7 +160,7 @@ impl<'g> Subject<'_, 'g> {
         let rates = DVector::from_column_slice(&self.state.qd);
         let energy = rates.dot(&(mass * &rates)) / 2.0;
         let kinetic = self.vector(FunctionKind::Energies)[0];
-        self.hold("T of M", &[energy], &[kinetic], 0.0);
+        self.hold_rows("T of M", &[energy], &[kinetic], 0.0);
     }
 
     fn torques(&self) {
@@ -168,7 +190,7 @@ impl<'g> Subject<'_, 'g> {
         self.hold("Ṁ − 2 C", skew.as_slice(), opposite.as_slice(), size);
         let rates = DVector::from_column_slice(&self.state.qd);
         let power = rates.dot(&(skew * &rates));
-        self.hold("q̇ᵀ (Ṁ − 2 C) q̇", &[power], &[0.0], size * rates.norm_squared());
+        self.hold_rows("q̇ᵀ (Ṁ − 2 C) q̇", &[power], &[0.0], size * rates.norm_squared());
     }
 
     fn energies(&self) {
@@ -183,7 +205,7 @@ impl<'g> Subject<'_, 'g> {
         let gain: f64 = derivative(self.robot, &energies, &self.state, &rate).iter().sum();
         let torques = self.vector(FunctionKind::InverseDynamics);
         let powers = torques.component_mul(&DVector::from_column_slice(&self.state.qd));
-        self.hold("d(T + V)/dt", &[gain], &[powers.sum()], powers.abs().sum());
+        self.hold_rows("d(T + V)/dt", &[gain], &[powers.sum()], powers.abs().sum());
     }
 
     fn forward_dynamics(&self) {
@@ -224,13 +246,18 @@ impl<'g> Subject<'_, 'g> {
                 let spin = Matrix3::from_row_slice(&entries) * turned;
                 let omega = [spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]];
                 let expected = [origin.column(k).as_slice(), &omega].concat();
-                self.hold("J", column.as_slice(), &expected, found.amax().max(1.0));
+                self.hold_rows(
+                    &format!("J by q{}", k + 1),
+                    column.as_slice(),
+                    &expected,
+                    found.amax().max(1.0),
+                );
             }
             let rate = self.in_motion(jacobian);
             let rates = DVector::from_column_slice(&self.state.qd);
             let rate = DMatrix::from_row_slice(6, rates.len(), &rate);
             let (expected, size) = (&rate * &rates, rate.amax() * rates.amax());
-            self.hold("J̇ q̇", &self.values(drift), expected.as_slice(), size);
+            self.hold_rows("J̇ q̇", &self.values(drift), expected.as_slice(), size);
         }
     }
 

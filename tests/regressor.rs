@@ -3,7 +3,8 @@
 
 mod common;
 
-use common::{evaluate, largest_difference, magnitude, robot_files, with_free_axes};
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude, robot_files, with_free_axes};
 use robot_build::{BaseFrames, Functions, Options, programs_of};
 use robot_dynamics::functions::{Derivation, FunctionKind};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -77,16 +78,19 @@ fn check(robot: &Robot, seed: u64, name: &str) {
         // The solver has gyroscopic rotors as links behind those of the robot.
         let expected = solver.regressor(q, qd, qdd).unwrap().columns(0, inertial).transpose();
         let size = magnitude(&of_links).max(1e-3);
-        let error = largest_difference(&of_links, expected.as_slice()) / size;
-        assert!(error <= TOLERANCE, "{name}, seed {seed}: columns are off by {error:e}");
+        let shape = [robot.degrees_of_freedom(), inertial];
+        let layout = Layout::new(&robot, "columns of links", &shape);
+        let off = Off::of(&layout, &of_links, expected.as_slice(), size);
+        assert!(off.error <= TOLERANCE, "{name}, seed {seed}: {off}");
 
         let product = |row: &[f64]| row.iter().zip(&parameters).map(|(y, p)| y * p).sum::<f64>();
         let torques: Vec<f64> = rows.map(product).collect();
         let loads = numeric::Loads { wrenches: vec![], friction: true };
         let expected = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         let size = magnitude(&expected).max(1e-3);
-        let error = largest_difference(&torques, expected.as_slice()) / size;
-        assert!(error <= TOLERANCE, "{name}, seed {seed}: forces are off by {error:e}");
+        let layout = Layout::per_joint(&robot, "Y π");
+        let off = Off::of(&layout, &torques, expected.as_slice(), size);
+        assert!(off.error <= TOLERANCE, "{name}, seed {seed}: {off}");
     }
 }
 

@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::{evaluate, largest_difference, magnitude};
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude};
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::{Plan, Recursion};
@@ -39,12 +40,15 @@ fn tree(seed: u64) -> Robot {
 }
 
 /// Holds values per state against expected ones; the worst error in parts of the largest value.
-fn hold(what: &str, seed: u64, found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
+fn hold(robot: &Robot, what: &str, seed: u64, found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
     let size = magnitude(expected.iter().flatten());
-    let errors = found.iter().zip(expected).map(|(a, b)| largest_difference(a, b) / size);
-    let worst = errors.fold(0.0, f64::max);
-    assert!(worst <= TOLERANCE, "seed {seed}: {what} is off by {worst:e}");
-    worst
+    let layout = Layout::per_joint(robot, what);
+    let errors = found.iter().zip(expected).map(|(found, expected)| {
+        let off = Off::of(&layout, found, expected, size);
+        assert!(off.error <= TOLERANCE, "seed {seed}: {off}");
+        off.error
+    });
+    errors.fold(0.0, f64::max)
 }
 
 fn interpreted(robot: &Robot, states: &[State]) -> Vec<Vec<f64>> {
@@ -93,9 +97,9 @@ fn check(seed: u64) -> f64 {
     let paper = at_states(&newton_euler(&mechanism, effects).driving_forces);
     let economical = at_states(&recursion.inverse_dynamics(true));
     [
-        hold("the paper's Q", seed, &paper, &expected),
-        hold("the economical Q", seed, &economical, &expected),
-        hold("the program", seed, &interpreted(&robot, &states), &expected),
+        hold(&robot, "the paper's Q", seed, &paper, &expected),
+        hold(&robot, "the economical Q", seed, &economical, &expected),
+        hold(&robot, "the program", seed, &interpreted(&robot, &states), &expected),
     ]
     .into_iter()
     .fold(0.0, f64::max)

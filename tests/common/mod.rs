@@ -3,7 +3,11 @@
 
 pub mod complex_step;
 pub mod energy;
+pub mod place;
+pub mod plans;
 pub mod solver;
+
+use std::path::Path;
 
 use robot_dynamics::description::read_toml;
 use robot_dynamics::model::{Parameter, Robot};
@@ -16,7 +20,10 @@ use robot_symbolic::{Expr, Formula, Rational, walk};
 
 /// The robot files of the project, by name.
 pub fn robot_files() -> Vec<(String, String)> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/robots");
+    // Tests of a crate use this as well as those of the whole.
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = own.ancestors().map(|folder| folder.join("robots")).find(|robots| robots.is_dir());
+    let folder = folder.unwrap();
     let mut files: Vec<_> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())

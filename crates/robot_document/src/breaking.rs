@@ -209,6 +209,40 @@ mod tests {
         assert_eq!(lines(sum, 80.0, 80.0), ["m( a_1 + a_2 + a_3", "+a_4 ) + b"]);
     }
 
+    /// What closing parentheses needed is free again behind them.
+    #[test]
+    fn lines_behind_parentheses_are_as_long_as_before() {
+        let sum = r"m \left(a_1 + a_2 + a_3\right) + n \left(b_1 + b_2 + b_3\right)";
+        let tail = "+c_1 + c_2 + c_3 + c_4";
+        let limit = width(&math(tail)) + 0.5;
+        let found = lines(&format!("{sum} {tail} + c_5"), limit, limit);
+        assert_eq!(found.last().map(String::as_str), Some("+c_5"), "{found:?}");
+        assert!(found.contains(&tail.to_owned()), "{found:?}");
+    }
+
+    /// In 10 pt type an equals sign is 7.78 pt wide, with two thick spaces of 2.78 pt; further lines
+    /// start with a quad, 10 pt, and a sign with two medium spaces of 2.22 pt.
+    #[test]
+    fn a_right_side_leaves_room_for_the_equals_sign_and_the_indent() {
+        let sums: Vec<String> = (1..6).map(random_sum).collect();
+        let right = math(&sums.join(" + "));
+        let left = math("Q_1");
+        let equation = Equation { name: "Q1".to_owned(), text: String::new(), left, right };
+        let (mut several, mut tight) = (0, f64::INFINITY);
+        for available in (120..400).map(f64::from) {
+            let lines = right_side(&equation, available).unwrap();
+            for (place, line) in lines.iter().enumerate() {
+                let before = if place == 0 { 7.78 + 2.0 * 2.78 } else { 10.0 + 2.0 * 2.22 };
+                let room = available - before - width(line);
+                assert!(room >= 0.0, "{available} pt, line {place}: {room} pt");
+                tight = tight.min(room);
+            }
+            several += usize::from(lines.len() > 1);
+        }
+        // Nor is more left than needed.
+        assert!(several > 100 && tight < 1.0, "{several} {tight}");
+    }
+
     #[test]
     fn a_piece_without_a_break_is_refused() {
         let wide = broken(&math("1.23456789012345678901"), 50.0, 50.0).unwrap_err();

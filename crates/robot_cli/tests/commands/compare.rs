@@ -95,3 +95,65 @@ fn what_is_wrong_has_its_code_and_place() {
     assert!(complaint(2, &["compare", path, path], "").contains("error"));
     assert!(complaint(2, &["compare", &file], "").contains("Usage"));
 }
+
+/// The cells of a row of a Markdown table.
+fn cells(row: &str) -> Vec<&str> {
+    row.trim_matches('|').split('|').map(str::trim).collect()
+}
+
+#[test]
+fn every_difference_of_the_paper_has_one_grade_and_the_grade_its_reason() {
+    let found: Value = serde_json::from_str(&paper("", "", "json")).unwrap();
+    let differences = found["differences"].as_array().unwrap();
+    let document = text("docs/trttr1.md");
+    let (_, table) = document.split_once("| equation | term of the text |").unwrap();
+    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|')).map(cells);
+    let rows: Vec<Vec<&str>> = rows.collect();
+    assert_eq!(rows.len(), differences.len());
+    let (mut by_dimension, mut one_glyph) = (0, 0);
+    for (row, difference) in rows.iter().zip(differences) {
+        let [equation, printed, derived, dimension, relation, apart, grade] = row[..] else {
+            panic!("{row:?}");
+        };
+        let term = |side: &str| match difference[side].as_str() {
+            Some(term) => format!("`{term}`"),
+            None => "—".to_owned(),
+        };
+        let text = |value: &Value| value.as_str().unwrap().to_owned();
+        let name = format!("({}) {}", text(&difference["number"]), text(&difference["quantity"]));
+        assert_eq!((equation, printed, derived), (&*name, &*term("printed"), &*term("derived")));
+
+        let evidence = difference["evidence"].as_array().unwrap();
+        let wrong = evidence.iter().any(|one| text(one).starts_with("not a "));
+        assert_eq!(dimension, if wrong { "yes" } else { "—" }, "{row:?}");
+        let slips = difference["slips"].as_array().unwrap();
+        let [slip] = &slips[..] else { panic!("{slips:?}") };
+        let (of, glyph) = match text(&slip["kind"]).as_str() {
+            "dot" => ("a dot", true),
+            "index" => ("an index", true),
+            "power" => ("an exponent", true),
+            "sign" => ("a sign", true),
+            "factor" => ("two indices", false),
+            "missing term" => ("a term", false),
+            other => panic!("{other}"),
+        };
+        assert_eq!(apart, of, "{row:?}");
+        let expected = match (wrong || relation != "—", glyph) {
+            (true, true) => "a, b",
+            (true, false) => "a",
+            (false, true) => "b",
+            (false, false) => "c",
+        };
+        assert_eq!(grade, expected, "{row:?}");
+        by_dimension += usize::from(wrong);
+        one_glyph += usize::from(glyph);
+    }
+    assert!(rows.iter().all(|row| row[6].starts_with('a')));
+    let summary = format!(
+        "All {} are *a*: {by_dimension} by their dimension, the other {} by a relation alone. \
+         None is *c*. {one_glyph} are *b* as well",
+        rows.len(),
+        rows.len() - by_dimension
+    );
+    assert!(document.contains(&summary), "{summary}");
+}

@@ -54,6 +54,7 @@ fn run(arguments: &[&str]) -> Outcome {
 }
 
 /// What a command prints that does its work without complaint.
+#[track_caller]
 fn output(arguments: &[&str], input: &str) -> String {
     let Outcome { code, output, errors } = run_with(arguments, input.as_bytes());
     assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
@@ -61,9 +62,16 @@ fn output(arguments: &[&str], input: &str) -> String {
 }
 
 /// What a command complains of that ends with a code.
+#[track_caller]
 fn complaint(code: u8, arguments: &[&str], input: &str) -> String {
     let outcome = run_with(arguments, input.as_bytes());
-    assert_eq!((outcome.code, outcome.output.as_str()), (code, ""), "{}", outcome.errors);
+    let command = arguments.join(" ");
+    assert_eq!(
+        (outcome.code, outcome.output.as_str()),
+        (code, ""),
+        "{command}: {}",
+        outcome.errors
+    );
     outcome.errors
 }
 

@@ -161,8 +161,10 @@ impl Factoring {
 mod tests {
     use super::*;
     use crate::counts::Counts;
+    use crate::interpreter::evaluate;
     use crate::passes::testing::assert_same_values;
     use crate::program::{Builder, Source};
+    use crate::trigonometry::Trigonometry;
 
     #[test]
     fn values_stay() {
@@ -179,6 +181,26 @@ mod tests {
         // x y + x z − y w with x z needed again: y (x − w) + x z.
         let factored = Counts::of(&run(&b.finish(vec![sum, rest])));
         assert_eq!((factored.mul, factored.add), (3, 2));
+    }
+
+    /// x y + x z − x = x (y + z − 1)
+    #[test]
+    fn a_factor_that_stands_alone_keeps_its_sign() {
+        for negative in [false, true] {
+            let mut b = Builder::new();
+            let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
+            let (xy, xz) = (b.mul(x, y), b.mul(x, z));
+            let sum = b.add(xy, xz);
+            let sum = if negative { b.sub(sum, x) } else { b.add(sum, x) };
+            let factored = run(&b.finish(vec![sum]));
+            assert_eq!(Counts::of(&factored).mul, 1);
+            let load = |source| match source {
+                Source::Input(index) => [3.0, 5.0, 7.0][index as usize],
+                other => panic!("{other:?}"),
+            };
+            let expected = if negative { 33.0 } else { 39.0 };
+            assert_eq!(evaluate(&factored, Trigonometry::Standard, load), [expected]);
+        }
     }
 
     #[test]

@@ -29,6 +29,13 @@ impl Random {
 
 const SEEDS: u64 = 200;
 
+/// Square roots are left out: of a sum that rounds to just below 0 there is none.
+const FUNCTIONS: [Function; 5] =
+    [Function::Abs, Function::Sin, Function::Cos, Function::Sign, Function::Tanh];
+
+/// Stands for a bound where rounding may have decided a sign: nothing follows from the value.
+const UNDECIDED: f64 = 1e100;
+
 /// A program with loads of parameters and inputs, many sums and products, and some of the rest.
 pub(super) fn random_program(seed: u64) -> Program {
     let mut random = Random(seed);
@@ -41,14 +48,14 @@ pub(super) fn random_program(seed: u64) -> Program {
     }
     for _ in 0..20 + random.below(60) {
         let [a, b, c] = [0; 3].map(|_| pool[random.below(pool.len())]);
-        let value = match random.below(20) {
+        let value = match random.below(24) {
             0..=5 => builder.add(a, b),
             6..=8 => builder.sub(a, b),
             9..=15 => builder.mul(a, b),
-            16 => builder.neg(a),
-            17 => builder.push(Operation::MulAdd(a, b, c)),
-            18 => builder.div(a, b),
-            _ => builder.call(Function::Abs, a),
+            16 | 17 => builder.neg(a),
+            18 => builder.push(Operation::MulAdd(a, b, c)),
+            19 => builder.div(a, b),
+            function => builder.call(FUNCTIONS[(function + random.below(2)) % 5], a),
         };
         pool.push(value);
     }
@@ -78,6 +85,11 @@ fn values_with_bounds(program: &Program, load: impl Fn(Source) -> f64) -> Vec<(f
                 (value, (at(a).1 + value.abs() * at(b).1) / at(b).0.abs())
             }
             Operation::Neg(a) => (-at(a).0, at(a).1),
+            Operation::Call(Function::Sign, a) => {
+                let decided = at(a).0.abs() > 1e-15 * at(a).1;
+                (Function::Sign.apply(at(a).0), if decided { 0.0 } else { UNDECIDED })
+            }
+            // No other has a slope beyond 1.
             Operation::Call(function, a) => (function.apply(at(a).0), at(a).1),
         };
         values.push((value, bound + value.abs()));

@@ -201,6 +201,8 @@ struct Signed(Value, bool);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interpreter::evaluate;
+    use crate::trigonometry::Trigonometry;
 
     #[test]
     fn equal_operations_are_one_value() {
@@ -211,6 +213,24 @@ mod tests {
         let (forth, back) = (b.sub(x, y), b.sub(y, x));
         assert_eq!(b.neg(forth), back);
         assert_ne!(b.div(x, y), b.div(y, x));
+    }
+
+    /// The rules are about bits: what is built is what the functions give, of either sign.
+    #[test]
+    fn functions_of_negatives_keep_their_values() {
+        for function in
+            [Function::Abs, Function::Sin, Function::Cos, Function::Sign, Function::Tanh]
+        {
+            for x in [0.75, -0.75, 2.5, -2.5] {
+                let mut b = Builder::new();
+                let load = b.load(Source::Input(0));
+                let minus = b.neg(load);
+                let value = b.call(function, minus);
+                let program = b.finish(vec![value]);
+                let found = evaluate(&program, Trigonometry::Standard, |_| x);
+                assert_eq!(found, [function.apply(-x)], "{function:?} of {}", -x);
+            }
+        }
     }
 
     #[test]

@@ -94,8 +94,12 @@ fn of_calls() {
     assert!(matches!(found, Error::MissingInput { .. }));
     let found = one(interpreter.call("f", &[q, ("v", &[])]), &["`v`", "`q`"]);
     assert!(matches!(found, Error::UnknownInput { .. }));
-    let found = one(interpreter.call("f", &[("q", &[1.0])]), &["2 entries, not 1"]);
-    assert!(matches!(found, Error::InputLength { .. }));
+    for (entries, message) in
+        [(&[1.0][..], "2 entries, not 1"), (&[1.0, 2.0, 3.0], "2 entries, not 3"), (&[], "not 0")]
+    {
+        let found = one(interpreter.call("f", &[("q", entries)]), &["`q`", message]);
+        assert!(matches!(found, Error::InputLength { .. }));
+    }
 }
 
 #[test]

@@ -70,7 +70,7 @@ pub struct Difference {
     pub derived: Option<String>,
     /// For a printed term without counterpart, the derived term that it resembles most.
     pub nearest: Option<String>,
-    /// What is wrong with the printed term; never empty.
+    /// In what the printed term differs from the derived one; never empty.
     pub slips: Vec<Slip>,
     /// What speaks against the printed term or for the derived one, without the derivation.
     pub evidence: Vec<Evidence>,

@@ -50,6 +50,7 @@ fn every_kind_of_slip_is_told() {
         (3, "+ m2*l1*r2*cos(q1)*qdd1", "index: cos(q1) for cos(q2)"),
         (3, "+ m2*l1*r2*sin(q2)*qdd1", "function: sin(q2) for cos(q2)"),
         (2, "+ m2*l1*r2*sin(q2)*qd1^3", "power: qd1^3 for qd1^2"),
+        (2, "+ m2*l1*r2*sin(q2)*qd1*qd2", "index: qd2 for qd1"),
         (3, "+ m2*l1*r2*qdd1", "missing factor: cos(q2)"),
         (3, "+ m2*l1*r2*g*cos(q2)*qdd1", "extra factor: g"),
         (3, "+ I2*l1*r2*cos(q2)*qdd1", "factor: I2 for m2"),
@@ -64,6 +65,54 @@ fn every_kind_of_slip_is_told() {
     let extra = spoilt(TERMS[6], "+ I2*(qdd1 + qdd2) + m2*l1*r2*cos(q2)*qdd2");
     assert_eq!((extra.len(), extra[0].slips[0].kind), (1, SlipKind::ExtraTerm));
     assert_eq!(extra[0].nearest.as_deref(), Some("qdd1*l1*r2*m2*cos(q2)"));
+}
+
+#[test]
+fn like_terms_may_be_printed_apart() {
+    // One of two like terms is right: the other alone is told.
+    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + 2*m2*r2^2*qdd1");
+    let [extra] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(extra.slips[0].kind, SlipKind::ExtraTerm);
+    assert_eq!((extra.printed.as_deref(), &extra.derived), (Some("2*qdd1*r2^2*m2"), &None));
+    // Nothing of this kind is derived, and the sum is nothing.
+    assert_eq!(spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - m1*r1^2*qdd2"), []);
+    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - 2*m1*r1^2*qdd2");
+    assert_eq!(found.len(), 2, "{found:?}");
+}
+
+/// Every term of an equation spoilt in every way: what differs is told, with a slip.
+#[test]
+fn no_difference_is_without_a_slip() {
+    let ways =
+        ["0*({})", "-({})", "2*({})", "({})/2 + ({})/3", "({})*qd2", "({})*m1 + {}", "{} - 3*({})"];
+    for term in TERMS {
+        for way in ways {
+            let bare = term.trim_start_matches("+ ");
+            let found = spoilt(term, &format!("+ {}", way.replace("{}", bare)).replace("+ -", "-"));
+            assert!(!found.is_empty(), "{term}, {way}");
+            for one in found {
+                assert!(!one.slips.is_empty(), "{term}, {way}: {one:?}");
+                assert_ne!(one.printed, one.derived, "{term}, {way}");
+            }
+        }
+    }
+}
+
+/// Of two derived terms that are equally far in their factors the one with the same coefficient is
+/// the printed term's.
+#[test]
+fn a_coefficient_counts_in_what_a_term_resembles() {
+    let others = "m1*g*r1*cos(q1) + m1*r1^2*qdd1 + I1*qdd1 + m2*g*l1*cos(q1) + m2*g*r2*cos(q1 + q2) \
+        + m2*l1^2*qdd1 - m2*l1*r2*sin(q2)*(2*qd1*qd2 + qd2^2) + (m2*r2^2 + I2)*(qdd1 + qdd2)";
+    let slips = |term: &str| -> Vec<String> {
+        let found = compared(&robot("planar_2r"), &format!("Q1 = {others} + {term}")).unwrap();
+        found.differences.iter().flat_map(|one| &one.slips).map(Slip::to_string).collect()
+    };
+    let right = "2*m2*l1*r2*cos(q2)*qdd1 + m2*l1*r2*cos(q2)*qdd2";
+    assert_eq!(slips(right), Vec::<String>::new());
+    let (first, second) = ("2*m2*l1*r2*cos(q2)*q1", "m2*l1*r2*cos(q2)*q1");
+    assert_eq!(slips(first), ["dot: q1 for qdd1", "missing term"]);
+    assert_eq!(slips(second), ["factor: q1 for qdd2", "missing term"]);
 }
 
 #[test]

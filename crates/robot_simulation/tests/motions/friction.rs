@@ -60,8 +60,14 @@ fn friction_by_load_agrees_with_the_acceleration() {
         let inputs = [("q", &state.q[..]), ("qd", &state.qd[..]), ("qdd", &qdd[..])];
         let name = FunctionKind::InverseDynamicsFriction.name();
         let found = &interpreter.call(name, &inputs).unwrap()[0].values;
-        for (found, given) in found.iter().zip(tau) {
-            assert!((found - given).abs() < 1e-8, "{found} is not {given}");
+        for (link, (found, given)) in robot.links.iter().zip(found.iter().zip(tau)) {
+            let joint = &link.name;
+            assert!(
+                (found - given).abs() < 1e-8,
+                "trttr1, joint `{joint}`, state {index} (q = {:?}, q̇ = {:?}): tau is {found}, not {given}",
+                state.q,
+                state.qd
+            );
         }
     }
 }

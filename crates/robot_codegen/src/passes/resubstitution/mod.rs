@@ -428,6 +428,45 @@ mod tests {
         assert!(!samples.agree(&program(1.5), &program(1.5 + 1e-6)));
     }
 
+    /// What agrees at the points that are compared alone is not taken.
+    #[test]
+    fn a_program_of_other_results_is_not_taken() {
+        let mut b = Builder::new();
+        let (x, y) = (b.load(Source::Input(0)), b.load(Source::Input(1)));
+        let [first, second] = [0, 1].map(|index| b.load(Source::Sin(index)));
+        let products = [b.mul(first, x), b.mul(second, x), b.mul(first, y)];
+        let program = b.finish(products.to_vec());
+        let lying = Samples::of_equal_angles(2);
+        let mut search = Search::new(&program, &lying);
+        assert!(search.sweep(Resubstitution::Multiples));
+        assert_ne!(search.program(), program);
+        assert_eq!(run(&program, &lying, Resubstitution::Multiples), program);
+    }
+
+    /// cos kθ again: the values are below 1, and their bounds grow past every limit.
+    #[test]
+    fn trust_ends_where_rounding_may_reach_a_part_in_a_billion() {
+        let (mut b, mut cosines) = (Builder::new(), vec![]);
+        let (two, cosine) = (b.constant(2.0), b.load(Source::Cos(0)));
+        let twice = b.mul(two, cosine);
+        let (mut before, mut last) = (b.constant(1.0), cosine);
+        for _ in 0..60 {
+            let product = b.mul(twice, last);
+            (before, last) = (last, b.sub(product, before));
+            cosines.push(last);
+        }
+        let program = b.finish(cosines);
+        let mut angles = Builder::new();
+        let angle = angles.load(Source::Input(0));
+        let samples = Samples::new(&angles.finish(vec![angle])).of(&program);
+        let results = program.results().iter().map(|value| &samples[value.index()]);
+        let trusted: Vec<f64> =
+            results.clone().filter(|one| one.is_regular()).map(Sample::rounding).collect();
+        let most = trusted.iter().copied().fold(0.0, f64::max);
+        assert!((1e-11..1e-8).contains(&most), "{most:e}");
+        assert!(results.map(Sample::rounding).fold(0.0, f64::max) > 1e-3);
+    }
+
     #[test]
     fn an_absolute_value_is_no_argument() {
         let mut b = Builder::new();

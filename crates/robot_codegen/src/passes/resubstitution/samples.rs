@@ -41,6 +41,14 @@ impl Samples {
         Samples { compared, checked }
     }
 
+    /// Samples that lie: at the points that are compared all of `count` angles are one.
+    #[cfg(test)]
+    pub(super) fn of_equal_angles(count: usize) -> Samples {
+        let Samples { compared, checked } = Samples::unrelated();
+        let angles = Some(vec![compared.angle(0); count]);
+        Samples { compared: Points { angles, ..compared }, checked }
+    }
+
     /// The samples of all values of a program, for comparison.
     pub(super) fn of(&self, program: &Program) -> Vec<Sample> {
         self.compared.of(program)

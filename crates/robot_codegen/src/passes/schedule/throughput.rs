@@ -270,6 +270,7 @@ mod tests {
             values.filter(|(value, _)| value.index() <= at && last[value.index()] > at).count()
         };
         let most = (0..last.len()).map(alive).max().unwrap();
-        assert!(most as isize <= REGISTERS + 2, "{most}");
+        // What is under way comes on top of 24; 32 registers hold them.
+        assert!(most <= 26, "{most}");
     }
 }

@@ -1,0 +1,46 @@
+//! Lines that are too long by LaTeX's own measure: there are none. Where there is no pdflatex the test says so.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use robot_document::latex::{Page, document};
+use robot_document::{EquationOptions, Form, robot};
+use robot_dynamics::description::read_toml;
+
+/// Runs pdflatex once; its log, or `None` where there is no such program.
+fn log(folder: &Path, name: &str, latex: &str) -> Option<String> {
+    std::fs::create_dir_all(folder).unwrap();
+    std::fs::write(folder.join(format!("{name}.tex")), latex).unwrap();
+    let mut command = Command::new("pdflatex");
+    command.args(["-interaction=nonstopmode", "-halt-on-error", "-draftmode"]);
+    command.arg(format!("{name}.tex")).current_dir(folder);
+    let status = command.stdin(Stdio::null()).stdout(Stdio::null()).status().ok()?;
+    let log = std::fs::read(folder.join(format!("{name}.log"))).unwrap();
+    let log = String::from_utf8_lossy(&log).into_owned();
+    assert!(status.success(), "{name}: {log}");
+    Some(log)
+}
+
+#[test]
+fn no_line_is_too_long() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("pdflatex");
+    for name in ["trttr1", "ur5", "scara"] {
+        let path = root.join(format!("../../robots/{name}.toml"));
+        let text = std::fs::read_to_string(&path).unwrap();
+        let model = read_toml(name, &text).unwrap().robot;
+        let forms = [Form::Grouped, Form::Recursive];
+        let described = robot::document(&model, &EquationOptions::default(), &forms).unwrap();
+        for columns in [1, 2] {
+            let latex = document(&described, Page::with_columns(columns)).unwrap();
+            let Some(log) = log(&folder, &format!("{name}{columns}"), &latex) else {
+                println!("there is no pdflatex here: nothing was tried");
+                return;
+            };
+            let wide: Vec<&str> =
+                log.lines().filter(|line| line.starts_with("Overfull \\hbox")).collect();
+            assert!(wide.is_empty(), "{name}, {columns} columns: {wide:#?}");
+        }
+    }
+}

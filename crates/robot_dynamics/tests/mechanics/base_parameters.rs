@@ -1,0 +1,65 @@
+//! The regressor's columns of base parameters, times the base parameters: the driving forces with friction.
+
+use robot_dynamics::base_parameters::out_of_reach;
+use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::model::{BaseFrames, Robot};
+use robot_dynamics::numeric::{self, random::Random};
+use robot_symbolic::{Expr, Formula, Graph, Rational};
+
+use crate::common::place::{Layout, Off};
+use crate::common::solver::{expected, state};
+use crate::common::{evaluate, magnitude, robot};
+use crate::{STATES, TOLERANCE, robots};
+
+fn output<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
+    let functions = derivation.functions(kind).into_iter();
+    functions.flat_map(|function| function.outputs).flat_map(|output| output.values).collect()
+}
+
+/// The number of base parameters.
+fn check(robot: &Robot, name: &str, seed: u64) -> usize {
+    let mut robot = robot.clone();
+    for link in &mut robot.links {
+        // What grows with the contact force is not linear in the parameters.
+        link.friction.coulomb = Formula::number(&Rational::ZERO);
+    }
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+    let columns = output(&derivation, FunctionKind::RegressorBase);
+    let values = output(&derivation, FunctionKind::BaseParameters);
+    let mut random = Random::new(seed);
+    let solver = numeric::Mechanism::nominal(&robot).unwrap();
+    for _ in 0..STATES {
+        let state = state(&mut random, &solver, &robot);
+        let expected = expected(&robot, &solver, FunctionKind::InverseDynamicsFriction, &state);
+        let columns = evaluate(&robot, &columns, &state);
+        let values = evaluate(&robot, &values, &state);
+        let product = |row: &[f64]| row.iter().zip(&values).map(|(y, p)| y * p).sum::<f64>();
+        let forces: Vec<f64> = columns.chunks(values.len()).map(product).collect();
+        let layout = Layout::per_joint(&robot, "Y β");
+        let off = Off::of(&layout, &forces, &expected, magnitude(&expected).max(1e-3));
+        assert!(off.error <= TOLERANCE, "{name}, {}: {off}", robot.base_frames.name());
+    }
+    values.len()
+}
+
+#[test]
+fn base_parameters_give_the_driving_forces() {
+    for (name, robot, seed) in robots() {
+        for base_frames in BaseFrames::ALL {
+            let robot = Robot { base_frames, ..robot.clone() };
+            if out_of_reach(&robot).is_none() {
+                check(&robot, &name, seed);
+            }
+        }
+    }
+}
+
+/// The numbers of arms that are in the literature.
+#[test]
+fn base_parameters_are_as_many_as_known() {
+    for (name, count) in [("puma560", 36), ("stanford", 33)] {
+        assert_eq!(check(&robot(name), name, 5), count, "{name}");
+    }
+}

@@ -1,0 +1,83 @@
+//! Every function that the numeric solver has, under the default plan and plans drawn at random.
+
+use robot_dynamics::economical::Plan;
+use robot_dynamics::functions::{Derivation, FunctionKind, Output};
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::numeric::{self, random::Random};
+use robot_symbolic::{Expr, Graph};
+
+use crate::common::place::{Layout, Off};
+use crate::common::plans::random_plan;
+use crate::common::solver::{expected, state};
+use crate::common::{evaluate, magnitude};
+use crate::{STATES, TOLERANCE, robots};
+
+const KINDS: [FunctionKind; 19] = [
+    FunctionKind::InverseDynamics,
+    FunctionKind::InverseDynamicsWrench,
+    FunctionKind::InverseDynamicsFriction,
+    FunctionKind::InverseDynamicsWrenchFriction,
+    FunctionKind::LinkWrenches,
+    FunctionKind::MassMatrix,
+    FunctionKind::Bias,
+    FunctionKind::Gravity,
+    FunctionKind::ForwardDynamics,
+    FunctionKind::ForwardDynamicsWrench,
+    FunctionKind::ForwardKinematics,
+    FunctionKind::FramePoses,
+    FunctionKind::Jacobian,
+    FunctionKind::JacobianDotQd,
+    FunctionKind::Energies,
+    FunctionKind::CoriolisMatrix,
+    FunctionKind::InverseDynamicsDerivatives,
+    FunctionKind::ForwardDynamicsDerivatives,
+    FunctionKind::Regressor,
+];
+
+/// The outputs that the solver has: of the regressor the columns of the links.
+fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Output<'g>> {
+    let functions = derivation.functions(kind).into_iter();
+    let mut outputs: Vec<_> = functions.flat_map(|function| function.outputs).collect();
+    if kind == FunctionKind::Regressor {
+        let inertial = numeric::LINK_PARAMETERS * derivation.robot.links.len();
+        for output in &mut outputs {
+            let rows = output.values.chunks(output.shape[1]);
+            output.values = rows.flat_map(|row| row[..inertial].to_vec()).collect();
+            output.shape[1] = inertial;
+        }
+    }
+    outputs
+}
+
+#[test]
+fn functions_agree_with_the_numeric_solver() {
+    for (name, robot, seed) in robots() {
+        let mut random = Random::new(seed);
+        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let states: Vec<_> = (0..STATES).map(|_| state(&mut random, &solver, &robot)).collect();
+        let graph = Graph::new();
+        let usual = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let drawn: Vec<Plan> = (0..2).map(|_| random_plan(&mut random, &robot)).collect();
+        let drawn: Vec<_> = drawn.iter().map(|plan| (usual.with_plan(plan), plan)).collect();
+        for kind in KINDS.into_iter().filter(|kind| kind.missing_in(&robot).is_none()) {
+            let expected: Vec<Vec<f64>> =
+                states.iter().map(|state| expected(&robot, &solver, kind, state)).collect();
+            let size = magnitude(expected.iter().flatten()).max(1e-3);
+            let hold = |derivation: &Derivation<'_, '_>, plan: Option<&Plan>| {
+                let outputs = outputs(derivation, kind);
+                let layout = Layout::of(&robot, &outputs);
+                let roots: Vec<Expr<'_>> =
+                    outputs.into_iter().flat_map(|output| output.values).collect();
+                for (state, expected) in states.iter().zip(&expected) {
+                    let off = Off::of(&layout, &evaluate(&robot, &roots, state), expected, size);
+                    assert!(off.error <= TOLERANCE, "{name}, {}: {off}\n{plan:?}", kind.name());
+                }
+            };
+            hold(&usual, None);
+            // The several ways to the derivatives are compared by the operations, which takes long.
+            if kind != FunctionKind::InverseDynamicsDerivatives {
+                drawn.iter().for_each(|(derivation, plan)| hold(derivation, Some(plan)));
+            }
+        }
+    }
+}

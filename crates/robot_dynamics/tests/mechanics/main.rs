@@ -1,0 +1,59 @@
+//! The mechanics in symbols against the numeric solver, which shares nothing with them: both recursions,
+//! every function and the base parameters, for a few robots of each kind. What the tests of the whole
+//! project hold for hundreds of robots (`tests/recursions.rs` and so on) is held here in seconds.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
+
+mod base_parameters;
+#[path = "../../../../tests/common/mod.rs"]
+mod common;
+mod energies;
+mod functions;
+mod recursions;
+
+use common::with_free_axes;
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric::random::{Random, Recipe};
+use robot_dynamics::random;
+
+/// States at which values are held.
+const STATES: usize = 3;
+
+/// How far values may be off, in parts of the largest.
+const TOLERANCE: f64 = 1e-11;
+
+/// Robot files, chains, trees with drives, friction, joints that follow and fixed links, robots whose
+/// figures are parameters, and robots whose joint axes are: a name and a seed for states with each.
+fn robots() -> Vec<(String, Robot, u64)> {
+    let files = ["trttr1", "scara", "stanford", "puma560"];
+    let files = files.map(|name| (name.to_owned(), common::robot(name), 3));
+    let random = |seed: u64, recipe: &Recipe| random::robot(&mut Random::new(seed), recipe);
+    let chains = (0..8).map(|seed| {
+        let recipe = Recipe::serial(1 + seed as usize % 6);
+        (format!("chain, seed {seed}"), random(seed, &recipe), seed)
+    });
+    let trees = (1000..1012).map(|seed| {
+        let joints = 2 + seed as usize % 6;
+        let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
+        (format!("tree, seed {seed}"), random(seed, &recipe), seed)
+    });
+    let parameters = (2000..2003).map(|seed| {
+        let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 4) };
+        let robot = random::parametrised(&random(seed, &recipe));
+        (format!("parameters, seed {seed}"), robot, seed)
+    });
+    let free =
+        (3000..3003).map(|seed| (format!("free axes, seed {seed}"), with_free_axes(seed), seed));
+    files.into_iter().chain(chains).chain(trees).chain(parameters).chain(free).collect()
+}
+
+#[test]
+fn the_robots_have_what_is_to_be_tried() {
+    let links: Vec<_> = robots().into_iter().flat_map(|(_, robot, _)| robot.links).collect();
+    let count = |has: fn(&robot_dynamics::model::Link) -> bool| -> usize {
+        links.iter().filter(|link| has(link)).count()
+    };
+    assert!(count(|link| link.drive.gyroscopic && link.parent.is_some()) > 3);
+    assert!(count(|link| link.joint.kind == robot_dynamics::model::JointKind::Prismatic) > 10);
+    assert!(count(|link| link.joint.ratio.text() != "1") > 3);
+    assert!(count(|link| link.friction.coulomb.text() != "0") > 3);
+}

@@ -1,0 +1,193 @@
+//! The paper's text against itself: with the 34 terms of `docs/trttr1.md` replaced, its equations satisfy
+//! the paper's own relations; with any one of them left, a relation named beside it fails. Nothing of
+//! the derivation takes part but the replaced terms.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nalgebra::{Matrix3, Vector3};
+use robot_dynamics::numeric::random::Random;
+use robot_symbolic::Graph;
+
+/// What one side of an equation may be off by, where values are about 1.
+const TOLERANCE: f64 = 1e-9;
+
+fn project(file: &str) -> String {
+    std::fs::read_to_string(format!("{}/../../{file}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// The value of a symbol, which its name decides.
+fn value(symbol: &str) -> f64 {
+    let seed = symbol.bytes().fold(7, |seed, byte| 31 * seed + u64::from(byte));
+    Random::new(seed).uniform(0.3, 1.7)
+}
+
+/// The value of an expression in infix text; `F_l5.y` is not a name there.
+fn evaluate(text: &str) -> f64 {
+    let graph = Graph::new();
+    let expr = graph.parse(&text.replace("F_l5.y", "Fl5y")).unwrap();
+    expr.evaluate(|symbol| value(&graph.symbol_name(symbol)))
+}
+
+/// The right sides of the text's equations by number and quantity: `(39) M_l4.z`.
+fn equations() -> Vec<(String, String)> {
+    let mut equations: Vec<(String, String)> = vec![];
+    for line in project("docs/trttr1.printed").lines() {
+        match line.split_once(" = ") {
+            _ if line.starts_with('#') => {}
+            Some((name, terms)) if line.starts_with('(') => {
+                equations.push((name.to_owned(), terms.to_owned()));
+            }
+            _ => equations.last_mut().into_iter().for_each(|(_, terms)| terms.push_str(line)),
+        }
+    }
+    equations
+}
+
+/// A row of the table of grades.
+struct Grade {
+    equation: String,
+    printed: String,
+    derived: String,
+    relations: String,
+}
+
+fn grades() -> Vec<Grade> {
+    let page = project("docs/trttr1.md");
+    let (_, table) = page.split_once("| equation | term of the text |").unwrap();
+    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
+    let rows = rows.map(|line| {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let term = |cell: &str| match cell {
+            "—" => "0".to_owned(),
+            term => term.trim_matches('`').to_owned(),
+        };
+        Grade {
+            equation: cells[0].to_owned(),
+            printed: term(cells[1]),
+            derived: term(cells[2]),
+            relations: cells[4].to_owned(),
+        }
+    });
+    rows.collect()
+}
+
+/// The values of the text's equations, corrected by grades.
+#[derive(Default)]
+struct Text {
+    quantities: BTreeMap<String, f64>,
+    /// By number, for what the text has twice: `(53) Q1` beside `(52) Q1`.
+    numbered: BTreeMap<String, f64>,
+    failed: BTreeSet<String>,
+}
+
+impl Text {
+    /// The names among the equations are left to [`Text::check`].
+    fn new(corrections: &[&Grade]) -> Text {
+        let mut text = Text::default();
+        for (name, terms) in equations() {
+            let (_, quantity) = name.split_once(' ').unwrap();
+            if !terms.contains(['*', '+']) && terms.contains("_l") {
+                continue;
+            }
+            let mut value = evaluate(&terms);
+            for grade in corrections.iter().filter(|grade| grade.equation == name) {
+                value += evaluate(&grade.derived) - evaluate(&grade.printed);
+            }
+            text.quantities.insert(quantity.to_owned(), value);
+            text.numbered.insert(name, value);
+        }
+        text
+    }
+
+    fn vector(&self, name: &str) -> Vector3<f64> {
+        Vector3::from(["x", "y", "z"].map(|axis| self.quantities[&format!("{name}.{axis}")]))
+    }
+
+    fn hold(&mut self, relation: &str, left: &[f64], right: &[f64]) {
+        if left.iter().zip(right).any(|(a, b)| (a - b).abs() > TOLERANCE) {
+            self.failed.insert(relation.to_owned());
+        }
+    }
+
+    fn hold_vector(&mut self, relation: &str, left: &str, right: Vector3<f64>) {
+        let left = self.vector(left);
+        self.hold(relation, left.as_slice(), right.as_slice());
+    }
+
+    /// The relations that fail.
+    fn check(mut self) -> BTreeSet<String> {
+        let [q2, q5] = ["q2", "q5"].map(|name| value(name));
+        let [about_z, about_y] = [
+            Matrix3::new(q2.cos(), -q2.sin(), 0.0, q2.sin(), q2.cos(), 0.0, 0.0, 0.0, 1.0),
+            Matrix3::new(q5.cos(), 0.0, q5.sin(), 0.0, 1.0, 0.0, -q5.sin(), 0.0, q5.cos()),
+        ];
+        let one = Matrix3::identity();
+        for (index, relation) in (1..).zip(["(14)", "(15)", "(16)", "(17)", "(18)"]) {
+            let mass = value(&format!("M{index}"));
+            let force = self.vector(&format!("a_c{index}")) * mass;
+            self.hold_vector(relation, &format!("F{index}"), force);
+        }
+        let tip = Vector3::from(["Fx6", "Fy6", "Fz6"].map(value));
+        let tip_moment = Vector3::from(["Mx6", "My6", "Mz6"].map(value));
+        let reach = value("q4") + value("l4");
+        let height = value("q3") + value("l2");
+        // Per link: its relations, what turns from the next link's axes, and r of the next link.
+        let links = [
+            (5, "(26)", "(36)", one, Vector3::new(value("l6"), 0.0, 0.0)),
+            (4, "(27)", "(38)", about_y, Vector3::new(value("l5"), 0.0, 0.0)),
+            (3, "(28)", "(40)", one, Vector3::new(reach, 0.0, value("l3"))),
+            (2, "(29)", "(44)", one, Vector3::new(0.0, 0.0, height)),
+            (1, "(30)", "(48)", about_z, Vector3::new(0.0, 0.0, value("l1"))),
+        ];
+        for (link, of_forces, of_moments, turn, r) in links {
+            let (force, moment) = match link {
+                5 => (tip, tip_moment),
+                _ => (
+                    self.vector(&format!("F_l{}", link + 1)),
+                    self.vector(&format!("M_l{}", link + 1)),
+                ),
+            };
+            let own = (self.vector(&format!("F{link}")), self.vector(&format!("M_c{link}")));
+            self.hold_vector(of_forces, &format!("F_l{link}"), turn * force + own.0);
+            let sum = turn * moment + r.cross(&(turn * force)) + own.1;
+            self.hold_vector(of_moments, &format!("M_l{link}"), sum);
+        }
+        let driving = [
+            ("(52)", "(53) Q1", "F_l1.y"),
+            ("(54)", "(55) Q2", "M_l2.z"),
+            ("(56)", "(57) Q3", "F_l3.z"),
+            ("(58)", "(59) Q4", "F_l4.x"),
+            ("(60)", "(61) Q5", "M_l5.y"),
+        ];
+        for (relation, driving, component) in driving {
+            let (left, right) = (self.numbered[driving], self.quantities[component]);
+            self.hold(relation, &[left], &[right]);
+        }
+        self.failed
+    }
+}
+
+/// The relations that fail where all terms are replaced but one, or none is left out.
+fn failures(grades: &[Grade], but: Option<usize>) -> BTreeSet<String> {
+    let others = grades.iter().enumerate().filter(|(index, _)| Some(*index) != but);
+    let corrections: Vec<&Grade> = others.map(|(_, grade)| grade).collect();
+    Text::new(&corrections).check()
+}
+
+#[test]
+fn with_all_terms_replaced_the_text_satisfies_its_own_relations() {
+    assert_eq!(failures(&grades(), None), BTreeSet::new());
+}
+
+#[test]
+fn each_term_left_fails_a_relation_named_beside_it() {
+    let grades = grades();
+    assert_eq!(grades.len(), 34);
+    for (index, grade) in grades.iter().enumerate() {
+        let failed = failures(&grades, Some(index));
+        let named = failed.iter().any(|relation| grade.relations.contains(relation.as_str()));
+        let Grade { equation, printed, relations, .. } = grade;
+        assert!(named, "{equation} with `{printed}` fails {failed:?}, the page names {relations}");
+    }
+}
