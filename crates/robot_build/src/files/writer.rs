@@ -161,7 +161,8 @@ impl Writer {
         let failed = |error| cannot_write(folder, &error);
         let target = match place(folder).map_err(failed)? {
             Place::Free(target) => target,
-            Place::Folder(_) => {
+            Place::Folder(target) => {
+                remove_leftovers(&target);
                 let outputs = files.iter().skip(1).chain(files.first());
                 let outputs: Vec<Output<'_>> = outputs
                     .map(|file| Output {
