@@ -86,6 +86,27 @@ pub enum Error {
         /// What the system says, and the remedy where there is one.
         reason: String,
     },
+    /// An output that is an input.
+    #[error(
+        "{} is not written: it is the input {}, which an output never replaces; choose another name",
+        path.display(), input.display()
+    )]
+    IsInput {
+        /// The output.
+        path: PathBuf,
+        /// The input.
+        input: PathBuf,
+    },
+    /// An output in whose place is a file that this program did not write.
+    #[error("{} is not replaced: it {reason}; {remedy}", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// By what it is known.
+        reason: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// A robot file outside of the package.
     #[error(
         "{} lies outside of the package {}; a build reads what belongs to the package: move the file \

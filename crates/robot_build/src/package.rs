@@ -11,7 +11,7 @@ use crate::budget;
 use crate::check::{CheckValue, check_value};
 use crate::error::Errors;
 use crate::files::File;
-use crate::generate::{header, module_name, rust_text};
+use crate::generate::{header, module_name, rust_text, unnamed_header};
 use crate::options::Options;
 use crate::programs::{Programs, programs};
 
@@ -55,7 +55,10 @@ pub fn package_of(
         file("src/model.rs", parts.model()?),
     ];
     for (path, text) in robot_runtime::SOURCES {
-        files.push(file(&format!("src/runtime/{path}"), (*text).to_owned()));
+        files.push(file(
+            &format!("src/runtime/{path}"),
+            format!("// {}\n\n{text}", unnamed_header()),
+        ));
     }
     files.push(file("tests/check.rs", parts.tests()));
     Ok(files)

@@ -9,6 +9,7 @@ use robot_dynamics::economical::search::Found;
 use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Errors};
+use crate::files::MARKER;
 use crate::options::Options;
 use crate::paths::RobotFile;
 
@@ -25,6 +26,13 @@ pub fn pin_path(robot: &Path) -> PathBuf {
     }
 }
 
+/// What is read for a robot: its file, and the pin that is or may come to lie beside it.
+#[must_use]
+pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
+    let followed = robot.canonicalize();
+    [robot.to_owned(), pin_path(followed.as_deref().unwrap_or(robot))]
+}
+
 /// The text of a pin of what a search found for a robot file.
 #[must_use]
 pub fn pin_text(source: &Source, found: &Found) -> String {
@@ -34,7 +42,7 @@ pub fn pin_text(source: &Source, found: &Found) -> String {
         operations: found.operations,
         plan: found.plan.clone(),
     };
-    pin.to_text()
+    format!("# {MARKER}\n{}", pin.to_text())
 }
 
 impl RobotFile {

@@ -3,10 +3,30 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{File, Staleness, staleness, write_if_changed};
+use robot_build::{File, Output, Ownership, Staleness, Writer, staleness};
 
 use crate::Terminal;
 use crate::failure::Failure;
+
+/// Whether files of others are replaced.
+#[derive(Args)]
+pub(crate) struct ForceArgument {
+    /// Replace a file that is there, though this program did not write it; never an input
+    #[arg(long)]
+    force: bool,
+}
+
+impl ForceArgument {
+    /// A writer of outputs that are made of those inputs; `-` is standard input.
+    pub(crate) fn writer(&self, inputs: impl IntoIterator<Item = PathBuf>) -> Writer {
+        let inputs = inputs.into_iter().map(|input| match input.to_str() {
+            Some("-") => PathBuf::from("/dev/stdin"),
+            _ => input,
+        });
+        let remedy = "choose another name, or have it replaced with --force";
+        Writer::new().inputs(inputs).force(self.force).remedy(remedy)
+    }
+}
 
 /// Where a command that makes one text puts it.
 #[derive(Args)]
@@ -17,36 +37,95 @@ pub(crate) struct OutputArguments {
     /// Compare the file with what would be written, and write nothing
     #[arg(long, requires = "output")]
     check: bool,
+    #[command(flatten)]
+    force: ForceArgument,
+}
+
+/// Where one text goes, which has been found to be free for it.
+pub(crate) struct Delivery<'a> {
+    path: Option<&'a Path>,
+    check: bool,
+    writer: Writer,
+    ownership: Ownership,
 }
 
 impl OutputArguments {
-    /// Prints the text, writes it to the file, or compares it with the file.
-    pub(crate) fn deliver(&self, text: String, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let Some(path) = &self.output else {
-            return Ok(terminal.output.write_all(text.as_bytes())?);
-        };
-        deliver(path, &[File { path: String::new(), text }], self.check, terminal)
+    /// The place of a text with the mark of this program, made of those inputs; refused at once, before
+    /// any work, where it cannot be written.
+    pub(crate) fn open(
+        &self,
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<Delivery<'_>, Failure> {
+        self.open_as(Ownership::Marked, inputs)
+    }
+
+    /// The place of a text that shows in some other way whose it is.
+    pub(crate) fn open_as(
+        &self,
+        ownership: Ownership,
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<Delivery<'_>, Failure> {
+        let path = self.output.as_deref();
+        let delivery =
+            Delivery { path, check: self.check, writer: self.force.writer(inputs), ownership };
+        delivery.opened()
     }
 }
 
-/// Writes files into a folder, or says which are out of date. A file without a path is the folder's.
-pub(crate) fn deliver(
+impl<'a> Delivery<'a> {
+    /// The place of a text with the mark of this program, which is never compared.
+    pub(crate) fn open(path: Option<&'a Path>, writer: Writer) -> Result<Delivery<'a>, Failure> {
+        Delivery { path, check: false, writer, ownership: Ownership::Marked }.opened()
+    }
+
+    fn opened(self) -> Result<Delivery<'a>, Failure> {
+        if let Some(path) = self.path.filter(|_| !self.check) {
+            self.writer.check(&[(path, self.ownership)])?;
+        }
+        Ok(self)
+    }
+
+    /// Prints the text, writes it to the file, or compares it with the file.
+    pub(crate) fn deliver(&self, text: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let Some(path) = self.path else {
+            return Ok(terminal.output.write_all(text.as_bytes())?);
+        };
+        if self.check {
+            return up_to_date([(path.to_owned(), text)]);
+        }
+        let ownership = self.ownership;
+        let output = Output { path: path.to_owned(), bytes: text.as_bytes(), ownership };
+        if self.writer.write(&[output])? > 0 {
+            writeln!(terminal.errors, "wrote {}", path.display())?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes files into a folder, or says which are out of date.
+pub(crate) fn deliver_folder(
     folder: &Path,
     files: &[File],
     check: bool,
+    writer: &Writer,
     terminal: &mut Terminal<'_>,
 ) -> Result<(), Failure> {
+    if check {
+        return up_to_date(files.iter().map(|file| (file.path_in(folder), file.text.as_str())));
+    }
+    let (changed, all) = (writer.write_folder(folder, files)?, files.len());
+    let count = if changed == all { String::new() } else { format!("{changed} of ") };
+    if changed > 0 {
+        writeln!(terminal.errors, "wrote {}: {count}{all} files", folder.display())?;
+    }
+    Ok(())
+}
+
+/// Whether files have those texts; all that have not are told.
+fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a str)>) -> Result<(), Failure> {
     let mut stale = vec![];
-    for file in files {
-        let parts = file.path.split('/').filter(|part| !part.is_empty());
-        let path = parts.fold(folder.to_owned(), |path, part| path.join(part));
-        if !check {
-            if write_if_changed(&path, &file.text)? {
-                writeln!(terminal.errors, "wrote {}", path.display())?;
-            }
-            continue;
-        }
-        match staleness(&path, &file.text)? {
+    for (path, text) in files {
+        match staleness(&path, text)? {
             None => {}
             Some(Staleness::Missing) => stale.push(format!("{} is missing", path.display())),
             Some(Staleness::Differs { line }) => {

@@ -1,32 +1,10 @@
-//! Files that commands read and write.
+//! Files that commands read.
 
 use std::io::Read;
-use std::path::{Path, PathBuf};
-
-use robot_simulation::plot::Figure;
+use std::path::Path;
 
 use crate::Terminal;
 use crate::failure::Failure;
-
-/// Writes a file.
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    std::fs::write(path, bytes)
-        .map_err(|error| Failure::input(format!("cannot write {}: {error}", path.display())))
-}
-
-/// A path that says what picture to write.
-pub(crate) fn plot_path(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    let known = path.extension().is_some_and(|extension| extension == "svg" || extension == "png");
-    if known { Ok(path) } else { Err("the name must end in .svg or .png".to_owned()) }
-}
-
-/// Writes a picture as its name says.
-pub(crate) fn write_figure(path: &Path, figure: &Figure) -> Result<(), Failure> {
-    let is_svg = path.extension().is_some_and(|extension| extension == "svg");
-    let bytes = if is_svg { figure.svg()?.into_bytes() } else { figure.png()? };
-    write(path, &bytes)
-}
 
 /// Tables of states and torques are no larger; a device may have no end.
 const MAX_BYTES: u64 = 1 << 28;

@@ -14,6 +14,7 @@ mod forms;
 mod friction;
 mod motion;
 mod progress;
+mod recording;
 mod robot;
 mod settings;
 mod states;
@@ -26,6 +27,7 @@ use clap::Parser;
 use clap::error::ErrorKind;
 
 use commands::Command;
+use failure::Failure;
 
 /// The name of the command.
 const NAME: &str = "robot-symbolic";
@@ -87,6 +89,14 @@ pub fn run(
         Ok(cli) => cli,
         Err(error) => return usage(&error, terminal),
     };
+    // Messages that nobody hears are no reason to leave the work undone.
+    let mut errors = Messages(&mut *terminal.errors);
+    let terminal = &mut Terminal {
+        input: &mut *terminal.input,
+        output: &mut *terminal.output,
+        errors: &mut errors,
+        ..*terminal
+    };
     let command = cli.command.unwrap_or_default();
     let result = command.run(terminal).and_then(|()| Ok(terminal.output.flush()?));
     match result {
@@ -98,8 +108,26 @@ pub fn run(
 /// Help and version go to standard output, wrong usage to standard error.
 fn usage(error: &clap::Error, terminal: &mut Terminal<'_>) -> u8 {
     let wanted = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
-    let stream = if wanted { &mut terminal.output } else { &mut terminal.errors };
+    if wanted {
+        let shown = write!(terminal.output, "{error}").and_then(|()| terminal.output.flush());
+        return shown.map_or_else(|error| Failure::from(error).report(terminal), |()| 0);
+    }
     // Nobody is listening where this fails.
-    let _ = write!(stream, "{error}");
-    if wanted { 0 } else { 2 }
+    let _ = write!(terminal.errors, "{error}");
+    2
+}
+
+/// Standard error: what cannot be written there is dropped.
+struct Messages<'a>(&'a mut dyn Write);
+
+impl Write for Messages<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let _ = self.0.write_all(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        let _ = self.0.flush();
+        Ok(())
+    }
 }

@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use robot_build::{
     ALL_FUNCTIONS, BaseFrames, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, RobotFile,
-    Scalar, Source, Trigonometry,
+    Scalar, Source, Trigonometry, robot_inputs,
 };
 use robot_dynamics::description::Described;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -74,6 +74,11 @@ impl RobotArgument {
             ..Options::default()
         };
         Ok(RobotFile::read(&self.file)?.with_pin(&options)?)
+    }
+
+    /// The files that are read for the robot.
+    pub(crate) fn inputs(&self) -> [PathBuf; 2] {
+        robot_inputs(&self.file)
     }
 
     /// The path of the file.

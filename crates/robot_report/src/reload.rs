@@ -1,5 +1,6 @@
 //! The page of a robot whose file is being edited: it reloads itself, from disk and without a server.
 
+use robot_build::MARKER;
 use sha2::{Digest, Sha256};
 
 /// What the page's script looks at: which page is the newest.
@@ -29,7 +30,8 @@ impl Stamp {
     pub(crate) fn picture(self) -> String {
         let Stamp { width, height } = self;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"/>\n"
+            "<!-- {MARKER} -->\n\
+             <svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"/>\n"
         )
     }
 }

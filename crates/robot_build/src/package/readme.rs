@@ -9,13 +9,14 @@ use super::Parts;
 use super::call::{call, model_expression};
 use crate::check::CheckValue;
 use crate::conventions::CONVENTIONS;
-use crate::generate::{counts, file_name};
+use crate::generate::{counts, file_name, unnamed_header};
 
 pub(super) fn readme(parts: &Parts<'_>) -> String {
     let robot = &parts.programs.robot;
     let mut text = format!(
-        "# {}\n\nThe dynamics of the robot {} as plain Rust: flat code without branches, allocation or \
+        "<!-- {} -->\n\n# {}\n\nThe dynamics of the robot {} as plain Rust: flat code without branches, allocation or \
          panics, generated from `{}`. Nothing else is needed.\n",
+        unnamed_header(),
         robot.name,
         robot.name,
         plain(file_name(parts.source))

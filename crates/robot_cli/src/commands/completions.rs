@@ -2,6 +2,7 @@
 
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
+use robot_build::MARKER;
 
 use crate::delivery::OutputArguments;
 use crate::failure::Failure;
@@ -25,8 +26,20 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let output = self.output.open([])?;
         let mut script = vec![];
         clap_complete::generate(self.shell, &mut Cli::command(), NAME, &mut script);
-        self.output.deliver(String::from_utf8_lossy(&script).into_owned(), terminal)
+        output.deliver(&marked(&String::from_utf8_lossy(&script)), terminal)
+    }
+}
+
+/// The script with this program's mark, a comment in all of these shells. The first line of zsh's is for
+/// zsh.
+fn marked(script: &str) -> String {
+    match script.split_once('\n') {
+        Some((first, rest)) if first.starts_with("#compdef") => {
+            format!("{first}\n# {MARKER}\n{rest}")
+        }
+        _ => format!("# {MARKER}\n{script}"),
     }
 }

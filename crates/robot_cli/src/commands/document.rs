@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Args, ValueEnum};
+use robot_build::MARKER;
 use robot_document::Form;
 use robot_document::{latex, latex::Page, typst};
 
 use crate::Terminal;
+use crate::delivery::{Delivery, ForceArgument};
 use crate::displayed::centimetres;
 use crate::failure::Failure;
-use crate::files;
 use crate::forms::{EquationArguments, FormName, failed};
 use crate::robot::RobotArgument;
 
@@ -43,6 +44,8 @@ pub(crate) struct Arguments {
     /// The file to write; without this the document is printed
     #[arg(short, long, value_name = "FILE", value_parser = source_path)]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgument,
 }
 
 /// A path of something that is typeset.
@@ -69,6 +72,8 @@ impl Arguments {
     }
 
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let writer = self.force.writer(self.robot.inputs());
+        let output = Delivery::open(self.output.as_deref(), writer)?;
         let mut forms: Vec<Form> = vec![];
         for form in self.form.iter().map(|form| Form::from(*form)) {
             if !forms.contains(&form) {
@@ -81,14 +86,10 @@ impl Arguments {
         let document = robot_document::robot::document(&robot, &options, &forms).map_err(failed)?;
         let usual = Page::with_columns(self.columns);
         let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
-        let shown = match self.format() {
-            Format::Latex => latex::document(&document, page),
-            Format::Typst => typst::document(&document, page),
+        let (comment, shown) = match self.format() {
+            Format::Latex => ("%", latex::document(&document, page)),
+            Format::Typst => ("//", typst::document(&document, page)),
         };
-        let shown = shown.map_err(failed)?;
-        match &self.output {
-            Some(path) => files::write(path, shown.as_bytes()),
-            None => Ok(terminal.output.write_all(shown.as_bytes())?),
-        }
+        output.deliver(&format!("{comment} {MARKER}\n{}", shown.map_err(failed)?), terminal)
     }
 }

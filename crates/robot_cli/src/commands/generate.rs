@@ -36,11 +36,12 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let output = self.output.open(self.robot.inputs())?;
         let mut options = self.code.options(&self.robot, self.trigonometry)?;
         options.runtime.clone_from(&self.runtime);
         let source = self.robot.source()?;
         let generated = watched("generating", terminal, || generate(&source, &options))?;
         text::warnings(&generated.warnings, terminal)?;
-        self.output.deliver(generated.code, terminal)
+        output.deliver(&generated.code, terminal)
     }
 }

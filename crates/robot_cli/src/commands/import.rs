@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::{Errors, RobotFile};
+use robot_build::{Errors, Ownership, RobotFile, robot_inputs};
 use robot_dynamics::description::{self, Options};
 
 use crate::Terminal;
@@ -16,7 +16,8 @@ use crate::text;
   robot-symbolic import arm.urdf -o robots/arm.toml
 
 The robot file has the source's names and figures; every choice that was made is told. What is waived
-here is written down in the robot file, so that the commands take it from there.")]
+here is written down in the robot file, so that the commands take it from there. A robot file is made to
+be edited: one that is there already and differs is replaced with --force only.")]
 pub(crate) struct Arguments {
     /// The URDF file
     file: PathBuf,
@@ -35,6 +36,7 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let output = self.output.open_as(Ownership::Edited, robot_inputs(&self.file))?;
         let source = RobotFile::read(&self.file)?.source;
         let options = Options {
             allow_massless: self.allow_massless,
@@ -47,6 +49,6 @@ impl Arguments {
         for choice in import.described.choices.iter() {
             writeln!(terminal.errors, "note: {}", choice.message)?;
         }
-        self.output.deliver(import.toml, terminal)
+        output.deliver(&import.toml, terminal)
     }
 }

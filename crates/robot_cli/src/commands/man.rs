@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, CommandFactory};
 use clap_mangen::Man;
-use robot_build::File;
+use robot_build::{File, MARKER};
 
-use crate::delivery::deliver;
+use crate::delivery::{ForceArgument, deliver_folder};
 use crate::failure::Failure;
 use crate::{Cli, Terminal};
 
@@ -25,6 +25,8 @@ pub(crate) struct Arguments {
     /// Compare the files with what would be written, and write nothing
     #[arg(long, requires = "folder")]
     check: bool,
+    #[command(flatten)]
+    force: ForceArgument,
 }
 
 impl Arguments {
@@ -40,7 +42,7 @@ impl Arguments {
         for command in command.get_subcommands() {
             pages.push(page(command)?);
         }
-        deliver(folder, &pages, self.check, terminal)
+        deliver_folder(folder, &pages, self.check, &self.force.writer([]), terminal)
     }
 }
 
@@ -48,5 +50,6 @@ fn page(command: &clap::Command) -> Result<File, Failure> {
     let man = Man::new(command.clone());
     let mut text = vec![];
     man.render(&mut text)?;
-    Ok(File { path: man.get_filename(), text: String::from_utf8_lossy(&text).into_owned() })
+    let text = format!(".\\\" {MARKER}\n{}", String::from_utf8_lossy(&text));
+    Ok(File { path: man.get_filename(), text })
 }

@@ -6,7 +6,7 @@ use clap::Args;
 use robot_build::package;
 
 use crate::Terminal;
-use crate::delivery::deliver;
+use crate::delivery::{ForceArgument, deliver_folder};
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
@@ -34,6 +34,8 @@ pub(crate) struct Arguments {
     /// Compare the files with what would be written
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    force: ForceArgument,
 }
 
 impl Arguments {
@@ -41,6 +43,7 @@ impl Arguments {
         let options = self.code.options(&self.robot, self.trigonometry)?;
         let source = self.robot.source()?;
         let files = watched("generating", terminal, || package::package(&source, &options))?;
-        deliver(&self.output, &files, self.check, terminal)
+        let writer = self.force.writer(self.robot.inputs());
+        deliver_folder(&self.output, &files, self.check, &writer, terminal)
     }
 }

@@ -35,13 +35,14 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let output = self.output.open(self.robot.inputs())?;
         let options = self.robot.options()?;
         // Read first, so that warnings are shown and no compiler starts for a page that cannot be.
         let robot = self.robot.read(terminal)?.robot;
         presentable(&robot)?;
         let source = self.robot.source()?;
         let page = watched("writing", terminal, || self.page(&source, &planned(&robot, &options)))?;
-        self.output.deliver(page, terminal)
+        output.deliver(&page, terminal)
     }
 
     fn page(&self, source: &Source, options: &Options) -> Result<String, Failure> {

@@ -1,7 +1,7 @@
 //! `schema`: the JSON schema of robot files, for editors.
 
 use clap::Args;
-use robot_build::FunctionKind;
+use robot_build::{FunctionKind, MARKER};
 use robot_dynamics::description::shape::{
     AXES, Content, IDENTIFIER, Key, LABEL, Presence, ROBOT_FILE, Shape,
 };
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        self.output.deliver(format!("{:#}\n", document()), terminal)
+        self.output.open([])?.deliver(&format!("{:#}\n", document()), terminal)
     }
 }
 
@@ -34,6 +34,7 @@ impl Arguments {
 fn document() -> Value {
     let mut schema = Map::new();
     schema.insert("$schema".to_owned(), json!("http://json-schema.org/draft-07/schema#"));
+    schema.insert("$comment".to_owned(), json!(MARKER));
     schema.insert("title".to_owned(), json!("Robot file, format 1"));
     schema.insert("description".to_owned(), json!(ROBOT_FILE.doc));
     schema.extend(table(&ROBOT_FILE));

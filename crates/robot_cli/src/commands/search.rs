@@ -1,12 +1,13 @@
 //! `search`: the form of the recursion with the fewest operations.
 
 use clap::Args;
-use robot_build::{pin_path, pin_text, snapping, write_if_changed};
+use robot_build::{Output, Ownership, pin_path, pin_text, snapping};
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::economical::{Plan, plan::LinkPlan};
 use robot_dynamics::mechanism::MechanismOptions;
 
 use crate::Terminal;
+use crate::delivery::ForceArgument;
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
@@ -29,10 +30,17 @@ pub(crate) struct Arguments {
     /// Show what is found and pin nothing
     #[arg(long)]
     dry_run: bool,
+    #[command(flatten)]
+    force: ForceArgument,
 }
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let path = pin_path(self.robot.path());
+        let writer = self.force.writer([self.robot.path().to_owned()]);
+        if !self.dry_run {
+            writer.check(&[(&path, Ownership::Marked)])?;
+        }
         let robot = self.robot.read(terminal)?.robot;
         let options = MechanismOptions::ROUNDED.with_snap(self.robot.snap(), &robot);
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
@@ -43,6 +51,13 @@ impl Arguments {
                 robot.name
             )));
         };
+        let snapping = snapping(&robot, self.robot.snap(), Some(&found.plan))?;
+        // First, so that it is done where nobody reads what is shown.
+        if !self.dry_run {
+            let text = pin_text(&self.robot.source()?, &found);
+            let (bytes, ownership) = (text.as_bytes(), Ownership::Marked);
+            writer.write(&[Output { path: path.clone(), bytes, ownership }])?;
+        }
         writeln!(
             terminal.output,
             "{}: {} multiplications and additions, {} with multiply-adds; the best of {} forms{}\n",
@@ -59,11 +74,8 @@ impl Arguments {
             let axis = ["x", "y", "z"][component.min(2)];
             writeln!(terminal.output, "\nunit of length: {axis} of the position of link {name}")?;
         }
-        let snapping = snapping(&robot, self.robot.snap(), Some(&found.plan))?;
         writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
-            let path = pin_path(self.robot.path());
-            write_if_changed(&path, &pin_text(&self.robot.source()?, &found))?;
             writeln!(terminal.output, "\npinned in {}", path.display())?;
         }
         Ok(())

@@ -11,11 +11,13 @@ use robot_simulation::{
 };
 
 use crate::Terminal;
+use crate::delivery::ForceArgument;
 use crate::failure::Failure;
 use crate::files;
 use crate::friction::FrictionArguments;
 use crate::motion;
 use crate::progress::Progress;
+use crate::recording::{Recording, plot_path};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
 
@@ -64,30 +66,30 @@ pub(crate) struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// A plot to write, .svg or .png: q, qd, torques and energies over time
-    #[arg(long, value_name = "FILE", value_parser = files::plot_path)]
+    #[arg(long, value_name = "FILE", value_parser = plot_path)]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgument,
 }
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let inputs = self.robot.inputs().into_iter().chain(self.torques.clone());
+        let writer = self.force.writer(inputs);
+        let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
         let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
         let programs = motion::programs(&self.robot, robot, RobotProgram::functions(friction))?;
         let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?;
         let motion = self.motion(&programs, &program, terminal)?;
         let energies = motion.energies(&program)?;
-        if let Some(plot) = &self.plot {
+        let figure = || {
             let conserved = !friction && motion.tau.iter().flatten().all(|tau| *tau == 0.0);
-            let figure = motion_figure(&programs.robot, &motion, &energies, conserved);
-            files::write_figure(plot, &figure)?;
-        }
-        let csv = motion.table(&energies).csv();
-        match &self.output {
-            None => terminal.output.write_all(csv.as_bytes())?,
-            Some(path) => {
-                files::write(path, csv.as_bytes())?;
-                writeln!(terminal.output, "{}", summary(&motion, &energies))?;
-            }
+            motion_figure(&programs.robot, &motion, &energies, conserved)
+        };
+        recording.write(&motion.table(&energies).csv(), figure, terminal)?;
+        if self.output.is_some() {
+            writeln!(terminal.output, "{}", summary(&motion, &energies))?;
         }
         Ok(())
     }

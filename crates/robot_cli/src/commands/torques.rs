@@ -8,10 +8,12 @@ use robot_simulation::plot::shares_figure;
 use robot_simulation::{Shares, Table, Trajectory, shares};
 
 use crate::Terminal;
+use crate::delivery::ForceArgument;
 use crate::failure::Failure;
 use crate::files;
 use crate::friction::FrictionArguments;
 use crate::motion;
+use crate::recording::{Recording, plot_path};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
 
@@ -55,12 +57,17 @@ pub(crate) struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// A plot to write, .svg or .png: the shares of each torque over time
-    #[arg(long, value_name = "FILE", value_parser = files::plot_path)]
+    #[arg(long, value_name = "FILE", value_parser = plot_path)]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgument,
 }
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let inputs = self.robot.inputs().into_iter().chain(self.trajectory.clone());
+        let writer = self.force.writer(inputs);
+        let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
         let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
         let trajectory = self.trajectory(&robot, terminal)?;
@@ -68,14 +75,8 @@ impl Arguments {
         let functions = Shares::functions(friction, wrench);
         let programs = motion::programs(&self.robot, robot, functions)?;
         let shares = shares(&programs, &self.settings.pairs(), &trajectory, friction)?;
-        if let Some(plot) = &self.plot {
-            files::write_figure(plot, &shares_figure(&programs.robot, &shares))?;
-        }
-        let csv = shares.table().csv();
-        match &self.output {
-            None => Ok(terminal.output.write_all(csv.as_bytes())?),
-            Some(path) => files::write(path, csv.as_bytes()),
-        }
+        let figure = || shares_figure(&programs.robot, &shares);
+        recording.write(&shares.table().csv(), figure, terminal)
     }
 
     fn trajectory(

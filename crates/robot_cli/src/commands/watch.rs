@@ -11,6 +11,7 @@ use clap::Args;
 use robot_dynamics::diagnostic::Style;
 
 use crate::Terminal;
+use crate::delivery::ForceArgument;
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
@@ -38,6 +39,8 @@ pub(crate) struct Arguments {
     /// A page about the robot to write, as the command `report` does without a compiler
     #[arg(long, value_name = "PATH")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgument,
     /// How many terms of each equation are shown at most
     #[arg(long, default_value_t = 20)]
     terms: usize,
@@ -53,13 +56,15 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         // A name that is wrong from the start is not waited for.
         self.robot.source()?;
+        let writer = self.force.writer(self.robot.inputs());
+        let page = self.report.clone().map(|path| Page::open(path, writer)).transpose()?;
         ctrlc::set_handler(|| OVER.store(true, Ordering::Relaxed))
             .map_err(|error| Failure::input(format!("cannot wait for Ctrl-C: {error}")))?;
         let saves = self.saves.unwrap_or(usize::MAX);
         let looks = Files::new(self.robot.path(), &OVER).take(saves.saturating_add(1));
         let style = if terminal.colours { Style::Terminal } else { Style::Plain };
         let settings = Settings { snap: self.robot.snap(), terms: self.terms, style };
-        follow(looks, &settings, self.report.clone().map(Page::new), terminal)
+        follow(looks, &settings, page, terminal)
     }
 }
 

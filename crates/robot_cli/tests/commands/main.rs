@@ -12,7 +12,9 @@ mod equations;
 mod eval;
 mod files;
 mod help;
+mod interrupted;
 mod json_schema;
+mod outputs;
 #[path = "../../../../tests/common/pages.rs"]
 mod pages;
 mod prove;

@@ -11,6 +11,7 @@ mod simplify;
 
 use plotters::backend::{BitMapBackend, SVGBackend};
 use plotters::drawing::IntoDrawingArea;
+use robot_build::MARKER;
 
 use crate::error::Error;
 use letters::Lowered;
@@ -72,7 +73,7 @@ impl Figure {
         // The picture is shown smaller than it is drawn; the view box keeps what it shows.
         let large = format!("width=\"{}\" height=\"{}\" viewBox", width * SCALE, height * SCALE);
         let small = format!("width=\"{width}\" height=\"{height}\" viewBox");
-        Ok(text.replacen(&large, &small, 1))
+        Ok(format!("<!-- {MARKER} -->\n{}", text.replacen(&large, &small, 1)))
     }
 
     /// The figure as PNG.
@@ -118,6 +119,7 @@ fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, png::Encodi
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
+    encoder.add_text_chunk("Software".to_owned(), MARKER.to_owned())?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(pixels)?;
     writer.finish()?;

@@ -1,24 +1,29 @@
 //! The page about a robot that is watched.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use robot_build::{Options, Source};
+use robot_build::{Options, Output, Ownership, Source, Writer};
 use robot_report::{Compiled, Input, Reloading, reloading};
 
 use crate::failure::Failure;
-use crate::files;
 
 /// A page that reloads itself, and the picture beside it that tells it when.
 pub(super) struct Page {
     path: PathBuf,
+    writer: Writer,
     /// The page last written, without what reloads it.
     still: Option<String>,
 }
 
 impl Page {
-    pub(super) fn new(path: PathBuf) -> Page {
-        Page { path, still: None }
+    /// A page that has been found to be free to be written.
+    pub(super) fn open(path: PathBuf, writer: Writer) -> Result<Page, Failure> {
+        let page = Page { path, writer, still: None };
+        let picture = page.picture();
+        let files = [&page.path, &picture].map(|path| (path.as_path(), Ownership::Marked));
+        page.writer.check(&files)?;
+        Ok(page)
     }
 
     fn picture(&self) -> PathBuf {
@@ -33,8 +38,7 @@ impl Page {
         let compiled = Compiled::Unread { reason };
         let Reloading { page, stamp, still } =
             reloading(&Input { source, options, compiled: &compiled })?;
-        files::write(&self.path, page.as_bytes())?;
-        files::write(&self.picture(), stamp.as_bytes())?;
+        self.writer.write(&[marked(&self.path, &page), marked(&self.picture(), &stamp)])?;
         self.still = Some(still);
         Ok(())
     }
@@ -42,10 +46,14 @@ impl Page {
     /// Writes the last page as one that stays, and takes the picture away.
     pub(super) fn finish(self) -> Result<(), Failure> {
         let Some(still) = &self.still else { return Ok(()) };
-        files::write(&self.path, still.as_bytes())?;
+        self.writer.write(&[marked(&self.path, still)])?;
         let picture = self.picture();
         std::fs::remove_file(&picture).map_err(|error| {
             Failure::input(format!("cannot remove {}: {error}", picture.display()))
         })
     }
+}
+
+fn marked<'a>(path: &Path, text: &'a str) -> Output<'a> {
+    Output { path: path.to_owned(), bytes: text.as_bytes(), ownership: Ownership::Marked }
 }

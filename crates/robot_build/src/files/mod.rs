@@ -1,6 +1,17 @@
-//! Writing generated files.
+//! Output files: what may be written where, and how.
+//!
+//! Builder and command write through [`Writer`] alone. It never replaces an input, replaces a file of
+//! somebody else only where it is told to, and replaces a file as a whole or not at all.
+
+mod marker;
+mod place;
+mod staging;
+mod writer;
 
 use std::path::{Path, PathBuf};
+
+pub use marker::MARKER;
+pub use writer::{Output, Ownership, Writer};
 
 use crate::error::Error;
 
@@ -11,6 +22,15 @@ pub struct File {
     pub path: String,
     /// The text.
     pub text: String,
+}
+
+impl File {
+    /// Where the file lies in a folder.
+    #[must_use]
+    pub fn path_in(&self, folder: &Path) -> PathBuf {
+        let parts = self.path.split('/').filter(|part| !part.is_empty());
+        parts.fold(folder.to_owned(), |path, part| path.join(part))
+    }
 }
 
 /// How a file on disk differs from what would be generated.
@@ -25,44 +45,22 @@ pub enum Staleness {
     },
 }
 
-/// Writes a file where its text differs from what is there, so that its time of change means
-/// something; makes the folders above it.
-///
-/// # Errors
-///
-/// What the system says, with the path.
-pub fn write_if_changed(path: &Path, text: &str) -> Result<bool, Error> {
-    if std::fs::read(path).is_ok_and(|present| present == text.as_bytes()) {
-        return Ok(false);
-    }
-    let failed = |error: std::io::Error| Error::File {
-        action: "write",
-        path: path.to_owned(),
-        reason: error.to_string(),
-    };
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(failed)?;
-    }
-    std::fs::write(path, text).map_err(failed)?;
-    Ok(true)
-}
-
 /// How the file on disk differs from `text`, line ends apart; `None` where it does not.
 ///
 /// # Errors
 ///
-/// A file that is there but cannot be read.
+/// A file that is there but cannot be read; what is not a regular file, which is never read.
 pub fn staleness(path: &Path, text: &str) -> Result<Option<Staleness>, Error> {
-    let present = match std::fs::read(path) {
-        Ok(present) => present,
+    let failed = |reason: String| Error::File { action: "read", path: path.to_owned(), reason };
+    match std::fs::metadata(path) {
+        Ok(metadata) if metadata.is_file() => {}
+        Ok(_) => return Err(failed("it is not a regular file".to_owned())),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             return Ok(Some(Staleness::Missing));
         }
-        Err(error) => {
-            let (path, reason) = (PathBuf::from(path), error.to_string());
-            return Err(Error::File { action: "read", path, reason });
-        }
-    };
+        Err(error) => return Err(failed(error.to_string())),
+    }
+    let present = std::fs::read(path).map_err(|error| failed(error.to_string()))?;
     let present = String::from_utf8_lossy(&present);
     let (mut old, mut new) = (present.lines(), text.lines());
     let mut line = 1;
@@ -74,3 +72,6 @@ pub fn staleness(path: &Path, text: &str) -> Result<Option<Staleness>, Error> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

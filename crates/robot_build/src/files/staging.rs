@@ -1,0 +1,155 @@
+//! Files and folders written beside their place and then put there in one step.
+//!
+//! What is being written is hidden, bears the name of its target and is locked, so that what a killed
+//! process left behind is known from what another one is writing: the next write of the target removes it.
+
+use std::ffi::OsStr;
+use std::fs::{self, Metadata, OpenOptions, TryLockError};
+use std::io::{ErrorKind, Result, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use super::place::folder_of;
+
+/// What stands in the name of a temporary file after that of its target.
+const INFIX: &str = ".robot-symbolic-tmp-";
+/// The longest part of a target's name in that of its temporary file: systems allow 255 bytes for all.
+const MAX_NAME: usize = 180;
+/// Temporary names that are tried.
+const MAX_TRIES: u32 = 1000;
+
+/// The number of the next temporary name: no two of a process are the same.
+static NUMBER: AtomicU32 = AtomicU32::new(0);
+
+/// Something temporary beside its target; removed unless it is put in its place.
+pub(super) struct Staged {
+    temporary: PathBuf,
+    target: PathBuf,
+    /// Open as long as it is temporary: it holds the lock. Not every system locks folders.
+    lock: Option<fs::File>,
+    is_placed: bool,
+}
+
+impl Staged {
+    /// A file that shall lie at `target`, with the permissions of the file that is there.
+    pub(super) fn file(target: &Path, bytes: &[u8], present: Option<&Metadata>) -> Result<Staged> {
+        let create =
+            |path: &Path| OpenOptions::new().write(true).create_new(true).open(path).map(Some);
+        // From here on an error removes the file.
+        let staged = Staged::beside(target, create)?;
+        if let Some(mut file) = staged.lock.as_ref() {
+            file.write_all(bytes)?;
+            if let Some(present) = present {
+                staged.keep_access(present)?;
+            }
+            file.sync_all()?;
+        }
+        Ok(staged)
+    }
+
+    /// An empty folder that shall lie at `target`, where nothing is.
+    pub(super) fn folder(target: &Path) -> Result<Staged> {
+        Staged::beside(target, |path| fs::create_dir(path).map(|()| fs::File::open(path).ok()))
+    }
+
+    /// Creates something new and locked beside the target.
+    fn beside(target: &Path, create: impl Fn(&Path) -> Result<Option<fs::File>>) -> Result<Staged> {
+        remove_leftovers(target);
+        let prefix = prefix(target);
+        for _ in 0..MAX_TRIES {
+            let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+            let name = format!("{prefix}{}-{number}", std::process::id());
+            let temporary = folder_of(target).join(name);
+            let lock = match create(&temporary) {
+                Ok(lock) => lock,
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
+                Err(error) => return Err(error),
+            };
+            let locked = lock.as_ref().map(fs::File::try_lock);
+            // Before it was locked another process may have taken it for a leftover.
+            let is_taken = matches!(locked, Some(Err(TryLockError::WouldBlock)));
+            if !is_taken && fs::symlink_metadata(&temporary).is_ok() {
+                return Ok(Staged { temporary, target: target.to_owned(), lock, is_placed: false });
+            }
+        }
+        Err(std::io::Error::other("no temporary file could be made beside it"))
+    }
+
+    /// Gives it the permissions and, where the system lets us, the owner of the file that is there.
+    fn keep_access(&self, present: &Metadata) -> Result<()> {
+        keep_owner(&self.temporary, present);
+        if fs::metadata(&self.temporary)?.permissions() == present.permissions() {
+            return Ok(());
+        }
+        fs::set_permissions(&self.temporary, present.permissions())
+    }
+
+    /// Where it lies now.
+    pub(super) fn path(&self) -> &Path {
+        &self.temporary
+    }
+
+    /// Puts it in its place.
+    pub(super) fn put(mut self) -> Result<()> {
+        fs::rename(&self.temporary, &self.target)?;
+        self.is_placed = true;
+        Ok(())
+    }
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        if !self.is_placed {
+            remove(&self.temporary);
+        }
+    }
+}
+
+/// Files are replaced by new ones, which belong to whoever writes them; where he may, he gives them back.
+#[cfg(unix)]
+fn keep_owner(path: &Path, present: &Metadata) {
+    use std::os::unix::fs::{MetadataExt, chown};
+    if fs::metadata(path).is_ok_and(|new| (new.uid(), new.gid()) != (present.uid(), present.gid()))
+    {
+        // Only the superuser may.
+        let _ = chown(path, Some(present.uid()), Some(present.gid()));
+    }
+}
+
+#[cfg(not(unix))]
+fn keep_owner(_: &Path, _: &Metadata) {}
+
+/// How the temporary names of a target begin.
+fn prefix(target: &Path) -> String {
+    let name = target.file_name().unwrap_or(OsStr::new("")).to_string_lossy();
+    let end = (0..=MAX_NAME.min(name.len())).rev().find(|end| name.is_char_boundary(*end));
+    format!(".{}{INFIX}", &name[..end.unwrap_or(0)])
+}
+
+/// Removes what a process left behind that was killed while it wrote the target.
+pub(super) fn remove_leftovers(target: &Path) {
+    let prefix = prefix(target);
+    let Ok(entries) = fs::read_dir(folder_of(target)) else { return };
+    for entry in entries.filter_map(Result::ok) {
+        let name = entry.file_name();
+        let rest = name.to_str().and_then(|name| name.strip_prefix(&prefix));
+        let numbers = rest.and_then(|rest| rest.split_once('-'));
+        let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        if numbers.is_some_and(|(process, number)| is_number(process) && is_number(number)) {
+            let path = entry.path();
+            let is_ours = entry.file_type().is_ok_and(|kind| kind.is_file() || kind.is_dir());
+            // Locked, it is being written; without locks nobody knows.
+            let lock = is_ours.then(|| fs::File::open(&path).ok()).flatten();
+            if let Some(file) = lock
+                && file.try_lock().is_ok()
+            {
+                remove(&path);
+            }
+        }
+    }
+}
+
+/// Removes a temporary file or folder; it may stay where the system will not.
+fn remove(path: &Path) {
+    let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
+}

@@ -1,0 +1,292 @@
+//! Output files of every command: never an input, a file of somebody else only with `--force`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::{URDF, complaint, folder, output, robot, run, run_with};
+
+const TRAJECTORY: &str =
+    "t,q1,q2,qd1,qd2,qdd1,qdd2,tau1,tau2\n0,0,0,0,0,0,0,0,0\n1,0,0,0,0,0,0,0,0\n";
+
+/// A folder with the inputs of all commands.
+struct Inputs(PathBuf);
+
+impl Inputs {
+    fn new(test: &str) -> Inputs {
+        let inputs = Inputs(folder(test));
+        fs::copy(robot("planar_2r"), inputs.path("arm.toml")).unwrap();
+        fs::copy(robot("planar_2r").replace(".toml", ".plan"), inputs.path("arm.plan")).unwrap();
+        fs::write(inputs.path("arm.urdf"), URDF).unwrap();
+        fs::write(inputs.path("motion.csv"), TRAJECTORY).unwrap();
+        fs::write(inputs.path("motion.png"), TRAJECTORY).unwrap();
+        inputs
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.join(name).to_str().unwrap().to_owned()
+    }
+
+    /// The words of a command line, `@NAME` being a file of the folder.
+    fn words(&self, line: &str) -> Vec<String> {
+        let place = |word: &str| word.strip_prefix('@').map(|name| self.path(name));
+        line.split_whitespace().map(|word| place(word).unwrap_or_else(|| word.to_owned())).collect()
+    }
+
+    /// Runs a command line and one word more.
+    fn run(&self, line: &str, last: &[&str]) -> crate::Outcome {
+        let words = self.words(line);
+        run(&words.iter().map(String::as_str).chain(last.iter().copied()).collect::<Vec<_>>())
+    }
+}
+
+/// Command lines up to the name of the output, and the inputs that they have.
+const READERS: &[(&str, &[&str])] = &[
+    ("generate @arm.toml -o", &["arm.toml", "arm.plan"]),
+    ("document @arm.toml -o", &["arm.toml", "arm.plan"]),
+    ("document @arm.toml --format typst -o", &["arm.toml", "arm.plan"]),
+    ("report @arm.toml --without-compiler -o", &["arm.toml", "arm.plan"]),
+    ("import @arm.urdf -o", &["arm.urdf"]),
+    ("crate @arm.toml -o", &["arm.toml", "arm.plan"]),
+    (
+        "simulate @arm.toml --torques @motion.csv --time 0.1 -o",
+        &["arm.toml", "arm.plan", "motion.csv"],
+    ),
+    ("simulate @arm.toml --torques @motion.png --time 0.1 --plot", &["motion.png"]),
+    ("torques @arm.toml --trajectory @motion.csv -o", &["arm.toml", "arm.plan", "motion.csv"]),
+    ("torques @arm.toml --trajectory @motion.png --plot", &["motion.png"]),
+    ("watch @arm.toml --saves 0 --report", &["arm.toml", "arm.plan"]),
+];
+
+#[test]
+fn no_output_replaces_an_input() {
+    let inputs = Inputs::new("outputs-inputs");
+    let name = inputs.0.file_name().unwrap().to_str().unwrap();
+    for (line, read) in READERS {
+        for input in *read {
+            let before = fs::read(inputs.path(input)).unwrap();
+            let (soft, hard) = (format!("soft.{input}"), format!("hard.{input}"));
+            let mut names = vec![(*input).to_owned(), format!("../{name}/./{input}")];
+            #[cfg(unix)]
+            {
+                let _ = fs::remove_file(inputs.path(&soft));
+                std::os::unix::fs::symlink(input, inputs.path(&soft)).unwrap();
+                names.push(soft);
+            }
+            let _ = fs::remove_file(inputs.path(&hard));
+            fs::hard_link(inputs.path(input), inputs.path(&hard)).unwrap();
+            names.push(hard);
+            for name in names {
+                let path = inputs.path(&name);
+                for more in [&[path.as_str()][..], &[&path, "--force"]] {
+                    let outcome = inputs.run(line, more);
+                    let shown = format!("{line} {more:?}: {}", outcome.errors);
+                    assert_eq!((outcome.code, outcome.output.as_str()), (1, ""), "{shown}");
+                    let reasons = ["which an output never replaces", "a folder is to be written"];
+                    assert!(reasons.iter().any(|reason| shown.contains(reason)), "{shown}");
+                    assert_eq!(fs::read(inputs.path(input)).unwrap(), before, "{shown}");
+                }
+            }
+        }
+    }
+}
+
+/// Command lines up to the name of an output that they can write again.
+const WRITERS: &[(&str, &str)] = &[
+    ("generate @arm.toml -o", "out.rs"),
+    ("document @arm.toml -o", "out.tex"),
+    ("document @arm.toml -o", "out.typ"),
+    ("report @arm.toml --without-compiler -o", "out.html"),
+    ("simulate @arm.toml --time 0.1 -o", "out.csv"),
+    ("simulate @arm.toml --time 0.1 --plot", "out.svg"),
+    ("simulate @arm.toml --time 0.1 --plot", "out.png"),
+    ("torques @arm.toml --trajectory @motion.csv -o", "shares.csv"),
+    ("torques @arm.toml --trajectory @motion.csv --plot", "shares.svg"),
+    ("schema -o", "out.json"),
+    ("completions bash -o", "out.bash"),
+    ("completions zsh -o", "_out"),
+    ("completions fish -o", "out.fish"),
+    ("completions elvish -o", "out.elv"),
+    ("completions powershell -o", "out.ps1"),
+];
+
+#[test]
+fn files_of_others_are_replaced_with_force_alone_and_own_ones_without() {
+    let inputs = Inputs::new("outputs-own");
+    for (line, name) in WRITERS {
+        let path = inputs.path(name);
+        let write = |more: &[&str]| inputs.run(line, &[&[path.as_str()], more].concat());
+        // Measurements of the robot's motion are not the tables of this program.
+        let mine = if name.ends_with("csv") { TRAJECTORY } else { "my notes\n" };
+        fs::write(&path, mine).unwrap();
+        let outcome = write(&[]);
+        assert_eq!((outcome.code, outcome.output.as_str()), (1, ""), "{line} {name}");
+        assert!(outcome.errors.contains("is not replaced: it has"), "{}", outcome.errors);
+        assert!(outcome.errors.contains("--force"), "{}", outcome.errors);
+        assert_eq!(fs::read_to_string(&path).unwrap(), mine, "{line} {name}");
+        assert_eq!(write(&["--force"]).code, 0, "{line} {name}");
+        let first = fs::read(&path).unwrap();
+        assert_ne!(first, mine.as_bytes(), "{line} {name}");
+        // What this program wrote, be it an older version of it, is replaced; so is an empty file.
+        for older in [&first[..first.len() - 2], b""] {
+            fs::write(&path, older).unwrap();
+            let outcome = write(&[]);
+            assert_eq!(outcome.code, 0, "{line} {name}: {}", outcome.errors);
+            assert_eq!(fs::read(&path).unwrap(), first, "{line} {name}");
+        }
+    }
+    let hidden = fs::read_dir(&inputs.0).unwrap().map(|entry| entry.unwrap().file_name());
+    let hidden: Vec<_> = hidden.filter(|name| name.to_str().unwrap().starts_with('.')).collect();
+    assert!(hidden.is_empty(), "{hidden:?}");
+}
+
+#[test]
+fn a_plan_of_somebody_else_stays() {
+    let inputs = Inputs::new("outputs-plan");
+    let (file, plan) = (inputs.path("arm.toml"), inputs.path("arm.plan"));
+    let kept = fs::read_to_string(&plan).unwrap();
+    fs::write(&plan, "the plan of my garden\n").unwrap();
+    let shown = complaint(1, &["search", &file], "");
+    assert!(shown.contains("arm.plan is not replaced"), "{shown}");
+    assert_eq!(run(&["search", &file, "--dry-run"]).code, 0);
+    assert_eq!(fs::read_to_string(&plan).unwrap(), "the plan of my garden\n");
+    assert_eq!(run(&["search", &file, "--force"]).code, 0);
+    assert_eq!(fs::read_to_string(&plan).unwrap(), kept);
+    fs::write(&plan, &kept[..200]).unwrap();
+    assert_eq!(run(&["search", &file]).code, 0);
+    assert_eq!(fs::read_to_string(&plan).unwrap(), kept);
+}
+
+#[test]
+fn a_robot_file_with_notes_is_replaced_with_force_alone() {
+    let inputs = Inputs::new("outputs-import");
+    let (urdf, toml) = (inputs.path("arm.urdf"), inputs.path("out.toml"));
+    let import = ["import", urdf.as_str(), "-o", toml.as_str()];
+    assert_eq!(run(&import).code, 0);
+    let imported = fs::read_to_string(&toml).unwrap();
+    assert_eq!(run(&import).code, 0);
+    let noted = format!("{imported}# weighed on Tuesday\n");
+    fs::write(&toml, &noted).unwrap();
+    let shown = run(&import);
+    assert_eq!(shown.code, 1);
+    assert!(shown.errors.contains("out.toml is not replaced"), "{}", shown.errors);
+    // Nor is it this program's own for any other command.
+    let other = inputs.path("arm.toml");
+    assert_eq!(run(&["generate", &other, "-o", &toml]).code, 1);
+    assert_eq!(fs::read_to_string(&toml).unwrap(), noted);
+    assert_eq!(run(&[&import[..], &["--force"]].concat()).code, 0);
+    assert_eq!(fs::read_to_string(&toml).unwrap(), imported);
+}
+
+/// The names below a folder.
+fn names(folder: &Path) -> Vec<String> {
+    let mut names = vec![];
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            names.extend(self::names(&path));
+        }
+        names.push(path.to_str().unwrap().to_owned());
+    }
+    names.sort();
+    names
+}
+
+#[test]
+fn a_crate_of_somebody_else_stays() {
+    let inputs = Inputs::new("outputs-crate");
+    let file = inputs.path("arm.toml");
+    let mine = inputs.path("mine");
+    fs::create_dir_all(format!("{mine}/src")).unwrap();
+    let texts = [("Cargo.toml", "[package]\nname = \"mine\"\n"), ("src/lib.rs", "// precious\n")];
+    for (name, text) in texts {
+        fs::write(format!("{mine}/{name}"), text).unwrap();
+    }
+    let before = names(mine.as_ref());
+    let shown = complaint(1, &["crate", &file, "-o", &mine], "");
+    assert!(shown.contains("Cargo.toml is not") && shown.contains("lib.rs is not"), "{shown}");
+    assert_eq!(shown.lines().count(), 2);
+    assert_eq!(names(mine.as_ref()), before);
+    for (name, text) in texts {
+        assert_eq!(fs::read_to_string(format!("{mine}/{name}")).unwrap(), text);
+    }
+    let outcome = run(&["crate", &file, "-o", &mine, "--force"]);
+    assert_eq!((outcome.code, outcome.errors), (0, format!("wrote {mine}: 17 files\n")));
+    // All files of a crate are known as this program's.
+    for name in names(mine.as_ref()).iter().filter(|name| Path::new(name).is_file()) {
+        let text = fs::read_to_string(name).unwrap();
+        fs::write(name, text.lines().next().unwrap()).unwrap();
+    }
+    let outcome = run(&["crate", &file, "-o", &mine]);
+    assert_eq!((outcome.code, outcome.errors), (0, format!("wrote {mine}: 17 files\n")));
+    fs::remove_file(format!("{mine}/README.md")).unwrap();
+    let outcome = run(&["crate", &file, "-o", &mine]);
+    assert_eq!((outcome.code, outcome.errors), (0, format!("wrote {mine}: 1 of 17 files\n")));
+    assert_eq!(output(&["crate", &file, "-o", &mine], ""), "");
+}
+
+#[test]
+fn manual_pages_of_somebody_else_stay() {
+    let folder = folder("outputs-man");
+    let (pages, page) = (folder.to_str().unwrap(), folder.join("robot-symbolic.1"));
+    fs::write(&page, ".TH mine 1\n").unwrap();
+    assert!(complaint(1, &["man", pages], "").contains("robot-symbolic.1 is not replaced"));
+    assert_eq!(names(&folder).len(), 1);
+    assert_eq!(run(&["man", pages, "--force"]).code, 0);
+    let first = fs::read_to_string(&page).unwrap();
+    fs::write(&page, first.replace("help", "")).unwrap();
+    assert_eq!(run(&["man", pages]).code, 0);
+    assert_eq!(fs::read_to_string(&page).unwrap(), first);
+}
+
+#[test]
+fn table_and_plot_are_two_files() {
+    let inputs = Inputs::new("outputs-two");
+    let path = inputs.path("both.svg");
+    let outcome = inputs.run("simulate @arm.toml --time 0.1 -o", &[&path, "--plot", &path]);
+    assert!(outcome.errors.contains("two outputs have this name"), "{}", outcome.errors);
+    // Neither is written where the other is refused.
+    let (plot, table) = (inputs.path("plot.svg"), inputs.path("mine.csv"));
+    fs::write(&table, TRAJECTORY).unwrap();
+    let outcome = inputs.run("simulate @arm.toml --time 0.1 -o", &[&table, "--plot", &plot]);
+    assert_eq!((outcome.code, Path::new(&plot).exists()), (1, false));
+}
+
+#[test]
+fn messages_that_nobody_hears_do_not_end_the_work() {
+    struct Deaf;
+    impl std::io::Write for Deaf {
+        fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+            Err(std::io::ErrorKind::BrokenPipe.into())
+        }
+        fn flush(&mut self) -> std::io::Result<()> {
+            Err(std::io::ErrorKind::BrokenPipe.into())
+        }
+    }
+    let inputs = Inputs::new("outputs-deaf");
+    let toml = inputs.path("out.toml");
+    let words = inputs.words("robot-symbolic import @arm.urdf -o @out.toml");
+    let (mut input, mut output, mut errors) = (&b""[..], vec![], Deaf);
+    let mut terminal = robot_cli::Terminal {
+        input: &mut input,
+        output: &mut output,
+        errors: &mut errors,
+        colours: false,
+        progress: false,
+    };
+    assert_eq!(robot_cli::run(words, &mut terminal), 0);
+    assert!(Path::new(&toml).exists());
+    // Results that cannot be shown are an error, but for a reader that has seen enough.
+    let plan = inputs.path("arm.plan");
+    fs::remove_file(&plan).unwrap();
+    let (mut input, mut output, mut errors) = (&b""[..], Deaf, vec![]);
+    let mut terminal = robot_cli::Terminal {
+        input: &mut input,
+        output: &mut output,
+        errors: &mut errors,
+        colours: false,
+        progress: false,
+    };
+    assert_eq!(robot_cli::run(inputs.words("robot-symbolic search @arm.toml"), &mut terminal), 0);
+    assert!(Path::new(&plan).exists());
+    assert_eq!(run_with(&["--version"], b"").code, 0);
+}
