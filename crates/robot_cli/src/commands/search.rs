@@ -1,5 +1,7 @@
 //! `search`: the form of the recursion with the fewest operations.
 
+use std::time::SystemTime;
+
 use clap::Args;
 use robot_build::{pin_path, pin_text, snapping, write_if_changed};
 use robot_dynamics::economical::search::{Measure, search};
@@ -18,7 +20,12 @@ use crate::text;
 
 Tries the options of the economical recursion for inverse dynamics link by link and counts what each
 costs. All forms give the same torques. What is found is pinned beside the robot file, as ur5.plan,
-where builds find it: they do not search. After a change of the robot file, search again.")]
+where builds find it: they do not search. After a change of the robot's mechanics, search again: then the
+plan is stale, which builds refuse and other commands warn of. Remarks, names and values of parameters
+are no such change.
+
+The time of the robot file is set to now, its text is not touched: builds that made code before there
+was a plan look again.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -63,8 +70,27 @@ impl Arguments {
         writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
             let path = pin_path(self.robot.path());
-            write_if_changed(&path, &pin_text(&self.robot.source()?, &found))?;
+            write_if_changed(&path, &pin_text(&robot, &found))?;
             writeln!(terminal.output, "\npinned in {}", path.display())?;
+            self.touch(terminal)?;
+        }
+        Ok(())
+    }
+}
+
+impl Arguments {
+    /// Sets the robot file's time of change to now: builds watch the file, and before its first search there
+    /// was no plan to watch.
+    fn touch(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let path = self.robot.path();
+        let file = std::fs::OpenOptions::new().append(true).open(path);
+        if let Err(error) = file.and_then(|file| file.set_modified(SystemTime::now())) {
+            writeln!(
+                terminal.errors,
+                "warning: the time of {} cannot be set: {error}\n  a build that made code before there was a plan \
+                 sees the plan at the next change of the file",
+                path.display()
+            )?;
         }
         Ok(())
     }

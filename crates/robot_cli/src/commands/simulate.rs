@@ -72,7 +72,8 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
-        let programs = motion::programs(&self.robot, robot, RobotProgram::functions(friction))?;
+        let functions = RobotProgram::functions(friction);
+        let programs = motion::programs(&self.robot, robot, functions, terminal)?;
         let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?;
         let motion = self.motion(&programs, &program, terminal)?;
         let energies = motion.energies(&program)?;

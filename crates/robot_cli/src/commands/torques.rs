@@ -66,7 +66,7 @@ impl Arguments {
         let trajectory = self.trajectory(&robot, terminal)?;
         let wrench = trajectory.wrenches.is_some();
         let functions = Shares::functions(friction, wrench);
-        let programs = motion::programs(&self.robot, robot, functions)?;
+        let programs = motion::programs(&self.robot, robot, functions, terminal)?;
         let shares = shares(&programs, &self.settings.pairs(), &trajectory, friction)?;
         if let Some(plot) = &self.plot {
             files::write_figure(plot, &shares_figure(&programs.robot, &shares))?;

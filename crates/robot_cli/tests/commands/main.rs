@@ -15,6 +15,7 @@ mod help;
 mod json_schema;
 #[path = "../../../../tests/common/pages.rs"]
 mod pages;
+mod plans;
 mod prove;
 mod report;
 mod schema;
