@@ -130,7 +130,7 @@ fn a_stale_plan_is_no_change_of_the_robot() {
     let stale = look();
     assert!(stale.plan.is_err());
     let (is_good, output, errors) = followed([pinned.clone(), stale, pinned]);
-    assert!(is_good && !output.contains("operations"), "{output}");
+    assert!(is_good && !output.contains("operations of a call"), "{output}");
     assert!(errors.starts_with("warning: ") && errors.contains("plan is stale"), "{errors}");
     assert!(output.contains("\ngone: warning: "), "{output}");
 }
