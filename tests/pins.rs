@@ -29,5 +29,5 @@ fn differs(name: &str, text: String) -> Option<String> {
     let pinned = std::fs::read_to_string(path).unwrap();
     let operations = found.operations;
     println!("{name}: {operations} operations, the best of {} forms", found.tried);
-    (pinned != pin_text(&source, &found)).then(|| format!("{name} ({operations} operations)"))
+    (pinned != pin_text(&robot, &found)).then(|| format!("{name} ({operations} operations)"))
 }

@@ -3,9 +3,10 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use robot_dynamics::diagnostic::Source;
+use robot_dynamics::economical::mechanics;
 use robot_dynamics::economical::pin::Pin;
 use robot_dynamics::economical::search::Found;
+use robot_dynamics::model::Robot;
 use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Errors};
@@ -33,11 +34,11 @@ pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
     [robot.to_owned(), pin_path(followed.as_deref().unwrap_or(robot))]
 }
 
-/// The text of a pin of what a search found for a robot file.
+/// The text of a pin of what a search found for a robot.
 #[must_use]
-pub fn pin_text(source: &Source, found: &Found) -> String {
+pub fn pin_text(robot: &Robot, found: &Found) -> String {
     let pin = Pin {
-        fingerprint: fingerprint(source),
+        fingerprint: fingerprint(robot),
         measure: found.measure,
         operations: found.operations,
         plan: found.plan.clone(),
@@ -51,7 +52,8 @@ impl RobotFile {
     ///
     /// # Errors
     ///
-    /// A pin that is stale, made for another text of the file; one that cannot be read.
+    /// [`Error::Pin`]: a pin that is stale, made for other [mechanics](mechanics()) than the file's; one that
+    /// cannot be read. Where there is a pin, also everything that is wrong with the robot file.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
         if options.plan.is_some() || !path.is_file() {
@@ -61,22 +63,31 @@ impl RobotFile {
             let robot = self.source.name.clone();
             Errors::from(Error::Pin { path: pin_path(Path::new(&robot)), robot, reason })
         };
-        let size = std::fs::metadata(&path).map_err(|error| failed(error.to_string()))?.len();
-        if size > MAX_BYTES {
-            return Err(failed(format!("the file has {size} bytes, which no pinned plan has")));
-        }
-        let text = std::fs::read_to_string(&path).map_err(|error| failed(error.to_string()))?;
-        let pin = Pin::from_text(&text).map_err(|error| failed(error.to_string()))?;
-        if pin.fingerprint != fingerprint(&self.source) {
-            let reason = "the pinned plan is stale: it was searched for another text of the file";
-            return Err(failed(reason.to_owned()));
+        let pin = read_pin(&path).map_err(failed)?;
+        let robot = crate::read(&self.source)?.robot;
+        if pin.fingerprint != fingerprint(&robot) {
+            return Err(failed(format!(
+                "the pinned plan is stale: it was searched for other mechanics than the file's now, where inverse \
+                 dynamics took {} operations",
+                pin.operations
+            )));
         }
         Ok(Options { plan: Some(pin.plan), ..options.clone() })
     }
 }
 
-fn fingerprint(source: &Source) -> String {
-    Sha256::digest(source.text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+/// The pin in a file, or why there is none.
+fn read_pin(path: &Path) -> Result<Pin, String> {
+    let size = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
+    if size > MAX_BYTES {
+        return Err(format!("the file has {size} bytes, which no pinned plan has"));
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    Pin::from_text(&text).map_err(|error| error.to_string())
+}
+
+fn fingerprint(robot: &Robot) -> String {
+    Sha256::digest(mechanics(robot).as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]
@@ -117,7 +128,7 @@ mod tests {
             tried: 1,
             cut_short: false,
         };
-        std::fs::write(pin_path(&path), pin_text(&file.source, &found)).unwrap();
+        std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
         assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));
 
         // Edited by hand into a plan of no links: refused, not followed.
@@ -125,10 +136,23 @@ mod tests {
         let options_with_plan = Options { plan: Some(empty), ..options.clone() };
         assert!(crate::programs(&file.source, &options_with_plan).is_err());
 
+        // What people write beside the mechanics is no change of them.
+        let remarked =
+            ROBOT.replace("[robot]\n", "# a remark\n[robot]\ndescription = \"swings\"\n");
+        std::fs::write(&path, remarked).unwrap();
+        assert!(RobotFile::read(&path).unwrap().with_pin(&options).unwrap().plan.is_some());
+
         std::fs::write(&path, ROBOT.replace("mass = 2", "mass = 3")).unwrap();
         let changed = RobotFile::read(&path).unwrap();
         let error = changed.with_pin(&options).unwrap_err().to_string();
-        assert!(error.contains("stale") && error.contains("robot-symbolic search"), "{error}");
+        let remedy = format!("run `robot-symbolic search {}` again", path.display());
+        for part in ["stale", "took 7 operations", &remedy] {
+            assert!(error.contains(part), "{part} is not in {error}");
+        }
+        let earlier = pin_text(&robot, &found).replace("format = 2", "format = 1");
+        std::fs::write(pin_path(&path), earlier).unwrap();
+        let error = changed.with_pin(&options).unwrap_err().to_string();
+        assert!(error.contains("format 1") && error.contains(&remedy), "{error}");
         std::fs::write(pin_path(&path), "format = 3").unwrap();
         assert!(changed.with_pin(&options).is_err());
         std::fs::remove_dir_all(&folder).unwrap();

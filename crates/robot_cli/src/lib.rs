@@ -13,6 +13,7 @@ mod format;
 mod forms;
 mod friction;
 mod motion;
+mod plan;
 mod progress;
 mod recording;
 mod robot;

@@ -30,7 +30,8 @@ pub(crate) fn programs(
     file: &RobotArgument,
     robot: Robot,
     functions: Vec<FunctionKind>,
+    terminal: &mut Terminal<'_>,
 ) -> Result<Programs, Failure> {
-    let options = Options { functions: Functions::Chosen(functions), ..file.options()? };
+    let options = Options { functions: Functions::Chosen(functions), ..file.options(terminal)? };
     Ok(programs_of(robot, &file.path().display().to_string(), &options)?)
 }

@@ -13,6 +13,7 @@ use robot_dynamics::mechanism::MechanismOptions;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::plan::pinned_or_searched;
 use crate::text;
 
 /// The robot file.
@@ -64,16 +65,24 @@ impl RobotArgument {
         self.snap
     }
 
-    /// The default options with the snapping tolerance and the pinned plan; where none is pinned,
-    /// the cheapest form is searched.
-    pub(crate) fn options(&self) -> Result<Options, Failure> {
-        let options = Options {
+    /// The default options of commands that compute, with the snapping tolerance and the pinned plan; where
+    /// none is pinned or the pin is stale, which is warned of, the cheapest form is searched.
+    pub(crate) fn options(&self, terminal: &mut Terminal<'_>) -> Result<Options, Failure> {
+        pinned_or_searched(&RobotFile::read(&self.file)?, self.unpinned(), terminal)
+    }
+
+    /// The same of commands that make code, which refuse a stale pin as builds do.
+    fn code_options(&self) -> Result<Options, Failure> {
+        Ok(RobotFile::read(&self.file)?.with_pin(&self.unpinned())?)
+    }
+
+    fn unpinned(&self) -> Options {
+        Options {
             snap: self.snap,
             base_frames: self.base_frames,
             search: true,
             ..Options::default()
-        };
-        Ok(RobotFile::read(&self.file)?.with_pin(&options)?)
+        }
     }
 
     /// The files that are read for the robot.
@@ -193,7 +202,7 @@ impl CodeArguments {
             parallel,
             fused,
             trigonometry,
-            ..robot.options()?
+            ..robot.code_options()?
         })
     }
 }

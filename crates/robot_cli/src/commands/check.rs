@@ -13,6 +13,7 @@ use robot_dynamics::doctor::{self, Examination};
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::format::Format;
+use crate::plan::is_of_pin;
 use crate::text;
 
 #[derive(Args)]
@@ -131,10 +132,15 @@ impl Arguments {
 /// The same, and whether builds refuse the plan that is pinned beside the file.
 fn with_pin(examination: Examination, file: &RobotFile) -> Examination {
     let Err(errors) = file.with_pin(&robot_build::Options::default()) else { return examination };
+    if !is_of_pin(&errors) {
+        // Errors of the file itself, which are found already.
+        return examination;
+    }
     let Examination { found, choices } = examination;
     let pins = errors.as_slice().iter().map(|error| {
-        Diagnostic::warning(code::PIN, error.to_string())
-            .help("no code is made of the file until then")
+        Diagnostic::warning(code::PIN, error.to_string()).help(
+            "no code is made of the file until then; other commands search a plan at each call",
+        )
     });
     let list = found.iter().cloned().chain(pins).collect();
     Examination { found: Diagnostics::new(found.source().clone(), list), choices }

@@ -12,6 +12,7 @@ use robot_difference::{Difference, Options, difference};
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::format::Format;
+use crate::plan::pinned_or_searched;
 use crate::progress::watched;
 use crate::text;
 
@@ -73,5 +74,5 @@ fn one(
     let described = read(&file.source)?;
     text::warnings(&described.warnings, terminal)?;
     let options = CodeOptions { search: true, ..CodeOptions::default() };
-    Ok((described.robot, file.with_pin(&options)?))
+    Ok((described.robot, pinned_or_searched(&file, options, terminal)?))
 }

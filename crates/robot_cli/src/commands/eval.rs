@@ -70,7 +70,7 @@ impl Arguments {
         let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
         let kind = kind.map(|kind| with_wrench(kind, &robot, &states, &mut wrong));
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
-        let options = Options { functions, bundles, ..self.robot.options()? };
+        let options = Options { functions, bundles, ..self.robot.options(terminal)? };
         let programs = watched("deriving", terminal, || programs(&source, &options))?;
         text::warnings(&programs.warnings, terminal)?;
         let results = self.results(&source, &programs, &states, wrong)?;

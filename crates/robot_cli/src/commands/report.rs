@@ -36,7 +36,7 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output.open(self.robot.inputs())?;
-        let options = self.robot.options()?;
+        let options = self.robot.options(terminal)?;
         // Read first, so that warnings are shown and no compiler starts for a page that cannot be.
         let robot = self.robot.read(terminal)?.robot;
         presentable(&robot)?;

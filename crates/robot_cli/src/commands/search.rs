@@ -1,5 +1,7 @@
 //! `search`: the form of the recursion with the fewest operations.
 
+use std::time::SystemTime;
+
 use clap::Args;
 use robot_build::{Output, Ownership, pin_path, pin_text, snapping};
 use robot_dynamics::economical::search::{Measure, search};
@@ -19,7 +21,12 @@ use crate::text;
 
 Tries the options of the economical recursion for inverse dynamics link by link and counts what each
 costs. All forms give the same torques. What is found is pinned beside the robot file, as ur5.plan,
-where builds find it: they do not search. After a change of the robot file, search again.")]
+where builds find it: they do not search. After a change of the robot's mechanics, search again: then the
+plan is stale, which builds refuse and other commands warn of. Remarks, names and values of parameters
+are no such change.
+
+The time of the robot file is set to now, its text is not touched: builds that made code before there
+was a plan look again.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -54,9 +61,10 @@ impl Arguments {
         let snapping = snapping(&robot, self.robot.snap(), Some(&found.plan))?;
         // First, so that it is done where nobody reads what is shown.
         if !self.dry_run {
-            let text = pin_text(&self.robot.source()?, &found);
+            let text = pin_text(&robot, &found);
             let (bytes, ownership) = (text.as_bytes(), Ownership::Marked);
             writer.write(&[Output { path: path.clone(), bytes, ownership }])?;
+            self.touch(terminal)?;
         }
         writeln!(
             terminal.output,
@@ -77,6 +85,22 @@ impl Arguments {
         writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
             writeln!(terminal.output, "\npinned in {}", path.display())?;
+        }
+        Ok(())
+    }
+
+    /// Sets the robot file's time of change to now: builds watch the file, and before its first search there
+    /// was no plan to watch.
+    fn touch(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let path = self.robot.path();
+        let file = std::fs::OpenOptions::new().append(true).open(path);
+        if let Err(error) = file.and_then(|file| file.set_modified(SystemTime::now())) {
+            writeln!(
+                terminal.errors,
+                "warning: the time of {} cannot be set: {error}\n  a build that made code before there was a plan \
+                 sees the plan at the next change of the file",
+                path.display()
+            )?;
         }
         Ok(())
     }

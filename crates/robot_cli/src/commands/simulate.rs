@@ -79,7 +79,8 @@ impl Arguments {
         let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
         let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
-        let programs = motion::programs(&self.robot, robot, RobotProgram::functions(friction))?;
+        let functions = RobotProgram::functions(friction);
+        let programs = motion::programs(&self.robot, robot, functions, terminal)?;
         let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?;
         let motion = self.motion(&programs, &program, terminal)?;
         let energies = motion.energies(&program)?;

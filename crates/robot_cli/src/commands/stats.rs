@@ -58,7 +58,7 @@ impl Arguments {
             ([], bundles) => (Functions::Usual, bundles),
             (names, bundles) => (functions(names)?, bundles),
         };
-        let options = Options { functions, bundles, ..self.robot.options()? };
+        let options = Options { functions, bundles, ..self.robot.options(terminal)? };
         if self.options {
             let counted = watched("counting", terminal, || ablation(&source, &options))?;
             return self.show(&ablated(&counted), terminal);

@@ -48,17 +48,6 @@ fn exit_codes_tell_errors_and_denied_warnings() {
 }
 
 #[test]
-fn a_plan_that_builds_refuse_is_warned_of() {
-    let [clean, ..] = files("check_plan");
-    output(&["search", &clean], "");
-    output(&["check", &clean, "--deny", "warnings"], "");
-    std::fs::write(&clean, format!("{HEAD}{LINK}{TENSOR}# edited\n")).unwrap();
-    let warned = complaint(0, &["check", &clean], "");
-    assert!(warned.contains("warning[R0803]") && warned.contains("clean.plan"), "{warned}");
-    assert!(complaint(1, &["stats", &clean], "").contains("stale"));
-}
-
-#[test]
 fn all_files_are_told_of() {
     let [clean, slip, wrong, none] = files("check_all");
     let outcome = run(&["check", &none, &wrong, &slip, &clean]);

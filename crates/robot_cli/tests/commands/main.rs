@@ -17,6 +17,7 @@ mod json_schema;
 mod outputs;
 #[path = "../../../../tests/common/pages.rs"]
 mod pages;
+mod plans;
 mod prove;
 mod report;
 mod schema;

@@ -10,7 +10,8 @@ use super::search::Measure;
 /// A plan with what it was searched for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
-    /// Identifies the text of the robot file; a pin with another is stale.
+    /// Identifies the [mechanics](super::mechanics()) that the plan was searched for; a pin with another is
+    /// stale.
     pub fingerprint: String,
     /// What the search minimised.
     pub measure: Measure,
@@ -24,6 +25,9 @@ pub struct Pin {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct PinError(String);
+
+/// The format that is written and read.
+const FORMAT: u32 = 2;
 
 /// The names of options that are on or off, with access to each.
 type Flag = (&'static str, fn(&mut LinkPlan) -> &mut bool);
@@ -82,10 +86,10 @@ impl Pin {
     pub fn to_text(&self) -> String {
         let mut text = String::from(
             "# The cheapest form of the recursion for the robot file beside this one. Written by\n\
-             # `robot-symbolic search`; after a change of the robot file, run it again.\n",
+             # `robot-symbolic search`; after a change of the robot's mechanics, run it again.\n",
         );
         // Writing to a string does not fail.
-        let _ = writeln!(text, "format = 1\nfingerprint = \"{}\"", self.fingerprint);
+        let _ = writeln!(text, "format = {FORMAT}\nfingerprint = \"{}\"", self.fingerprint);
         if self.measure == Measure::Instructions {
             text.push_str("measure = \"instructions\"\n");
         }
@@ -105,11 +109,24 @@ impl Pin {
     ///
     /// Text that is no pin, or one of another version.
     pub fn from_text(text: &str) -> Result<Pin, PinError> {
-        let raw: RawPin =
-            toml::from_str(text).map_err(|error| PinError(error.to_string().trim().to_owned()))?;
-        if raw.format != 1 {
-            return Err(PinError(format!("format {} is unknown; expected 1", raw.format)));
+        // The format first: others may have other keys.
+        let RawFormat { format } = read(text)?;
+        match format {
+            FORMAT => {}
+            1 => {
+                return Err(PinError(
+                    "the pinned plan is of format 1, which earlier versions wrote and which went stale with any \
+                     edit of the robot file"
+                        .to_owned(),
+                ));
+            }
+            other => {
+                return Err(PinError(format!(
+                    "the pinned plan is of format {other}, which this version does not know; expected {FORMAT}"
+                )));
+            }
         }
+        let raw: RawPin = read(text)?;
         let links = raw.link.iter().map(RawLink::plan).collect::<Result<_, _>>()?;
         let unit_length = raw.unit_length.map(|[link, component]| (link, component));
         Ok(Pin {
@@ -158,10 +175,20 @@ fn value_of<T: Copy>(table: &[(&'static str, T)], name: &str) -> Result<T, PinEr
     })
 }
 
+fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, PinError> {
+    toml::from_str(text).map_err(|error| PinError(error.to_string().trim().to_owned()))
+}
+
+#[derive(Deserialize)]
+struct RawFormat {
+    format: u32,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawPin {
-    format: u32,
+    #[serde(rename = "format")]
+    _format: u32,
     fingerprint: String,
     /// Operations where it is not said.
     measure: Option<String>,
@@ -249,13 +276,20 @@ mod tests {
         };
         let text = pin.to_text();
         for (good, bad) in [
-            ("format = 1", "format = 2"),
+            ("format = 2", "format = 3"),
+            ("format = 2", "format = 1"),
             ("next_normal", "next_norm"),
             ("options = []", "options = [\"colum\"]"),
             ("operations", "operation"),
         ] {
+            assert!(text.contains(good), "{good}");
             let error = Pin::from_text(&text.replacen(good, bad, 1)).unwrap_err();
             assert!(!error.to_string().is_empty());
         }
+        // Another format may have other keys; its number is what is wrong with it.
+        let other = Pin::from_text("format = 3\nplan = \"cheap\"").unwrap_err().to_string();
+        assert!(other.contains("format 3") && other.contains("expected 2"), "{other}");
+        let earlier = Pin::from_text(&text.replacen("format = 2", "format = 1", 1)).unwrap_err();
+        assert!(earlier.to_string().contains("earlier version"), "{earlier}");
     }
 }

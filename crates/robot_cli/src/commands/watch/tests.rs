@@ -119,16 +119,18 @@ fn a_stale_plan_is_no_change_of_the_robot() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("arm.toml");
     std::fs::write(&path, ARM).unwrap();
-    let source = RobotFile::read(&path).unwrap().source;
-    std::fs::write(pin_path(&path), pin_text(&source, &found)).unwrap();
+    std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
     let look = || Files::new(&path, &AtomicBool::new(false)).next().unwrap();
     let pinned = look();
     assert_eq!(pinned.plan.as_ref().unwrap().as_ref(), Some(&found.plan));
+    // A value of a parameter is no change of the mechanics.
     std::fs::write(&path, heavier()).unwrap();
+    assert_eq!(look().plan, pinned.plan);
+    std::fs::write(&path, changed("zz = \"I2\"", "xx = 0.01, zz = \"I2\"")).unwrap();
     let stale = look();
     assert!(stale.plan.is_err());
     let (is_good, output, errors) = followed([pinned.clone(), stale, pinned]);
-    assert!(is_good && !output.contains("operations"), "{output}");
+    assert!(is_good && !output.contains("operations of a call"), "{output}");
     assert!(errors.starts_with("warning: ") && errors.contains("plan is stale"), "{errors}");
     assert!(output.contains("\ngone: warning: "), "{output}");
 }

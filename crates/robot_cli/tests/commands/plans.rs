@@ -1,0 +1,131 @@
+//! Plans pinned beside robot files: when they hold, and what the commands make of those that do not.
+
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use crate::{complaint, folder, output, run};
+
+const ARM: &str = "format = 1\n[robot]\nname = \"arm\"\ngravity = [0, \"-g\", 0]\n[parameters]\n\
+    g = { value = 9.81, unit = \"m/s^2\" }\nm = { value = 2, unit = \"kg\" }\n\
+    [[link]]\nname = \"1\"\njoint = { type = \"revolute\", axis = \"z\" }\nmass = \"m\"\n\
+    center_of_mass = [0.1, 0, 0]\ninertia = { xx = 0.01, yy = 0.02, zz = 0.02 }\n";
+
+/// A robot file with its plan, in a folder of its own.
+fn pinned(test: &str) -> String {
+    let path = folder(test).join("arm.toml").to_str().unwrap().to_owned();
+    std::fs::write(&path, ARM).unwrap();
+    output(&["search", &path], "");
+    path
+}
+
+fn edit(path: &str, from: &str, to: &str) {
+    assert!(ARM.contains(from), "{from}");
+    std::fs::write(path, ARM.replace(from, to)).unwrap();
+}
+
+#[test]
+fn what_is_no_change_of_the_mechanics_keeps_the_plan() {
+    let arm = pinned("plans_kept");
+    for (from, to) in [
+        ("format = 1", "# a remark\nformat = 1"),
+        ("value = 2, unit", "value = 2.5, doc = \"of the arm\", unit"),
+        ("name = \"1\"", "name = \"lever\""),
+    ] {
+        edit(&arm, from, to);
+        output(&["generate", &arm], "");
+        output(&["stats", &arm], "");
+        output(&["check", &arm, "--deny", "warnings"], "");
+    }
+}
+
+#[test]
+fn a_stale_plan_is_a_warning_where_nothing_is_built_and_an_error_where_code_is() {
+    let arm = pinned("plans_stale");
+    let other = arm.replace("arm.toml", "other.toml");
+    let code = arm.replace("arm.toml", "code");
+    std::fs::write(&other, ARM).unwrap();
+    edit(&arm, "[0.1, 0, 0]", "[0.1, 0.2, 0]");
+    let states = "[{\"q\": [0.1], \"qd\": [0], \"qdd\": [0]}]";
+    let eval = ["eval", &arm, "--function", "inverse_dynamics", "--states", "-"];
+    let remedy = format!("run `robot-symbolic search {arm}` again, or remove the file");
+    for arguments in [
+        &["stats", &arm][..],
+        &["simulate", &arm, "--time", "0.1", "--step", "0.1"],
+        &["torques", &arm, "--expressions", "q1 = t", "--time", "0.1", "--step", "0.1"],
+        &["report", &arm, "--without-compiler"],
+        &eval,
+    ] {
+        let outcome = crate::run_with(arguments, states.as_bytes());
+        assert_eq!(outcome.code, 0, "{arguments:?}: {}", outcome.errors);
+        assert!(!outcome.output.is_empty(), "{arguments:?}");
+        for part in [
+            "warning: ",
+            "stale",
+            "took 4 operations",
+            &remedy,
+            "takes 7 operations",
+            "builds refuse",
+        ] {
+            assert!(
+                outcome.errors.contains(part),
+                "{arguments:?}: {part} is not in {}",
+                outcome.errors
+            );
+        }
+        assert_eq!(outcome.errors.matches("plan is stale").count(), 1, "{}", outcome.errors);
+    }
+    let compared = run(&["diff", &arm, &other]);
+    assert!(compared.code == 1 && compared.errors.contains("stale"), "{}", compared.errors);
+    // What needs no plan says nothing.
+    for command in ["equations", "show", "base", "document"] {
+        output(&[command, &arm], "");
+    }
+    for arguments in [&["generate", &arm][..], &["crate", &arm, "-o", &code], &["prove", &arm]] {
+        let refused = complaint(1, arguments, "");
+        assert!(refused.starts_with("error: ") && refused.contains(&remedy), "{refused}");
+    }
+    let warned = complaint(0, &["check", &arm], "");
+    assert!(warned.contains("warning[R0803]") && warned.contains(&remedy), "{warned}");
+
+    // A file that is wrong is that, whatever is pinned.
+    edit(&arm, "mass = \"m\"", "mas = \"m\"");
+    let broken = complaint(1, &["check", &arm], "");
+    assert!(broken.contains("R0101") && !broken.contains("R0803"), "{broken}");
+    assert!(complaint(1, &["stats", &arm], "").contains("R0101"));
+
+    edit(&arm, "[0.1, 0, 0]", "[0.1, 0.2, 0]");
+    output(&["search", &arm], "");
+    output(&["generate", &arm], "");
+}
+
+#[test]
+fn a_plan_of_an_earlier_version_names_the_remedy() {
+    let arm = pinned("plans_earlier");
+    let plan = arm.replace(".toml", ".plan");
+    let text = std::fs::read_to_string(&plan).unwrap();
+    std::fs::write(&plan, text.replace("format = 2", "format = 1")).unwrap();
+    let remedy = format!("run `robot-symbolic search {arm}` again");
+    let refused = complaint(1, &["generate", &arm], "");
+    assert!(refused.contains("format 1") && refused.contains(&remedy), "{refused}");
+    let warned = run(&["stats", &arm]);
+    assert!(warned.code == 0 && warned.errors.starts_with("warning: "), "{}", warned.errors);
+    output(&["search", &arm], "");
+    output(&["generate", &arm], "");
+}
+
+#[test]
+fn a_search_sets_the_time_of_the_robot_file_and_leaves_its_text() {
+    let arm = pinned("plans_time");
+    let long_ago = SystemTime::now() - Duration::from_secs(3600);
+    let old = || {
+        let file = std::fs::OpenOptions::new().append(true).open(&arm).unwrap();
+        file.set_modified(long_ago).unwrap();
+    };
+    let is_new = || Path::new(&arm).metadata().unwrap().modified().unwrap() > long_ago;
+    old();
+    output(&["search", &arm, "--dry-run"], "");
+    assert!(!is_new());
+    output(&["search", &arm], "");
+    assert!(is_new());
+    assert_eq!(std::fs::read_to_string(&arm).unwrap(), ARM);
+}
