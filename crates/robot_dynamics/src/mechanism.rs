@@ -1,5 +1,6 @@
 //! The robot in symbols: a [`Robot`]'s formulas lowered into a graph, ready for a recursion.
 
+mod direction;
 mod lower;
 
 use robot_symbolic::{Expr, Graph};

@@ -68,6 +68,8 @@ pub(super) struct DraftJoint {
 pub(super) struct Mimic {
     pub(super) joint: Named,
     pub(super) ratio: Formula,
+    /// The place of the ratio, where the file has one.
+    pub(super) of_ratio: Option<Span>,
     pub(super) offset: Formula,
 }
 

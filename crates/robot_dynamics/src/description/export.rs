@@ -135,7 +135,7 @@ fn joint(link: &DraftLink) -> String {
     if let Some([lower, upper]) = &joint.limits {
         parts.push(format!("limits = [{}, {}]", number(lower), number(upper)));
     }
-    if let Some(Mimic { joint, ratio, offset }) = &joint.mimic {
+    if let Some(Mimic { joint, ratio, offset, .. }) = &joint.mimic {
         let mut mimic = format!("joint = \"{}\", ratio = {}", joint.name, figure(ratio));
         if !Reader::is_zero(offset) {
             // Writing to a string does not fail.

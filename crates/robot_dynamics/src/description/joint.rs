@@ -121,7 +121,7 @@ fn moving(
         places.limits = Some(entry.value.span());
     }
     if let Some(entry) = table.get("mimic") {
-        joint.mimic = mimic(reader, entry.value);
+        joint.mimic = mimic(reader, entry.value, joint.kind);
         if let Some(limits) = &places.limits {
             reader.report(
                 Diagnostic::error(code::CONFLICT, "a joint that follows another has no limits")
@@ -162,7 +162,9 @@ fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
     let vector = match value.get_ref() {
         DeValue::Array(_) => {
             let what = Quantity { what: "a joint axis", dimension: None };
-            reader.vector(value, what)
+            let vector = reader.vector(value, what);
+            reader.same_dimension(&vector, what.what, &value.span());
+            vector
         }
         DeValue::String(_) => {
             let Some(word) = reader.word(value, "a joint axis", AXES) else {
@@ -207,15 +209,19 @@ fn limits(reader: &mut Reader<'_>, value: Value<'_>) -> Option<[Rational; 2]> {
     None
 }
 
-fn mimic(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Mimic> {
+fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> Option<Mimic> {
+    // Its dimension is known with the joint that leads.
     const RATIO: Quantity = Quantity { what: "the ratio", dimension: None };
-    const OFFSET: Quantity = Quantity { what: "the offset", dimension: None };
+    let kind = kind.unwrap_or(JointKind::Revolute);
+    let offset_of_joint = by_kind("the offset", kind, (0, 0, 0), (0, 1, 0));
     let mut table = reader.table(value, &MIMIC)?;
     let joint = table
         .require(reader, "joint", "joint = \"name of the joint that leads\"")
         .and_then(|entry| reader.name(entry.value, "a joint", Kind::Label));
+    let mut of_ratio = None;
     let ratio = match table.get("ratio") {
         Some(entry) => {
+            of_ratio = Some(entry.value.span());
             let ratio = reader.formula(entry.value, RATIO);
             if reader.known(&ratio) == Some(0.0) {
                 reader.report(
@@ -229,9 +235,9 @@ fn mimic(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Mimic> {
         None => Formula::number(&Rational::ONE),
     };
     let offset = table.get("offset");
-    let offset = offset.map_or_else(zero, |entry| reader.formula(entry.value, OFFSET));
+    let offset = offset.map_or_else(zero, |entry| reader.formula(entry.value, offset_of_joint));
     table.finish(reader);
-    Some(Mimic { joint: joint?, ratio, offset })
+    Some(Mimic { joint: joint?, ratio, of_ratio, offset })
 }
 
 /// The quantity with the dimension for a rotation or a translation.

@@ -3,11 +3,12 @@
 use robot_symbolic::{Formula, Rational};
 
 use super::compute::{product, sum};
-use super::draft::DraftLink;
+use super::draft::{DraftLink, Mimic};
 use super::placement::zero;
 use super::reader::{Named, Reader};
+use super::value::quantity;
 use crate::diagnostic::{Diagnostic, code, quote};
-use crate::model::Coordinate;
+use crate::model::{Coordinate, JointKind};
 
 /// Joint position = `ratio` · q + `offset`.
 pub(super) struct Following {
@@ -24,10 +25,27 @@ pub(super) fn follow(
     coordinates: &[Coordinate],
     link: &DraftLink,
 ) -> Following {
+    check_ratio(reader, links, link);
     let leader = leader(reader, links, link);
     let leader = leader.unwrap_or(Leader { name: "", ratio: one(), offset: zero() });
     let found = coordinates.iter().position(|one| one.joint == leader.name);
     Following { coordinate: found.unwrap_or_default(), ratio: leader.ratio, offset: leader.offset }
+}
+
+/// Reports a ratio that is not in the position of this joint per position of the one that it follows.
+fn check_ratio(reader: &mut Reader<'_>, links: &[&DraftLink], link: &DraftLink) {
+    let Some(Mimic { joint, ratio, of_ratio: Some(place), .. }) = &link.joint.mimic else {
+        return;
+    };
+    let followed = links.iter().find(|other| other.joint.name.name == joint.name);
+    let kinds = followed.and_then(|followed| link.joint.kind.zip(followed.joint.kind));
+    let length = match kinds {
+        Some((JointKind::Prismatic, JointKind::Revolute)) => 1,
+        Some((JointKind::Revolute, JointKind::Prismatic)) => -1,
+        Some(_) => 0,
+        None => return,
+    };
+    reader.fits(ratio, quantity("the ratio", 0, length, 0), place);
 }
 
 fn one() -> Formula {

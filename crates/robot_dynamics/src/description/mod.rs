@@ -12,7 +12,9 @@ mod assemble;
 mod body;
 mod budget;
 mod compute;
+mod defined;
 mod dh;
+mod dimensions;
 mod draft;
 mod drive;
 mod export;
@@ -31,6 +33,7 @@ mod parameters;
 mod payload;
 pub(crate) mod physics;
 mod placement;
+mod range;
 mod reader;
 pub mod shape;
 mod strings;
@@ -242,6 +245,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(R
     if reader.failed() {
         return None;
     }
+    range::check(reader, &robot, &locations);
     wanted.check(reader, &robot);
     if format == Format::Toml {
         unused(reader);

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use robot_symbolic::{Formula, Graph, Number, Rational, nearest_word};
+use robot_symbolic::{Expr, Formula, Graph, Number, Rational, nearest_word, walk};
 
 use super::locations::AngleLocation;
 use super::names::{Registry, is_coordinate};
@@ -163,25 +163,35 @@ impl<'a> Reader<'a> {
     /// Reports a formula whose value is not finite.
     pub(super) fn finite(&mut self, formula: &Formula, span: &Span) -> bool {
         let known = self.known(formula);
-        let undefined = || {
-            let graph = Graph::new();
-            let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
-            expr.as_number().is_some_and(|value| value.to_f64().is_nan())
-        };
-        if known.map_or_else(|| !undefined(), f64::is_finite) {
+        let undefined = self.undefined(formula).or_else(|| unbounded(formula));
+        if undefined.is_none() && known.is_none_or(f64::is_finite) {
             return true;
         }
         let nominal =
             if formula.is_constant() { "" } else { " at the nominal values of the parameters" };
-        let value = match known {
-            Some(value) if value.is_infinite() => "infinite",
-            _ => "not a number",
+        let label = match (known, undefined) {
+            (Some(value), _) if value.is_infinite() => "this is infinite".to_owned(),
+            (Some(value), Some(reason)) if value.is_finite() => reason.to_owned(),
+            (None, Some(reason)) => reason.to_owned(),
+            _ => "this is not a number".to_owned(),
         };
         self.report(
             Diagnostic::error(code::NUMBER, format!("the expression has no finite value{nominal}"))
-                .at(span, format!("this is {value}"))
+                .at(span, label)
                 .help("look for a division by zero, a root of a negative number, or an overflow"),
         );
         false
     }
+}
+
+/// Whether a part of the formula is no finite number whatever the parameters are, as in `1/(x - x)`.
+fn unbounded(formula: &Formula) -> Option<&'static str> {
+    if formula.is_constant() {
+        return None;
+    }
+    let graph = Graph::new();
+    let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
+    let is_finite = |part: &Expr<'_>| part.as_number().is_none_or(|one| one.to_f64().is_finite());
+    let all = walk::reachable(&[expr]).iter().all(is_finite);
+    (!all).then_some("this is not a number")
 }

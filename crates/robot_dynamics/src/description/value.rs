@@ -252,31 +252,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Reports a parameter that stands for itself where its unit does not fit. Sums and products
-    /// are not looked into: a number in them may carry any unit.
-    fn fits(&mut self, formula: &Formula, quantity: Quantity, span: &Span) -> bool {
-        let name = formula.text().trim_start_matches(['-', ' ']).trim_end();
-        let Some(expected) = quantity.dimension else {
-            return true;
-        };
-        let known = self.parameter(name);
-        let Some((known, unit)) = known.and_then(|known| Some((known, known.unit.as_ref()?)))
-        else {
-            return true;
-        };
-        if unit.dimension == expected {
-            return true;
-        }
-        let message =
-            format!("`{name}` is in {}, but {} is in {expected}", unit.text, quantity.what);
-        let diagnostic = Diagnostic::error(code::DIMENSION, message)
-            .at(span, format!("needs a value in {expected}"))
-            .and_at(&known.span, format!("in {}", unit.text))
-            .help("name another parameter, or correct the unit");
-        self.report(diagnostic);
-        false
-    }
-
     /// An angle, rad, which is noted with its place.
     pub(super) fn angle(&mut self, value: Value<'_>, quantity: Quantity) -> Formula {
         let angle = self.formula(value, quantity);

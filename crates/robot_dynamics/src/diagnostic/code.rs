@@ -39,12 +39,13 @@ codes! {
     ALIKE = "R0204", "Two names differ in case or underscores alone.";
     LATEX = "R0205", "LaTeX of a symbol is outside the grammar for symbols.";
     TEXT = "R0206", "A text has control or invisible characters.";
-    NUMBER = "R0301", "A value is not a finite number.";
+    NUMBER = "R0301", "A value is not a finite number, or too large or small to compute with.";
     EXPRESSION = "R0302", "A text is not an expression.";
     UNKNOWN_SYMBOL = "R0303", "An expression has a name that is not a parameter.";
     UNIT = "R0304", "A unit is not known.";
     UNIT_NOT_SI = "R0305", "A unit is not an SI unit.";
-    DIMENSION = "R0306", "A parameter stands where its unit does not fit.";
+    DIMENSION = "R0306", "Units do not fit.";
+    UNIT_OF_NUMBER = "R0307", "The unit of an expression fits only if a number in it has one.";
     UNKNOWN_LINK = "R0401", "A parent is none of the links.";
     CYCLE = "R0402", "Links descend from themselves.";
     ZERO_AXIS = "R0403", "A joint axis has no direction.";

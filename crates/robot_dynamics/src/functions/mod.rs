@@ -4,6 +4,7 @@
 //! parameters alone is shared among them. Torques come from the economical recursion; whatever
 //! needs the forces between links comes from the paper's iterations.
 
+mod acting;
 mod bundle;
 mod coriolis;
 mod derivatives;
@@ -132,8 +133,16 @@ impl<'r, 'g> Derivation<'r, 'g> {
 
     /// Derives the functions of a kind: one, or one per named frame. What the robot lacks (a tip,
     /// friction) is taken for 0: ask [`FunctionKind::missing_in`] first.
+    ///
+    /// A parameter that does not act on a function does not occur in it.
     #[must_use]
     pub fn functions(&self, kind: FunctionKind) -> Vec<Function<'g>> {
+        let derived = self.derived(kind).into_iter();
+        derived.map(|function| self.of_acting_parameters(function)).collect()
+    }
+
+    /// The functions as they are derived: with parameters that cancel.
+    fn derived(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let function = match kind {
             FunctionKind::InverseDynamics
             | FunctionKind::InverseDynamicsWrench

@@ -44,7 +44,7 @@ fn objective<'g>(
         {
             return [positions.rows(), velocities.rows()].concat();
         }
-        let functions = derivation.functions(kind).into_iter();
+        let functions = derivation.derived(kind).into_iter();
         functions.flat_map(|function| function.outputs).flat_map(|output| output.values).collect()
     };
     Objective::of(kinds.iter().copied().flat_map(values).collect())

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use robot_symbolic::{Expr, Formula, Graph, Number, walk};
 
+use super::direction::unit_vector;
 use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap};
 use crate::model::{Axis, Body, Frame, Friction, Inertia, Link, Move, Placement, Robot};
 use crate::vector::{Matrix, Vector};
@@ -77,7 +78,7 @@ impl<'g> Lowering<'g, '_> {
             rotation,
             translation,
             kind: joint.kind,
-            axis: self.unit_vector(self.vector(&joint.axis)),
+            axis: unit_vector(self.vector(&joint.axis), |expr| self.round(expr)),
             coordinate: joint.coordinate,
             ratio,
             position: motion("q") + offset,
@@ -165,23 +166,6 @@ impl<'g> Lowering<'g, '_> {
             Axis::Z => 2,
         };
         Matrix::identity(self.graph).column(column)
-    }
-
-    /// The vector scaled to length 1; exact for multiples of a coordinate axis.
-    fn unit_vector(&self, vector: Vector<'g>) -> Vector<'g> {
-        let along: Vec<usize> = (0..3).filter(|i| !vector.0[*i].is_zero()).collect();
-        match (along.as_slice(), along.first().and_then(|i| vector.0[*i].as_number())) {
-            (&[i], Some(number)) => {
-                let sign = if number.is_negative() { -1 } else { 1 };
-                let mut unit = Vector::zero(self.graph);
-                unit.0[i] = self.graph.integer(sign);
-                unit
-            }
-            _ => {
-                let norm = self.round(vector.norm());
-                vector.map(|component| self.round(component / norm))
-            }
-        }
     }
 
     /// Mass, centre of mass and central inertia of the bodies together.

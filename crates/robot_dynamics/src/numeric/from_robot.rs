@@ -60,6 +60,15 @@ fn take_from(carrier: &mut Link, rotor: &Link) {
     carrier.inertia -= rotation * rotor.inertia * rotation.transpose();
 }
 
+/// The vector scaled to length 1; one that is very long or short is scaled first, so that no square
+/// leaves the range of numbers.
+#[must_use]
+pub fn direction(vector: Vector3<f64>) -> Vector3<f64> {
+    let largest = vector.amax();
+    let vector = if (1e-100..=1e100).contains(&largest) { vector } else { vector / largest };
+    vector.normalize()
+}
+
 /// The nominal value of a parameter; NaN where it has none.
 pub(crate) fn nominal_value(robot: &model::Robot, name: &str) -> f64 {
     let parameter = robot.parameter(name);
@@ -107,7 +116,7 @@ impl Evaluation<'_> {
                 model::JointKind::Revolute => JointKind::Revolute,
                 model::JointKind::Prismatic => JointKind::Prismatic,
             },
-            axis: self.vector(&joint.axis).normalize(),
+            axis: direction(self.vector(&joint.axis)),
             coordinate: joint.coordinate,
             ratio: self.number(&joint.ratio),
             offset: self.number(&joint.offset),
@@ -131,7 +140,7 @@ impl Evaluation<'_> {
     fn rotor(&self, link: &model::Link, carrier: usize) -> Link {
         let (joint, drive) = (&link.joint, &link.drive);
         let turns = self.number(&drive.gear_ratio);
-        let axis = self.vector(&joint.axis).normalize();
+        let axis = direction(self.vector(&joint.axis));
         let motion = Joint {
             kind: JointKind::Revolute,
             axis,

@@ -57,6 +57,7 @@ pub use derivatives::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 pub use energy::Energies;
 pub use error::{Fault, Mismatch, NumericError};
 pub use friction::{Friction, Sign};
+pub use from_robot::direction;
 pub use kinematics::Placements;
 pub use mechanism::{Frame, Joint, JointKind, Link, Mechanism, Wrench};
 pub use newton_euler::{LinkDynamics, Loads};

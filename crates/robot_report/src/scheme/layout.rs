@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use robot_dynamics::model::{Axis, Move, Placement, Robot};
-use robot_dynamics::numeric::Pose;
+use robot_dynamics::numeric::{Pose, direction};
 use robot_symbolic::Formula;
 
 use super::view::View;
@@ -62,7 +62,8 @@ pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
     let mut layout = Layout { links: vec![], frames: vec![] };
     for link in &robot.links {
         let axis = link.joint.axis.each_ref().map(|part| value(robot, part));
-        let place = layout.place(robot, view, scale, link.parent, &link.placement, axis.into());
+        let axis = direction(axis.into());
+        let place = layout.place(robot, view, scale, link.parent, &link.placement, axis);
         layout.links.push(place);
     }
     let crowded = robot.frames.len() > MAX_FRAMES;

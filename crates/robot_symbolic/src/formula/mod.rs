@@ -1,6 +1,7 @@
 //! Expression text that belongs to no graph: what robot files hold.
 
 mod error;
+mod fold;
 pub mod latex;
 mod lexer;
 mod parser;
@@ -14,6 +15,7 @@ use crate::print;
 use crate::rational::Rational;
 
 pub use error::ParseError;
+pub use fold::Step;
 
 /// Powers beyond this exponent are refused.
 pub const MAX_EXPONENT: i64 = 64;

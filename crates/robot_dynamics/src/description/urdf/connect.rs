@@ -300,6 +300,7 @@ fn mimic(
     Some(Mimic {
         joint: Named { name: leader.name.named.name.clone(), span },
         ratio: mimic.multiplier.clone(),
+        of_ratio: None,
         offset: mimic.offset.clone(),
     })
 }

@@ -2,6 +2,7 @@
 
 use robot_symbolic::{Formula, Rational};
 
+use super::super::physics::significant;
 use super::super::placement::zero;
 use super::super::reader::Reader;
 use super::element::{Attribute, Element};
@@ -198,7 +199,7 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     let length =
         numbers.each_ref().map(Rational::to_f64).iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
     if (length - 1.0).abs() > ROUNDED {
-        let message = format!("the joint axis has the length {length}");
+        let message = format!("the joint axis has the length {}", significant(length));
         reader.report(
             Diagnostic::warning(code::AXIS_LENGTH, message)
                 .at(&attribute.span, "its direction is taken")

@@ -18,6 +18,7 @@ use super::super::reader::Reader;
 use super::link::{Inertial, UrdfLink};
 use crate::diagnostic::{Diagnostic, Severity, Span, code};
 use crate::model::{Axis, JointKind, Move, Placement};
+use crate::numeric::direction;
 
 /// The part of the largest moment by which measured moments break the triangle inequality.
 const PUBLISHED: f64 = 0.1;
@@ -182,7 +183,7 @@ fn vertical_axis(draft: &Draft, index: usize) -> Option<Vector3<f64>> {
         }
         rotation = self::rotation(&below.before) * rotation;
     }
-    let axis = vector(&link.joint.axis).try_normalize(0.0)?;
+    let axis = direction(vector(&link.joint.axis));
     let gravity = vector(&draft.gravity).try_normalize(0.0)?;
     let is_vertical = (rotation * axis).cross(&gravity).norm() < 1e-6;
     is_vertical.then_some(axis)

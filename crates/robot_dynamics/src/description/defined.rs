@@ -1,0 +1,175 @@
+//! Whether an expression has a value: no division by what is 0, nor by what rounding cannot tell from 0.
+
+use robot_symbolic::formula::Step;
+use robot_symbolic::{Formula, Function, Rational};
+
+use super::reader::Reader;
+
+/// A divisor must be so many times what rounding may have changed it by: it has three digits then.
+const DIGITS: f64 = 1e3;
+/// An angle that rounding may have changed by more than this, rad, has no sine.
+const ANGLE: f64 = 1e-6;
+
+/// A value and what rounding may have changed it by.
+#[derive(Clone, Copy)]
+struct Rounded {
+    value: f64,
+    error: f64,
+}
+
+impl Rounded {
+    fn new(value: f64, error: f64) -> Rounded {
+        Rounded { value, error: error + value.abs() * f64::EPSILON }
+    }
+
+    fn of(number: &Rational) -> Rounded {
+        let value = number.to_f64();
+        let is_exact = Rational::from_f64(value).as_ref() == Some(number);
+        if is_exact { Rounded { value, error: 0.0 } } else { Rounded::new(value, 0.0) }
+    }
+
+    fn sum(self, other: Rounded) -> Rounded {
+        Rounded::new(self.value + other.value, self.error + other.error)
+    }
+
+    fn negated(self) -> Rounded {
+        Rounded { value: -self.value, ..self }
+    }
+
+    fn product(self, other: Rounded) -> Rounded {
+        let error = self.value.abs() * other.error + other.value.abs() * self.error;
+        Rounded::new(self.value * other.value, error)
+    }
+
+    fn is_zero(self) -> bool {
+        self.value.abs() <= DIGITS * self.error
+    }
+
+    fn quotient(self, divisor: Rounded) -> Result<Rounded, &'static str> {
+        if divisor.is_zero() {
+            return Err("divided by 0, or by what rounding cannot tell from 0");
+        }
+        let value = self.value / divisor.value;
+        Ok(Rounded::new(value, (self.error + value.abs() * divisor.error) / divisor.value.abs()))
+    }
+
+    fn power(self, exponent: i32) -> Result<Rounded, &'static str> {
+        let one = Rounded { value: 1.0, error: 0.0 };
+        let power = (0..exponent.unsigned_abs()).fold(one, |product, _| product.product(self));
+        if exponent < 0 { one.quotient(power) } else { Ok(power) }
+    }
+
+    fn of_function(self, function: Function) -> Result<Rounded, &'static str> {
+        let Rounded { value, error } = self;
+        let result = function.apply(value);
+        Ok(match function {
+            Function::Sin | Function::Cos if error > ANGLE => {
+                return Err("the angle is too large to have a sine");
+            }
+            Function::Sqrt if value < -DIGITS * error => {
+                return Err("the root of a negative number");
+            }
+            // What rounding has made negative is 0.
+            Function::Sqrt if value <= 0.0 => Rounded { value: 0.0, error: error.sqrt() },
+            Function::Sqrt => Rounded::new(result, error / result),
+            Function::Sign => Rounded { value: result, error: 0.0 },
+            Function::Sin | Function::Cos | Function::Abs | Function::Tanh => {
+                Rounded::new(result, error)
+            }
+        })
+    }
+
+    fn tangent(self) -> Result<Rounded, &'static str> {
+        let [sine, cosine] = [Function::Sin, Function::Cos].map(|f| self.of_function(f));
+        sine?.quotient(cosine?).map_err(|_| "the tangent of an odd multiple of pi/2")
+    }
+}
+
+impl Reader<'_> {
+    /// Why the expression has no value at the nominal values of the parameters; `None` where it has
+    /// one, or parameters without a value decide.
+    pub(super) fn undefined(&self, formula: &Formula) -> Option<&'static str> {
+        let mut reason = None;
+        // An operand that is not known is `None` within.
+        formula.fold(|step| self.rounded(step).map_err(|found| reason = Some(found)).ok());
+        reason
+    }
+
+    fn rounded(&self, step: Step<'_, Option<Rounded>>) -> Result<Option<Rounded>, &'static str> {
+        let both = |a: Option<Rounded>, b: Option<Rounded>| a.zip(b);
+        let pi = Rounded::new(std::f64::consts::PI, 0.0);
+        Ok(match step {
+            Step::Number(value) => Some(Rounded::of(value)),
+            Step::Pi => Some(pi),
+            Step::Symbol(name, _) => {
+                self.parameter(name).and_then(|known| known.value.as_ref()).map(Rounded::of)
+            }
+            Step::Add(a, b) => both(a, b).map(|(a, b)| a.sum(b)),
+            Step::Sub(a, b) => both(a, b).map(|(a, b)| a.sum(b.negated())),
+            Step::Mul(a, b) => both(a, b).map(|(a, b)| a.product(b)),
+            Step::Div(_, Some(b)) if b.is_zero() => return b.quotient(b).map(Some),
+            Step::Div(a, b) => both(a, b).map(|(a, b)| a.quotient(b)).transpose()?,
+            Step::Neg(a) => a.map(Rounded::negated),
+            Step::Power(a, exponent) => a.map(|a| a.power(exponent)).transpose()?,
+            Step::Call(function, a) => a.map(|a| a.of_function(function)).transpose()?,
+            Step::Tan(a) => a.map(Rounded::tangent).transpose()?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::reader::Known;
+    use super::*;
+
+    #[test]
+    fn poles_are_told_from_values() {
+        let mut reader = Reader::new("");
+        for (name, value) in [("a", Some("0.3")), ("b", Some("0.1")), ("x", None)] {
+            reader.define(Known {
+                name: name.to_owned(),
+                span: 0..0,
+                value: value.and_then(Rational::from_decimal),
+                unit: None,
+                used: false,
+            });
+        }
+        let reason = |text: &str| reader.undefined(&Formula::parse(text).unwrap()).unwrap_or("");
+        for text in [
+            "tan(1.5)",
+            "1/(a - 2*b)",
+            "sqrt(2)*x",
+            "1/x",
+            "tan(x)",
+            "0/2",
+            "sin(pi)/3",
+            "a^-3",
+            "sqrt(sin(1)^2 + cos(1)^2 - 1)",
+            "1/sin(1e-9)",
+            "cos(pi/2)",
+            "sign(a - 3*b)",
+            "0^0",
+        ] {
+            assert_eq!(reason(text), "", "{text}");
+        }
+        for text in [
+            "1/0",
+            "x/0",
+            "0/0",
+            "0*(1/0)",
+            "1/(a - 3*b)",
+            "1/sin(pi)",
+            "(a - 3*b)^-1",
+            "2/(x - x*0)^0/0",
+            "1/(sqrt(2)*sqrt(3) - sqrt(6))",
+            "x + 1/cos(pi/2)",
+        ] {
+            assert!(reason(text).starts_with("divided by 0"), "{text}: {}", reason(text));
+        }
+        for text in ["tan(pi/2)", "tan(-3*pi/2)*0", "x*tan(pi/2)", "tan(1.5707963267948966)"] {
+            assert!(reason(text).starts_with("the tangent"), "{text}: {}", reason(text));
+        }
+        assert!(reason("x*sqrt(-pi)").starts_with("the root"));
+        assert!(reason("sin(1e300)").starts_with("the angle"));
+    }
+}

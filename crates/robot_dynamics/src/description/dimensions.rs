@@ -1,0 +1,277 @@
+//! Dimensions of expressions, from the units of their parameters.
+//!
+//! The parameters of an expression and the operations on them give it a dimension. Of the numbers it
+//! is not known whether they carry units: in `m1*0.2^2/12` the 0.2 is a length. So
+//!
+//! - a number takes what dimension is needed where it stands alone, and in a sum the other term's;
+//! - an expression whose only factors are parameters must have the dimension of its place;
+//! - one with small whole numbers and halves as factors, which are hardly figures with units, is
+//!   warned of;
+//! - with other numbers as factors it may have any dimension.
+//!
+//! Nothing is concluded from parameters without a unit.
+
+use robot_symbolic::formula::Step;
+use robot_symbolic::{Formula, Function, Rational};
+
+use super::reader::Reader;
+use super::value::Quantity;
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+use crate::unit::Dimension;
+
+/// Whole numbers and halves up to this are counts and shares, as in `m*l^2/12`.
+const COUNT: i64 = 12;
+
+/// What kind of factors an expression has; the last that occurs counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Factors {
+    /// Parameters, π and functions: the dimension is certain.
+    Certain,
+    /// Also small whole numbers and halves.
+    Counts,
+    /// Also other numbers, which may carry units.
+    Figures,
+}
+
+/// What is known of an expression's dimension.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dimensioned {
+    /// `None` where a parameter has no unit.
+    pub(super) dimension: Option<Dimension>,
+    pub(super) factors: Factors,
+    /// Whether there is no parameter in it, so that it takes any dimension.
+    is_number: bool,
+}
+
+impl Dimensioned {
+    fn pure(factors: Factors, is_number: bool) -> Dimensioned {
+        Dimensioned { dimension: Some(Dimension::NONE), factors, is_number }
+    }
+
+    fn number(value: &Rational) -> Dimensioned {
+        let twice = (value * &Rational::integer(2)).to_integer();
+        let is_count = twice.is_some_and(|twice| twice.abs() <= 2 * COUNT);
+        Dimensioned::pure(if is_count { Factors::Counts } else { Factors::Figures }, true)
+    }
+
+    fn product(self, other: Dimensioned, exponent: i8) -> Dimensioned {
+        let dimensions = self.dimension.zip(other.dimension);
+        Dimensioned {
+            dimension: dimensions.map(|(a, b)| a.product(b.to_power(exponent))),
+            factors: self.factors.max(other.factors),
+            is_number: self.is_number && other.is_number,
+        }
+    }
+
+    /// The dimension that a value certainly has, where its factors are known so far.
+    fn known(self) -> Option<Dimension> {
+        self.dimension.filter(|_| !self.is_number)
+    }
+
+    /// A sum; the dimensions and factors that do not go together.
+    fn sum(self, other: Dimensioned) -> Result<Dimensioned, Clash> {
+        let factors = self.factors.max(other.factors);
+        let surer = if other.factors < self.factors { other } else { self };
+        match (self.is_number, other.is_number, self.known(), other.known()) {
+            (true, true, ..) => Ok(Dimensioned { factors, ..self }),
+            (true, false, ..) => Ok(other),
+            (false, true, ..) => Ok(self),
+            (_, _, Some(a), Some(b)) if a != b && factors != Factors::Figures => {
+                Err(Clash { factors, here: a, there: b })
+            }
+            (_, _, Some(_), None) => Ok(self),
+            (_, _, None, Some(_)) => Ok(other),
+            _ => Ok(surer),
+        }
+    }
+
+    /// A function of a pure number.
+    fn of_number(self) -> Result<Dimensioned, Clash> {
+        match self.known() {
+            Some(here) if here != Dimension::NONE && self.factors != Factors::Figures => {
+                Err(Clash { factors: self.factors, here, there: Dimension::NONE })
+            }
+            _ => Ok(Dimensioned::pure(Factors::Certain, self.is_number)),
+        }
+    }
+
+    fn root(self) -> Dimensioned {
+        let halved = |d: Dimension| {
+            let even = [d.mass, d.length, d.time].iter().all(|exponent| exponent % 2 == 0);
+            even.then(|| Dimension::new(d.mass / 2, d.length / 2, d.time / 2))
+        };
+        Dimensioned { dimension: self.dimension.and_then(halved), ..self }
+    }
+}
+
+/// Dimensions that must be the same and are not.
+#[derive(Clone, Copy)]
+struct Clash {
+    factors: Factors,
+    here: Dimension,
+    there: Dimension,
+}
+
+impl Clash {
+    /// `summed` says that the two are terms of a sum; otherwise a function needs a pure number.
+    fn diagnostic(self, formula: &Formula, summed: bool) -> (Factors, Diagnostic) {
+        let (here, there) = (in_units(self.here), in_units(self.there));
+        let (text, pure) = (quote(formula.text()), where_pure(self.factors));
+        let message = if summed {
+            format!("`{text}` adds what is {here} to what is {there}{pure}")
+        } else {
+            format!("`{text}` has a function of what is {here}{pure}, not of a pure number")
+        };
+        (self.factors, reported(self.factors, message))
+    }
+}
+
+/// An error where factors are parameters alone; a warning where a number may carry the unit.
+fn reported(factors: Factors, message: String) -> Diagnostic {
+    match factors {
+        Factors::Certain => Diagnostic::error(code::DIMENSION, message)
+            .help("correct the expression, or the units of its parameters"),
+        Factors::Counts | Factors::Figures => Diagnostic::warning(code::UNIT_OF_NUMBER, message)
+            .help("correct the expression; where a number in it has a unit, make it a parameter"),
+    }
+}
+
+fn where_pure(factors: Factors) -> &'static str {
+    match factors {
+        Factors::Certain => "",
+        Factors::Counts | Factors::Figures => " if its numbers are pure",
+    }
+}
+
+fn needed(quantity: Quantity, expected: Dimension) -> String {
+    match expected {
+        Dimension::NONE => format!("but a pure number is needed for {}", quantity.what),
+        _ => format!("but {} is in {expected}", quantity.what),
+    }
+}
+
+fn in_units(dimension: Dimension) -> String {
+    match dimension {
+        Dimension::NONE => "a pure number".to_owned(),
+        _ => format!("in {dimension}"),
+    }
+}
+
+impl Reader<'_> {
+    /// Reports an expression whose dimension does not fit its place; whether it can be kept.
+    pub(super) fn fits(&mut self, formula: &Formula, quantity: Quantity, span: &Span) -> bool {
+        let found = match self.dimension(formula) {
+            Ok(found) => found,
+            Err(diagnostic) => {
+                let is_error = diagnostic.0 == Factors::Certain;
+                self.report(diagnostic.1.at(span, "units do not fit within"));
+                return !is_error;
+            }
+        };
+        let Some((known, expected)) = found.known().zip(quantity.dimension) else {
+            return true;
+        };
+        if known == expected || found.factors == Factors::Figures {
+            return true;
+        }
+        let diagnostic = match self.alone(formula, quantity, expected) {
+            Some(diagnostic) => diagnostic,
+            None => {
+                let text = quote(formula.text());
+                let what = format!("`{text}` is {}{}", in_units(known), where_pure(found.factors));
+                reported(found.factors, format!("{what}, {}", needed(quantity, expected)))
+            }
+        };
+        let label = match expected {
+            Dimension::NONE => "needs a pure number".to_owned(),
+            _ => format!("needs a value in {expected}"),
+        };
+        self.report(diagnostic.at(span, label));
+        found.factors != Factors::Certain
+    }
+
+    /// What is said of a parameter that stands alone.
+    fn alone(
+        &self,
+        formula: &Formula,
+        quantity: Quantity,
+        expected: Dimension,
+    ) -> Option<Diagnostic> {
+        let name = formula.text().trim_start_matches(['-', ' ']).trim_end();
+        let known = self.parameter(name)?;
+        let unit = &known.unit.as_ref()?.text;
+        let message = format!("`{name}` is in {unit}, {}", needed(quantity, expected));
+        let diagnostic = Diagnostic::error(code::DIMENSION, message);
+        let diagnostic = diagnostic.and_at(&known.span, format!("in {unit}"));
+        Some(diagnostic.help("name another parameter, or correct the unit"))
+    }
+
+    /// The dimension of an expression, or what is wrong within it.
+    pub(super) fn dimension(
+        &self,
+        formula: &Formula,
+    ) -> Result<Dimensioned, (Factors, Diagnostic)> {
+        let mut wrong = None;
+        let found = formula.fold(|step| {
+            let summed = matches!(step, Step::Add(..) | Step::Sub(..));
+            self.dimension_of_step(step)
+                .map_err(|clash| wrong = Some(clash.diagnostic(formula, summed)))
+                .ok()
+        });
+        match wrong {
+            Some(diagnostic) => Err(diagnostic),
+            None => Ok(found.unwrap_or(Dimensioned {
+                dimension: None,
+                factors: Factors::Figures,
+                is_number: false,
+            })),
+        }
+    }
+
+    fn dimension_of_step(&self, step: Step<'_, Dimensioned>) -> Result<Dimensioned, Clash> {
+        Ok(match step {
+            Step::Number(value) => Dimensioned::number(value),
+            Step::Pi => Dimensioned::pure(Factors::Certain, true),
+            Step::Symbol(name, _) => {
+                let unit = self.parameter(name).and_then(|known| known.unit.as_ref());
+                let dimension = unit.map(|unit| unit.dimension);
+                Dimensioned { dimension, factors: Factors::Certain, is_number: false }
+            }
+            Step::Add(a, b) | Step::Sub(a, b) => a.sum(b)?,
+            Step::Mul(a, b) => a.product(b, 1),
+            Step::Div(a, b) => a.product(b, -1),
+            Step::Neg(a) | Step::Call(Function::Abs, a) => a,
+            Step::Power(a, exponent) => {
+                let exponent = i8::try_from(exponent).unwrap_or(i8::MAX);
+                let dimension = a.dimension.map(|dimension| dimension.to_power(exponent));
+                Dimensioned { dimension, ..a }
+            }
+            Step::Call(Function::Sqrt, a) => a.root(),
+            Step::Call(Function::Sign, a) => Dimensioned::pure(Factors::Certain, a.is_number),
+            Step::Call(Function::Sin | Function::Cos | Function::Tanh, a) | Step::Tan(a) => {
+                a.of_number()?
+            }
+        })
+    }
+
+    /// Reports components of a vector that are in different dimensions; its length has a meaning in
+    /// one alone.
+    pub(super) fn same_dimension(&mut self, vector: &[Formula; 3], what: &str, span: &Span) {
+        let certain = |formula: &Formula| {
+            let found = self.dimension(formula).ok()?;
+            found.known().filter(|_| found.factors == Factors::Certain)
+        };
+        let known: Vec<Dimension> = vector.iter().filter_map(certain).collect();
+        if let [first, rest @ ..] = known.as_slice()
+            && let Some(other) = rest.iter().find(|other| *other != first)
+        {
+            let message =
+                format!("{what} has components {} and {}", in_units(*first), in_units(*other));
+            self.report(
+                Diagnostic::error(code::DIMENSION, message)
+                    .at(span, "")
+                    .help("give all components in one unit, or as pure numbers"),
+            );
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Functions without the parameters that do not act on them.
+//!
+//! A recursion sums what it need not: of a link that turns about z alone, I_xx enters both second
+//! moments Σ_xx and Σ_yy, and cancels in their sum. Rounding does not cancel it: a parameter that has
+//! no effect on a function would cost it digits. So such parameters are found, by slopes at seeded
+//! states, and given a constant in the function's expressions.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use robot_symbolic::{Expr, Function as Elementary, SymbolId, View, walk};
+
+use super::{Derivation, Function};
+use crate::numeric::random::Random;
+
+/// States at which slopes are taken.
+const STATES: u64 = 3;
+/// A slope below this part of the terms that it is the sum of may be 0.
+const NOTICED: f64 = 1e-8;
+/// A parameter that changes so many times ...
+const CHANGE: f64 = 1e3;
+/// ... and changes no value by more than this part of it does not act: its share in the value is
+/// below the rounding of the value.
+const UNCHANGED: f64 = 1e-10;
+/// Values below this part of the largest are rounding.
+const ROUNDING: f64 = 1e-14;
+
+impl<'g> Derivation<'_, 'g> {
+    /// The function with a constant for each parameter that does not act on it.
+    pub(super) fn of_acting_parameters(&self, mut function: Function<'g>) -> Function<'g> {
+        let graph = self.mechanism.graph;
+        let outputs = function.outputs.iter().flat_map(|output| &output.values);
+        let roots: Vec<Expr<'g>> = outputs.copied().collect();
+        let idle = self.idle_parameters(&roots);
+        if idle.is_empty() || graph.is_full() {
+            return function;
+        }
+        // What stands in a denominator must not be 0.
+        for constant in [0, 1] {
+            let settled = walk::rebuild(&roots, graph, |name| {
+                let symbol = graph.symbol(name);
+                let is_idle = symbol.as_symbol().is_some_and(|symbol| idle.contains(&symbol));
+                if is_idle { graph.integer(constant) } else { symbol }
+            });
+            let same = (0..STATES).all(|state| {
+                let value = |symbol| value(&graph.symbol_name(symbol), state);
+                same(&walk::evaluate(&roots, value), &walk::evaluate(&settled, value))
+            });
+            if same && !graph.is_full() {
+                let mut settled = settled.into_iter();
+                for entry in function.outputs.iter_mut().flat_map(|output| &mut output.values) {
+                    *entry = settled.next().unwrap_or(*entry);
+                }
+                return function;
+            }
+        }
+        function
+    }
+
+    /// The parameters that occur in the expressions and do not act on their values.
+    fn idle_parameters(&self, roots: &[Expr<'g>]) -> BTreeSet<SymbolId> {
+        let graph = self.mechanism.graph;
+        let symbol = |name: &str| graph.find_symbol(name).and_then(Expr::as_symbol);
+        let names = self.robot.parameters.iter().map(|parameter| parameter.name.as_str());
+        let parameters: BTreeSet<SymbolId> = names.filter_map(symbol).collect();
+        let occurring: BTreeSet<SymbolId> =
+            walk::symbols(roots).into_iter().filter(|one| parameters.contains(one)).collect();
+        if occurring.is_empty() || graph.is_full() {
+            return BTreeSet::new();
+        }
+        let flat = (0..STATES).fold(occurring, |left, state| {
+            let slopes = slopes(roots, state);
+            let is_flat = |one: &SymbolId| {
+                slopes.get(one).is_some_and(|slope| slope.sum.abs() <= NOTICED * slope.size)
+            };
+            left.into_iter().filter(is_flat).collect()
+        });
+        flat.into_iter().filter(|one| is_idle(roots, *one)).collect()
+    }
+}
+
+/// Whether no value changes with a parameter.
+fn is_idle(roots: &[Expr<'_>], parameter: SymbolId) -> bool {
+    let graph = match roots {
+        [root, ..] => root.graph(),
+        [] => return true,
+    };
+    (0..STATES).all(|state| {
+        let at = |factor: f64| {
+            walk::evaluate(roots, |symbol| {
+                let value = value(&graph.symbol_name(symbol), state);
+                if symbol == parameter { value * factor } else { value }
+            })
+        };
+        same(&at(1.0), &at(CHANGE))
+    })
+}
+
+fn same(a: &[f64], b: &[f64]) -> bool {
+    let largest = a.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    a.iter().zip(b).all(|(a, b)| {
+        let size = a.abs().max(b.abs());
+        (a - b).abs() <= UNCHANGED * size || size <= ROUNDING * largest
+    })
+}
+
+/// The value of a symbol at a seeded state.
+fn value(name: &str, state: u64) -> f64 {
+    let mix = |seed: u64, byte: u8| seed.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte);
+    let seed = name.bytes().fold(0xcbf2_9ce4_8422_2325, mix);
+    Random::new(seed.wrapping_add(state)).uniform(0.4, 1.6)
+}
+
+/// A sum and the sum of its terms' magnitudes.
+#[derive(Clone, Copy, Default)]
+struct Slope {
+    sum: f64,
+    size: f64,
+}
+
+/// The slopes of a weighted sum of the roots by each symbol.
+fn slopes(roots: &[Expr<'_>], state: u64) -> BTreeMap<SymbolId, Slope> {
+    let nodes = walk::reachable(roots);
+    let Some(graph) = nodes.first().map(|node| node.graph()) else {
+        return BTreeMap::new();
+    };
+    let values = walk::evaluate(&nodes, |symbol| value(&graph.symbol_name(symbol), state));
+    // All operands are among the nodes.
+    let place_of = |expr: Expr<'_>| {
+        nodes.binary_search_by_key(&expr.id(), |node| node.id()).unwrap_or_default()
+    };
+    let at = |expr: Expr<'_>| values[place_of(expr)];
+    let mut slopes = vec![Slope::default(); nodes.len()];
+    let mut random = Random::new(state);
+    for root in roots {
+        let slope = &mut slopes[place_of(*root)];
+        let weight = random.uniform(0.4, 1.6);
+        slope.sum += weight;
+        slope.size += weight;
+    }
+    let mut found = BTreeMap::new();
+    for (place, node) in nodes.iter().enumerate().rev() {
+        let Slope { sum, size } = slopes[place];
+        let mut add = |operand: Expr<'_>, share: f64| {
+            let slope = &mut slopes[place_of(operand)];
+            slope.sum += sum * share;
+            slope.size += size * share.abs();
+        };
+        match node.view() {
+            View::Number(_) | View::Pi => {}
+            View::Symbol(symbol) => {
+                found.insert(symbol, Slope { sum, size });
+            }
+            View::Add(a, b) => {
+                add(a, 1.0);
+                add(b, 1.0);
+            }
+            View::Sub(a, b) => {
+                add(a, 1.0);
+                add(b, -1.0);
+            }
+            View::Mul(a, b) => {
+                add(a, at(b));
+                add(b, at(a));
+            }
+            View::Div(a, b) => {
+                add(a, 1.0 / at(b));
+                add(b, -values[place] / at(b));
+            }
+            View::Neg(a) => add(a, -1.0),
+            View::Call(function, a) => add(a, slope_of(function, at(a), values[place])),
+        }
+    }
+    found
+}
+
+fn slope_of(function: Elementary, argument: f64, value: f64) -> f64 {
+    match function {
+        Elementary::Sin => argument.cos(),
+        Elementary::Cos => -argument.sin(),
+        Elementary::Sqrt => 0.5 / value,
+        Elementary::Abs => argument.signum(),
+        Elementary::Sign => 0.0,
+        Elementary::Tanh => 1.0 - value * value,
+    }
+}

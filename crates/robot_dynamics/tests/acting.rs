@@ -1,0 +1,158 @@
+//! A function reads no parameter that does not act on it: no rounding of it is left in the results.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::path::Path;
+
+use robot_dynamics::description::read_toml;
+use robot_dynamics::functions::{Derivation, Function, FunctionKind};
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric::Mechanism;
+use robot_dynamics::numeric::random::{Random, Recipe, State};
+use robot_dynamics::random::{parametrised, robot};
+use robot_symbolic::{Expr, Graph, Rational, walk};
+
+fn robot_file(name: &str) -> Robot {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots").join(name);
+    read_toml(name, &std::fs::read_to_string(path).unwrap()).unwrap().robot
+}
+
+/// Shipped robots with parameters, and random ones with every figure of their bodies a parameter.
+fn robots() -> Vec<(String, Robot)> {
+    let files = ["trttr1.toml", "planar_2r.toml", "planar_3r.toml"];
+    let mut robots: Vec<_> =
+        files.iter().map(|name| ((*name).to_owned(), robot_file(name))).collect();
+    for seed in 0..12 {
+        let joints = 1 + seed as usize % 3;
+        let recipe = if seed % 2 == 0 { Recipe::serial(joints) } else { Recipe::tree(joints) };
+        let recipe = Recipe { drives: seed % 3 == 0, fixed: seed % 4 == 1, ..recipe };
+        let random = robot(&mut Random::new(seed), &recipe);
+        robots.push((format!("random {seed}"), parametrised(&random)));
+    }
+    robots
+}
+
+fn nominal(robot: &Robot, name: &str) -> Option<f64> {
+    Some(robot.parameter(name)?.value.as_ref()?.to_f64())
+}
+
+/// The value of a symbol: a parameter's nominal one, or one that its name decides.
+fn value(robot: &Robot, name: &str) -> f64 {
+    let seed = name.bytes().fold(7, |seed: u64, byte| seed.wrapping_mul(31) + u64::from(byte));
+    nominal(robot, name).unwrap_or_else(|| Random::new(seed).uniform(-1.5, 1.5))
+}
+
+fn roots<'g>(function: &Function<'g>) -> Vec<Expr<'g>> {
+    function.outputs.iter().flat_map(|output| output.values.iter().copied()).collect()
+}
+
+fn evaluated(robot: &Robot, roots: &[Expr<'_>], changed: &str, to: f64) -> Vec<f64> {
+    walk::evaluate(roots, |symbol| {
+        let name = roots[0].graph().symbol_name(symbol);
+        if name == changed { to } else { value(robot, &name) }
+    })
+}
+
+#[test]
+fn every_parameter_of_a_function_acts_on_it() {
+    let mut compared = 0;
+    let mut left_out = 0;
+    for (name, robot) in robots() {
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        for kind in FunctionKind::ALL.iter().filter(|kind| kind.missing_in(&robot).is_none()) {
+            for function in derivation.functions(*kind) {
+                let roots = roots(&function);
+                let usual = evaluated(&robot, &roots, "", 0.0);
+                let symbols = walk::symbols(&roots);
+                for parameter in &robot.parameters {
+                    let used = graph
+                        .find_symbol(&parameter.name)
+                        .and_then(Expr::as_symbol)
+                        .is_some_and(|symbol| symbols.contains(&symbol));
+                    if !used {
+                        left_out += 1;
+                        continue;
+                    }
+                    let changed = evaluated(&robot, &roots, &parameter.name, 1e3);
+                    let acts =
+                        usual.iter().zip(&changed).any(|(a, b)| (a - b).abs() > 1e-9 * a.abs());
+                    assert!(
+                        acts,
+                        "{name}: {} reads {}, which does not act",
+                        function.name, parameter.name
+                    );
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 1000 && left_out > 1000, "{compared} act, {left_out} do not");
+}
+
+#[test]
+fn what_does_not_act_on_torques_leaves_no_bit_of_them() {
+    let robot = robot_file("trttr1.toml");
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+    let of = |kind| roots(&derivation.functions(kind)[0]);
+    let [torques, masses, accelerations] =
+        [FunctionKind::InverseDynamics, FunctionKind::MassMatrix, FunctionKind::ForwardDynamics]
+            .map(of);
+    for roots in [torques, masses, accelerations] {
+        let usual = evaluated(&robot, &roots, "", 0.0);
+        for idle in ["Jx1", "Jy1", "Jz1", "Jx2", "Jy2", "Jx3", "Jy3", "Jx4", "Jy4"] {
+            for to in [1e12, f64::NAN] {
+                assert_eq!(evaluated(&robot, &roots, idle, to), usual, "{idle} = {to}");
+            }
+        }
+        assert_ne!(evaluated(&robot, &roots, "Jz2", 1e12), usual);
+    }
+}
+
+/// The torques of the numeric solver with one parameter changed.
+fn solved(robot: &Robot, state: &State, changed: &str, to: f64) -> Vec<f64> {
+    let mechanism = Mechanism::from_robot(robot, &|name| {
+        if name == changed { to } else { nominal(robot, name).unwrap_or(f64::NAN) }
+    });
+    let torques = mechanism.unwrap().inverse_dynamics(&state.q, &state.qd, &state.qdd).unwrap();
+    torques.iter().copied().collect()
+}
+
+/// A parameter that were left out though it acts would show here.
+#[test]
+fn torques_without_idle_parameters_are_those_of_the_solver() {
+    for (name, robot) in robots() {
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let roots = roots(&derivation.functions(FunctionKind::InverseDynamics)[0]);
+        let state = Random::new(5).state(&Mechanism::nominal(&robot).unwrap());
+        for parameter in &robot.parameters {
+            let to = parameter.value.as_ref().map_or(0.0, Rational::to_f64) * 1.25 + 0.5;
+            let expected = solved(&robot, &state, &parameter.name, to);
+            let found = walk::evaluate(&roots, |symbol| {
+                let symbol = graph.symbol_name(symbol);
+                let of = |prefix: &str, values: &[f64]| {
+                    let number: usize = symbol.strip_prefix(prefix)?.parse().ok()?;
+                    values.get(number - 1).copied()
+                };
+                let motion = of("qdd", &state.qdd).or_else(|| of("qd", &state.qd));
+                let motion = motion.or_else(|| of("q", &state.q));
+                if symbol == parameter.name {
+                    to
+                } else {
+                    motion.unwrap_or_else(|| value(&robot, &symbol))
+                }
+            });
+            let size = expected.iter().fold(1e-3_f64, |size, one| size.max(one.abs()));
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!(
+                    (found - expected).abs() <= 1e-11 * size,
+                    "{name}, {} = {to}: {found} and {expected}",
+                    parameter.name
+                );
+            }
+        }
+    }
+}
