@@ -50,9 +50,10 @@ pub enum Cause {
     Accelerations,
     /// The driving forces have no finite value.
     Torques,
-    /// No acceleration agrees with the dry friction that it causes by the load, or events of dry
-    /// friction follow each other without end.
+    /// No acceleration agrees with the dry friction that it causes by the load.
     Friction,
+    /// Joints come to rest and break away again and again at one time.
+    Events,
     /// So many steps were not enough.
     Steps(usize),
     /// So many steps, the first figure, led so short a way that the second would not be enough.
@@ -83,8 +84,12 @@ impl fmt::Display for Cause {
                  root of a negative number in their expressions",
             ),
             Cause::Friction => formatter.write_str(
-                "no motion agrees with the dry friction that it causes by its load; look at the \
-                 coefficients `coulomb` of the joints, or give their friction `smoothing`",
+                "no acceleration agrees with the dry friction that it causes by its load; look at \
+                 the coefficients `coulomb` of the joints, or give their friction `smoothing`",
+            ),
+            Cause::Events => formatter.write_str(
+                "joints with dry friction come to rest and break away without end; look for forces \
+                 that jump with a velocity, or give the friction `smoothing`",
             ),
             Cause::Steps(limit) => write!(
                 formatter,

@@ -170,7 +170,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         let near = t - self.last_event.0 <= 4.0 * self.shortest();
         self.last_event = (t, if near { self.last_event.1 + 1 } else { 0 });
         if self.last_event.1 > MAX_EVENTS {
-            return Err(Error::Stopped { t, cause: Cause::Friction });
+            return Err(Error::Stopped { t, cause: Cause::Events });
         }
         let count = self.system.modes.len();
         for index in &ended {

@@ -10,8 +10,13 @@ use crate::error::Cause;
 const MAX_ROUNDS: usize = 60;
 /// A velocity that has a direction and does nothing else: its square is 0.
 const TINY: f64 = 1e-200;
-/// What rounding may do to a force, in parts of those that make it up.
-const ROUNDING: f64 = 1e-11;
+/// The change of the accelerations at which they have settled, in parts of 1 + the largest, rad/s² or
+/// m/s²: as tolerances are understood.
+const SETTLED: f64 = 1e-12;
+/// What rounding does to a force, in parts of those that make it up.
+const ROUNDING_OF_FORCES: f64 = 1e-14;
+/// What may be asked of friction beyond what it can give, in parts of the forces.
+const SLACK: f64 = 1e-11;
 
 /// Accelerations, and what holds the coordinates at rest.
 #[derive(Clone, Debug)]
@@ -83,7 +88,7 @@ pub(crate) fn balance(
                 *place = Some(Holding {
                     force: tau[index] - without[index],
                     range: [least[index] - without[index], most[index] - without[index]],
-                    slack: ROUNDING * (size(index) + 0.01 * largest),
+                    slack: SLACK * (size(index) + 0.01 * largest),
                     inertia: matrix[(index, index)],
                 });
             }
@@ -128,13 +133,15 @@ fn accelerations(
     let block = matrix.select_rows(&moving).select_columns(&moving);
     let decomposed = Cholesky::new(block).ok_or(Cause::Accelerations)?;
     let mut rest = lacking(&qdd)?;
+    let sizes = moving.iter().zip(rest.iter()).map(|(index, rest)| tau[*index].abs() + rest.abs());
+    let sizes = DVector::from_iterator(moving.len(), sizes);
+    let rounding = sizes.add_scalar(0.01 * sizes.amax()) * ROUNDING_OF_FORCES;
     let mut step = decomposed.solve(&rest);
     add(&mut qdd, &moving, &step);
     if !friction.is_by_load() {
         return Ok(qdd);
     }
     let mut inverse = decomposed.inverse();
-    let mut before = f64::INFINITY;
     for _ in 0..MAX_ROUNDS {
         let next = lacking(&qdd)?;
         let gained = &rest - &next;
@@ -148,13 +155,10 @@ fn accelerations(
         rest = next;
         add(&mut qdd, &moving, &step);
         let size = qdd.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
-        let change = step.amax();
-        // Where the accelerations themselves are the rounding of larger forces, they settle no further.
-        let is_rounding = change <= 1e-9 * (1.0 + size) && change >= before / 2.0;
-        if change <= 1e-12 * size || is_rounding {
+        // Where forces balance, the accelerations settle no further than their rounding.
+        if step.amax() <= SETTLED * (1.0 + size) + (inverse.abs() * &rounding).amax() {
             return Ok(qdd);
         }
-        before = change;
     }
     Err(Cause::Friction)
 }
