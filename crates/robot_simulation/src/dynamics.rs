@@ -22,6 +22,38 @@ pub trait Dynamics {
     ///
     /// Where the state has none. Values that are not finite are an error as well; the caller looks.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause>;
+
+    /// The dry friction that holds joints at rest; `None` where none can. Where there is some, the
+    /// motion follows it and not [`Dynamics::accelerations`].
+    fn dry_friction(&self) -> Option<&dyn DryFriction> {
+        None
+    }
+}
+
+/// Dry friction with a sharp sign: a coordinate at rest stays there until more is asked of its friction
+/// than that can give.
+pub trait DryFriction {
+    /// For each of the n coordinates, whether dry friction can hold it.
+    fn can_stick(&self) -> &[bool];
+
+    /// Whether friction depends on the accelerations, as dry friction by load does.
+    fn is_by_load(&self) -> bool;
+
+    /// M(q), n × n, row by row: kg m², kg m or kg.
+    ///
+    /// # Errors
+    ///
+    /// Where the positions have none.
+    fn mass_matrix(&self, q: &[f64]) -> Result<Vec<f64>, Cause>;
+
+    /// The n driving forces (N m or N) that the accelerations `qdd` take, with friction or without it.
+    /// Friction takes the direction of each velocity from its sign, however small it is.
+    ///
+    /// # Errors
+    ///
+    /// Where the state has none.
+    fn driving_forces(&self, state: &State, qdd: &[f64], friction: bool)
+    -> Result<Vec<f64>, Cause>;
 }
 
 /// Driving forces over time.

@@ -50,26 +50,31 @@ pub enum Cause {
     Accelerations,
     /// The driving forces have no finite value.
     Torques,
-    /// Friction that depends on the load has no acceleration that agrees with it.
+    /// No acceleration agrees with the dry friction that it causes by the load.
     Friction,
+    /// Joints come to rest and break away again and again at one time.
+    Events,
     /// So many steps were not enough.
     Steps(usize),
+    /// So many steps, the first figure, led so short a way that the second would not be enough.
+    Slow(usize, usize),
     /// What the integrator or the interpreter says.
     Other(String),
 }
 
-/// The usual reason for small steps.
-const SHARP: &str = "Where a joint with dry friction comes to rest, a sharp sign of its velocity \
-                     holds the integrator up: give the friction a smooth one (`smoothing`)";
+/// The usual reasons for small steps.
+const SMALL: &str =
+    "Look for stiff springs, friction with a narrow `smoothing` and forces that jump";
 
 impl fmt::Display for Cause {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Cause::StepSize => write!(
-                formatter,
-                "the steps became too small. {SHARP}; else look for forces that jump, or ask for a \
-                 coarser tolerance"
-            ),
+            Cause::StepSize => {
+                write!(
+                    formatter,
+                    "the steps became too small. {SMALL}, or ask for a coarser tolerance"
+                )
+            }
             Cause::Accelerations => formatter.write_str(
                 "the accelerations have no finite value. Either the mass matrix is singular (a \
                  coordinate moves no mass) or the motion has run away",
@@ -80,11 +85,20 @@ impl fmt::Display for Cause {
             ),
             Cause::Friction => formatter.write_str(
                 "no acceleration agrees with the dry friction that it causes by its load; look at \
-                 the coefficients `coulomb` of the joints",
+                 the coefficients `coulomb` of the joints, or give their friction `smoothing`",
+            ),
+            Cause::Events => formatter.write_str(
+                "joints with dry friction come to rest and break away without end; look for forces \
+                 that jump with a velocity, or give the friction `smoothing`",
             ),
             Cause::Steps(limit) => write!(
                 formatter,
-                "{limit} steps were not enough. {SHARP}; else allow more, or a coarser tolerance"
+                "{limit} steps were not enough. {SMALL}; else allow more, or a coarser tolerance"
+            ),
+            Cause::Slow(steps, limit) => write!(
+                formatter,
+                "the last {steps} steps led so short a way that {limit} would not be enough. {SMALL}; \
+                 else allow more, or a coarser tolerance"
             ),
             Cause::Other(words) => formatter.write_str(words),
         }

@@ -19,18 +19,22 @@
 
 mod dynamics;
 mod error;
+mod events;
 mod expressions;
+mod friction;
 mod grid;
+mod integration;
 mod motion;
 pub mod plot;
 mod program;
 mod shares;
 mod simulation;
+mod system;
 mod table;
 mod torques;
 mod trajectory;
 
-pub use dynamics::{Dynamics, State, TorqueLaw, from_fn};
+pub use dynamics::{DryFriction, Dynamics, State, TorqueLaw, from_fn};
 pub use error::{Cause, Error};
 pub use motion::{Energies, Motion};
 pub use program::RobotProgram;

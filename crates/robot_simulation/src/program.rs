@@ -2,14 +2,13 @@
 
 use robot_build::{FunctionKind, Programs};
 use robot_codegen::Interpreter;
-use robot_dynamics::model::{Friction, Robot};
+use robot_dynamics::model::{Friction, JointKind, Robot};
+use robot_symbolic::Formula;
 
-use crate::dynamics::{Dynamics, State};
+use crate::dynamics::{DryFriction, Dynamics, State};
 use crate::error::{Cause, Error};
-
-/// Rounds of the search for accelerations that agree with friction by load; each gains a factor of
-/// about the friction coefficient.
-const MAX_ROUNDS: usize = 200;
+use crate::expressions::parameters;
+use crate::friction::{Mode, balance};
 
 /// The interpreted program of a robot, its parameters given: dynamics with or without friction, and
 /// the energies.
@@ -19,9 +18,16 @@ const MAX_ROUNDS: usize = 200;
 pub struct RobotProgram<'p> {
     robot: &'p Robot,
     interpreter: Interpreter<'p>,
-    friction: bool,
-    /// Whether friction depends on the accelerations.
+    friction: Option<RobotFriction>,
+}
+
+/// What the program's friction is like.
+#[derive(Clone, Debug)]
+struct RobotFriction {
+    /// Whether it depends on the accelerations.
     by_load: bool,
+    /// For each coordinate, whether dry friction with a sharp sign acts on it.
+    can_stick: Vec<bool>,
 }
 
 impl<'p> RobotProgram<'p> {
@@ -30,7 +36,11 @@ impl<'p> RobotProgram<'p> {
     pub fn functions(friction: bool) -> Vec<FunctionKind> {
         let mut kinds = vec![FunctionKind::ForwardDynamics, FunctionKind::Energies];
         if friction {
-            kinds.extend([FunctionKind::InverseDynamics, FunctionKind::InverseDynamicsFriction]);
+            kinds.extend([
+                FunctionKind::MassMatrix,
+                FunctionKind::InverseDynamics,
+                FunctionKind::InverseDynamicsFriction,
+            ]);
         }
         kinds
     }
@@ -46,11 +56,10 @@ impl<'p> RobotProgram<'p> {
         friction: bool,
     ) -> Result<RobotProgram<'p>, Error> {
         check_functions(programs, &RobotProgram::functions(friction))?;
-        let none = Friction::none();
         let robot = &programs.robot;
-        let by_load = robot.links.iter().any(|link| link.friction.coulomb != none.coulomb);
         let interpreter = Interpreter::new(&programs.module, given)?;
-        Ok(RobotProgram { robot, interpreter, friction, by_load })
+        let friction = friction.then(|| robot_friction(robot, given)).transpose()?;
+        Ok(RobotProgram { robot, interpreter, friction })
     }
 
     /// The robot.
@@ -73,40 +82,9 @@ impl<'p> RobotProgram<'p> {
         }
     }
 
-    /// q̈ of M q̈ = τ − C q̇ − g, without friction.
-    fn smooth(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Error> {
-        let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("tau", tau)];
-        values(&self.interpreter, FunctionKind::ForwardDynamics, &inputs)
-    }
-
-    /// Q_f at accelerations.
-    fn friction(&self, state: &State, qdd: &[f64]) -> Result<Vec<f64>, Error> {
-        let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("qdd", qdd)];
-        let with = values(&self.interpreter, FunctionKind::InverseDynamicsFriction, &inputs)?;
-        let without = values(&self.interpreter, FunctionKind::InverseDynamics, &inputs)?;
-        Ok(difference(&with, &without))
-    }
-
-    /// q̈ with friction. Dry friction by load, equation (5) of the paper, depends on q̈ itself: from
-    /// the accelerations without it, each round takes the friction of the round before.
-    fn rough(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Error> {
-        let still = vec![0.0; tau.len()];
-        let mut qdd = match self.by_load {
-            true => self.smooth(state, tau)?,
-            false => still,
-        };
-        for _ in 0..MAX_ROUNDS {
-            let driving = difference(tau, &self.friction(state, &qdd)?);
-            let next = self.smooth(state, &driving)?;
-            let size = next.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
-            let change = difference(&next, &qdd);
-            let settled = change.iter().all(|change| change.abs() <= 1e-12 * size);
-            qdd = next;
-            if settled || !self.by_load {
-                return Ok(qdd);
-            }
-        }
-        Err(Error::Stopped { t: 0.0, cause: Cause::Friction })
+    /// All outputs of a function; what the interpreter says is the cause.
+    fn values(&self, kind: FunctionKind, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Cause> {
+        values(&self.interpreter, kind, inputs).map_err(|error| Cause::Other(error.to_string()))
     }
 }
 
@@ -115,16 +93,82 @@ impl Dynamics for RobotProgram<'_> {
         self.robot.degrees_of_freedom()
     }
 
+    /// With friction where that was asked for; where a velocity is 0, there is no dry friction.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause> {
-        let found = match self.friction {
-            true => self.rough(state, tau),
-            false => self.smooth(state, tau),
-        };
-        found.map_err(|error| match error {
-            Error::Stopped { cause, .. } => cause,
-            other => Cause::Other(other.to_string()),
-        })
+        if self.friction.is_some() {
+            let modes = vec![Mode::Free; tau.len()];
+            return Ok(balance(self, state, tau, &modes)?.qdd);
+        }
+        let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("tau", tau)];
+        self.values(FunctionKind::ForwardDynamics, &inputs)
     }
+
+    fn dry_friction(&self) -> Option<&dyn DryFriction> {
+        let friction = self.friction.as_ref()?;
+        friction.can_stick.contains(&true).then_some(self)
+    }
+}
+
+impl DryFriction for RobotProgram<'_> {
+    fn can_stick(&self) -> &[bool] {
+        self.friction.as_ref().map_or(&[], |friction| &friction.can_stick)
+    }
+
+    fn is_by_load(&self) -> bool {
+        self.friction.as_ref().is_some_and(|friction| friction.by_load)
+    }
+
+    fn mass_matrix(&self, q: &[f64]) -> Result<Vec<f64>, Cause> {
+        self.values(FunctionKind::MassMatrix, &[("q", q)])
+    }
+
+    fn driving_forces(
+        &self,
+        state: &State,
+        qdd: &[f64],
+        friction: bool,
+    ) -> Result<Vec<f64>, Cause> {
+        let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("qdd", qdd)];
+        let kind = match friction {
+            true => FunctionKind::InverseDynamicsFriction,
+            false => FunctionKind::InverseDynamics,
+        };
+        self.values(kind, &inputs)
+    }
+}
+
+/// What a robot's friction is like with its parameters given.
+fn robot_friction(robot: &Robot, given: &[(&str, f64)]) -> Result<RobotFriction, Error> {
+    let parameters = parameters(robot, given);
+    let mut friction =
+        RobotFriction { by_load: false, can_stick: vec![false; robot.degrees_of_freedom()] };
+    let mut wrong = vec![];
+    for link in &robot.links {
+        let value = |formula: &Formula| {
+            formula.evaluate(|name| parameters.get(name).copied().unwrap_or(f64::NAN))
+        };
+        let Friction { coulomb, spindle_diameter, coulomb_positive, coulomb_negative, .. } =
+            &link.friction;
+        let diameter = match link.joint.kind {
+            JointKind::Revolute => value(spindle_diameter),
+            JointKind::Prismatic => 1.0,
+        };
+        let by_load = value(coulomb) * diameter;
+        let dry = [by_load, value(coulomb_positive), value(coulomb_negative)];
+        if dry.iter().any(|value| *value < 0.0) {
+            let joint = &link.joint.name;
+            wrong.push(format!(
+                "the dry friction of joint `{joint}` is negative: it would drive it"
+            ));
+        }
+        // What is not a number is to show in the accelerations.
+        let is_dry = dry.iter().any(|value| *value != 0.0);
+        friction.by_load |= by_load != 0.0;
+        if is_dry && link.friction.smoothing.is_none() {
+            friction.can_stick[link.joint.coordinate] = true;
+        }
+    }
+    Error::check(wrong, friction)
 }
 
 /// Functions that are not among the programs.

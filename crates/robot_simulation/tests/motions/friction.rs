@@ -2,7 +2,7 @@
 
 use robot_build::{FunctionKind, Functions, Options, Source, programs};
 use robot_codegen::Interpreter;
-use robot_simulation::{Error, RobotProgram, SimulationOptions, State, Torques, simulate};
+use robot_simulation::{RobotProgram, State, Torques};
 
 use crate::{PENDULUM, compiled, motion, rest, robot_file};
 
@@ -70,16 +70,4 @@ fn friction_by_load_agrees_with_the_acceleration() {
             );
         }
     }
-}
-
-#[test]
-fn a_sharp_sign_ends_the_motion_with_a_remedy() {
-    let programs = compiled(&rubbing("coulomb_positive = 3, coulomb_negative = 3"), true);
-    let program = RobotProgram::new(&programs, &[], true).unwrap();
-    let options = SimulationOptions { max_steps: 20_000, ..SimulationOptions::default() };
-    let start = rest(&[0.8]);
-    let error = simulate(&program, &Torques::none(1), &start, &options, &mut |_| {}).unwrap_err();
-    let Error::Stopped { t, .. } = error else { panic!("{error}") };
-    assert!(0.1 < t && t < 3.0, "{error}");
-    assert!(error.to_string().contains("smoothing"), "{error}");
 }

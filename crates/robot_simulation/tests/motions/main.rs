@@ -6,6 +6,7 @@ mod energy;
 mod friction;
 mod inputs;
 mod shares;
+mod sticking;
 
 use robot_build::{Functions, Options, Programs, Source, programs};
 use robot_simulation::{Motion, RobotProgram, SimulationOptions, State, TorqueLaw, simulate};

@@ -1,0 +1,245 @@
+//! Steps of the integrator from event to event.
+
+use differential_equations::error::Error as IntegratorError;
+use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
+use differential_equations::ode::OrdinaryNumericalMethod;
+use differential_equations::status::Status;
+
+use crate::dynamics::{Dynamics, State, TorqueLaw};
+use crate::error::{Cause, Error};
+use crate::events::{Base, Bracket, Event, any_ended};
+use crate::friction::{Balance, Mode, chosen, starting};
+use crate::simulation::SimulationOptions;
+use crate::system::{Overrun, System};
+
+/// Steps smaller than this part of the time that is simulated lead nowhere.
+const SMALLEST_STEP: f64 = 1e-14;
+/// Stops nearer to each other than this part of the time that is simulated are one.
+const SMALLEST_PIECE: f64 = 1e-12;
+/// The steps after which it is asked how far they led.
+const WATCHED: usize = 5000;
+/// The most events that follow each other without a time between them.
+const MAX_EVENTS: usize = 100;
+
+/// DOP853.
+type Method = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 16>;
+
+/// A motion under way.
+pub(crate) struct Integration<'s, D, L> {
+    system: System<'s, D, L>,
+    method: Method,
+    options: SimulationOptions,
+    /// The steps so far, rejected ones too.
+    pub(crate) steps: usize,
+    /// The time at the last look at how far the steps led, s.
+    watched: f64,
+    /// How far each coordinate is from the end of its mode at the integrator's time.
+    overruns: Vec<Overrun>,
+    /// Where a mode ends ahead.
+    bracket: Option<Bracket>,
+    /// The length of a step that is to be tried for its own sake, s.
+    shortened: Option<f64>,
+    /// The time of the last event, s, and how many there were about it.
+    last_event: (f64, usize),
+}
+
+impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
+    /// Starts a motion.
+    pub(crate) fn new(
+        dynamics: &'s D,
+        torques: &'s L,
+        start: &State,
+        options: &SimulationOptions,
+    ) -> Result<Integration<'s, D, L>, Error> {
+        let method = ExplicitRungeKutta::dop853()
+            .rtol(options.tolerance)
+            .atol(options.tolerance)
+            .max_steps(usize::MAX)
+            .h_max(options.duration);
+        let mut integration = Integration {
+            system: System::new(dynamics, torques, options.tolerance),
+            method,
+            options: *options,
+            steps: 0,
+            watched: 0.0,
+            overruns: vec![],
+            bracket: None,
+            shortened: None,
+            last_event: (0.0, 0),
+        };
+        integration.choose(0.0, start, None)?;
+        let y = integration.system.start(start);
+        integration.restart(0.0, &y, 0.0)?;
+        Ok(integration)
+    }
+
+    /// τ, q̈ and the state at a time that was reached.
+    pub(crate) fn sample(&self, t: f64) -> Result<(State, Vec<f64>, Vec<f64>), Error> {
+        let state = self.system.state(self.method.y());
+        let found = self.system.found(t, &state);
+        let (tau, Balance { qdd, .. }) = found.map_err(|cause| Error::Stopped { t, cause })?;
+        Ok((state, qdd, tau))
+    }
+
+    /// Goes on to a time; `progress` hears the time reached, s, after every step.
+    pub(crate) fn reach(
+        &mut self,
+        target: f64,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<(), Error> {
+        // The end of a step lies within rounding of the time that it was to reach.
+        while target - self.method.t() > SMALLEST_PIECE * self.options.duration {
+            let before = self.method.t();
+            self.bound(before)?;
+            self.step(target)?;
+            if self.method.t() > before && self.system.friction.is_some() {
+                self.check(before)?;
+            }
+            progress(self.method.t());
+        }
+        Ok(())
+    }
+
+    /// The shortest time within which events are told apart, s.
+    fn shortest(&self) -> f64 {
+        SMALLEST_STEP * self.options.duration + 4.0 * f64::EPSILON * self.method.t()
+    }
+
+    /// A step towards a time, or towards the end of a mode before it.
+    fn step(&mut self, target: f64) -> Result<(), Error> {
+        let (t, shortest) = (self.method.t(), self.shortest());
+        let smallest = SMALLEST_STEP * self.options.duration;
+        let mut length = self.method.h().min(target - t);
+        if let Some(bracket) = &mut self.bracket {
+            let base = Base { t, y: self.method.y(), overruns: &self.overruns };
+            length = length.min(bracket.step(&base, shortest));
+        } else if let Some(shortened) = self.shortened.take() {
+            length = length.min(shortened);
+        }
+        let least = if self.bracket.is_some() { shortest / 4.0 } else { smallest };
+        if length.is_nan() || length <= least {
+            let cause = self.system.failure.take().unwrap_or(Cause::StepSize);
+            return Err(Error::Stopped { t, cause });
+        }
+        self.method.set_h(length);
+        self.steps += 1;
+        self.system.seen.set(f64::INFINITY);
+        match self.method.step(&self.system) {
+            Ok(_) => Ok(()),
+            // What is stiff is slow, no error; the steps are limited in any case.
+            Err(IntegratorError::Stiffness { .. }) => {
+                let (y, h) = (self.method.y().clone(), self.method.h());
+                self.restart(t, &y, h)
+            }
+            Err(error) => Err(self.stopped(t, error)),
+        }
+    }
+
+    /// Whether modes ended within the step from `before`: then it is taken back, and steps go to
+    /// where the first of them ends.
+    fn check(&mut self, before: f64) -> Result<(), Error> {
+        let (t, y) = (self.method.t(), self.method.y().clone());
+        let stopped = |cause| Error::Stopped { t, cause };
+        let state = self.system.state(&y);
+        let (_, found) = self.system.found(t, &state).map_err(stopped)?;
+        let overruns = self.system.overruns(&state, &found);
+        let length = t - before;
+        let seen = self.system.seen.get() - before;
+        if any_ended(&overruns) {
+            self.bracket = Some(Bracket::new(t, &y, overruns, self.bracket.as_ref()));
+            let y = self.method.y_prev().clone();
+            self.restart(before, &y, length)?;
+        } else if self.bracket.is_none() && seen > self.shortest() && seen < 0.9 * length {
+            self.shortened = Some(seen);
+            let y = self.method.y_prev().clone();
+            return self.restart(before, &y, length);
+        } else {
+            self.overruns = overruns;
+        }
+        let base = Base { t: self.method.t(), y: self.method.y(), overruns: &self.overruns };
+        let shortest = self.shortest();
+        match self.bracket.as_ref().and_then(|bracket| bracket.event(&base, shortest)) {
+            Some(event) => self.pass(event),
+            None => Ok(()),
+        }
+    }
+
+    /// Goes over an event: what has come to rest is at rest exactly, and the modes are chosen anew.
+    fn pass(&mut self, event: Event) -> Result<(), Error> {
+        let Event { t, mut y, ended } = event;
+        let near = t - self.last_event.0 <= 4.0 * self.shortest();
+        self.last_event = (t, if near { self.last_event.1 + 1 } else { 0 });
+        if self.last_event.1 > MAX_EVENTS {
+            return Err(Error::Stopped { t, cause: Cause::Events });
+        }
+        let count = self.system.modes.len();
+        for index in &ended {
+            if let Mode::Sliding(_) = self.system.modes[*index] {
+                y[count + index] = 0.0;
+            }
+        }
+        let state = self.system.state(&y);
+        self.choose(t, &state, Some(&ended))?;
+        self.bracket = None;
+        self.restart(t, &y, 0.0)
+    }
+
+    /// Chooses the modes of a state, and finds how far they are from their ends.
+    fn choose(&mut self, t: f64, state: &State, ended: Option<&[usize]>) -> Result<(), Error> {
+        let stopped = |cause| Error::Stopped { t, cause };
+        let Some(friction) = self.system.friction else {
+            return self.system.found(t, state).map(|_| ()).map_err(stopped);
+        };
+        let mut guess = starting(friction, &state.qd);
+        for (index, mode) in self.system.modes.iter().enumerate() {
+            // What sets off slowly is still at rest.
+            let goes_on = ended.is_some_and(|ended| !ended.contains(&index));
+            if goes_on && state.qd[index] == 0.0 {
+                guess[index] = *mode;
+            }
+        }
+        let tau = self.system.driving(t, state).map_err(stopped)?;
+        let (modes, found) = chosen(friction, state, &tau, guess).map_err(stopped)?;
+        self.system.modes = modes;
+        self.overruns = self.system.overruns(state, &found);
+        self.system.found(t, state).map(|_| ()).map_err(stopped)
+    }
+
+    /// Sets the integrator on a state; with a length of 0 it chooses its first step.
+    fn restart(&mut self, t: f64, y: &Vec<f64>, length: f64) -> Result<(), Error> {
+        // The end bounds the first step alone.
+        let end = t + self.options.duration;
+        self.method.h0 = length;
+        let started = self.method.init(&self.system, t, end, y);
+        started.map_err(|error| self.stopped(t, error))?;
+        self.method.set_status(Status::Solving);
+        Ok(())
+    }
+
+    /// Whether steps are left, and the last ones led far enough.
+    fn bound(&mut self, t: f64) -> Result<(), Error> {
+        let limit = self.options.max_steps;
+        if self.steps >= limit {
+            return Err(Error::Stopped { t, cause: Cause::Steps(limit) });
+        }
+        if self.steps > 0 && self.steps.is_multiple_of(WATCHED) {
+            let part = (t - self.watched) / self.options.duration;
+            if part * (limit as f64) < WATCHED as f64 {
+                return Err(Error::Stopped { t, cause: Cause::Slow(WATCHED, limit) });
+            }
+            self.watched = t;
+        }
+        Ok(())
+    }
+
+    /// The words of the integrator, or what stood behind them.
+    fn stopped(&self, t: f64, error: IntegratorError<f64, Vec<f64>>) -> Error {
+        let cause = match error {
+            IntegratorError::StepSize { .. } => {
+                self.system.failure.take().unwrap_or(Cause::StepSize)
+            }
+            other => Cause::Other(format!("{other:?}")),
+        };
+        Error::Stopped { t, cause }
+    }
+}
