@@ -212,7 +212,8 @@ mod tests {
     /// What closing parentheses needed is free again behind them.
     #[test]
     fn lines_behind_parentheses_are_as_long_as_before() {
-        let sum = r"m \left(a_1 + a_2 + a_3\right) + n \left(b_1 + b_2 + b_3\right)";
+        let long = |letter: &str| [1, 2, 3, 4, 5, 6].map(|k| format!("{letter}_{k}")).join(" + ");
+        let sum = format!(r"m \left({}\right) + n \left({}\right)", long("a"), long("b"));
         let tail = "+c_1 + c_2 + c_3 + c_4";
         let limit = width(&math(tail)) + 0.5;
         let found = lines(&format!("{sum} {tail} + c_5"), limit, limit);

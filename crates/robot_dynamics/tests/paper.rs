@@ -117,7 +117,7 @@ impl Text {
 
     /// The relations that fail.
     fn check(mut self) -> BTreeSet<String> {
-        let [q2, q5] = ["q2", "q5"].map(|name| value(name));
+        let [q2, q5] = ["q2", "q5"].map(value);
         let [about_z, about_y] = [
             Matrix3::new(q2.cos(), -q2.sin(), 0.0, q2.sin(), q2.cos(), 0.0, 0.0, 0.0, 1.0),
             Matrix3::new(q5.cos(), 0.0, q5.sin(), 0.0, 1.0, 0.0, -q5.sin(), 0.0, q5.cos()),
