@@ -77,6 +77,20 @@ fn one_robot_is_one_file_written_once() {
 }
 
 #[test]
+fn what_was_not_generated_is_not_replaced() {
+    let package = package("foreign");
+    fs::write(package.join("robots/a.toml"), ARM).unwrap();
+    fs::write(package.join("robots/b.toml"), ARM.replace("Pendulum", "Swing")).unwrap();
+    fs::create_dir(package.join("out")).unwrap();
+    fs::write(package.join("out/swing.rs"), "fn mine() {}\n").unwrap();
+    let shown = message(&builder(&package), &["robots/a.toml", "robots/b.toml"]);
+    assert!(shown.contains("swing.rs is not replaced"), "{shown}");
+    assert!(shown.contains("move that file away") && !shown.contains("--force"), "{shown}");
+    assert!(!package.join("out/pendulum.rs").exists());
+    assert_eq!(fs::read_to_string(package.join("out/swing.rs")).unwrap(), "fn mine() {}\n");
+}
+
+#[test]
 fn several_robots_have_an_index() {
     let package = package("several");
     fs::write(package.join("robots/a.toml"), ARM).unwrap();
