@@ -280,7 +280,9 @@ fn wrong_options_are_errors() {
     let with = |names: &[&str]| builder(&package).functions(names.iter().copied());
     let shown = message(&with(&["inverse_dynamic", "forward"]), &["robots/a.toml"]);
     assert!(
-        shown.contains("no function `inverse_dynamic`; there are `inverse_dynamics`"),
+        shown.contains(
+            "no function `inverse_dynamic` (did you mean `inverse_dynamics`?); there are `inverse_dynamics`"
+        ),
         "{shown}"
     );
     assert!(shown.contains("no function `forward`"), "{shown}");
@@ -290,7 +292,7 @@ fn wrong_options_are_errors() {
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("no functions are chosen"));
     let shown = message(&builder(&package).bundle("both", ["bia"]), &["robots/a.toml"]);
-    assert!(shown.contains("no function `bia`; there are"), "{shown}");
+    assert!(shown.contains("no function `bia` (did you mean `bias`?)"), "{shown}");
     let shown = message(&builder(&package).bundle("bias", ["bias"]), &["robots/a.toml"]);
     assert!(shown.contains("the bundle `bias`: it cannot have this name"), "{shown}");
     let shown = message(&builder(&package).parallel(true), &["robots/a.toml"]);
