@@ -15,6 +15,12 @@ fn a_macro_follows_its_file() {
 
     package.write("robots/trttr1.toml", &reference::broken());
     reference::assert_shows_what_is_broken(&package.failure(&["build"]));
+    let short = package.failure(&["build", "--message-format", "short"]);
+    let headline = "error: robots/trttr1.toml:";
+    assert!(
+        short.lines().any(|line| line.contains(headline) && line.contains(": error R")),
+        "{short}"
+    );
 
     let edited = reference::edited();
     package.write("robots/trttr1.toml", &edited);
@@ -26,4 +32,16 @@ fn a_macro_follows_its_file() {
     let messages = package.failure(&["build"]);
     assert!(messages.contains("there is no option `snapp`"), "{messages}");
     assert!(messages.contains("src/main.rs:5:5"), "{messages}");
+}
+
+#[test]
+fn a_plan_that_comes_or_goes_is_noticed() {
+    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let macros = dependency("robot_macros", "");
+    let package = Package::new("by_pinned_macro", &format!("[dependencies]\n{runtime}{macros}"));
+    let module = "robot_macros::include_robot!(\"robots/arm.toml\");";
+    package.write("src/main.rs", &reference::main_text(module));
+    package.write("robots/arm.toml", reference::ROBOT);
+    package.assert_notices_plans();
+    assert_eq!(package.run(&["run"]), reference::torques(reference::ROBOT));
 }

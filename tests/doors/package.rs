@@ -64,6 +64,34 @@ impl Package {
         String::from_utf8(output.stdout).unwrap()
     }
 
+    /// Whether a build finds nothing to do.
+    pub(crate) fn is_fresh(&self) -> bool {
+        let output = self.cargo(&["build"], "");
+        assert!(output.status.success());
+        !String::from_utf8_lossy(&output.stderr).contains("Compiling")
+    }
+
+    /// Sets the time of a file to now, as `robot-symbolic search` does with the robot file.
+    pub(crate) fn touch(&self, file: &str) {
+        let file = std::fs::OpenOptions::new().append(true).open(self.path(file)).unwrap();
+        file.set_modified(std::time::SystemTime::now()).unwrap();
+    }
+
+    /// Asserts that a plan beside `robots/arm.toml` is noticed when it comes after the first build, and when it
+    /// goes, and that nothing is built again meanwhile.
+    pub(crate) fn assert_notices_plans(&self) {
+        self.run(&["build"]);
+        assert!(self.is_fresh());
+        // A plan that stops the build shows that it was read.
+        self.write("robots/arm.plan", "no plan");
+        self.touch("robots/arm.toml");
+        let messages = self.failure(&["build"]);
+        assert!(messages.contains("robots/arm.plan: TOML parse error"), "{messages}");
+        std::fs::remove_file(self.path("robots/arm.plan")).unwrap();
+        self.run(&["build"]);
+        assert!(self.is_fresh());
+    }
+
     /// What Cargo says where it fails.
     pub(crate) fn failure(&self, arguments: &[&str]) -> String {
         let output = self.cargo(arguments, "");

@@ -1,6 +1,7 @@
 //! The builder that a `build.rs` calls.
 
-use std::collections::BTreeMap;
+mod output;
+
 use std::path::{Path, PathBuf};
 
 use robot_codegen::Trigonometry;
@@ -11,14 +12,11 @@ use robot_dynamics::model::BaseFrames;
 
 use crate::cargo::{self, Directives};
 use crate::error::{Error, Errors};
-use crate::files::{Output, Ownership, Writer};
-use crate::generate::{Generated, generate, unnamed_header};
+use crate::generate::{Generated, generate};
 use crate::options::{Options, functions_named, kinds_named};
 use crate::paths::{RobotFile, robot_files};
 use crate::pin::{pin_path, robot_inputs};
-
-/// The name of the index of several robots.
-const INDEX: &str = "robots";
+use output::Module;
 
 /// Generates the module of one robot file into `OUT_DIR`, with the options of [`Builder::new`].
 ///
@@ -40,10 +38,15 @@ pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
 /// }
 /// ```
 ///
-/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case.
-/// Several robots have an index `robots.rs` beside them, which includes them all. Paths are relative
-/// to the package. Cargo is told to run the build script again where a robot file changes; with that,
-/// it no longer watches the other files of the package, as it does where a build script tells nothing.
+/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. Where the
+/// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` has the same module in
+/// `lift.rs` too, unless another robot or robot file is called so. Several robots have an index `robots.rs`
+/// beside them, which includes them all. Paths are relative to the package.
+///
+/// Cargo is told to run the build script again where a robot file or the plan pinned beside it changes; with
+/// that, it no longer watches the other files of the package, as it does where a build script tells nothing.
+/// `robot-symbolic search` sets the robot file's time, so that a first plan is seen; after a plan came in
+/// another way, such as a checkout, touch the robot file. [`Builder::compile_folder`] sees plans by itself.
 #[derive(Clone, Debug, Default)]
 #[must_use]
 pub struct Builder {
@@ -202,15 +205,11 @@ impl Builder {
     /// # Errors
     ///
     /// Everything that is wrong with any of the files or with the options. A `main` that returns it
-    /// shows the robot files' own errors.
+    /// shows the robot files' own errors. Cargo is told of each in a line (`cargo::error=`) and fails the
+    /// build, whatever becomes of the result.
     pub fn compile(&self, paths: &[impl AsRef<Path>]) -> Result<(), Errors> {
         let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
-        let mut directives = Directives::default();
-        let result = self.run(&paths, &mut directives);
-        if !self.silent {
-            directives.print();
-        }
-        result
+        self.telling_cargo(|directives| self.run(&paths, directives))
     }
 
     /// Generates the modules of all robot files `*.toml` of a folder, in the order of their names.
@@ -221,21 +220,40 @@ impl Builder {
     ///
     /// As [`Builder::compile`]; a folder that cannot be read or has no robot files.
     pub fn compile_folder(&self, folder: impl AsRef<Path>) -> Result<(), Errors> {
-        let folder = folder.as_ref();
-        let package = self.package_dir.clone().map_or_else(cargo::package_dir, Ok)?;
+        self.telling_cargo(|directives| self.run_folder(folder.as_ref(), directives))
+    }
+
+    /// Does the work and tells Cargo what it has to know of it.
+    fn telling_cargo(
+        &self,
+        work: impl FnOnce(&mut Directives) -> Result<(), Errors>,
+    ) -> Result<(), Errors> {
+        let mut directives = Directives::default();
+        let result = work(&mut directives);
+        if let Err(errors) = &result {
+            directives.errors(errors);
+        }
         if !self.silent {
-            let mut directives = Directives::default();
-            directives.rerun_if_changed(folder);
             directives.print();
         }
-        self.compile(&robot_files(&package, folder)?)
+        result
+    }
+
+    fn run_folder(&self, folder: &Path, directives: &mut Directives) -> Result<(), Errors> {
+        directives.rerun_if_changed(folder)?;
+        let files = robot_files(&self.package()?, folder)?;
+        self.run(&files.iter().map(PathBuf::as_path).collect::<Vec<_>>(), directives)
+    }
+
+    fn package(&self) -> Result<PathBuf, Error> {
+        self.package_dir.clone().map_or_else(cargo::package_dir, Ok)
     }
 
     fn run(&self, paths: &[&Path], directives: &mut Directives) -> Result<(), Errors> {
         if paths.is_empty() {
             return Err(Errors::from(Error::NoRobots));
         }
-        let package = self.package_dir.clone().map_or_else(cargo::package_dir, Ok)?;
+        let package = self.package()?;
         let out_dir = self.out_dir.clone().map_or_else(cargo::out_dir, |folder| {
             // A relative folder is the package's, as the robot files are.
             Ok(package.join(folder))
@@ -251,14 +269,18 @@ impl Builder {
         let (mut modules, mut errors) = (vec![], vec![]);
         for path in paths {
             match self.module(path, &package, &options, directives) {
-                Ok(module) => modules.push((path.display().to_string(), module)),
+                Ok(generated) => {
+                    modules.push(Module { path: path.display().to_string(), generated })
+                }
                 Err(found) => Errors::extend(&mut errors, found),
             }
         }
-        check_names(&modules, &mut errors);
+        output::check_names(&modules, &mut errors);
         Errors::check(errors, ())?;
+        modules.iter().filter_map(Module::unportable).for_each(|text| directives.warning(&text));
         let inputs = paths.iter().flat_map(|path| robot_inputs(&package.join(path)));
-        write(&modules, inputs.collect(), &out_dir)
+        // A folder of the user's own choice gets no file that was not asked for.
+        output::write(&modules, inputs, &out_dir, self.out_dir.is_none())
     }
 
     fn module(
@@ -269,57 +291,16 @@ impl Builder {
         directives: &mut Directives,
     ) -> Result<Generated, Errors> {
         let file = RobotFile::in_package(path, package, self.allow_outside)?;
-        directives.rerun_if_changed(path);
+        directives.rerun_if_changed(path)?;
+        // Cargo takes a path that is not there for changed, at every build. That a first plan is seen is up to
+        // `robot-symbolic search`, which sets the robot file's time.
         let pin = pin_path(path);
         if package.join(&pin).is_file() {
-            directives.rerun_if_changed(&pin);
+            directives.rerun_if_changed(&pin)?;
         }
         let generated = generate(&file.source, &file.with_pin(options)?)?;
         directives.warnings(&generated.warnings);
         Ok(generated)
-    }
-}
-
-fn check_names(modules: &[(String, Generated)], errors: &mut Vec<Error>) {
-    let mut known: BTreeMap<&str, &str> = BTreeMap::new();
-    if modules.len() > 1 {
-        known.insert(INDEX, "the index of all robots");
-    }
-    for (path, module) in modules {
-        if let Some(first) = known.insert(&module.module_name, path) {
-            errors.push(Error::SameModule {
-                module: module.module_name.clone(),
-                first: first.to_owned(),
-                second: path.clone(),
-            });
-        }
-    }
-}
-
-/// Writes the modules, and the index of several. `inputs` are the robot files and their pins.
-fn write(
-    modules: &[(String, Generated)],
-    inputs: Vec<PathBuf>,
-    out_dir: &Path,
-) -> Result<(), Errors> {
-    let mut index = format!("// {}\n\n", unnamed_header());
-    let mut outputs = vec![];
-    for (_, module) in modules {
-        index.push_str(&format!("include!(\"{}.rs\");\n", module.module_name));
-        outputs.push(output(out_dir, &module.module_name, &module.code));
-    }
-    if modules.len() > 1 {
-        outputs.push(output(out_dir, INDEX, &index));
-    }
-    Writer::new().inputs(inputs).write(&outputs)?;
-    Ok(())
-}
-
-fn output<'a>(out_dir: &Path, module: &str, code: &'a str) -> Output<'a> {
-    Output {
-        path: out_dir.join(format!("{module}.rs")),
-        bytes: code.as_bytes(),
-        ownership: Ownership::Marked,
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use robot_dynamics::diagnostic::Diagnostics;
 
-use crate::error::Error;
+use crate::error::{Error, Errors};
 
 /// The folder of the package that is built.
 pub(crate) fn package_dir() -> Result<PathBuf, Error> {
@@ -33,8 +33,31 @@ fn variable(variable: &'static str, remedy: &'static str) -> Result<PathBuf, Err
 pub(crate) struct Directives(String);
 
 impl Directives {
-    pub(crate) fn rerun_if_changed(&mut self, path: &Path) {
-        self.line("rerun-if-changed", &path.display().to_string());
+    /// Refuses a path that is not UTF-8: what Cargo would watch in its place is not there, and it would run the
+    /// build script at every build.
+    pub(crate) fn rerun_if_changed(&mut self, path: &Path) -> Result<(), Error> {
+        let name = path.to_str().ok_or_else(|| Error::File {
+            action: "watch",
+            path: path.to_owned(),
+            reason: "its path is not UTF-8, which Cargo's build scripts need; rename it".to_owned(),
+        })?;
+        self.line("cargo:rerun-if-changed", name);
+        Ok(())
+    }
+
+    /// An error each, on one line; with it the build fails.
+    ///
+    /// Nothing for a package that says it builds with a Cargo from before there was `cargo::error`: it would be
+    /// told of that instead.
+    pub(crate) fn errors(&mut self, errors: &Errors) {
+        let declared = std::env::var("CARGO_PKG_RUST_VERSION").unwrap_or_default();
+        for problem in errors.problems().iter().filter(|_| knows_errors(&declared)) {
+            self.line("cargo::error", &problem.headline);
+        }
+    }
+
+    pub(crate) fn warning(&mut self, text: &str) {
+        self.line("cargo:warning", text);
     }
 
     /// A warning each, on one line: `robots/arm.toml:12:5: message`.
@@ -48,7 +71,7 @@ impl Directives {
                 // Writing to a string does not fail.
                 let _ = write!(text, "; {more}");
             }
-            self.line("warning", &text);
+            self.warning(&text);
         }
     }
 
@@ -65,6 +88,45 @@ impl Directives {
 
     fn line(&mut self, directive: &str, value: &str) {
         let value = value.replace(['\n', '\r'], " ");
-        let _ = writeln!(self.0, "cargo:{directive}={value}");
+        let _ = writeln!(self.0, "{directive}={value}");
+    }
+}
+
+/// Whether Cargo of a declared version, `1.84` or none, knows `cargo::error`.
+fn knows_errors(declared: &str) -> bool {
+    let mut numbers = declared.split('.').map_while(|number| number.parse::<u32>().ok());
+    match (numbers.next(), numbers.next()) {
+        (Some(major), Some(minor)) => (major, minor) >= (1, 84),
+        _ => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn old_packages_are_not_told_of_a_directive_that_they_refuse() {
+        for (declared, knows) in [
+            ("", true),
+            ("1.84", true),
+            ("1.95.0", true),
+            ("2.0", true),
+            ("1.83.9", false),
+            ("1.70", false),
+        ] {
+            assert_eq!(knows_errors(declared), knows, "{declared}");
+        }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_path_that_cargo_cannot_watch_is_refused() {
+        use std::os::unix::ffi::OsStrExt as _;
+        let path = Path::new(std::ffi::OsStr::from_bytes(b"arms/l\xffft.toml"));
+        let mut directives = Directives::default();
+        let error = directives.rerun_if_changed(path).unwrap_err().to_string();
+        assert!(error.contains("not UTF-8") && error.contains("rename it"), "{error}");
+        assert_eq!(directives.text(), "");
     }
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use robot_dynamics::diagnostic::{Diagnostics, quote};
 use robot_dynamics::functions::{ALL_FUNCTIONS, FunctionKind};
 use robot_dynamics::mechanism::WrongSnap;
+use robot_symbolic::nearest_word;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -25,7 +26,12 @@ pub enum Error {
         why: &'static str,
     },
     /// A name that is no function's.
-    #[error("there is no function `{}`; there are {}", quote(function), known_functions())]
+    #[error(
+        "there is no function `{}`{}; there are {}",
+        quote(function),
+        meant(function),
+        known_functions()
+    )]
     UnknownFunction {
         /// The name.
         function: String,
@@ -164,6 +170,13 @@ pub enum Error {
         /// The second.
         second: String,
     },
+}
+
+/// `` (did you mean `bias`?)`` where a function's name is near.
+fn meant(name: &str) -> String {
+    let known = FunctionKind::ALL.iter().map(|kind| kind.name()).chain([ALL_FUNCTIONS]);
+    let near = nearest_word(name, known);
+    near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()
 }
 
 fn known_functions() -> String {

@@ -15,7 +15,7 @@
 //! include!(concat!(env!("OUT_DIR"), "/trttr1.rs"));
 //! ```
 //!
-//! The module bears the robot's name in lower case. Generated code calls the crate `robot_runtime`,
+//! The module bears the robot's name in lower case; the file may be called as that or as the robot file. Generated code calls the crate `robot_runtime`,
 //! which must be a dependency (with its feature `std` unless [`Builder::trigonometry`] says
 //! otherwise). Building again is cheap: the file is written only where it changes, and Cargo runs the
 //! build script again only where a robot file has changed. [`Builder`] has the options.
@@ -37,6 +37,7 @@ mod options;
 pub mod package;
 mod paths;
 mod pin;
+mod problems;
 mod programs;
 pub mod snapping;
 mod specification;
@@ -49,6 +50,7 @@ pub use generate::{Generated, generate};
 pub use options::{DEFAULT_BATCH, DEFAULT_FUNCTIONS, Options};
 pub use paths::RobotFile;
 pub use pin::{pin_path, pin_text, robot_inputs};
+pub use problems::Problem;
 pub use programs::{Programs, planned, programs, programs_of, read};
 pub use robot_codegen::Trigonometry;
 pub use robot_codegen::backend::rust::{Scalar, identifier};

@@ -3,11 +3,27 @@
 use robot_build::{
     ALL_FUNCTIONS, BaseFrames, Bundle, FunctionKind, Functions, Options, Scalar, Trigonometry,
 };
+use robot_symbolic::nearest_word;
 use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
 /// The keys, for messages.
-const KEYS: &str = "functions, bundles, snap, base_frames, scalar, generic, batch, parallel, fused, trigonometry, max_operations, max_stack, runtime, allow_outside";
+const KEYS: [&str; 14] = [
+    "functions",
+    "bundles",
+    "snap",
+    "base_frames",
+    "scalar",
+    "generic",
+    "batch",
+    "parallel",
+    "fused",
+    "trigonometry",
+    "max_operations",
+    "max_stack",
+    "runtime",
+    "allow_outside",
+];
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
@@ -88,7 +104,9 @@ impl Arguments {
             "runtime" => self.options.runtime = text(value)?.value(),
             "allow_outside" => self.allow_outside = boolean(value)?,
             _ => {
-                let message = format!("there is no option `{key}`; there are {KEYS}");
+                let near = meant(&key.to_string(), &KEYS);
+                let keys = KEYS.join(", ");
+                let message = format!("there is no option `{key}`{near}; there are {keys}");
                 return Err(syn::Error::new(key.span(), message));
             }
         }
@@ -144,8 +162,16 @@ fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {
     let found = known.iter().find(|(name, _)| *name == literal.value());
     found.map(|(_, value)| *value).ok_or_else(|| {
         let names: Vec<String> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
-        syn::Error::new(literal.span(), format!("expected one of {}", names.join(", ")))
+        let words: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        let near = meant(&literal.value(), &words);
+        syn::Error::new(literal.span(), format!("expected one of {}{near}", names.join(", ")))
     })
+}
+
+/// `` (did you mean `functions`?)`` where one of the words is near.
+fn meant(word: &str, known: &[&str]) -> String {
+    let near = nearest_word(word, known.iter().copied());
+    near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()
 }
 
 fn text(value: &Expr) -> syn::Result<&LitStr> {

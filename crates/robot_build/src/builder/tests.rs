@@ -76,6 +76,157 @@ fn one_robot_is_one_file_written_once() {
     assert_eq!(fs::metadata(&out).unwrap().modified().unwrap(), written);
 }
 
+/// What Cargo is told to watch.
+fn watched(directives: &str) -> Vec<&str> {
+    directives.lines().filter_map(|line| line.strip_prefix("cargo:rerun-if-changed=")).collect()
+}
+
+#[test]
+fn a_plan_is_watched_where_there_is_one() {
+    let package = package("pins");
+    fs::write(package.join("robots/a.toml"), ARM).unwrap();
+    let built = |builder: &Builder| {
+        let (result, directives) = run(builder, &["robots/a.toml"]);
+        (result.map_err(|errors| errors.to_string()), directives)
+    };
+    let (result, directives) = built(&builder(&package));
+    result.unwrap();
+    assert_eq!(watched(&directives), ["robots/a.toml"]);
+
+    // Also one that stops the build, so that a better one is seen.
+    let pin = package.join("robots/a.plan");
+    fs::write(&pin, "garbage").unwrap();
+    let (result, directives) = built(&builder(&package));
+    assert!(result.unwrap_err().contains("robots/a.plan: TOML parse error"));
+    assert_eq!(watched(&directives), ["robots/a.toml", "robots/a.plan"]);
+
+    let robot = RobotFile::read(&package.join("robots/a.toml")).unwrap();
+    let robot = crate::read(&robot.source).unwrap().robot;
+    let measure = robot_dynamics::economical::search::Measure::Operations;
+    let options = robot_dynamics::mechanism::MechanismOptions::ROUNDED;
+    let found = robot_dynamics::economical::search::search(&robot, &options, measure).unwrap();
+    fs::write(&pin, crate::pin_text(&robot, &found)).unwrap();
+    let (result, directives) = built(&builder(&package));
+    result.unwrap();
+    assert_eq!(watched(&directives), ["robots/a.toml", "robots/a.plan"]);
+    fs::remove_file(pin).unwrap();
+    assert_eq!(watched(&built(&builder(&package)).1), ["robots/a.toml"]);
+}
+
+#[test]
+fn a_folder_is_watched_with_its_files() {
+    let package = package("folder_watched");
+    let folder = |builder: &Builder| {
+        let mut directives = Directives::default();
+        let result = builder.run_folder(Path::new("robots"), &mut directives);
+        (result.is_ok(), directives.text().to_owned())
+    };
+    // Also while it is empty: a file that comes is a change.
+    let (is_built, directives) = folder(&builder(&package));
+    assert!(!is_built);
+    assert_eq!(watched(&directives), ["robots"]);
+    fs::write(package.join("robots/a.toml"), ARM).unwrap();
+    let (is_built, directives) = folder(&builder(&package));
+    assert!(is_built);
+    assert_eq!(watched(&directives), ["robots", "robots/a.toml"]);
+}
+
+#[test]
+fn cargo_is_told_of_each_error_in_a_line() {
+    let package = package("headlines");
+    fs::write(package.join("robots/a.toml"), ARM.replace("mass = \"m\"", "mass = \"m5\"")).unwrap();
+    let mut directives = Directives::default();
+    let errors = run(&builder(&package), &["robots/a.toml", "robots/none.toml"]).0.unwrap_err();
+    directives.errors(&errors);
+    let lines: Vec<&str> = directives.text().lines().collect();
+    assert_eq!(lines.len(), 2, "{lines:?}");
+    assert!(
+        lines[0].starts_with("cargo::error=robots/a.toml:12:9: error R0303: `m5` is no"),
+        "{lines:?}"
+    );
+    assert!(
+        lines[1].starts_with("cargo::error=cannot read robots/none.toml: there is no"),
+        "{lines:?}"
+    );
+}
+
+/// The modules of robots with the names of their files, as a builder writes them.
+fn written(test: &str, robots: &[(&str, &str)]) -> Vec<(String, String)> {
+    let folder = package(test);
+    let module = |(path, robot): &(&str, &str)| {
+        let text = ARM.replace("Pendulum", robot);
+        let source = crate::Source { name: (*path).to_owned(), text };
+        let generated = generate(&source, &Options::default()).unwrap();
+        Module { path: (*path).to_owned(), generated }
+    };
+    let modules: Vec<Module> = robots.iter().map(module).collect();
+    output::write(&modules, &folder.join("out"), true).unwrap();
+    let mut files: Vec<(String, String)> = fs::read_dir(folder.join("out"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .map(|path| {
+            (
+                path.file_name().unwrap().to_str().unwrap().to_owned(),
+                fs::read_to_string(path).unwrap(),
+            )
+        })
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn a_file_that_is_not_called_as_its_robot_is_found_under_either_name() {
+    let names = |test: &str, robots: &[(&str, &str)]| {
+        let files = written(test, robots);
+        files.into_iter().map(|(name, _)| name).collect::<Vec<_>>().join(" ")
+    };
+    let files = written("stem", &[("arms/lift.toml", "lift_scara")]);
+    assert_eq!([&files[0].0, &files[1].0], ["lift.rs", "lift_scara.rs"]);
+    assert_eq!(files[0].1, files[1].1);
+    assert!(files[0].1.contains("pub mod lift_scara {"));
+    assert_eq!(names("stem_same", &[("lift.toml", "lift")]), "lift.rs");
+    assert_eq!(names("stem_case", &[("Lift.toml", "lift")]), "Lift.rs lift.rs");
+    // What another robot or file is called is left to it.
+    assert_eq!(
+        names("stem_taken", &[("a.toml", "b"), ("c.toml", "A")]),
+        "a.rs b.rs c.rs robots.rs"
+    );
+    let twins = [("left/arm.toml", "left"), ("right/arm.toml", "right")];
+    assert_eq!(names("stem_twins", &twins), "left.rs right.rs robots.rs");
+    assert_eq!(names("stem_index", &[("robots.toml", "arm")]), "arm.rs");
+}
+
+#[test]
+fn a_folder_of_ones_own_gets_no_second_file() {
+    let package = package("own");
+    fs::write(package.join("robots/a.toml"), ARM).unwrap();
+    run(&builder(&package), &["robots/a.toml"]).0.unwrap();
+    assert!(package.join("out/pendulum.rs").is_file() && !package.join("out/a.rs").exists());
+}
+
+#[test]
+fn a_robot_called_as_a_device_of_windows_is_warned_of() {
+    let package = package("device");
+    for (name, is_device) in [
+        ("aux", true),
+        ("CON", true),
+        ("lpt1", true),
+        ("com9", true),
+        ("com10", false),
+        ("com", false),
+    ] {
+        fs::write(package.join("robots/a.toml"), ARM.replace("Pendulum", name)).unwrap();
+        let (result, directives) = run(&builder(&package), &["robots/a.toml"]);
+        result.unwrap();
+        let warning = format!(
+            "cargo:warning=robots/a.toml: Windows keeps the name `{}`",
+            name.to_lowercase()
+        );
+        assert_eq!(directives.contains(&warning), is_device, "{name}: {directives}");
+    }
+}
+
 #[test]
 fn what_was_not_generated_is_not_replaced() {
     let package = package("foreign");
@@ -143,7 +294,9 @@ fn wrong_options_are_errors() {
     let with = |names: &[&str]| builder(&package).functions(names.iter().copied());
     let shown = message(&with(&["inverse_dynamic", "forward"]), &["robots/a.toml"]);
     assert!(
-        shown.contains("no function `inverse_dynamic`; there are `inverse_dynamics`"),
+        shown.contains(
+            "no function `inverse_dynamic` (did you mean `inverse_dynamics`?); there are `inverse_dynamics`"
+        ),
         "{shown}"
     );
     assert!(shown.contains("no function `forward`"), "{shown}");
@@ -153,7 +306,7 @@ fn wrong_options_are_errors() {
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("no functions are chosen"));
     let shown = message(&builder(&package).bundle("both", ["bia"]), &["robots/a.toml"]);
-    assert!(shown.contains("no function `bia`; there are"), "{shown}");
+    assert!(shown.contains("no function `bia` (did you mean `bias`?)"), "{shown}");
     let shown = message(&builder(&package).bundle("bias", ["bias"]), &["robots/a.toml"]);
     assert!(shown.contains("the bundle `bias`: it cannot have this name"), "{shown}");
     let shown = message(&builder(&package).parallel(true), &["robots/a.toml"]);

@@ -10,6 +10,14 @@ fn expanded(input: TokenStream) -> String {
     tokens.unwrap_or_else(|error| error.to_compile_error()).to_string()
 }
 
+/// An empty folder of a test.
+fn folder_of(test: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("robot_macros-{}-{test}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
 #[test]
 fn the_module_is_the_builders() {
     let out = std::env::temp_dir().join(format!("robot_macros-{}", std::process::id()));
@@ -45,13 +53,14 @@ fn the_module_is_the_builders() {
 #[test]
 fn all_wrong_options_are_named() {
     let shown = expanded(quote! {
-        "robots/trttr1.toml", max_operations = "x", snapp = 1, snap = "x", functions = ["inverse"], scalar = "f16",
+        "robots/trttr1.toml", max_operations = "x", snapp = 1, snap = "x", functions = ["inverse_dynamic"], scalar = "f16",
         allow_outside = 1, runtime = 3, trigonometry = "none", scalar = "f32", batch = 2.5
     });
     for part in [
-        "there is no option `snapp`",
+        "there is no option `snapp` (did you mean `snap`?); there are functions, bundles",
         "expected a number",
         "expected one of \\\"inverse_dynamics\\\"",
+        "\\\"all\\\" (did you mean `inverse_dynamics`?)",
         "expected one of \\\"f64\\\", \\\"f32\\\"",
         "expected true or false",
         "expected a whole number",
@@ -70,11 +79,58 @@ fn all_wrong_options_are_named() {
 fn what_is_wrong_with_a_file_is_shown_and_the_file_watched() {
     let shown = expanded(quote!("Cargo.toml"));
     assert!(shown.contains("compile_error"), "{shown}");
-    assert!(shown.contains("Cargo.toml:1:"), "{shown}");
+    // The first line is all that many tools show.
+    let message = shown.split("compile_error ! { \"").nth(1).unwrap();
+    assert!(message.starts_with("Cargo.toml:1:1: error R"), "{shown}");
     assert!(shown.contains("include_bytes"), "{shown}");
     assert!(expanded(quote!("robots/none.toml")).contains("there is no such file"));
     assert!(expanded(quote!("../none.toml")).contains("there is no such file"));
     assert!(expanded(quote!("robots/trttr1.toml", snap = -1)).contains("is no angle"));
+}
+
+#[test]
+fn each_error_of_a_file_is_one_of_the_compiler() {
+    let folder = folder_of("errors");
+    let file = include_str!("../../../../robots/planar_2r.toml");
+    let wrong = file.replace("mass = \"m2\"", "mass = \"m5\"").replace("[tip]", "[tipp]");
+    std::fs::write(folder.join("arm.toml"), wrong).unwrap();
+    let arguments: Arguments = syn::parse2(quote!("arm.toml")).unwrap();
+    let errors = expand(&arguments, &folder).unwrap().to_string();
+    std::fs::remove_dir_all(&folder).unwrap();
+    let messages: Vec<&str> = errors.split("compile_error ! { \"").skip(1).collect();
+    assert_eq!(messages.len(), 2, "{errors}");
+    for (message, start) in
+        messages.iter().zip(["arm.toml:32:9: error R0303: `m5`", "arm.toml:36:2: error R0101: "])
+    {
+        assert!(message.starts_with(start), "{message}");
+        assert!(message.contains("--> arm.toml:"), "{message}");
+    }
+}
+
+#[test]
+fn a_plan_is_watched_where_there_is_one() {
+    let shown = expanded(quote!("robots/ur5.toml"));
+    assert!(shown.contains("/robots/ur5.toml\"") && shown.contains("/robots/ur5.plan\""));
+    let folder = folder_of("plan");
+    std::fs::copy(package().join("robots/planar_2r.toml"), folder.join("arm.toml")).unwrap();
+    let arguments: Arguments = syn::parse2(quote!("arm.toml")).unwrap();
+    let expanded = || expand(&arguments, &folder).unwrap().to_string();
+    assert!(!expanded().contains("arm.plan"));
+    // Also one that stops the build, so that a better one is seen.
+    std::fs::write(folder.join("arm.plan"), "garbage").unwrap();
+    let shown = expanded();
+    assert!(shown.contains("compile_error ! { \"arm.plan: TOML parse error"), "{shown}");
+    assert!(shown.contains("/arm.plan\""), "{shown}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn paths_are_shown_from_where_the_compiler_runs() {
+    let here = package().canonicalize().unwrap();
+    let file = here.join("robots/ur5.toml");
+    assert_eq!(shown(&file, &package()).as_deref(), Some("robots/ur5.toml"));
+    assert_eq!(shown(&file, &here.join("robots")).as_deref(), Some("ur5.toml"));
+    assert_eq!(shown(&file, &here.join("crates")), None);
 }
 
 #[test]

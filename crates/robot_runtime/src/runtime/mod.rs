@@ -2,11 +2,13 @@
 //!
 //! The one condition that these files lay on the crate around them is its feature `std`: with it,
 //! [`FUSED`] multiply-add, the processor's square root and `StdTrig` come from the standard
-//! library; without it nothing but `core` is used.
+//! library; without it nothing but `core` is used, and `StdTrig` cannot be called.
 
 mod batch;
 mod fused;
 mod lanes;
+#[cfg(not(feature = "std"))]
+mod no_std_trig;
 pub mod root;
 mod scalar;
 #[cfg(feature = "std")]
@@ -17,6 +19,8 @@ pub mod trig;
 pub use self::batch::{lanes_from_states, padded_states, states_from_lanes};
 pub use self::fused::FUSED;
 pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
+#[cfg(not(feature = "std"))]
+pub use self::no_std_trig::{StdTrig, std_sin_cos_array};
 pub use self::scalar::Scalar;
 #[cfg(feature = "std")]
 pub use self::std_trig::{StdTrig, std_sin_cos_array};
