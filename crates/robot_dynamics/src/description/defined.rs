@@ -91,14 +91,14 @@ impl Reader<'_> {
     pub(super) fn undefined(&self, formula: &Formula) -> Option<&'static str> {
         let mut reason = None;
         // An operand that is not known is `None` within.
-        formula.fold(|step| self.rounded(step).map_err(|found| reason = Some(found)).ok());
+        formula.fold(|step| self.rounded(&step).map_err(|found| reason = Some(found)).ok());
         reason
     }
 
-    fn rounded(&self, step: Step<'_, Option<Rounded>>) -> Result<Option<Rounded>, &'static str> {
+    fn rounded(&self, step: &Step<'_, Option<Rounded>>) -> Result<Option<Rounded>, &'static str> {
         let both = |a: Option<Rounded>, b: Option<Rounded>| a.zip(b);
         let pi = Rounded::new(std::f64::consts::PI, 0.0);
-        Ok(match step {
+        Ok(match *step {
             Step::Number(value) => Some(Rounded::of(value)),
             Step::Pi => Some(pi),
             Step::Symbol(name, _) => {

@@ -77,7 +77,7 @@ impl Dimensioned {
             (true, false, ..) => Ok(other),
             (false, true, ..) => Ok(self),
             (_, _, Some(a), Some(b)) if a != b && factors != Factors::Figures => {
-                Err(Clash { factors, here: a, there: b })
+                Err(Clash { factors, summed: true, here: a, there: b })
             }
             (_, _, Some(_), None) => Ok(self),
             (_, _, None, Some(_)) => Ok(other),
@@ -89,7 +89,7 @@ impl Dimensioned {
     fn of_number(self) -> Result<Dimensioned, Clash> {
         match self.known() {
             Some(here) if here != Dimension::NONE && self.factors != Factors::Figures => {
-                Err(Clash { factors: self.factors, here, there: Dimension::NONE })
+                Err(Clash { factors: self.factors, summed: false, here, there: Dimension::NONE })
             }
             _ => Ok(Dimensioned::pure(Factors::Certain, self.is_number)),
         }
@@ -106,23 +106,24 @@ impl Dimensioned {
 
 /// Dimensions that must be the same and are not.
 #[derive(Clone, Copy)]
-struct Clash {
+pub(super) struct Clash {
     factors: Factors,
+    /// Whether the two are terms of a sum; otherwise a function needs a pure number.
+    summed: bool,
     here: Dimension,
     there: Dimension,
 }
 
 impl Clash {
-    /// `summed` says that the two are terms of a sum; otherwise a function needs a pure number.
-    fn diagnostic(self, formula: &Formula, summed: bool) -> (Factors, Diagnostic) {
+    fn diagnostic(self, formula: &Formula) -> Diagnostic {
         let (here, there) = (in_units(self.here), in_units(self.there));
         let (text, pure) = (quote(formula.text()), where_pure(self.factors));
-        let message = if summed {
+        let message = if self.summed {
             format!("`{text}` adds what is {here} to what is {there}{pure}")
         } else {
             format!("`{text}` has a function of what is {here}{pure}, not of a pure number")
         };
-        (self.factors, reported(self.factors, message))
+        reported(self.factors, message)
     }
 }
 
@@ -162,10 +163,10 @@ impl Reader<'_> {
     pub(super) fn fits(&mut self, formula: &Formula, quantity: Quantity, span: &Span) -> bool {
         let found = match self.dimension(formula) {
             Ok(found) => found,
-            Err(diagnostic) => {
-                let is_error = diagnostic.0 == Factors::Certain;
-                self.report(diagnostic.1.at(span, "units do not fit within"));
-                return !is_error;
+            Err(clash) => {
+                let diagnostic = clash.diagnostic(formula);
+                self.report(diagnostic.at(span, "units do not fit within"));
+                return clash.factors != Factors::Certain;
             }
         };
         let Some((known, expected)) = found.known().zip(quantity.dimension) else {
@@ -206,30 +207,17 @@ impl Reader<'_> {
         Some(diagnostic.help("name another parameter, or correct the unit"))
     }
 
-    /// The dimension of an expression, or what is wrong within it.
-    pub(super) fn dimension(
-        &self,
-        formula: &Formula,
-    ) -> Result<Dimensioned, (Factors, Diagnostic)> {
+    /// The dimension of an expression, or what does not go together in it.
+    pub(super) fn dimension(&self, formula: &Formula) -> Result<Dimensioned, Clash> {
         let mut wrong = None;
-        let found = formula.fold(|step| {
-            let summed = matches!(step, Step::Add(..) | Step::Sub(..));
-            self.dimension_of_step(step)
-                .map_err(|clash| wrong = Some(clash.diagnostic(formula, summed)))
-                .ok()
-        });
-        match wrong {
-            Some(diagnostic) => Err(diagnostic),
-            None => Ok(found.unwrap_or(Dimensioned {
-                dimension: None,
-                factors: Factors::Figures,
-                is_number: false,
-            })),
-        }
+        let found = formula
+            .fold(|step| self.dimension_of_step(&step).map_err(|clash| wrong = Some(clash)).ok());
+        let unknown = Dimensioned { dimension: None, factors: Factors::Figures, is_number: false };
+        wrong.map_or(Ok(found.unwrap_or(unknown)), Err)
     }
 
-    fn dimension_of_step(&self, step: Step<'_, Dimensioned>) -> Result<Dimensioned, Clash> {
-        Ok(match step {
+    fn dimension_of_step(&self, step: &Step<'_, Dimensioned>) -> Result<Dimensioned, Clash> {
+        Ok(match *step {
             Step::Number(value) => Dimensioned::number(value),
             Step::Pi => Dimensioned::pure(Factors::Certain, true),
             Step::Symbol(name, _) => {

@@ -30,7 +30,7 @@ pub(super) fn unit_vector<'g>(
 /// in the file leaves no trace; where those need more than a machine word, with the largest component
 /// ±1, so that no square overflows. Other vectors as they are.
 fn shortened(vector: Vector<'_>) -> Vector<'_> {
-    let numbers = vector.0.map(|component| component.as_number());
+    let numbers = vector.0.map(Expr::as_number);
     let [Some(Number::Rational(x)), Some(Number::Rational(y)), Some(Number::Rational(z))] = numbers
     else {
         return vector;

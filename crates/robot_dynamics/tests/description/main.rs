@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod axes;
 mod broken;
 mod dh;
 mod hostile;
