@@ -24,12 +24,14 @@ const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;
 
 /// The functions that are held against the solver here; those with loads are in `recursions.rs`.
-const KINDS: [FunctionKind; 13] = [
+const KINDS: [FunctionKind; 15] = [
     FunctionKind::MassMatrix,
     FunctionKind::Bias,
     FunctionKind::Gravity,
     FunctionKind::ForwardDynamics,
     FunctionKind::ForwardDynamicsWrench,
+    FunctionKind::ForwardDynamicsFriction,
+    FunctionKind::ForwardDynamicsWrenchFriction,
     FunctionKind::ForwardKinematics,
     FunctionKind::FramePoses,
     FunctionKind::Jacobian,

@@ -70,6 +70,10 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
         FunctionKind::ForwardDynamics => accelerations(&[]),
         FunctionKind::ForwardDynamicsWrench => accelerations(wrenches),
+        FunctionKind::ForwardDynamicsFriction => with_friction(robot, solver, state, &[]),
+        FunctionKind::ForwardDynamicsWrenchFriction => {
+            with_friction(robot, solver, state, wrenches)
+        }
         FunctionKind::ForwardKinematics => {
             poses(&solver.forward_kinematics(q).unwrap().links[..links])
         }
@@ -102,6 +106,28 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         }
         other => panic!("nothing to hold `{}` against", other.name()),
     }
+}
+
+/// q̈ with friction, by the rounds that the functions take where friction is by load.
+fn with_friction(
+    robot: &Robot,
+    solver: &Mechanism,
+    state: &State,
+    wrenches: &[numeric::Wrench],
+) -> Vec<f64> {
+    let State { q, qd, tau, .. } = state;
+    let none = Friction::none();
+    let by_load = robot.links.iter().any(|link| link.friction.coulomb != none.coulomb);
+    let mut qdd = match by_load {
+        true => solver.forward_dynamics(q, qd, tau, wrenches).unwrap().as_slice().to_vec(),
+        false => tau.clone(),
+    };
+    for _ in 0..if by_load { 8 } else { 1 } {
+        let friction = solver.friction_torques(q, qd, &qdd, wrenches).unwrap();
+        let driving: Vec<f64> = tau.iter().zip(&friction).map(|(tau, f)| tau - f).collect();
+        qdd = solver.forward_dynamics(q, qd, &driving, wrenches).unwrap().as_slice().to_vec();
+    }
+    qdd
 }
 
 /// Rotations row by row, then origins.

@@ -236,6 +236,8 @@ fn solves(kind: FunctionKind) -> bool {
         kind,
         FunctionKind::ForwardDynamics
             | FunctionKind::ForwardDynamicsWrench
+            | FunctionKind::ForwardDynamicsFriction
+            | FunctionKind::ForwardDynamicsWrenchFriction
             | FunctionKind::ForwardDynamicsDerivatives
     )
 }

@@ -32,8 +32,7 @@ States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx,
 wrench_NAME for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz.
 A function needs all its inputs but the wrench, which is 0 where it is not given. Where a state has a
 wrench other than 0, inverse_dynamics means inverse_dynamics_wrench, inverse_dynamics_friction means
-inverse_dynamics_wrench_friction, and forward_dynamics means forward_dynamics_wrench. Numbers come
-from the straight-line program that the generated code prints.")]
+inverse_dynamics_wrench_friction, and so for forward_dynamics. Numbers come from the straight-line program that the generated code prints.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -177,6 +176,7 @@ fn with_wrench(
         FunctionKind::InverseDynamics => FunctionKind::InverseDynamicsWrench,
         FunctionKind::InverseDynamicsFriction => FunctionKind::InverseDynamicsWrenchFriction,
         FunctionKind::ForwardDynamics => FunctionKind::ForwardDynamicsWrench,
+        FunctionKind::ForwardDynamicsFriction => FunctionKind::ForwardDynamicsWrenchFriction,
         other => other,
     }
 }

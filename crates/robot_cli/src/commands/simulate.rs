@@ -43,9 +43,10 @@ pub(crate) struct Arguments {
     /// The error that a step may make in a component y of q and qd: TOLERANCE (1 + |y|)
     #[arg(long, default_value_t = 1e-9, allow_hyphen_values = true)]
     tolerance: f64,
-    /// The most steps of the integrator
-    #[arg(long, value_name = "STEPS", default_value_t = SimulationOptions::default().max_steps)]
-    max_steps: usize,
+    /// The most steps of the integrator; without this a million, or ten for each line of the output
+    /// where that is more
+    #[arg(long, value_name = "STEPS")]
+    max_steps: Option<usize>,
     /// The positions at the start, with commas between, rad or m; without this 0
     #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', allow_hyphen_values = true)]
     q0: Option<Vec<f64>>,
@@ -105,7 +106,10 @@ impl Arguments {
         let zeros = || vec![0.0; programs.robot.degrees_of_freedom()];
         let given = |values: &Option<Vec<f64>>| values.clone().unwrap_or_else(zeros);
         let start = State { q: given(&self.q0), qd: given(&self.qd0) };
-        let &Arguments { time: duration, step, tolerance, max_steps, .. } = self;
+        let &Arguments { time: duration, step, tolerance, .. } = self;
+        // Of times that make no sense the simulation tells.
+        let usual = SimulationOptions::default().max_steps.max((10.0 * duration / step) as usize);
+        let max_steps = self.max_steps.unwrap_or(usual);
         let options = SimulationOptions { duration, step, tolerance, max_steps };
         let mut progress = Progress::new(terminal);
         let mut heard = |t: f64| progress.show(|| format!("{t:.3} s of {duration} s"));

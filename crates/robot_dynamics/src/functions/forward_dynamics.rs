@@ -1,8 +1,8 @@
 //! Forward dynamics: accelerations from driving forces.
 
-use robot_symbolic::Expr;
+use robot_symbolic::{Expr, walk};
 
-use super::{Derivation, Function, FunctionKind, Output, mass_matrix};
+use super::{Derivation, Function, FunctionKind, Output, inverse_dynamics, mass_matrix};
 use crate::economical::Solver;
 
 /// Coordinates up to which M is decomposed without a look at articulated bodies: these need fewer
@@ -11,17 +11,24 @@ const FEW: usize = 8;
 /// Coordinates beyond which M is not tried: its decomposition grows with their third power.
 const MANY: usize = 16;
 
-/// q̈ of M q̈ = τ − C q̇ − g.
+/// Rounds in which the accelerations and the dry friction that they cause by the load are found
+/// together. Each leaves of the error about the part that the coefficient of friction is.
+const FRICTION_ROUNDS: usize = 8;
+
+/// q̈ of M q̈ = τ − C q̇ − g, or of M q̈ = τ − C q̇ − g − Q_f.
 pub(super) fn forward_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
 ) -> Function<'g> {
-    let wrench = kind == FunctionKind::ForwardDynamicsWrench;
+    let wrench = kind.has_wrench();
     let mut inputs = derivation.coordinate_inputs(["q", "qd", "tau"]);
     if wrench {
         inputs.extend(derivation.wrench_inputs());
     }
-    let values = accelerations(derivation, wrench);
+    let values = match kind.has_friction() {
+        true => with_friction(derivation, wrench),
+        false => accelerations(derivation, wrench, &derivation.coordinate_symbols("tau")),
+    };
     let output = Output::new(
         "qdd",
         "Joint accelerations",
@@ -29,11 +36,17 @@ pub(super) fn forward_dynamics<'g>(
         vec![values.len()],
         values,
     );
+    let what = match kind.has_friction() {
+        true => FRICTION_DOC,
+        false => {
+            "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
+             solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`."
+        }
+    };
     derivation.of_kind(
         kind,
         &[
-            "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
-             solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`.",
+            what,
             "By the decomposition M = Lᵀ D L without pivots or branches: where M is not positive \
              definite (a coordinate that moves no mass), the result is not finite or meaningless.",
         ],
@@ -42,33 +55,74 @@ pub(super) fn forward_dynamics<'g>(
     )
 }
 
-/// q̈ for the symbols τ, by the solver that needs fewer operations.
-fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
+/// What the function says of friction.
+const FRICTION_DOC: &str = "Forward dynamics with the friction of the joints, equations (4)-(5): the \
+     accelerations that the driving forces `tau` bring about, the solution of M q̈ = τ − C q̇ − g − Q_f. \
+     Dry friction takes the sign of the velocity, or its smooth sign where the robot gives `smoothing`; \
+     the sign of 0 is 0, so that a sharp one holds nothing at rest. Friction by load depends on q̈ \
+     itself: from q̈ without it, eight rounds take the friction of the round before, and each leaves of \
+     the error about the part that the coefficient of friction is. Without friction by load it is exact.";
+
+/// q̈ with friction, for the symbols τ.
+fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
+    let graph = derivation.mechanism.graph;
+    let tau = derivation.coordinate_symbols("tau");
+    let friction = inverse_dynamics::friction_forces(&derivation.mechanism, wrench);
+    let by_load = derivation.mechanism.links.iter().any(|link| !link.friction.coulomb.is_zero());
+    let rounds = if by_load { FRICTION_ROUNDS } else { 1 };
+    let mut found = match by_load {
+        true => accelerations(derivation, wrench, &tau),
+        false => tau.clone(),
+    };
+    for _ in 0..rounds {
+        let value = |name: &str| {
+            let number = name.strip_prefix("qdd").and_then(|number| number.parse::<usize>().ok());
+            number.and_then(|number| found.get(number.checked_sub(1)?).copied())
+        };
+        let friction = walk::rebuild(&friction, graph, |name| {
+            value(name).unwrap_or_else(|| graph.symbol(name))
+        });
+        let driving: Vec<Expr<'g>> =
+            tau.iter().zip(friction).map(|(tau, friction)| *tau - friction).collect();
+        found = accelerations(derivation, wrench, &driving);
+    }
+    found
+}
+
+/// q̈ for the driving forces `tau` without friction, by the solver that needs fewer operations.
+fn accelerations<'g>(
+    derivation: &Derivation<'_, 'g>,
+    wrench: bool,
+    tau: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
     let coordinates = derivation.mechanism.degrees_of_freedom;
     let articulated = match &derivation.recursion {
         Some(recursion) if coordinates > FEW => {
-            let tau = derivation.coordinate_symbols("tau");
-            recursion.forward_dynamics(&tau, wrench, Solver::ArticulatedBodies)
+            recursion.forward_dynamics(tau, wrench, Solver::ArticulatedBodies)
         }
         _ => None,
     };
     match articulated {
         Some(values) if coordinates > MANY => values,
         Some(values) => {
-            let by_matrix = by_matrix(derivation, wrench);
+            let by_matrix = by_forces(derivation, wrench, tau);
             let cost = |values: &[Expr<'g>]| derivation.operations(values).flops();
             if cost(&values) < cost(&by_matrix) { values } else { by_matrix }
         }
-        None => by_matrix(derivation, wrench),
+        None => by_forces(derivation, wrench, tau),
     }
 }
 
 /// q̈ for the symbols τ, by the decomposition of M: for what needs that anyway.
 pub(super) fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
-    let tau = derivation.coordinate_symbols("tau");
+    by_forces(derivation, wrench, &derivation.coordinate_symbols("tau"))
+}
+
+/// q̈ for the driving forces `tau` by the decomposition of M.
+fn by_forces<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let recursion = derivation.recursion.as_ref();
-    let by_recursion = recursion
-        .and_then(|recursion| recursion.forward_dynamics(&tau, wrench, Solver::MassMatrix));
+    let by_recursion =
+        recursion.and_then(|recursion| recursion.forward_dynamics(tau, wrench, Solver::MassMatrix));
     by_recursion.unwrap_or_else(|| {
         let bias = derivation.paper_torques(wrench, &["qdd"]);
         let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();

@@ -3,6 +3,7 @@
 use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output};
+use crate::mechanism::Mechanism;
 use crate::newton_euler::{self, Effects, NewtonEuler};
 use crate::vector::Vector;
 
@@ -11,14 +12,7 @@ pub(super) fn inverse_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
 ) -> Function<'g> {
-    let wrench = matches!(
-        kind,
-        FunctionKind::InverseDynamicsWrench | FunctionKind::InverseDynamicsWrenchFriction
-    );
-    let friction = matches!(
-        kind,
-        FunctionKind::InverseDynamicsFriction | FunctionKind::InverseDynamicsWrenchFriction
-    );
+    let (wrench, friction) = (kind.has_wrench(), kind.has_friction());
     let friction_doc = match friction {
         true => "Includes the friction of the joints, equations (4)-(5).",
         false => "Without friction.",
@@ -69,17 +63,27 @@ fn driving_forces<'g>(
     };
     let mut forces = recursion.inverse_dynamics(wrench);
     if friction {
-        let NewtonEuler { wrenches, .. } = iterations(false);
-        for (link, contact) in mechanism.links.iter().zip(&wrenches) {
-            let share = newton_euler::friction(
-                &link.friction,
-                link.kind,
-                link.axis,
-                contact.force,
-                link.velocity,
-            );
-            forces[link.coordinate] += share * link.ratio;
+        for (force, share) in forces.iter_mut().zip(friction_forces(mechanism, wrench)) {
+            *force += share;
         }
+    }
+    forces
+}
+
+/// Q_f of equations (4)-(5), at the symbols of q, q̇ and q̈: N m or N.
+pub(super) fn friction_forces<'g>(mechanism: &Mechanism<'g>, wrench: bool) -> Vec<Expr<'g>> {
+    let effects = Effects { wrench, friction: false };
+    let NewtonEuler { wrenches, .. } = newton_euler::newton_euler(mechanism, effects);
+    let mut forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
+    for (link, contact) in mechanism.links.iter().zip(&wrenches) {
+        let share = newton_euler::friction(
+            &link.friction,
+            link.kind,
+            link.axis,
+            contact.force,
+            link.velocity,
+        );
+        forces[link.coordinate] += share * link.ratio;
     }
     forces
 }

@@ -26,6 +26,10 @@ pub enum FunctionKind {
     ForwardDynamics,
     /// q̈ from q, q̇, τ and the tips' wrenches.
     ForwardDynamicsWrench,
+    /// q̈ with friction from q, q̇, τ.
+    ForwardDynamicsFriction,
+    /// q̈ with friction from q, q̇, τ and the tips' wrenches.
+    ForwardDynamicsWrenchFriction,
     /// The poses of the links' frames from q.
     ForwardKinematics,
     /// The poses of the named frames from q.
@@ -63,6 +67,8 @@ impl FunctionKind {
         FunctionKind::Gravity,
         FunctionKind::ForwardDynamics,
         FunctionKind::ForwardDynamicsWrench,
+        FunctionKind::ForwardDynamicsFriction,
+        FunctionKind::ForwardDynamicsWrenchFriction,
         FunctionKind::ForwardKinematics,
         FunctionKind::FramePoses,
         FunctionKind::Jacobian,
@@ -90,6 +96,8 @@ impl FunctionKind {
             FunctionKind::Gravity => "gravity",
             FunctionKind::ForwardDynamics => "forward_dynamics",
             FunctionKind::ForwardDynamicsWrench => "forward_dynamics_wrench",
+            FunctionKind::ForwardDynamicsFriction => "forward_dynamics_friction",
+            FunctionKind::ForwardDynamicsWrenchFriction => "forward_dynamics_wrench_friction",
             FunctionKind::ForwardKinematics => "forward_kinematics",
             FunctionKind::FramePoses => "frame_poses",
             FunctionKind::Jacobian => "jacobian",
@@ -110,19 +118,32 @@ impl FunctionKind {
         FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 
-    /// Why the robot has no such function; `None` where it has.
-    #[must_use]
-    pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
-        let needs_tip = matches!(
+    /// Whether the function takes the tips' wrenches, and is there for a robot with a tip alone.
+    pub(crate) fn has_wrench(self) -> bool {
+        matches!(
             self,
             FunctionKind::InverseDynamicsWrench
                 | FunctionKind::InverseDynamicsWrenchFriction
                 | FunctionKind::ForwardDynamicsWrench
-        );
-        let needs_friction = matches!(
+                | FunctionKind::ForwardDynamicsWrenchFriction
+        )
+    }
+
+    /// Whether the function has the friction of the joints in it.
+    pub(crate) fn has_friction(self) -> bool {
+        matches!(
             self,
-            FunctionKind::InverseDynamicsFriction | FunctionKind::InverseDynamicsWrenchFriction
-        );
+            FunctionKind::InverseDynamicsFriction
+                | FunctionKind::InverseDynamicsWrenchFriction
+                | FunctionKind::ForwardDynamicsFriction
+                | FunctionKind::ForwardDynamicsWrenchFriction
+        )
+    }
+
+    /// Why the robot has no such function; `None` where it has.
+    #[must_use]
+    pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
+        let (needs_tip, needs_friction) = (self.has_wrench(), self.has_friction());
         let needs_frame = matches!(
             self,
             FunctionKind::FramePoses | FunctionKind::Jacobian | FunctionKind::JacobianDotQd

@@ -154,7 +154,10 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::MassMatrix => mass_matrix::mass_matrix(self),
             FunctionKind::Bias => inverse_dynamics::bias(self),
             FunctionKind::Gravity => gravity::gravity(self),
-            FunctionKind::ForwardDynamics | FunctionKind::ForwardDynamicsWrench => {
+            FunctionKind::ForwardDynamics
+            | FunctionKind::ForwardDynamicsWrench
+            | FunctionKind::ForwardDynamicsFriction
+            | FunctionKind::ForwardDynamicsWrenchFriction => {
                 forward_dynamics::forward_dynamics(self, kind)
             }
             FunctionKind::ForwardKinematics => kinematics::forward_kinematics(self),

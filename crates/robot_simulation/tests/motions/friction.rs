@@ -2,7 +2,7 @@
 
 use robot_build::{FunctionKind, Functions, Options, Source, programs};
 use robot_codegen::Interpreter;
-use robot_simulation::{RobotProgram, State, Torques};
+use robot_simulation::{Dynamics as _, RobotProgram, State, Torques};
 
 use crate::{PENDULUM, compiled, motion, rest, robot_file};
 
@@ -69,5 +69,86 @@ fn friction_by_load_agrees_with_the_acceleration() {
                 state.qd
             );
         }
+    }
+}
+
+/// `forward_dynamics_friction` in the programs of a robot.
+fn forward(text: &str) -> robot_build::Programs {
+    let source = Source { name: "robot.toml".to_owned(), text: text.to_owned() };
+    let functions = Functions::Chosen(vec![
+        FunctionKind::ForwardDynamics,
+        FunctionKind::ForwardDynamicsFriction,
+        FunctionKind::InverseDynamicsFriction,
+    ]);
+    programs(&source, &Options { functions, ..Options::default() }).unwrap()
+}
+
+/// The largest difference between the driving forces and those that the accelerations of
+/// `forward_dynamics_friction` take, in parts of the largest.
+fn forward_error(programs: &robot_build::Programs, given: &[(&str, f64)]) -> f64 {
+    let interpreter = Interpreter::new(&programs.module, given).unwrap();
+    let mut worst = 0.0_f64;
+    for k in 0..40 {
+        let entries = |shift: f64| -> Vec<f64> {
+            let n = programs.robot.degrees_of_freedom();
+            (0..n).map(|i| (1.3 * f64::from(k) + 2.7 * i as f64 + shift).sin()).collect()
+        };
+        let (q, qd) = (entries(0.0), entries(0.4));
+        let tau: Vec<f64> = entries(1.9).iter().map(|tau| 100.0 * tau).collect();
+        let call = |kind: FunctionKind, last: (&str, &[f64])| {
+            let inputs = [("q", &q[..]), ("qd", &qd[..]), last];
+            interpreter.call(kind.name(), &inputs).unwrap()[0].values.clone()
+        };
+        let qdd = call(FunctionKind::ForwardDynamicsFriction, ("tau", &tau));
+        let found = call(FunctionKind::InverseDynamicsFriction, ("qdd", &qdd));
+        let size = tau.iter().fold(0.0_f64, |size, tau| size.max(tau.abs()));
+        for (found, tau) in found.iter().zip(&tau) {
+            worst = worst.max((found - tau).abs() / size);
+        }
+    }
+    worst
+}
+
+/// Without friction by load to rounding; with it each round leaves of the error about the part that the
+/// coefficient is.
+#[test]
+fn forward_dynamics_with_friction_inverts_inverse_dynamics() {
+    let constant = "coulomb_positive = 1, coulomb_negative = 2, viscous = 3, offset = 0.3";
+    let smooth = format!("{constant}, smoothing = 0.1");
+    for text in [rubbing(constant), rubbing(&smooth)] {
+        let error = forward_error(&forward(&text), &[]);
+        assert!(error < 1e-14, "{error:e}");
+    }
+    for text in [robot_file("trttr1"), trttr1()] {
+        let programs = forward(&text);
+        let nominal = forward_error(&programs, &[]);
+        assert!(nominal < 1e-13, "{nominal:e}");
+        for size in [0.0, 0.05, 0.1, 0.2_f64] {
+            let given = [("c1", size), ("c2", size), ("c3", size), ("c4", size), ("c5", size)];
+            let error = forward_error(&programs, &given);
+            println!("{size}: {error:e}");
+            assert!(error < 1e-14 + 2.0 * size.powi(9), "{size}: {error:e}");
+        }
+    }
+}
+
+/// `forward_dynamics_friction` is the acceleration that simulations find.
+#[test]
+fn forward_dynamics_with_friction_is_that_of_simulations() {
+    let text = robot_file("trttr1");
+    let functions = [&RobotProgram::functions(true)[..], &[FunctionKind::ForwardDynamicsFriction]];
+    let functions = Functions::Chosen(functions.concat());
+    let source = Source { name: "trttr1.toml".to_owned(), text };
+    let programs = programs(&source, &Options { functions, ..Options::default() }).unwrap();
+    let program = RobotProgram::new(&programs, &[], true).unwrap();
+    let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
+    let state = State { q: vec![0.1, -0.7, 0.2, 0.3, 1.1], qd: vec![0.5, -1.0, 0.0, -0.3, 2.0] };
+    let tau = [40.0, -3.0, 300.0, 8.0, 0.5];
+    let inputs = [("q", &state.q[..]), ("qd", &state.qd[..]), ("tau", &tau[..])];
+    let name = FunctionKind::ForwardDynamicsFriction.name();
+    let found = &interpreter.call(name, &inputs).unwrap()[0].values;
+    let expected = program.accelerations(&state, &tau).unwrap();
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() <= 1e-12 * (1.0 + expected.abs()), "{found}: {expected}");
     }
 }
