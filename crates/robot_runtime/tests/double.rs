@@ -258,8 +258,8 @@ fn constants_are_those_of_the_fit() {
         .chain(digest::numbers(source, "const HALF_PI"))
         .map(|number| number.parse::<f64>().unwrap().to_bits())
         .collect();
-    assert_eq!(bits.len(), 20);
-    assert_eq!(bits.iter().copied().fold(digest::EMPTY, digest::with), 0x40c6_bb75_7ed1_282a);
+    assert_eq!(bits.len(), 19);
+    assert_eq!(bits.iter().copied().fold(digest::EMPTY, digest::with), 0x9db4_3d42_6fba_e049);
 }
 
 #[test]

@@ -18,9 +18,8 @@
 //! rest fitted anew after each. The two low bits of k select and sign the results by masks.
 //!
 //! Angles of |x| < 2³⁰ = 1 073 741 824 rad have a sine and a cosine, both within [−1, 1]; worst
-//! error: see the table of the crate. From there on, and for the infinities and NaN, both are NaN: the
-//! product of x and 2⁹⁹⁴, which k is taken from, overflows, and as the parts of π/2 are not of one
-//! sign, an infinite k makes ∞ − ∞ of r. The sine of −0 is +0.
+//! error: see the table of the crate. From there on, and for the infinities and NaN, both are NaN,
+//! by a mask of x's own bits. The sine of −0 is +0.
 
 use super::super::fused::{FUSED, mul_add_f64 as mul_add};
 
@@ -30,12 +29,9 @@ pub const LIMIT: f64 = 1073741824.0;
 /// 1.5 · 2⁵²: added to a smaller number it leaves the nearest integer in the low bits of the sum.
 const SHIFT: f64 = 6755399441055744.0;
 
-/// 2⁹⁹⁴: the product with an angle overflows where this is not below the limit.
-const OVERFLOW: f64 = f64::from_bits((994 + 1023) << 52);
-
-/// Parts of π/2, each what the ones before leave, not all of one sign.
+/// Parts of π/2, each what the ones before leave.
 const HALF_PI: [f64; 4] = if FUSED {
-    [1.5707963267948968, -1.6081226496766366e-16, 1.082856673921914e-32, 0.0]
+    [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33, 0.0]
 } else {
     [1.570796251296997, 7.549790836947068e-08, -8.820551857060331e-15, 1.6446256936324258e-26]
 };
@@ -61,14 +57,23 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of `angle` (radians).
 #[inline(always)]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    let scaled = angle * OVERFLOW;
-    let shifted = mul_add(scaled, core::f64::consts::FRAC_2_PI / OVERFLOW, SHIFT);
-    let (r, rest) = reduce(angle, shifted - SHIFT);
+    let shifted = mul_add(angle, core::f64::consts::FRAC_2_PI, SHIFT);
+    let (r, rest) = reduce(nan_beyond_limit(angle), shifted - SHIFT);
 
     let z = r * r;
     let sine = r + mul_add(r * z, polynomial(&SINE, z), -rest);
     let cosine = mul_add(z, mul_add(z, polynomial(&COSINE, z), -0.5), 1.0);
     select(shifted.to_bits(), sine, cosine)
+}
+
+/// `angle`, and NaN where it is not below the limit, by a mask that waits for nothing but the angle. The
+/// sum's sign is the carry: LLVM turns what it sees to be a comparison into a jump.
+#[inline(always)]
+fn nan_beyond_limit(angle: f64) -> f64 {
+    const SIGN: u64 = 1 << (u64::BITS - 1);
+    let carried = angle.abs().to_bits().wrapping_add(SIGN - LIMIT.to_bits());
+    let beyond = carried.cast_signed() >> (u64::BITS - 1);
+    f64::from_bits(angle.to_bits() | beyond.cast_unsigned())
 }
 
 /// `angle` less `k` right angles, as a number less a rest that counts where the number is tiny.

@@ -17,10 +17,7 @@ pub const LIMIT: f32 = 131072.0;
 /// 1.5 · 2²³: added to a smaller number it leaves the nearest integer in the low bits of the sum.
 const SHIFT: f32 = 12582912.0;
 
-/// 2¹¹¹: the product with an angle overflows where this is not below the limit.
-const OVERFLOW: f32 = f32::from_bits((111 + 127) << 23);
-
-/// Parts of π/2, each what the ones before leave, not all of one sign.
+/// Parts of π/2, each what the ones before leave.
 const HALF_PI: [f32; 4] = if FUSED {
     [1.5707964, -4.371139e-8, -1.7151245e-15, 0.0]
 } else {
@@ -34,14 +31,23 @@ const COSINE: [f32; 3] = [4.1666646e-2, -1.3887301e-3, 2.443067e-5];
 /// Sine and cosine of `angle` (radians).
 #[inline(always)]
 pub fn sin_cos(angle: f32) -> (f32, f32) {
-    let scaled = angle * OVERFLOW;
-    let shifted = mul_add(scaled, core::f32::consts::FRAC_2_PI / OVERFLOW, SHIFT);
-    let r = reduce(angle, shifted - SHIFT);
+    let shifted = mul_add(angle, core::f32::consts::FRAC_2_PI, SHIFT);
+    let r = reduce(nan_beyond_limit(angle), shifted - SHIFT);
 
     let z = r * r;
     let sine = mul_add(r * z, polynomial(&SINE, z), r);
     let cosine = mul_add(z, mul_add(z, polynomial(&COSINE, z), -0.5), 1.0);
     select(shifted.to_bits(), sine, cosine)
+}
+
+/// `angle`, and NaN where it is not below the limit, by a mask that waits for nothing but the angle. The
+/// sum's sign is the carry: LLVM turns what it sees to be a comparison into a jump.
+#[inline(always)]
+fn nan_beyond_limit(angle: f32) -> f32 {
+    const SIGN: u32 = 1 << (u32::BITS - 1);
+    let carried = angle.abs().to_bits().wrapping_add(SIGN - LIMIT.to_bits());
+    let beyond = carried.cast_signed() >> (u32::BITS - 1);
+    f32::from_bits(angle.to_bits() | beyond.cast_unsigned())
 }
 
 /// `angle` less `k` right angles.
