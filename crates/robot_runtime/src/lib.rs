@@ -54,8 +54,8 @@
 //!
 //! Held in `f32` against every number of the range, in `f64` against 4·10⁷ random ones, the three
 //! neighbours of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ beyond, and the angles of the range
-//! that come nearest to one. Last places of `f64` without [`FUSED`] hold so up to 2·10⁵; beyond,
-//! next to a multiple of π/2, where the sine or cosine is below 10⁻⁶, its absolute error is below 10⁻²¹.
+//! that come nearest to one. The last places of `f64` without [`FUSED`] hold up to 2·10⁵; beyond, a sine
+//! or cosine below 10⁻⁵ may be off by 10⁻²¹ more.
 //!
 //! **From the end of the range on sine and cosine are NaN**, as of NaN and infinite angles: no finite
 //! result is wrong, and none lies outside [−1, 1]. Angles that grow without end, of wheels and
@@ -64,6 +64,7 @@
 //!
 //! The same program gives the same bits on every target where [`FUSED`] is the same, with
 //! polynomials; the standard library's sines differ between platforms.
+//! [`trig::double::portable_sin_cos`] gives those without [`FUSED`] on every target.
 //!
 //! # Other functions
 //!

@@ -21,7 +21,7 @@
 //! error: see the table of the crate. From there on, and for the infinities and NaN, both are NaN,
 //! by a mask of x's own bits. The sine of −0 is +0.
 
-use super::super::fused::{FUSED, mul_add_f64 as mul_add};
+use super::super::fused::{FUSED, mul_add_f64};
 
 /// Angles are of less than so many radians.
 pub const LIMIT: f64 = 1073741824.0;
@@ -30,11 +30,12 @@ pub const LIMIT: f64 = 1073741824.0;
 const SHIFT: f64 = 6755399441055744.0;
 
 /// Parts of π/2, each what the ones before leave.
-const HALF_PI: [f64; 4] = if FUSED {
-    [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33, 0.0]
-} else {
-    [1.570796251296997, 7.549790836947068e-08, -8.820551857060331e-15, 1.6446256936324258e-26]
-};
+const HALF_PI: [f64; 3] =
+    [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33];
+
+/// The same in parts for multiply-adds that round twice.
+const SHORT_HALF_PI: [f64; 4] =
+    [1.570796251296997, 7.549790836947068e-08, -8.820551857060331e-15, 1.6446256936324258e-26];
 
 const SINE: [f64; 6] = [
     -0.1666666666666663,
@@ -57,13 +58,30 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of `angle` (radians).
 #[inline(always)]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    let shifted = mul_add(angle, core::f64::consts::FRAC_2_PI, SHIFT);
-    let (r, rest) = reduce(nan_beyond_limit(angle), shifted - SHIFT);
+    compute::<FUSED>(angle)
+}
+
+/// Sine and cosine of `angle` (radians) with multiply-adds that round twice on every target: the bits
+/// of [`sin_cos`] where there is no [`FUSED`].
+#[inline(always)]
+pub fn portable_sin_cos(angle: f64) -> (f64, f64) {
+    compute::<false>(angle)
+}
+
+#[inline(always)]
+fn mul_add<const ONCE: bool>(a: f64, b: f64, c: f64) -> f64 {
+    if ONCE { mul_add_f64(a, b, c) } else { a * b + c }
+}
+
+#[inline(always)]
+fn compute<const ONCE: bool>(angle: f64) -> (f64, f64) {
+    let shifted = mul_add::<ONCE>(angle, core::f64::consts::FRAC_2_PI, SHIFT);
+    let (r, rest) = reduce::<ONCE>(nan_beyond_limit(angle), shifted - SHIFT);
 
     let z = r * r;
-    let sine = r + mul_add(r * z, polynomial(&SINE, z), -rest);
-    let cosine = mul_add(z, mul_add(z, polynomial(&COSINE, z), -0.5), 1.0);
-    select(shifted.to_bits(), sine, cosine)
+    let sine = r + mul_add::<ONCE>(r * z, polynomial::<ONCE>(&SINE, z), -rest);
+    let cosine = mul_add::<ONCE>(z, polynomial::<ONCE>(&COSINE, z), -0.5);
+    select(shifted.to_bits(), sine, mul_add::<ONCE>(z, cosine, 1.0))
 }
 
 /// `angle`, and NaN where it is not below the limit, by a mask that waits for nothing but the angle. The
@@ -78,23 +96,24 @@ fn nan_beyond_limit(angle: f64) -> f64 {
 
 /// `angle` less `k` right angles, as a number less a rest that counts where the number is tiny.
 #[inline(always)]
-fn reduce(angle: f64, k: f64) -> (f64, f64) {
-    let r = mul_add(k, -HALF_PI[0], angle);
-    let r = mul_add(k, -HALF_PI[1], r);
-    if FUSED {
-        return (r, k * HALF_PI[2]);
+fn reduce<const ONCE: bool>(angle: f64, k: f64) -> (f64, f64) {
+    if ONCE {
+        let r = mul_add::<ONCE>(k, -HALF_PI[0], angle);
+        return (mul_add::<ONCE>(k, -HALF_PI[1], r), k * HALF_PI[2]);
     }
-    (mul_add(k, -HALF_PI[2], r), k * HALF_PI[3])
+    let r = mul_add::<ONCE>(k, -SHORT_HALF_PI[0], angle);
+    let r = mul_add::<ONCE>(k, -SHORT_HALF_PI[1], r);
+    (mul_add::<ONCE>(k, -SHORT_HALF_PI[2], r), k * SHORT_HALF_PI[3])
 }
 
 /// The coefficients' polynomial in Estrin's order, whose parts do not wait for each other.
 #[inline(always)]
-fn polynomial(c: &[f64; 6], z: f64) -> f64 {
+fn polynomial<const ONCE: bool>(c: &[f64; 6], z: f64) -> f64 {
     let z2 = z * z;
-    let low = mul_add(c[1], z, c[0]);
-    let middle = mul_add(c[3], z, c[2]);
-    let high = mul_add(c[5], z, c[4]);
-    mul_add(mul_add(high, z2, middle), z2, low)
+    let low = mul_add::<ONCE>(c[1], z, c[0]);
+    let middle = mul_add::<ONCE>(c[3], z, c[2]);
+    let high = mul_add::<ONCE>(c[5], z, c[4]);
+    mul_add::<ONCE>(mul_add::<ONCE>(high, z2, middle), z2, low)
 }
 
 /// Sine and cosine of r + k·π/2 from those of r; the low bits of `k` count.
