@@ -124,7 +124,7 @@ impl Builder {
         self
     }
 
-    /// Where sines and cosines come from; the standard library without this.
+    /// Where sines and cosines come from; the runtime's polynomials without this.
     pub fn trigonometry(mut self, trigonometry: Trigonometry) -> Builder {
         self.options.trigonometry = trigonometry;
         self

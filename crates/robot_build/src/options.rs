@@ -73,7 +73,7 @@ pub struct Options {
     pub search: bool,
 }
 
-/// The usual functions at one state, `f64`, plain operations, the standard library's sine and cosine,
+/// The usual functions at one state, `f64`, plain operations, the runtime's sine and cosine,
 /// angles snapped within 10⁻⁹ rad.
 impl Default for Options {
     fn default() -> Options {

@@ -160,10 +160,10 @@ enum ScalarName {
 /// Where sines and cosines come from.
 #[derive(Clone, Copy, ValueEnum)]
 pub(crate) enum TrigonometryName {
-    /// The standard library
-    Standard,
-    /// The runtime's branch-free polynomials
+    /// The runtime's branch-free polynomials, for angles below 2³⁰ rad (2¹⁷ in f32): NaN from there on
     Polynomial,
+    /// The standard library, for angles of any size
+    Standard,
 }
 
 impl From<TrigonometryName> for Trigonometry {

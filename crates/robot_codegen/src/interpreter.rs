@@ -2,9 +2,10 @@
 //!
 //! The interpreter does the operations of the generated code in `f64`, one by one and in the same
 //! order, so that numbers can be had without a compiler and generated code can be checked to the
-//! last bit (but for multiply-adds, which round twice here and once on targets that fuse them).
+//! last bit (but for multiply-adds, those of the runtime's sines among them, which round twice here on
+//! every machine and once on targets that fuse them).
 
-use robot_runtime::Scalar as _;
+use robot_runtime::{Scalar as _, trig};
 use robot_symbolic::Function as Call;
 use rustc_hash::FxHashMap;
 
@@ -17,6 +18,7 @@ use crate::trigonometry::Trigonometry;
 #[derive(Clone, Debug)]
 pub struct Interpreter<'m> {
     module: &'m Module,
+    parameters: Vec<f64>,
     fields: Vec<f64>,
     trigonometry: Trigonometry,
 }
@@ -58,19 +60,17 @@ impl<'m> Interpreter<'m> {
                 None => errors.push(Error::MissingParameter { parameter: parameter.name.clone() }),
             }
         }
-        let values = Errors::check(errors, values)?;
-        let load = |source| match source {
-            Source::Parameter(index) => values[index as usize],
-            _ => f64::NAN,
-        };
-        let fields = evaluate(&module.constructor, Trigonometry::Standard, load);
-        Ok(Interpreter { module, fields, trigonometry: Trigonometry::Standard })
+        let parameters = Errors::check(errors, values)?;
+        let trigonometry = Trigonometry::default();
+        let fields = fields(module, &parameters, trigonometry);
+        Ok(Interpreter { module, parameters, fields, trigonometry })
     }
 
-    /// The same with sines and cosines at calls from elsewhere than the standard library.
+    /// The same with sines and cosines, of the constructor as well, from elsewhere.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Interpreter<'m> {
-        Interpreter { trigonometry, ..self }
+        let fields = fields(self.module, &self.parameters, trigonometry);
+        Interpreter { fields, trigonometry, ..self }
     }
 
     /// Calls a function; inputs by name.
@@ -122,6 +122,14 @@ impl<'m> Interpreter<'m> {
     }
 }
 
+/// What the constructor stores.
+fn fields(module: &Module, parameters: &[f64], trigonometry: Trigonometry) -> Vec<f64> {
+    evaluate(&module.constructor, trigonometry, |source| match source {
+        Source::Parameter(index) => parameters[index as usize],
+        _ => f64::NAN,
+    })
+}
+
 /// The entries of all inputs in the order of the function.
 fn gather_inputs(function: &Function, given: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
     let (mut errors, mut values) = (vec![], vec![]);
@@ -159,7 +167,7 @@ fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {
 fn sin_cos(trigonometry: Trigonometry, angle: f64) -> (f64, f64) {
     match trigonometry {
         Trigonometry::Standard => angle.sin_cos(),
-        Trigonometry::Polynomial => robot_runtime::Scalar::sin_cos(angle),
+        Trigonometry::Polynomial => trig::double::portable_sin_cos(angle),
     }
 }
 

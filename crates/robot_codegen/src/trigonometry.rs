@@ -3,9 +3,27 @@
 /// Where the sines and cosines of a function's angles come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Trigonometry {
-    /// The standard library: accurate at any angle. The runtime needs its feature `std`.
+    /// The runtime's branch-free polynomials: fast, the same bits on every machine, and without the
+    /// standard library. From 2³⁰ rad on (2¹⁷ in `f32`) they give NaN.
     #[default]
-    Standard,
-    /// The runtime's branch-free polynomials: fast, and without the standard library.
     Polynomial,
+    /// The standard library: angles of any size. The runtime needs its feature `std`.
+    Standard,
+}
+
+impl Trigonometry {
+    /// What generated code tells its readers of the angles that it takes.
+    #[must_use]
+    pub fn range_of_angles(self) -> &'static str {
+        match self {
+            Trigonometry::Polynomial => {
+                "Angles are below 2³⁰ = 1073741824 rad, in f32 below 2¹⁷ = 131072 rad: from there on their \
+                 sines and cosines, and what is computed with them, are NaN. Take whole turns off angles \
+                 that grow without end."
+            }
+            Trigonometry::Standard => {
+                "Angles may be of any size: sines and cosines are the standard library's."
+            }
+        }
+    }
 }

@@ -32,7 +32,7 @@ use proc_macro::TokenStream;
 ///     batch = 8,                    // forms `…_batch` over slices of states, in blocks of so many
 ///     parallel = true,              // forms `…_batch_parallel` over the threads of the crate rayon
 ///     fused = true,                 // multiply-adds where the target has the instruction
-///     trigonometry = "polynomial",  // "standard" without this
+///     trigonometry = "standard",    // "polynomial" without this
 ///     max_operations = 300,         // of a call of each function; more is an error
 ///     max_stack = 2048,             // bytes, estimated; more is an error
 ///     runtime = "::robot_runtime",

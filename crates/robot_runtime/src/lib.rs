@@ -47,18 +47,24 @@
 //!
 //! The three with polynomials give the same bits. [`Trig`] makes the source a type parameter.
 //!
-//! | type | stated range | worst absolute error there | with [`FUSED`] | in last places |
+//! | type | range | worst absolute error there | with [`FUSED`] | in last places |
 //! |---|---|---|---|---|
-//! | `f64` | ǀxǀ ≤ 10⁵ | 1.7e-16 | 1.4e-16 | 1.7 at any angle of the range |
-//! | `f32` | ǀxǀ ≤ 10⁴ | 8.8e-8 | 7.2e-8 | 1.2 for ǀxǀ ≤ π/4 |
+//! | `f64` | ǀxǀ < 2³⁰ = 1 073 741 824 | 1.7e-16 | 1.4e-16 | 1.6 |
+//! | `f32` | ǀxǀ < 2¹⁷ = 131 072 | 8.8e-8 | 7.2e-8 | 1.2 for ǀxǀ ≤ π/4 |
 //!
-//! Held in `f32` against every number of the range, in `f64` against 4·10⁷ random ones and the
-//! three neighbours of each multiple of π/2. Beyond the range nothing panics: the error grows to
-//! about a last place of the angle itself; from 2⁵¹ (2²² in `f32`) on the values mean nothing and
-//! may lie outside [−1, 1]. NaN and infinite angles give NaN.
+//! Held in `f32` against every number of the range, in `f64` against 4·10⁷ random ones, the three
+//! neighbours of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ beyond, and the angles of the range
+//! that come nearest to one. The last places of `f64` without [`FUSED`] hold up to 2·10⁵; beyond, a sine
+//! or cosine below 10⁻⁵ may be off by 10⁻²¹ more.
+//!
+//! **From the end of the range on sine and cosine are NaN**, as of NaN and infinite angles: no finite
+//! result is wrong, and none lies outside [−1, 1]. Angles that grow without end, of wheels and
+//! spindles, are brought back by whole turns before they get there; the standard library's sine and
+//! cosine take angles of any size.
 //!
 //! The same program gives the same bits on every target where [`FUSED`] is the same, with
 //! polynomials; the standard library's sines differ between platforms.
+//! [`trig::double::portable_sin_cos`] gives those without [`FUSED`] on every target.
 //!
 //! # Other functions
 //!

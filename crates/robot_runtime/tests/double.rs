@@ -1,14 +1,43 @@
 //! The double-precision functions against values exact to some 30 digits.
+#![expect(clippy::duplicate_mod, reason = "the functions with either rounding")]
 
 use std::f64::consts::FRAC_PI_2;
 
-use robot_runtime::{FUSED, Scalar, sin_cos_array};
+use robot_runtime::trig::double::LIMIT;
+use robot_runtime::{FUSED, Scalar, sin_cos_array, trig};
 
+mod digest;
 mod exact;
+mod multiples;
 mod random;
+mod rounding;
 
-/// Worst absolute error of sine and cosine that the documentation states for |x| ≤ 10⁵.
-const SIN_COS_ERROR: f64 = if FUSED { 1.4e-16 } else { 1.7e-16 };
+/// The functions where multiply-adds round once or twice.
+struct Rounding {
+    sin_cos: fn(f64) -> (f64, f64),
+    fused: bool,
+    /// The worst absolute error over the samples below.
+    absolute: f64,
+    /// Up to which angle last places hold next to multiples of π/2 as well.
+    last_places_to: f64,
+}
+const ROUNDINGS: [Rounding; 2] = [
+    Rounding {
+        sin_cos: rounding::once::trig::double::sin_cos,
+        fused: true,
+        absolute: 1.275e-16,
+        last_places_to: LIMIT,
+    },
+    Rounding {
+        sin_cos: rounding::twice::trig::double::sin_cos,
+        fused: false,
+        absolute: 1.553e-16,
+        last_places_to: 2e5,
+    },
+];
+
+/// The worst error in last places over the samples below.
+const LAST_PLACES: f64 = 1.495;
 
 /// Functions at numbers where their values were computed with 500 bits: x, then each value as a
 /// sum of two doubles.
@@ -73,54 +102,103 @@ fn last_places(error: f64, exact: f64) -> f64 {
 }
 
 /// Worst absolute error, and worst error in last places, of sine and cosine.
-#[derive(Default)]
+#[derive(Default, Debug)]
 struct Worst {
     absolute: f64,
     last_places: f64,
 }
 
 impl Worst {
-    fn update(&mut self, x: f64) {
-        let (sine, cosine) = Scalar::sin_cos(x);
+    fn update(&mut self, sin_cos: fn(f64) -> (f64, f64), x: f64) {
+        let (sine, cosine) = sin_cos(x);
         let (exact_sine, exact_cosine) = exact::sin_cos(x);
         for (value, exact) in [(sine, exact_sine), (cosine, exact_cosine)] {
+            assert!(value.abs() <= 1.0, "{value} at {x:e}");
             let error = exact.error_of(value);
+            assert!(!error.is_nan(), "{value} at {x:e}");
             self.absolute = self.absolute.max(error.abs());
             self.last_places = self.last_places.max(last_places(error, exact.high));
         }
     }
 }
 
+/// The functions are those of this build's [`FUSED`].
+#[test]
+fn sin_cos_is_one_of_the_two() {
+    let built = ROUNDINGS.iter().find(|rounding| rounding.fused == FUSED).unwrap();
+    let mut random = random::uniform(5);
+    let portable = rounding::twice::trig::double::sin_cos;
+    for _ in 0..10_000 {
+        let x = 2f64.powf(31.0 * random());
+        let (sine, cosine) = trig::double::portable_sin_cos(x);
+        let (other_sine, other_cosine) = portable(x);
+        assert_eq!([sine, cosine].map(f64::to_bits), [other_sine, other_cosine].map(f64::to_bits));
+        let (sine, cosine) = Scalar::sin_cos(x);
+        let (other_sine, other_cosine) = (built.sin_cos)(x);
+        assert_eq!([sine, cosine].map(f64::to_bits), [other_sine, other_cosine].map(f64::to_bits));
+    }
+}
+
 #[test]
 fn sin_cos_is_accurate_over_the_stated_range() {
-    let mut random = random::uniform(1);
-    let mut worst = Worst::default();
-    for limit in [1e-3, 0.8, 4.0, 100.0, 1e5] {
-        for _ in 0..100_000 {
-            worst.update(limit * (2.0 * random() - 1.0));
+    for rounding in ROUNDINGS {
+        let mut random = random::uniform(1);
+        let (mut near, mut far) = (Worst::default(), Worst::default());
+        for limit in [1e-3, 0.8, 4.0, 100.0, 1e5, 1e7, LIMIT] {
+            for _ in 0..60_000 {
+                let x = limit * (2.0 * random() - 1.0);
+                let worst = if x.abs() < rounding.last_places_to { &mut near } else { &mut far };
+                worst.update(rounding.sin_cos, x);
+            }
         }
+        for _ in 0..60_000 {
+            near.update(rounding.sin_cos, rounding.last_places_to.powf(2.0 * random() - 1.0));
+        }
+        println!("fused {}: near {near:?}, far {far:?}", rounding.fused);
+        assert!(near.absolute <= rounding.absolute && far.absolute <= rounding.absolute);
+        assert!(near.last_places <= LAST_PLACES);
     }
-    println!("worst error {:e}, {} last places", worst.absolute, worst.last_places);
-    assert!(worst.absolute < SIN_COS_ERROR);
-    assert!(worst.last_places < 1.7);
 }
 
 /// Reduction loses most where the angle is nearly a multiple of π/2: all of them up to 10⁵.
 #[test]
 fn sin_cos_is_accurate_next_to_every_multiple_of_a_right_angle() {
-    let mut worst = Worst::default();
-    for k in 0..=63_661 {
-        let multiple = f64::from(k) * FRAC_PI_2;
-        let mut x = multiple.next_down();
-        for _ in 0..3 {
-            worst.update(x);
-            worst.update(-x);
-            x = x.next_up();
+    for rounding in ROUNDINGS {
+        let mut worst = Worst::default();
+        for k in 0..=63_661 {
+            let multiple = f64::from(k) * FRAC_PI_2;
+            let mut x = multiple.next_down();
+            for _ in 0..3 {
+                worst.update(rounding.sin_cos, x);
+                worst.update(rounding.sin_cos, -x);
+                x = x.next_up();
+            }
         }
+        println!("fused {}: {worst:?}", rounding.fused);
+        assert!(worst.absolute < 4e-22);
+        assert!(worst.last_places < 1.0);
     }
-    println!("worst error {:e}, {} last places", worst.absolute, worst.last_places);
-    assert!(worst.absolute < 1e-21);
-    assert!(worst.last_places < 1.0);
+}
+
+/// The angles of the range that come nearest to a multiple of π/2, of every magnitude.
+#[test]
+fn sin_cos_is_accurate_at_the_hardest_angles() {
+    let angles = multiples::nearest_angles();
+    let smallest = angles.iter().map(|x| {
+        let (sine, cosine) = exact::sin_cos(*x);
+        sine.high.abs().min(cosine.high.abs())
+    });
+    assert!(smallest.fold(1.0, f64::min) < 1e-18);
+    for rounding in ROUNDINGS {
+        let (mut near, mut far) = (Worst::default(), Worst::default());
+        for x in angles.iter().flat_map(|x| [*x, -*x]) {
+            let worst = if x.abs() < rounding.last_places_to { &mut near } else { &mut far };
+            worst.update(rounding.sin_cos, x);
+        }
+        println!("fused {}: near {near:?}, far {far:?}", rounding.fused);
+        assert!(near.last_places < 1.0);
+        assert!(near.absolute < 1.1e-23 && far.absolute < 4.3e-22);
+    }
 }
 
 #[test]
@@ -131,29 +209,59 @@ fn sin_cos_of_every_magnitude_is_exact_near_zero() {
         assert_eq!(Scalar::sin_cos(-x), (-x, 1.0));
     }
     assert_eq!(Scalar::sin_cos(0.0f64).0.to_bits(), 0);
+    assert_eq!(Scalar::sin_cos(-0.0f64).0.to_bits(), 0);
 }
 
 #[test]
-fn sin_cos_beyond_the_range_errs_like_a_rounded_angle() {
+fn sin_cos_beyond_the_range_is_no_number() {
     let mut random = random::uniform(2);
-    for _ in 0..100_000 {
-        let x = 10f64.powf(5.0 + 7.0 * random());
-        let (sine, cosine) = Scalar::sin_cos(x);
-        let allowed = 1e-15 + 2.0 * (x.next_up() - x);
-        assert!((sine - f64::sin(x)).abs() < allowed, "{x}");
-        assert!((cosine - f64::cos(x)).abs() < allowed, "{x}");
+    let beyond = (0..10_000).map(|_| 2f64.powf(30.0 + 994.0 * random()).min(f64::MAX));
+    let stated = [LIMIT, LIMIT.next_up(), 4503599627370496.0, 1e16, 4.6e18, 1e300, f64::MAX];
+    let none = [f64::INFINITY, f64::NAN];
+    for x in beyond.chain(stated).chain(none).flat_map(|x| [x, -x]) {
+        for rounding in ROUNDINGS {
+            let (sine, cosine) = (rounding.sin_cos)(x);
+            assert!(sine.is_nan() && cosine.is_nan(), "{sine} and {cosine} at {x:e}");
+        }
+    }
+    for x in [LIMIT.next_down(), -LIMIT.next_down()] {
+        for rounding in ROUNDINGS {
+            let (sine, cosine) = (rounding.sin_cos)(x);
+            let (exact_sine, exact_cosine) = exact::sin_cos(x);
+            assert!(exact_sine.error_of(sine).abs() <= rounding.absolute);
+            assert!(exact_cosine.error_of(cosine).abs() <= rounding.absolute);
+        }
     }
 }
 
+/// To the last bit, so that no constant changes by accident.
 #[test]
-fn sin_cos_of_what_is_no_number_is_no_number() {
-    for x in [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let (sine, cosine) = Scalar::sin_cos(x);
-        assert!(sine.is_nan() && cosine.is_nan());
+fn sin_cos_has_the_bits_that_it_had() {
+    for (rounding, expected) in ROUNDINGS.iter().zip([0xcc84_285d_871c_e337, 0xa6bc_bb27_e077_b183])
+    {
+        let mut random = random::uniform(6);
+        let mut digest = digest::EMPTY;
+        for _ in 0..20_000 {
+            let x = 2f64.powf(50.0 * random() - 20.0);
+            let (sine, cosine) = (rounding.sin_cos)(x);
+            digest = digest::with(digest::with(digest, sine.to_bits()), cosine.to_bits());
+        }
+        assert_eq!(digest, expected, "{digest:#x}, fused {}", rounding.fused);
     }
-    for x in [1e15, 4.6e18, 1e300, f64::MAX] {
-        std::hint::black_box(Scalar::sin_cos(x));
-    }
+}
+
+/// The last digit of some of them moves no bit of a result that tests could try.
+#[test]
+fn constants_are_those_of_the_fit() {
+    let source = include_str!("../src/runtime/trig/double.rs");
+    let bits: Vec<u64> = digest::numbers(source, "const SINE")
+        .chain(digest::numbers(source, "const COSINE"))
+        .chain(digest::numbers(source, "const HALF_PI"))
+        .chain(digest::numbers(source, "const SHORT_HALF_PI"))
+        .map(|number| number.parse::<f64>().unwrap().to_bits())
+        .collect();
+    assert_eq!(bits.len(), 18);
+    assert_eq!(bits.iter().copied().fold(digest::EMPTY, digest::with), 0xd303_e1d1_b84e_09e5);
 }
 
 #[test]

@@ -31,7 +31,7 @@ pub(super) fn readme(parts: &Parts<'_>) -> String {
     parameters(&mut text, parts);
     functions(&mut text, parts);
     section(&mut text, "Conventions");
-    for line in CONVENTIONS {
+    for line in CONVENTIONS.into_iter().chain([parts.options.trigonometry.range_of_angles()]) {
         line_of(&mut text, format_args!("- {}", plain(line)));
     }
     check_values(&mut text, parts);

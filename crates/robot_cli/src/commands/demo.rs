@@ -37,7 +37,7 @@ impl Arguments {
         let function = "inverse_dynamics";
         let plan = Pin::from_text(PLAN).ok().map(|pin| pin.plan);
         let programs = programs(&source, &Options { plan, ..Options::default() })?;
-        let state = check::check_value(&source.name, &programs, function, Trigonometry::Standard)?;
+        let state = check::check_value(&source.name, &programs, function, Trigonometry::default())?;
         shown.push_str("\nInverse dynamics at a check state, nominal parameters:\n\n");
         // Writing to a string does not fail.
         for (name, entries) in &state.inputs {

@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     settings: Settings,
     /// Where sines and cosines come from
-    #[arg(long, value_enum, default_value_t = TrigonometryName::Standard)]
+    #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
     trigonometry: TrigonometryName,
     /// How to print the outputs
     #[arg(long, value_enum, default_value_t = Format::Json)]

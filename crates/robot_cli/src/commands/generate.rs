@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     code: CodeArguments,
     /// Where sines and cosines come from
-    #[arg(long, value_enum, default_value_t = TrigonometryName::Standard)]
+    #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
     trigonometry: TrigonometryName,
     /// The path of the runtime in the code
     #[arg(long, value_name = "PATH", default_value = "::robot_runtime")]

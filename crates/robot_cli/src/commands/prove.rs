@@ -36,7 +36,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     code: CodeArguments,
     /// Where sines and cosines come from; targets without a standard library need `polynomial`
-    #[arg(long, value_enum, default_value_t = TrigonometryName::Standard)]
+    #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
     trigonometry: TrigonometryName,
     /// Compile as Cargo does in these profiles
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [ProfileName::Dev, ProfileName::Release])]

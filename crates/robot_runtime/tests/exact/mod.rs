@@ -51,23 +51,24 @@ impl Exact {
 }
 
 /// π/2 in units of 2⁻¹¹⁰: the nearest integer, and what is missing.
-const HALF_PI: i128 = 0x6487_ed51_10b4_611a_6263_3145_c06e;
+pub(crate) const HALF_PI: i128 = 0x6487_ed51_10b4_611a_6263_3145_c06e;
 const HALF_PI_TAIL: f64 = 0.05628326562056525;
 const UNIT: f64 = 7.703719777548943e-34;
 
-/// Sine and cosine of an angle of at most 10⁵ radians.
+/// Sine and cosine of an angle of at most 2³⁰ radians.
 pub(crate) fn sin_cos(angle: f64) -> (Exact, Exact) {
-    assert!(angle.abs() <= 1e5);
+    assert!(angle.abs() <= 1073741824.0);
     if angle.abs() < 0.5 {
         return first_quadrant(Exact::new(angle));
     }
     let bits = angle.abs().to_bits();
     let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52);
     let exponent = (bits >> 52) as i64 - 1075;
+    // Of large angles bits go over the top, and as many of the multiple: the rest is small.
     let magnitude = mantissa << (exponent + 110);
-    let fixed = if angle < 0.0 { -magnitude } else { magnitude };
+    let fixed = if angle < 0.0 { magnitude.wrapping_neg() } else { magnitude };
     let k = (angle * std::f64::consts::FRAC_2_PI).round() as i128;
-    let rest = fixed - k * HALF_PI;
+    let rest = fixed.wrapping_sub(k.wrapping_mul(HALF_PI));
     let high = rest as f64;
     let low = (rest - high as i128) as f64 - k as f64 * HALF_PI_TAIL;
     let reduced = Exact::normalised(high * UNIT, low * UNIT);

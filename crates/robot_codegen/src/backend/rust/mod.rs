@@ -117,17 +117,19 @@ pub fn generate(module: &Module, options: &RustOptions) -> Result<RustModule, Er
             shebang: None,
             frontmatter: None,
             attrs: vec![],
-            items: wrap(module, options.wrapping, items),
+            items: wrap(module, options, items),
         },
     })
 }
 
-fn wrap(module: &Module, wrapping: Wrapping, items: Vec<Item>) -> Vec<Item> {
-    match wrapping {
+fn wrap(module: &Module, options: &RustOptions, items: Vec<Item>) -> Vec<Item> {
+    match options.wrapping {
         Wrapping::Items => items,
         Wrapping::Module => {
             let name = namer::Namer::default().name(&module.name);
-            let docs = doc::attributes(&doc::paragraphs(&module.doc, &module.name));
+            let mut docs = doc::paragraphs(&module.doc, &module.name);
+            docs.push(format!("- {}", options.trigonometry.range_of_angles()));
+            let docs = doc::attributes(&docs);
             let lints = ALLOWED_LINTS.iter();
             let lints = lints.filter_map(|lint| syn::parse_str::<syn::Path>(lint).ok());
             let mut wrapped: syn::ItemMod = parse_quote! {

@@ -35,12 +35,12 @@ pub struct RustOptions {
 }
 
 impl Default for RustOptions {
-    /// `f64` by the standard library's sine and cosine, in a module, without generic forms.
+    /// `f64` by the runtime's sine and cosine, in a module, without generic forms.
     fn default() -> RustOptions {
         RustOptions {
             header: vec![],
             runtime: "::robot_runtime".to_owned(),
-            trigonometry: Trigonometry::Standard,
+            trigonometry: Trigonometry::default(),
             scalar: Scalar::F64,
             generic: false,
             batch: None,
