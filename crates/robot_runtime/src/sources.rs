@@ -12,6 +12,7 @@ pub const SOURCES: &[(&str, &str)] = &[
     ("batch.rs", include_str!("runtime/batch.rs")),
     ("fused.rs", include_str!("runtime/fused.rs")),
     ("lanes.rs", include_str!("runtime/lanes.rs")),
+    ("reciprocal.rs", include_str!("runtime/reciprocal.rs")),
     ("root.rs", include_str!("runtime/root.rs")),
     ("scalar.rs", include_str!("runtime/scalar.rs")),
     ("std_trig.rs", include_str!("runtime/std_trig.rs")),

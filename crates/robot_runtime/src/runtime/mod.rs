@@ -7,6 +7,7 @@
 mod batch;
 mod fused;
 mod lanes;
+mod reciprocal;
 pub mod root;
 mod scalar;
 #[cfg(feature = "std")]
@@ -17,6 +18,7 @@ pub mod trig;
 pub use self::batch::{lanes_from_states, padded_states, states_from_lanes};
 pub use self::fused::FUSED;
 pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
+pub use self::reciprocal::{recip_positive_f32, recip_positive_f64};
 pub use self::scalar::Scalar;
 #[cfg(feature = "std")]
 pub use self::std_trig::{StdTrig, std_sin_cos_array};
