@@ -15,7 +15,7 @@ pub struct Counts {
     pub mul: usize,
     /// Additions and subtractions.
     pub add: usize,
-    /// Divisions.
+    /// Divisions, reciprocals included.
     pub div: usize,
     /// Square roots.
     pub sqrt: usize,
@@ -75,7 +75,7 @@ impl Counts {
             Operation::Add(..) | Operation::Sub(..) => self.add += 1,
             Operation::Mul(a, b) if is_two(a) || is_two(b) => self.add += 1,
             Operation::Mul(..) => self.mul += 1,
-            Operation::Div(..) => self.div += 1,
+            Operation::Div(..) | Operation::Call(Call::RecipPositive, _) => self.div += 1,
             Operation::Neg(_) => self.neg += 1,
             Operation::MulAdd(..) => {
                 self.mul += 1;

@@ -178,6 +178,7 @@ fn call(trigonometry: Trigonometry, function: Call, argument: f64) -> f64 {
         Call::Cos => sin_cos(trigonometry, argument).1,
         Call::Sign => argument.signum0(),
         Call::Tanh => robot_runtime::Scalar::tanh(argument),
+        Call::RecipPositive => argument.recip_positive(),
         Call::Sqrt | Call::Abs => function.apply(argument),
     }
 }

@@ -48,8 +48,8 @@ impl<'g> SymmetricMatrix<'g> {
 
     /// x of A x = b, by A = Lᵀ D L from the last row to the first, which keeps the zeros between
     /// branches of a tree zero (R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section
-    /// 6.5). A division per row whose pivot is not constant, no branch: A is taken for positive
-    /// definite.
+    /// 6.5). A division per row whose pivot is not constant, no branch. A is to be positive
+    /// definite: a pivot that is not above 0 makes NaN of what depends on it.
     #[must_use]
     pub fn solve(self, right: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
         self.solve_all(vec![right]).into_iter().flatten().collect()
@@ -61,7 +61,7 @@ impl<'g> SymmetricMatrix<'g> {
         let mut reciprocals: Vec<Expr<'g>> = vec![];
         for pivot in (0..self.order).rev() {
             let diagonal = self.at(pivot, pivot);
-            let reciprocal = diagonal.graph().one() / diagonal;
+            let reciprocal = diagonal.recip_positive();
             reciprocals.push(reciprocal);
             for row in 0..pivot {
                 let factor = self.at(pivot, row) * reciprocal;

@@ -74,6 +74,7 @@
 //! | [`Scalar::tanh`] | below 3 last places everywhere (2.61 in `f32`, every number tried) |
 //! | [`Scalar::mul_add`] | rounds once where [`FUSED`], else twice |
 //! | [`Scalar::abs`], [`Scalar::signum0`] | exact |
+//! | [`Scalar::recip_positive`] | correctly rounded |
 //!
 //! # Lanes
 //!

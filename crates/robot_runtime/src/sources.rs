@@ -13,6 +13,7 @@ pub const SOURCES: &[(&str, &str)] = &[
     ("fused.rs", include_str!("runtime/fused.rs")),
     ("lanes.rs", include_str!("runtime/lanes.rs")),
     ("no_std_trig.rs", include_str!("runtime/no_std_trig.rs")),
+    ("reciprocal.rs", include_str!("runtime/reciprocal.rs")),
     ("root.rs", include_str!("runtime/root.rs")),
     ("scalar.rs", include_str!("runtime/scalar.rs")),
     ("std_trig.rs", include_str!("runtime/std_trig.rs")),

@@ -137,6 +137,12 @@ impl<'g> Expr<'g> {
         self.apply(Function::Tanh)
     }
 
+    /// 1/x where x is above 0 and finite, NaN elsewhere.
+    #[must_use]
+    pub fn recip_positive(self) -> Expr<'g> {
+        self.apply(Function::RecipPositive)
+    }
+
     /// A function of the expression.
     #[must_use]
     pub fn apply(self, function: Function) -> Expr<'g> {

@@ -52,10 +52,13 @@ pub enum Function {
     Sign,
     /// Hyperbolic tangent.
     Tanh,
+    /// 1/x where x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is
+    /// wrong. No formula of a file applies it.
+    RecipPositive,
 }
 
 impl Function {
-    /// All functions, in the order of their declaration.
+    /// The functions that formulas may apply, in the order of their declaration.
     pub const ALL: [Function; 6] = [
         Function::Sin,
         Function::Cos,
@@ -75,6 +78,7 @@ impl Function {
             Function::Abs => "abs",
             Function::Sign => "sign",
             Function::Tanh => "tanh",
+            Function::RecipPositive => "recip_positive",
         }
     }
 
@@ -89,6 +93,8 @@ impl Function {
             Function::Sign if argument == 0.0 || argument.is_nan() => argument,
             Function::Sign => argument.signum(),
             Function::Tanh => argument.tanh(),
+            Function::RecipPositive if argument > 0.0 && argument.is_finite() => argument.recip(),
+            Function::RecipPositive => f64::NAN,
         }
     }
 }

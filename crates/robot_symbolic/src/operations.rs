@@ -10,7 +10,7 @@ pub struct Operations {
     pub multiplications: usize,
     /// Sums and differences.
     pub additions: usize,
-    /// Quotients.
+    /// Quotients and reciprocals.
     pub divisions: usize,
     /// Sines and cosines.
     pub trigonometric: usize,
@@ -142,7 +142,7 @@ impl Counter {
                     sum.additions += 1;
                     sum.fusible += usize::from(fuses(a) || fuses(b));
                 }
-                Node::Div(..) => sum.divisions += 1,
+                Node::Div(..) | Node::Call(Function::RecipPositive, _) => sum.divisions += 1,
                 Node::Call(Function::Sin | Function::Cos, _) => sum.trigonometric += 1,
                 Node::Call(..) => sum.other += 1,
             }

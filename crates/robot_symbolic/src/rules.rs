@@ -151,10 +151,12 @@ impl Graph {
         }
         // (x / y) y. But x (1 / y) stays: one reciprocal serves many products.
         for (x, quotient) in [(a, b), (b, a)] {
-            if let Node::Div(numerator, denominator) = self.node(quotient)
-                && denominator == x
-            {
-                return numerator;
+            match self.node(quotient) {
+                Node::Div(numerator, denominator) if denominator == x => return numerator,
+                Node::Call(Function::RecipPositive, denominator) if denominator == x => {
+                    return self.intern_number(&Number::integer(1));
+                }
+                _ => {}
             }
         }
         self.intern(Node::Mul(a.min(b), a.max(b)))

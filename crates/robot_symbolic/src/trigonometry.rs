@@ -143,6 +143,8 @@ fn exact_value(function: Function, argument: &Number) -> Option<Number> {
             Number::Rational(rational) => exact_root(rational).map(Number::Rational),
             Number::Real(value) => Some(Number::Real(value.sqrt())),
         },
+        Function::RecipPositive if argument.is_negative() => Some(Number::Real(f64::NAN)),
+        Function::RecipPositive => Some(argument.recip()),
         Function::Tanh | Function::Sin | Function::Cos => None,
     }
 }

@@ -205,6 +205,7 @@ impl<'g> Expr<'g> {
             Function::Abs => argument.sign(),
             Function::Sign => graph.zero(),
             Function::Tanh => graph.one() - self * self,
+            Function::RecipPositive => -(self * self),
         }
     }
 }

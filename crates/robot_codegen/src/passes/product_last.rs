@@ -3,7 +3,7 @@
 
 use super::arrival;
 use super::nary::{Id, Node, Term};
-use super::waiting::{CALL, PRODUCT, QUOTIENT, Waiting};
+use super::waiting::{PRODUCT, QUOTIENT, Waiting, of_call};
 use crate::program::Program;
 
 /// Orders sums and products by [`arrival`]; then lets each sum that starts with a product of its own start
@@ -46,7 +46,7 @@ impl Order {
         match self.waiting.view.node(id).clone() {
             Node::Leaf(_) => {}
             Node::Quotient(a, b) => [a, b].into_iter().for_each(|id| self.need(id, by - QUOTIENT)),
-            Node::Call(_, term) => self.need(term.node, by - CALL),
+            Node::Call(function, term) => self.need(term.node, by - of_call(function)),
             Node::Product(factors) => {
                 let fuses = factors.len() == 1 || self.waiting.fuses(id);
                 self.visit_product(&factors, if fuses { by } else { by - PRODUCT });

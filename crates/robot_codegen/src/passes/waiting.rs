@@ -3,6 +3,8 @@
 //! The figures are those of current x86-64 cores (Zen 4, after Fog's instruction tables); on 64-bit ARM
 //! cores their ratios are much the same.
 
+use robot_symbolic::Function;
+
 use super::nary::{Id, Nary, Node, Term};
 use crate::program::{Operation, Program};
 
@@ -15,7 +17,12 @@ pub(super) const FUSED: u32 = 4;
 /// From the operands of a quotient to its value.
 pub(super) const QUOTIENT: u32 = 13;
 /// From the argument of a function to its value.
-pub(super) const CALL: u32 = 20;
+const CALL: u32 = 20;
+
+/// From the argument of a function to its value; a reciprocal is a quotient.
+pub(super) fn of_call(function: Function) -> u32 {
+    if function == Function::RecipPositive { QUOTIENT } else { CALL }
+}
 
 /// Cycles from the start of a program to the last of its results.
 pub(super) fn longest_chain(program: &Program) -> u32 {
@@ -35,7 +42,7 @@ fn latency(operation: Operation) -> u32 {
         Operation::Mul(..) => PRODUCT,
         Operation::MulAdd(..) => FUSED,
         Operation::Div(..) => QUOTIENT,
-        Operation::Call(..) => CALL,
+        Operation::Call(function, _) => of_call(function),
     }
 }
 
@@ -98,7 +105,7 @@ impl Waiting {
         self.known[id as usize] = match self.view.node(id) {
             Node::Leaf(_) => 0,
             Node::Quotient(a, b) => self.known(*a).max(self.known(*b)) + QUOTIENT,
-            Node::Call(_, term) => self.known(term.node) + CALL,
+            Node::Call(function, term) => self.known(term.node) + of_call(*function),
             Node::Sum(terms) => self.sum(terms),
             Node::Product(factors) => {
                 let last = if self.fuses(id) { 0 } else { PRODUCT };

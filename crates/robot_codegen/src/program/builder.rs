@@ -162,7 +162,12 @@ impl Builder {
             }
             _ => match self.number(a) {
                 // Rounded once by definition, on every machine; the others are not.
-                Some(x) if matches!(function, Function::Sqrt | Function::Abs | Function::Sign) => {
+                Some(x)
+                    if matches!(
+                        function,
+                        Function::Sqrt | Function::Abs | Function::Sign | Function::RecipPositive
+                    ) =>
+                {
                     self.constant(function.apply(x))
                 }
                 _ => self.push(Operation::Call(function, a)),

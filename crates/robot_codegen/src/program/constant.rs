@@ -79,6 +79,10 @@ impl DoubleDouble {
             Function::Abs => self,
             Function::Sign => DoubleDouble::exact(function.apply(self.high)),
             Function::Tanh => self.tanh(),
+            Function::RecipPositive if self.high > 0.0 && self.high.is_finite() => {
+                DoubleDouble::exact(1.0) / self
+            }
+            Function::RecipPositive => DoubleDouble::exact(f64::NAN),
         }
     }
 

@@ -8,7 +8,7 @@
 use robot_symbolic::{Expr, Graph};
 
 use super::chain::{Chain, ChainLink};
-use super::composite::{Inward, symmetric};
+use super::composite::symmetric;
 use super::inertia::PseudoInertia;
 use super::plan::{LinkPlan, Place};
 use super::rotation::{ConstantRotation, Plane};
@@ -41,6 +41,15 @@ struct Eliminated<'g> {
     force: Expr<'g>,
 }
 
+/// How inertias are turned from a link's axes to its parent's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Turns {
+    /// With the fewest operations.
+    Cheap,
+    /// So that small moments keep their digits: for robots whose pivots may be small.
+    Exact,
+}
+
 /// Whether each coordinate moves one joint: elsewhere joints cannot be eliminated one by one.
 pub(crate) fn applies(chain: &Chain<'_>) -> bool {
     (0..chain.links.len()).all(|link| chain.drives_alone(link))
@@ -51,14 +60,15 @@ pub(crate) fn solve<'g>(
     chain: &Chain<'g>,
     plans: &[LinkPlan],
     right: &[Expr<'g>],
+    turns: Turns,
 ) -> Vec<Expr<'g>> {
     let ways = Ways::new(chain, |index| plans[index].composite_sum);
-    let joints = inward(&ways, right);
+    let joints = inward(&ways, right, turns);
     outward(&ways, &joints)
 }
 
 /// Eliminates the joints, from the tips to the base.
-fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>]) -> Vec<Eliminated<'g>> {
+fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>], turns: Turns) -> Vec<Eliminated<'g>> {
     let chain = ways.chain;
     let zero = Carried::zero(chain.graph);
     // What children hand over, in the link's own axes and in its home axes.
@@ -71,14 +81,14 @@ fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>]) -> Vec<Eliminated<'g>> {
     let mut joints = vec![];
     for (index, link) in chain.links.iter().enumerate().rev() {
         let posture = &ways.postures[index];
-        let carried = own[index].turned(&posture.group_turn).plus(&at_home[index]);
+        let carried = own[index].turned(&posture.group_turn, turns).plus(&at_home[index]);
         let joint = carried.joint(ways, index, right[link.coordinate]);
         if let Some(parent) = link.parent {
             let rest = carried.without(&joint, link, chain.unit);
             if ways.is_joined(index) {
-                at_home[parent] = at_home[parent].plus(&rest.moved(ways.arm_at_home(index)).1);
+                at_home[parent] = at_home[parent].plus(&rest.moved(ways.arm_at_home(index)));
             } else {
-                let moved = rest.rotated(&link.rotation).moved(posture.origin).1;
+                let moved = rest.rotated(&link.rotation, turns).moved(posture.origin);
                 own[parent] = own[parent].plus(&moved);
             }
         }
@@ -129,7 +139,7 @@ impl<'g> Carried<'g> {
         asked.moment.0[2] += link.rotor_coupling;
         Eliminated {
             asked,
-            reciprocal: pivot.graph().one() / pivot,
+            reciprocal: pivot.recip_positive(),
             force: right / link.ratio - direction.dot(&self.wrench),
         }
     }
@@ -153,7 +163,8 @@ impl<'g> Carried<'g> {
     }
 }
 
-impl<'g> Inward<'g> for Carried<'g> {
+/// On the way to the parent.
+impl<'g> Carried<'g> {
     fn zero(graph: &'g Graph) -> Self {
         Carried { inertia: ArticulatedInertia::zero(graph), wrench: Wrench::zero(graph) }
     }
@@ -168,28 +179,51 @@ impl<'g> Inward<'g> for Carried<'g> {
         Carried { inertia, wrench: self.wrench.plus(&other.wrench) }
     }
 
-    fn turned(&self, plane: &Plane<'g>) -> Self {
-        let inertia = ArticulatedInertia {
-            turning: plane.forward_symmetric(self.inertia.turning),
-            coupling: plane.forward_tensor(self.inertia.coupling),
-            mass: plane.forward_symmetric(self.inertia.mass),
+    /// In the axes from which its own are turned.
+    fn turned(&self, plane: &Plane<'g>, turns: Turns) -> Self {
+        let symmetric_tensor = |tensor| match turns {
+            Turns::Cheap => plane.forward_symmetric(tensor),
+            Turns::Exact => upper(plane.forward_entries(tensor)),
         };
-        Carried { inertia, wrench: self.wrench.turned(plane) }
+        let inertia = ArticulatedInertia {
+            turning: symmetric_tensor(self.inertia.turning),
+            coupling: match turns {
+                Turns::Cheap => plane.forward_tensor(self.inertia.coupling),
+                Turns::Exact => plane.forward_entries(self.inertia.coupling),
+            },
+            mass: symmetric_tensor(self.inertia.mass),
+        };
+        Carried { inertia, wrench: self.wrench.turned_forward(plane) }
     }
 
-    fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self {
-        let inertia = ArticulatedInertia {
-            turning: rotation.forward_symmetric(self.inertia.turning),
-            coupling: rotation.forward_tensor(self.inertia.coupling),
-            mass: rotation.forward_symmetric(self.inertia.mass),
+    /// In the axes from which its own are rotated.
+    fn rotated(&self, rotation: &ConstantRotation<'g>, turns: Turns) -> Self {
+        let symmetric_tensor = |tensor| match turns {
+            Turns::Cheap => rotation.forward_symmetric(tensor),
+            Turns::Exact => upper(rotation.forward_entries(tensor)),
         };
-        Carried { inertia, wrench: self.wrench.rotated(rotation) }
+        let inertia = ArticulatedInertia {
+            turning: symmetric_tensor(self.inertia.turning),
+            coupling: match turns {
+                Turns::Cheap => rotation.forward_tensor(self.inertia.coupling),
+                Turns::Exact => rotation.forward_entries(self.inertia.coupling),
+            },
+            mass: symmetric_tensor(self.inertia.mass),
+        };
+        let Wrench { force, moment } = self.wrench;
+        let wrench = Wrench { force: rotation.forward(force), moment: rotation.forward(moment) };
+        Carried { inertia, wrench }
     }
 
-    fn moved(&self, arm: Vector<'g>) -> (Self, Self) {
-        let moved = Carried { inertia: self.inertia.about(arm), wrench: self.wrench.about(arm) };
-        (Carried::zero(arm.0[0].graph()), moved)
+    /// About an origin from which its own lies at `arm`.
+    fn moved(&self, arm: Vector<'g>) -> Self {
+        Carried { inertia: self.inertia.about(arm), wrench: self.wrench.about(arm) }
     }
+}
+
+/// The upper triangle of a symmetric matrix copied to the lower.
+fn upper(Matrix(entries): Matrix<'_>) -> Matrix<'_> {
+    symmetric(|i, j| entries[i][j])
 }
 
 impl<'g> ArticulatedInertia<'g> {

@@ -38,6 +38,7 @@ use robot_symbolic::{Expr, Graph};
 use crate::matrix::SymmetricMatrix;
 use crate::mechanism::Mechanism;
 use crate::vector::Vector;
+use articulated::Turns;
 use chain::{Base, Chain};
 pub use derivatives::TorqueDerivatives;
 pub(crate) use frames::WorkingFrame;
@@ -59,6 +60,9 @@ pub enum Solver {
     MassMatrix,
     /// Joint by joint, without the matrix: for many. Applies where each coordinate moves one joint.
     ArticulatedBodies,
+    /// The same in more operations, so that small pivots keep their digits: for robots with links that
+    /// have next to no inertia about their joint axes.
+    SmallPivots,
 }
 
 /// The economical recursion of a mechanism under a plan: its links in working frames, with
@@ -125,17 +129,19 @@ impl<'g> Recursion<'g> {
         wrench: bool,
         solver: Solver,
     ) -> Option<Vec<Expr<'g>>> {
-        if solver == Solver::ArticulatedBodies && !articulated::applies(&self.chain) {
+        if solver != Solver::MassMatrix && !articulated::applies(&self.chain) {
             return None;
         }
         let (torques, states) = self.torques(&self.chain, Accelerations::Free, wrench);
         let excess: Vec<Expr<'g>> =
             tau.iter().zip(torques).map(|(tau, torque)| *tau - torque).collect();
+        let articulated = |turns| {
+            articulated::solve(&self.chain.without_idle_turns(&[]), &self.plans, &excess, turns)
+        };
         let mut accelerations = match solver {
+            Solver::ArticulatedBodies => articulated(Turns::Cheap),
+            Solver::SmallPivots => articulated(Turns::Exact),
             Solver::MassMatrix => self.mass_matrix().solve(excess),
-            Solver::ArticulatedBodies => {
-                articulated::solve(&self.chain.without_idle_turns(&[]), &self.plans, &excess)
-            }
         };
         for (link, state) in self.chain.links.iter().zip(&states) {
             let rate = match link.is_revolute() {
@@ -147,6 +153,17 @@ impl<'g> Recursion<'g> {
             }
         }
         Some(accelerations)
+    }
+
+    /// Whether each coordinate moves one joint, so that joints can be eliminated one by one.
+    pub(crate) fn is_articulated(&self) -> bool {
+        articulated::applies(&self.chain)
+    }
+
+    /// x of M x = b, both by coordinates, with [`Solver::SmallPivots`].
+    pub(crate) fn solve_articulated(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let chain = self.chain.without_idle_turns(&[]);
+        articulated::solve(&chain, &self.plans, right, Turns::Exact)
     }
 
     fn torques(

@@ -76,6 +76,17 @@ impl<'g> Plane<'g> {
         Matrix(turned)
     }
 
+    /// Any tensor in turned components to unturned ones, R T Rᵀ, where no entry is a difference of larger
+    /// ones that the turn does not mix: a moment that vanishes with an angle keeps its digits, which
+    /// [`Plane::forward_symmetric`] takes from it.
+    pub(crate) fn forward_entries(&self, tensor: Matrix<'g>) -> Matrix<'g> {
+        let turned_columns = |Matrix(t): Matrix<'g>| {
+            let columns = Matrix(t).transpose().0.map(|column| self.forward(Vector(column)).0);
+            Matrix(columns).transpose()
+        };
+        turned_columns(turned_columns(tensor).transpose()).transpose()
+    }
+
     /// Unturned components to turned ones: Rᵀ v.
     pub(crate) fn back(&self, mut vector: Vector<'g>) -> Vector<'g> {
         let (i, j) = self.axes;
@@ -165,6 +176,16 @@ impl<'g> ConstantRotation<'g> {
         match &self.before {
             Before::Planes(planes) => {
                 planes.iter().rev().fold(tensor, |t, plane| plane.forward_tensor(t))
+            }
+            Before::Full(matrix) => **matrix * tensor * matrix.transpose(),
+        }
+    }
+
+    /// As [`ConstantRotation::forward_tensor`], by [`Plane::forward_entries`].
+    pub(crate) fn forward_entries(&self, tensor: Matrix<'g>) -> Matrix<'g> {
+        match &self.before {
+            Before::Planes(planes) => {
+                planes.iter().rev().fold(tensor, |t, plane| plane.forward_entries(t))
             }
             Before::Full(matrix) => **matrix * tensor * matrix.transpose(),
         }

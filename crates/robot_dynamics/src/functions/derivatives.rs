@@ -2,7 +2,7 @@
 
 use robot_symbolic::{Expr, differentiate, walk};
 
-use super::{Derivation, Function, FunctionKind, Output, forward_dynamics, mass_matrix};
+use super::{Derivation, Function, FunctionKind, Output, forward_dynamics};
 use crate::economical::TorqueDerivatives;
 use crate::matrix::SquareMatrix;
 
@@ -64,14 +64,13 @@ fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
 
 /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
 pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
-    let accelerations = forward_dynamics::by_matrix(derivation, false);
+    let accelerations = forward_dynamics::for_derivatives(derivation);
     let recursion = derivation.recursion.as_ref();
     let torques = recursion
         .and_then(|recursion| recursion.torque_derivatives_at(&accelerations))
         .unwrap_or_else(|| at(derivation, cheapest(derivation), &accelerations));
     let graph = derivation.mechanism.graph;
-    let matrix = mass_matrix::matrix(derivation);
-    let order = matrix.order();
+    let order = accelerations.len();
     let negative = |matrix: &SquareMatrix<'g>, column| {
         matrix.column(column).into_iter().map(|entry| -entry).collect()
     };
@@ -79,7 +78,8 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
         |column| (0..order).map(|row| graph.integer(i64::from(row == column))).collect::<Vec<_>>();
     let sides = (0..order).map(|column| negative(&torques.positions, column));
     let sides = sides.chain((0..order).map(|column| negative(&torques.velocities, column)));
-    let solved = matrix.solve_all(sides.chain((0..order).map(unit)).collect());
+    let sides = sides.chain((0..order).map(unit)).collect();
+    let solved = forward_dynamics::solve_all(derivation, sides);
     let part = |first: usize| {
         let mut part = SquareMatrix::zero(graph, order);
         for (column, entries) in solved.iter().skip(first).take(order).enumerate() {
@@ -94,10 +94,13 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
     };
     derivation.of_kind(
         FunctionKind::ForwardDynamicsDerivatives,
-        &["The derivatives of forward dynamics without friction and wrenches: the entry in row i \
+        &[
+            "The derivatives of forward dynamics without friction and wrenches: the entry in row i \
              and column j is that of the acceleration i by the position, velocity or driving force \
              j, exact: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that the driving forces give, and \
-             ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018)."],
+             ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018).",
+            &forward_dynamics::method(derivation),
+        ],
         derivation.coordinate_inputs(["q", "qd", "tau"]),
         vec![
             output("dqdd_dq", "∂q̈/∂q, row by row", "rad or m", part(0)),

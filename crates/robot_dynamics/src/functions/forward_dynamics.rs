@@ -47,11 +47,35 @@ pub(super) fn forward_dynamics<'g>(
         kind,
         &[
             what,
-            "By the decomposition M = Lᵀ D L without pivots or branches: where M is not positive \
-             definite (a coordinate that moves no mass), the result is not finite or meaningless.",
+            &method(derivation),
+            "No branch: where a pivot is not above 0 and finite (a coordinate that moves no mass in that \
+             posture, an inertia below 0), the accelerations that depend on it are NaN.",
         ],
         inputs,
         vec![output],
+    )
+}
+
+/// How the functions of a robot solve M q̈ = b, and how many digits that may cost.
+pub(super) fn method(derivation: &Derivation<'_, '_>) -> String {
+    if derivation.recursion_for_small_pivots().is_some() {
+        return "By articulated bodies: at the nominal parameters there are postures in which the mass \
+                matrix is nearly singular, and there these keep digits that a decomposition of it loses."
+            .to_owned();
+    }
+    let way = match derivation.mechanism.degrees_of_freedom {
+        ..=FEW => "By the decomposition M = Lᵀ D L",
+        ..=MANY => {
+            "By the decomposition M = Lᵀ D L or by articulated bodies, whichever needs fewer operations"
+        }
+        _ => {
+            "By articulated bodies or, where a coordinate moves several joints, the decomposition M = Lᵀ D L"
+        }
+    };
+    format!(
+        "{way}. Digits are lost where a pivot of D, the inertia that a joint shows where the joints farther \
+         out are free, is much smaller than the joint's entry on the diagonal of M: as many as their \
+         quotient has zeros."
     )
 }
 
@@ -96,6 +120,9 @@ fn accelerations<'g>(
     tau: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
     let coordinates = derivation.mechanism.degrees_of_freedom;
+    if let Some(values) = by_small_pivots(derivation, wrench, tau) {
+        return values;
+    }
     let articulated = match &derivation.recursion {
         Some(recursion) if coordinates > FEW => {
             recursion.forward_dynamics(tau, wrench, Solver::ArticulatedBodies)
@@ -105,21 +132,45 @@ fn accelerations<'g>(
     match articulated {
         Some(values) if coordinates > MANY => values,
         Some(values) => {
-            let by_matrix = by_forces(derivation, wrench, tau);
+            let by_matrix = by_matrix(derivation, wrench, tau);
             let cost = |values: &[Expr<'g>]| derivation.operations(values).flops();
             if cost(&values) < cost(&by_matrix) { values } else { by_matrix }
         }
-        None => by_forces(derivation, wrench, tau),
+        None => by_matrix(derivation, wrench, tau),
     }
 }
 
-/// q̈ for the symbols τ, by the decomposition of M: for what needs that anyway.
-pub(super) fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
-    by_forces(derivation, wrench, &derivation.coordinate_symbols("tau"))
+/// q̈ for the driving forces `tau`, where pivots of M may be small.
+fn by_small_pivots<'g>(
+    derivation: &Derivation<'_, 'g>,
+    wrench: bool,
+    tau: &[Expr<'g>],
+) -> Option<Vec<Expr<'g>>> {
+    let recursion = derivation.recursion_for_small_pivots()?;
+    recursion.forward_dynamics(tau, wrench, Solver::SmallPivots)
 }
 
-/// q̈ for the driving forces `tau` by the decomposition of M.
-fn by_forces<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
+/// q̈ for the symbols τ in derivatives, which solve M x = b for many b: by the decomposition of M, but
+/// where pivots may be small.
+pub(super) fn for_derivatives<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
+    let tau = derivation.coordinate_symbols("tau");
+    let careful = by_small_pivots(derivation, false, &tau);
+    careful.unwrap_or_else(|| by_matrix(derivation, false, &tau))
+}
+
+/// x of M x = b, for each b by coordinates.
+pub(super) fn solve_all<'g>(
+    derivation: &Derivation<'_, 'g>,
+    right: Vec<Vec<Expr<'g>>>,
+) -> Vec<Vec<Expr<'g>>> {
+    match derivation.recursion_for_small_pivots() {
+        Some(recursion) => right.iter().map(|side| recursion.solve_articulated(side)).collect(),
+        None => mass_matrix::matrix(derivation).solve_all(right),
+    }
+}
+
+/// q̈ for the driving forces `tau`, by the decomposition of M.
+fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let recursion = derivation.recursion.as_ref();
     let by_recursion =
         recursion.and_then(|recursion| recursion.forward_dynamics(tau, wrench, Solver::MassMatrix));

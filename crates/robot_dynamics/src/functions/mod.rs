@@ -15,6 +15,7 @@ mod inverse_dynamics;
 mod kind;
 mod kinematics;
 mod mass_matrix;
+mod pivots;
 mod plain;
 mod plans;
 mod regressor;
@@ -24,6 +25,8 @@ pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
 pub use kind::FunctionKind;
 pub use plans::search_plan;
 pub(crate) use regressor::base_columns;
+use std::cell::OnceCell;
+
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use crate::economical::{Plan, Recursion};
@@ -95,6 +98,8 @@ pub struct Derivation<'r, 'g> {
     /// The economical recursion; `None` where a joint axis depends on parameters, for which it
     /// cannot be set up: functions then come from the paper's iterations.
     pub recursion: Option<Recursion<'g>>,
+    /// Whether pivots of the mass matrix may be small; found when it is asked for.
+    small_pivots: OnceCell<bool>,
 }
 
 impl<'r, 'g> Derivation<'r, 'g> {
@@ -111,7 +116,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         let mechanism = Mechanism::new(robot, graph, options);
         let plan = plan.unwrap_or_else(|| Plan::default_for(robot));
         let recursion = Recursion::new(&mechanism, &plan);
-        Derivation { robot, mechanism, recursion }
+        Derivation { robot, mechanism, recursion, small_pivots: OnceCell::new() }
     }
 
     /// The operations of expressions; what depends on parameters alone is free.
@@ -128,7 +133,15 @@ impl<'r, 'g> Derivation<'r, 'g> {
     pub fn with_plan(&self, plan: &Plan) -> Derivation<'r, 'g> {
         let mechanism = self.mechanism.clone();
         let recursion = Recursion::new(&mechanism, plan);
-        Derivation { robot: self.robot, mechanism, recursion }
+        let small_pivots = self.small_pivots.clone();
+        Derivation { robot: self.robot, mechanism, recursion, small_pivots }
+    }
+
+    /// The recursion, where it has to solve M q̈ = b by articulated bodies so as to keep digits: where
+    /// pivots of M may be small, and each coordinate moves one joint.
+    fn recursion_for_small_pivots(&self) -> Option<&Recursion<'g>> {
+        let recursion = self.recursion.as_ref().filter(|recursion| recursion.is_articulated());
+        recursion.filter(|_| *self.small_pivots.get_or_init(|| pivots::may_be_small(self.robot)))
     }
 
     /// Derives the functions of a kind: one, or one per named frame. What the robot lacks (a tip,

@@ -1,11 +1,13 @@
 //! The cheapest plan for the functions that are wanted.
 
+use std::cell::OnceCell;
+
 use robot_symbolic::Expr;
 
 use super::{Derivation, FunctionKind};
 use crate::economical::search::{self, Found, Objective, Scope};
 use crate::economical::{Recursion, TorqueDerivatives};
-use crate::mechanism::{Mechanism, MechanismOptions};
+use crate::mechanism::MechanismOptions;
 use crate::model::Robot;
 
 /// Searches the plan under which these functions together need the fewest multiplications and
@@ -23,19 +25,27 @@ pub fn search_plan(
         composites: kinds.iter().any(|kind| kind.uses_composites()),
         free: kinds.iter().any(|kind| kind.chooses_accelerations()),
     };
+    let small_pivots = OnceCell::new();
     search::search_for(robot, options, scope, &|mechanism, recursion| {
-        objective(robot, mechanism, recursion, kinds)
+        let derivation = Derivation {
+            robot,
+            mechanism: mechanism.clone(),
+            recursion: Some(recursion.clone()),
+            small_pivots: small_pivots.clone(),
+        };
+        let found = objective(&derivation, recursion, kinds);
+        if let Some(small) = derivation.small_pivots.get() {
+            small_pivots.get_or_init(|| *small);
+        }
+        found
     })
 }
 
 fn objective<'g>(
-    robot: &Robot,
-    mechanism: &Mechanism<'g>,
+    derivation: &Derivation<'_, 'g>,
     recursion: &Recursion<'g>,
     kinds: &[FunctionKind],
 ) -> Objective<'g> {
-    let derivation =
-        Derivation { robot, mechanism: mechanism.clone(), recursion: Some(recursion.clone()) };
     let values = |kind: FunctionKind| -> Vec<Expr<'g>> {
         if kind == FunctionKind::InverseDynamicsDerivatives
             // The other ways to them are tried once, when the plan is found.

@@ -89,6 +89,9 @@ fn forward_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
 ) -> Option<Vec<Expr<'g>>> {
+    if derivation.recursion_for_small_pivots().is_some() {
+        return None;
+    }
     let rows = values(functions, FunctionKind::MassMatrix, 0)?;
     let bias = values(functions, FunctionKind::Bias, 0)?;
     let mut matrix = SymmetricMatrix::zero(derivation.mechanism.graph, bias.len());

@@ -147,6 +147,11 @@ impl<T: Scalar, const N: usize> Scalar for Lanes<T, N> {
     }
 
     #[inline(always)]
+    fn recip_positive(self) -> Self {
+        self.map(T::recip_positive)
+    }
+
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (sines, cosines) = T::sin_cos_array(&self.0);
         (Self(sines), Self(cosines))

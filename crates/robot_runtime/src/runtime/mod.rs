@@ -9,6 +9,7 @@ mod fused;
 mod lanes;
 #[cfg(not(feature = "std"))]
 mod no_std_trig;
+mod reciprocal;
 pub mod root;
 mod scalar;
 #[cfg(feature = "std")]
@@ -21,6 +22,7 @@ pub use self::fused::FUSED;
 pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
 #[cfg(not(feature = "std"))]
 pub use self::no_std_trig::{StdTrig, std_sin_cos_array};
+pub use self::reciprocal::{recip_positive_f32, recip_positive_f64};
 pub use self::scalar::Scalar;
 #[cfg(feature = "std")]
 pub use self::std_trig::{StdTrig, std_sin_cos_array};

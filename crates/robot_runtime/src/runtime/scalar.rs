@@ -4,6 +4,7 @@ use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::fused::{mul_add_f32, mul_add_f64};
+use super::reciprocal::{recip_positive_f32, recip_positive_f64};
 use super::root::{sqrt_f32, sqrt_f64};
 use super::tanh::{tanh_f32, tanh_f64};
 use super::trig::{block, double, single};
@@ -56,6 +57,11 @@ pub trait Scalar:
     #[must_use]
     fn tanh(self) -> Self;
 
+    /// 1/x where x is above 0 and finite, NaN elsewhere: for a divisor that is positive unless something is
+    /// wrong, so that a wrong one does not go unseen.
+    #[must_use]
+    fn recip_positive(self) -> Self;
+
     /// Sine and cosine of an angle in radians by branch-free polynomials. Range and worst error
     /// are those of [`double`] and [`single`].
     fn sin_cos(self) -> (Self, Self);
@@ -69,7 +75,16 @@ pub trait Scalar:
 }
 
 macro_rules! implement_scalar {
-    ($float:ident, $bits:ident, $mul_add:path, $sqrt:path, $tanh:path, $sin_cos:path, $block:literal) => {
+    (
+        $float:ident,
+        $bits:ident,
+        $mul_add:path,
+        $sqrt:path,
+        $tanh:path,
+        $recip_positive:path,
+        $sin_cos:path,
+        $block:literal
+    ) => {
         impl Scalar for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -110,6 +125,11 @@ macro_rules! implement_scalar {
             }
 
             #[inline(always)]
+            fn recip_positive(self) -> Self {
+                $recip_positive(self)
+            }
+
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
             }
@@ -122,5 +142,23 @@ macro_rules! implement_scalar {
     };
 }
 
-implement_scalar!(f64, u64, mul_add_f64, sqrt_f64, tanh_f64, double::sin_cos, 8);
-implement_scalar!(f32, u32, mul_add_f32, sqrt_f32, tanh_f32, single::sin_cos, 16);
+implement_scalar!(
+    f64,
+    u64,
+    mul_add_f64,
+    sqrt_f64,
+    tanh_f64,
+    recip_positive_f64,
+    double::sin_cos,
+    8
+);
+implement_scalar!(
+    f32,
+    u32,
+    mul_add_f32,
+    sqrt_f32,
+    tanh_f32,
+    recip_positive_f32,
+    single::sin_cos,
+    16
+);

@@ -157,6 +157,7 @@ impl<'a> Body<'a> {
             Call::Abs => syntax::call(method("abs"), [argument]),
             Call::Sign => syntax::call(method("signum0"), [argument]),
             Call::Tanh => syntax::call(method("tanh"), [argument]),
+            Call::RecipPositive => syntax::call(self.number.recip_positive(), [argument]),
             Call::Sin => {
                 let pair = syntax::call(self.number.circular("sin_cos"), [argument]);
                 parse_quote!(#pair.0)

@@ -2,6 +2,7 @@
 
 use proc_macro2::{Ident, Literal};
 use quote::{format_ident, quote};
+use robot_symbolic::Function;
 use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
 
 use super::body::Body;
@@ -192,10 +193,12 @@ fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &
     parse_quote!(let Parameters { #(#fields,)* #rest } = *#from;)
 }
 
-/// Arithmetic is `const`; the functions of the runtime are not.
+/// Arithmetic is `const`, reciprocals included; the other functions of the runtime are not.
 pub(super) fn is_const(program: &Program) -> bool {
-    let called =
-        |operation: &Operation| matches!(operation, Operation::Call(..) | Operation::MulAdd(..));
+    let called = |operation: &Operation| match operation {
+        Operation::Call(function, _) => *function != Function::RecipPositive,
+        other => matches!(other, Operation::MulAdd(..)),
+    };
     !program.operations().iter().any(called)
 }
 

@@ -103,6 +103,16 @@ impl Number {
         parse_quote!(#runtime::Scalar::#name)
     }
 
+    /// The reciprocal of what is positive: of a float by a function that is `const`, for constructors.
+    pub(super) fn recip_positive(&self) -> Expr {
+        let runtime = &self.runtime;
+        match self.kind {
+            Kind::Scalar(Scalar::F64) => parse_quote!(#runtime::recip_positive_f64),
+            Kind::Scalar(Scalar::F32) => parse_quote!(#runtime::recip_positive_f32),
+            Kind::Generic => self.method("recip_positive"),
+        }
+    }
+
     /// `sin_cos` of one angle by the chosen trigonometry.
     pub(super) fn circular(&self, name: &str) -> Expr {
         let (runtime, ty) = (&self.runtime, self.ty());

@@ -113,6 +113,9 @@ impl Points {
                 Operation::Div(a, b) => at(a).over(at(b)),
                 Operation::Neg(a) => Sample { values: at(a).values.map(|x| -x), ..*at(a) },
                 Operation::MulAdd(a, b, c) => at(a).times(at(b)).plus(at(c)),
+                Operation::Call(Function::RecipPositive, a) => {
+                    Sample::exact([1.0.into(); POINTS]).over(at(a))
+                }
                 Operation::Call(function, a) if self.used == Use::Check => {
                     Sample::exact(at(a).values.map(|x| x.apply(function)))
                 }

@@ -13,6 +13,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
+use robot_symbolic::Function;
+
 use super::Reordering;
 use crate::program::{Operation, Program, Value};
 
@@ -30,7 +32,7 @@ fn latency(operation: Operation) -> u32 {
         Operation::Constant(_) | Operation::Load(_) => 0,
         Operation::Neg(_) => 1,
         Operation::Add(..) | Operation::Sub(..) | Operation::Mul(..) | Operation::MulAdd(..) => 2,
-        Operation::Div(..) => 7,
+        Operation::Div(..) | Operation::Call(Function::RecipPositive, _) => 7,
         Operation::Call(..) => 10,
     }
 }

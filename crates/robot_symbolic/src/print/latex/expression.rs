@@ -165,6 +165,7 @@ fn call<'g>(
             (Level::Atom, vec![text(r"\operatorname{sgn}\left("), inside, text(r"\right)")])
         }
         Function::Tanh => (Level::Atom, vec![text(r"\tanh\left("), inside, text(r"\right)")]),
+        Function::RecipPositive => (Level::Atom, vec![text(r"\frac{1}{"), inside, text("}")]),
     }
 }
 
