@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use robot_dynamics::diagnostic::{Diagnostics, quote};
-use robot_dynamics::functions::{ALL_FUNCTIONS, FunctionKind};
+use robot_dynamics::functions::WrongName;
 use robot_dynamics::mechanism::WrongSnap;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
@@ -18,18 +18,15 @@ pub enum Error {
     #[error("{robot} has no function `{function}`: {why}")]
     MissingFunction {
         /// The function.
-        function: &'static str,
+        function: String,
         /// The robot.
         robot: String,
         /// What the robot lacks, and the remedy.
         why: &'static str,
     },
-    /// A name that is no function's.
-    #[error("there is no function `{}`; there are {}", quote(function), known_functions())]
-    UnknownFunction {
-        /// The name.
-        function: String,
-    },
+    /// A name that is no function's of the robot.
+    #[error(transparent)]
+    FunctionName(#[from] WrongName),
     /// A bundle that is none.
     #[error("the bundle `{}`: {reason}", quote(bundle))]
     Bundle {
@@ -143,12 +140,6 @@ pub enum Error {
         /// The second.
         second: String,
     },
-}
-
-fn known_functions() -> String {
-    let names = FunctionKind::ALL.iter().map(|kind| format!("`{}`", kind.name()));
-    let all = format!("`{ALL_FUNCTIONS}` for all that the robot has");
-    names.chain([all]).collect::<Vec<_>>().join(", ")
 }
 
 /// The text of [`fmt::Display`]: a `main` that returns an error shows this.

@@ -46,13 +46,22 @@ pub fn read(source: &Source) -> Result<Described, Errors> {
     Ok(description::read(&source.name, &source.text)?)
 }
 
+/// As [`read`], with what the options take that is an error otherwise.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file.
+pub fn read_with(source: &Source, options: &Options) -> Result<Described, Errors> {
+    Ok(description::read_with(&source.name, &source.text, &options.reading())?)
+}
+
 /// Derives the functions of a robot and compiles them to straight-line programs.
 ///
 /// # Errors
 ///
 /// Everything that is wrong with the file or the options.
 pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
-    let Described { robot, warnings, code, budgets, .. } = read(source)?;
+    let Described { robot, warnings, code, budgets, .. } = read_with(source, options)?;
     let mut programs = programs_of(robot, &source.name, &options.or_of_file(&code))?;
     programs.warnings = warnings;
     programs.budgets = budgets;

@@ -8,7 +8,6 @@ use crate::delivery::OutputArguments;
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
-use crate::text;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -36,11 +35,11 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let mut options = self.code.options(&self.robot, self.trigonometry)?;
-        options.runtime.clone_from(&self.runtime);
         let source = self.robot.source()?;
+        let robot = self.robot.read(terminal)?.robot;
+        let mut options = self.code.options(&self.robot, &robot, self.trigonometry)?;
+        options.runtime.clone_from(&self.runtime);
         let generated = watched("generating", terminal, || generate(&source, &options))?;
-        text::warnings(&generated.warnings, terminal)?;
         self.output.deliver(generated.code, terminal)
     }
 }

@@ -45,7 +45,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", requires = "expressions", allow_hyphen_values = true)]
     time: Option<f64>,
     /// The time between lines of the output where the motion is expressions, s
-    #[arg(long, value_name = "S", default_value_t = 0.01, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 0.01,
+        conflicts_with = "trajectory",
+        allow_hyphen_values = true
+    )]
     step: f64,
     #[command(flatten)]
     friction: FrictionArguments,

@@ -14,6 +14,7 @@ mod inverse_dynamics;
 mod kind;
 mod kinematics;
 mod mass_matrix;
+mod named;
 mod plain;
 mod plans;
 mod regressor;
@@ -21,6 +22,7 @@ mod sharing;
 
 pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
 pub use kind::FunctionKind;
+pub use named::{FrameRef, WrongName, is_of_frame, named, names};
 pub use plans::search_plan;
 pub(crate) use regressor::base_columns;
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
@@ -130,7 +132,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Derivation { robot: self.robot, mechanism, recursion }
     }
 
-    /// Derives the functions of a kind: one, or one per named frame. What the robot lacks (a tip,
+    /// Derives the functions of a kind: one, or one per frame. What the robot lacks (a tip,
     /// friction) is taken for 0: ask [`FunctionKind::missing_in`] first.
     #[must_use]
     pub fn functions(&self, kind: FunctionKind) -> Vec<Function<'g>> {
@@ -152,6 +154,9 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::FramePoses => kinematics::frame_poses(self),
             FunctionKind::Jacobian | FunctionKind::JacobianDotQd => {
                 return kinematics::per_frame(self, kind);
+            }
+            FunctionKind::JacobianOf(_) | FunctionKind::JacobianDotQdOf(_) => {
+                return Vec::from_iter(kinematics::of_frame(self, kind));
             }
             FunctionKind::Energies => energies::energies(self),
             FunctionKind::CoriolisMatrix => coriolis::coriolis_matrix(self),
