@@ -62,6 +62,19 @@ pub enum Error {
         /// What is wrong.
         error: robot_codegen::Error,
     },
+    /// A mass matrix that is singular in every posture, so that there is no forward dynamics.
+    #[error(
+        "{name}: the mass matrix is singular in every posture, so that there is no forward dynamics: no \
+         driving forces determine the accelerations of {}; give mass or inertia to what moves there, or \
+         `armature` to its drive (R0611)",
+        quoted(joints)
+    )]
+    Singular {
+        /// The robot file.
+        name: String,
+        /// The joints whose accelerations are not determined.
+        joints: Vec<String>,
+    },
     /// Functions of more expressions than code is made of.
     #[error(
         "{name}: the functions are more than {limit} expressions, too many for this; choose fewer functions, \
@@ -140,6 +153,11 @@ pub enum Error {
         /// The second.
         second: String,
     },
+}
+
+/// The names of joints.
+fn quoted(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// The text of [`fmt::Display`]: a `main` that returns an error shows this.

@@ -38,6 +38,7 @@ pub mod package;
 mod paths;
 mod pin;
 mod programs;
+mod singular;
 pub mod snapping;
 mod specification;
 

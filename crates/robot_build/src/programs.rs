@@ -12,7 +12,7 @@ use robot_symbolic::Graph;
 
 use crate::error::{Error, Errors};
 use crate::options::Options;
-use crate::specification;
+use crate::{singular, specification};
 
 /// Functions of more expressions than this do not become code. The usual ones of 64 joints about
 /// skew axes are some tens of thousands.
@@ -114,7 +114,7 @@ pub(crate) fn programs_under(
         return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit }));
     }
     let module = Module::compile(&specification, codegen)
-        .map_err(|errors| Errors::of_code(name, &errors))?;
+        .map_err(|errors| singular::told(name, &robot, &functions, &bundles, &errors))?;
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };
     let warnings = Diagnostics::new(source, vec![]);

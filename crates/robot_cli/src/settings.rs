@@ -12,7 +12,7 @@ use crate::text;
 /// Parameters' values in place of the nominal ones.
 #[derive(Args)]
 pub(crate) struct Settings {
-    /// A parameter's value in place of the nominal one
+    /// A parameter's value in place of the nominal one; what the reader refuses in a file it refuses here
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     settings: Vec<(String, f64)>,
 }

@@ -21,6 +21,7 @@ mod dynamics;
 mod error;
 mod expressions;
 mod grid;
+mod kinks;
 mod motion;
 pub mod plot;
 mod program;

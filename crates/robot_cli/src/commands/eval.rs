@@ -1,5 +1,6 @@
 //! `eval`: a function of a robot at given states.
 
+mod infinite;
 mod output;
 
 use std::path::PathBuf;
@@ -141,7 +142,12 @@ impl Arguments {
             let given: Vec<(&str, &[f64])> =
                 inputs.iter().map(|(name, entries)| (*name, entries.as_slice())).collect();
             let outputs = interpreter.call(&function.name, &given).map_err(failed)?;
-            wrong.extend(infinite(state, &outputs));
+            wrong.extend(infinite::messages(
+                &programs.robot,
+                &self.settings.pairs(),
+                state,
+                &outputs,
+            ));
             results.push(outputs);
         }
         if wrong.is_empty() { Ok(results) } else { Err(Failure::Input(wrong)) }
@@ -192,16 +198,4 @@ fn inputs<'f>(function: &'f Function, state: &State) -> Vec<(&'f str, Vec<f64>)>
         (input.name.as_str(), entries.unwrap_or_else(|| vec![0.0; input.symbols.len()]))
     });
     inputs.collect()
-}
-
-/// Outputs that JSON cannot hold.
-fn infinite<'s>(
-    state: &'s State,
-    outputs: &'s [OutputValues],
-) -> impl Iterator<Item = String> + use<'s> {
-    let wrong =
-        outputs.iter().filter(|output| output.values.iter().any(|value| !value.is_finite()));
-    wrong.map(|output| {
-        format!("{}: `{}` has no finite value; look at the parameters", state.place, output.name)
-    })
 }

@@ -11,11 +11,13 @@ mod diff;
 mod equations;
 mod eval;
 mod files;
+mod functions;
 mod help;
 mod json_schema;
 #[path = "../../../../tests/common/pages.rs"]
 mod pages;
 mod prove;
+mod reading;
 mod report;
 mod schema;
 mod shell;

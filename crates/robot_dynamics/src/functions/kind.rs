@@ -188,6 +188,17 @@ impl FunctionKind {
         }
     }
 
+    /// Whether the function solves with the mass matrix, which must not be singular.
+    #[must_use]
+    pub const fn divides_by_mass_matrix(self) -> bool {
+        matches!(
+            self,
+            FunctionKind::ForwardDynamics
+                | FunctionKind::ForwardDynamicsWrench
+                | FunctionKind::ForwardDynamicsDerivatives
+        )
+    }
+
     /// The functions that a robot has.
     #[must_use]
     pub fn of(robot: &Robot) -> Vec<FunctionKind> {
