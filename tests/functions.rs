@@ -9,7 +9,7 @@ use common::plans::random_plan;
 use common::solver::{expected, state};
 use common::{evaluate, magnitude, robot_files, with_free_axes};
 use robot_dynamics::economical::{Plan, Recursion};
-use robot_dynamics::functions::{Derivation, FunctionKind, Output, search_plan};
+use robot_dynamics::functions::{self, Derivation, FrameRef, FunctionKind, Output, search_plan};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::model::Robot;
 use robot_dynamics::numeric::{
@@ -105,6 +105,68 @@ fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
         let mut worst = [0.0; KINDS.len()];
         check(&common::read(&name, &text), 3, &name, &mut worst);
         report(&name, worst);
+    }
+}
+
+/// The Jacobians of the links of a robot, and those that the kind alone gives where there are no frames,
+/// against the solver.
+fn check_links(mut robot: Robot, name: &str) {
+    let solver = numeric::Mechanism::nominal(&robot).unwrap();
+    let mut random = Random::new(5);
+    let states: Vec<State> = (0..3).map(|_| state(&mut random, &solver, &robot)).collect();
+    let links = (0..robot.links.len()).map(FrameRef::Link);
+    let of_links = links
+        .flat_map(|link| [FunctionKind::JacobianOf(link), FunctionKind::JacobianDotQdOf(link)]);
+    let hold = |robot: &Robot, kind: FunctionKind| {
+        let graph = Graph::new();
+        let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
+        let roots = values(&derivation, kind);
+        for state in &states {
+            let expected = expected(robot, &solver, kind, state);
+            let found = evaluate(robot, &roots, state);
+            let error = largest_difference(&found, &expected) / magnitude(&expected).max(1.0);
+            assert!(error <= TOLERANCE, "{name}, {kind:?}: off by {error:e}");
+        }
+    };
+    of_links.for_each(|kind| hold(&robot, kind));
+    // Without named frames the kind alone is of the last link of each branch.
+    robot.frames.clear();
+    let last = FrameRef::usual(&robot);
+    assert!(!last.is_empty(), "{name}");
+    hold(&robot, FunctionKind::Jacobian);
+    hold(&robot, FunctionKind::JacobianDotQd);
+}
+
+#[test]
+fn jacobians_of_links_agree_with_the_numeric_solver() {
+    for (name, text) in robot_files() {
+        check_links(common::read(&name, &text), &name);
+    }
+    for seed in 0..12 {
+        let recipe = Recipe { mimic: seed % 3 == 0, ..Recipe::tree(2 + seed as usize % 7) };
+        let robot = random::robot(&mut Random::new(seed), &recipe);
+        check_links(robot, &format!("tree {seed}"));
+    }
+    // Without the economical recursion.
+    (0..3).for_each(|seed| check_links(with_free_axes(seed), "free axes"));
+}
+
+#[test]
+fn every_name_of_a_function_gives_the_function_of_that_name() {
+    for seed in 0..8 {
+        let robot = random::robot(&mut Random::new(seed), &Recipe::tree(5));
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let names = functions::names(&robot);
+        assert!(names.len() > robot.links.len());
+        for (name, kind) in names {
+            assert_eq!(functions::named(&robot, &name), Ok(kind), "{name}");
+            if kind.frame().is_some() {
+                let functions = derivation.functions(kind);
+                assert_eq!(functions.len(), 1, "{name}");
+                assert_eq!(functions[0].name, name);
+            }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What the numeric solver says about functions, and the states and inputs to ask for.
 
 use nalgebra::{DMatrix, Vector3};
-use robot_dynamics::functions::FunctionKind;
+use robot_dynamics::functions::{FrameRef, FunctionKind};
 use robot_dynamics::model::Robot;
 use robot_dynamics::numeric::{
     self, LINK_PARAMETERS, Loads, Mechanism,
@@ -51,7 +51,21 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
     };
     let accelerations =
         |wrenches| solver.forward_dynamics(q, qd, tau, wrenches).unwrap().as_slice().to_vec();
-    let frames = 0..solver.frames().len();
+    let jacobian = |frame: FrameRef| {
+        let found = match frame {
+            FrameRef::Named(index) => solver.frame_jacobian(q, index),
+            FrameRef::Link(index) => solver.link_jacobian(q, index),
+        };
+        found.unwrap().transpose().as_slice().to_vec()
+    };
+    let drift = |frame: FrameRef| {
+        let found = match frame {
+            FrameRef::Named(index) => solver.frame_jacobian_dot_qd(q, qd, index),
+            FrameRef::Link(index) => solver.link_jacobian_dot_qd(q, qd, index),
+        };
+        found.unwrap().as_slice().to_vec()
+    };
+    let frames = FrameRef::usual(robot).into_iter();
     // The solver has gyroscopic rotors as links behind those of the robot.
     let links = robot.links.len();
     match kind {
@@ -78,15 +92,10 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
             poses(&solver.forward_kinematics(q).unwrap().links[..links])
         }
         FunctionKind::FramePoses => poses(&solver.forward_kinematics(q).unwrap().frames),
-        FunctionKind::Jacobian => frames
-            .flat_map(|frame| {
-                solver.frame_jacobian(q, frame).unwrap().transpose().as_slice().to_vec()
-            })
-            .collect(),
-        FunctionKind::JacobianDotQd => {
-            let drift = |frame| solver.frame_jacobian_dot_qd(q, qd, frame).unwrap();
-            frames.flat_map(|frame| drift(frame).as_slice().to_vec()).collect()
-        }
+        FunctionKind::Jacobian => frames.flat_map(jacobian).collect(),
+        FunctionKind::JacobianOf(frame) => jacobian(frame),
+        FunctionKind::JacobianDotQd => frames.flat_map(drift).collect(),
+        FunctionKind::JacobianDotQdOf(frame) => drift(frame),
         FunctionKind::Energies => {
             let energies = solver.energies(q, qd).unwrap();
             vec![energies.kinetic, energies.potential]

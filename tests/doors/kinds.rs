@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use robot_build::{FunctionKind, Functions, Options, programs_of};
+use robot_build::{FrameRef, FunctionKind, Functions, Options, programs_of};
 use robot_codegen::backend::rust::{self, RustOptions};
 use robot_codegen::module::Function;
 use robot_dynamics::base_parameters::{BaseParameter, base_parameters};
@@ -98,7 +98,7 @@ impl Case {
         let mut functions = module.functions.into_iter();
         let kinds = called.into_iter().map(|kind| {
             let of_frames = matches!(kind, FunctionKind::Jacobian | FunctionKind::JacobianDotQd);
-            let count = if of_frames { robot.frames.len() } else { 1 };
+            let count = if of_frames { FrameRef::usual(&robot).len() } else { 1 };
             (kind, functions.by_ref().take(count).collect())
         });
         let kinds = kinds.collect();

@@ -10,7 +10,7 @@ use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
 use crate::error::Errors;
 use crate::generate::counts;
 use crate::options::Options;
-use crate::programs::{plan_of, programs_under, read};
+use crate::programs::{plan_of, programs_under, read_with};
 
 /// Functions of more expressions than this are not derived again and again: all functions of an arm of
 /// seven joints are some tens of thousands.
@@ -65,7 +65,7 @@ fn each(plan: &mut Plan, change: fn(&mut LinkPlan)) {
 ///
 /// Everything that is wrong with the file or the options.
 pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Errors> {
-    let Described { robot, code, .. } = read(source)?;
+    let Described { robot, code, .. } = read_with(source, options)?;
     let options = &options.or_of_file(&code);
     let plan = plan_of(&robot, options).unwrap_or_else(|| Plan::default_for(&robot));
     let counted = |without, plan: Plan, codegen: &robot_codegen::Options| -> Result<_, Errors> {

@@ -150,8 +150,9 @@ fn limits<'p>(
     let bundle = programs.bundles.iter().find(|bundle| bundle.name == function);
     let known = || kind(function).map(FunctionKind::name);
     let named = bundle.map(|bundle| bundle.name.as_str()).or_else(known);
+    let function = function.to_owned();
     let is_of = move |budget: &&Budget| match &budget.function {
-        Some(function) => named == Some(function.as_str()),
+        Some(wanted) => named == Some(wanted.as_str()) || *wanted == function,
         None => true,
     };
     let budgets = programs.budgets.iter().filter(is_of);

@@ -16,6 +16,7 @@ use crate::generate::{Generated, generate};
 use crate::options::{Options, functions_named, kinds_named};
 use crate::paths::{RobotFile, robot_files};
 use crate::pin::{pin_path, robot_inputs};
+use crate::programs::read_with;
 use output::Module;
 
 /// Generates the module of one robot file into `OUT_DIR`, with the options of [`Builder::new`].
@@ -65,7 +66,8 @@ impl Builder {
         Builder::default()
     }
 
-    /// The functions to generate, by name; `"all"` for all that the robot has.
+    /// The functions to generate, by name; `"all"` for all that the robot has, `"jacobian_tool"` for the
+    /// function of one frame or moving link.
     ///
     /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; where it
     /// chooses none, those of [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that the robot has.
@@ -187,6 +189,19 @@ impl Builder {
         self
     }
 
+    /// Whether figures that no body can have are taken, with a warning: masses that are negative, tensors
+    /// with a negative principal moment or one that exceeds the sum of the others.
+    pub fn allow_unphysical(mut self, allow: bool) -> Builder {
+        self.options.allow_unphysical = allow;
+        self
+    }
+
+    /// Whether moving links without mass are taken, with a warning.
+    pub fn allow_massless(mut self, allow: bool) -> Builder {
+        self.options.allow_massless = allow;
+        self
+    }
+
     /// Whether robot files may lie outside of the package.
     pub fn allow_outside(mut self, allow: bool) -> Builder {
         self.allow_outside = allow;
@@ -258,17 +273,9 @@ impl Builder {
             // A relative folder is the package's, as the robot files are.
             Ok(package.join(folder))
         })?;
-        let mut options = self.options.clone();
-        if let Some(names) = &self.functions {
-            options.functions = functions_named(names)?;
-        }
-        for (name, functions) in &self.bundles {
-            let functions = kinds_named(functions)?;
-            options.bundles.push(Bundle { name: name.clone(), functions });
-        }
         let (mut modules, mut errors) = (vec![], vec![]);
         for path in paths {
-            match self.module(path, &package, &options, directives) {
+            match self.module(path, &package, directives) {
                 Ok(generated) => {
                     modules.push(Module { path: path.display().to_string(), generated })
                 }
@@ -287,7 +294,6 @@ impl Builder {
         &self,
         path: &Path,
         package: &Path,
-        options: &Options,
         directives: &mut Directives,
     ) -> Result<Generated, Errors> {
         let file = RobotFile::in_package(path, package, self.allow_outside)?;
@@ -298,9 +304,27 @@ impl Builder {
         if package.join(&pin).is_file() {
             directives.rerun_if_changed(&pin)?;
         }
-        let generated = generate(&file.source, &file.with_pin(options)?)?;
+        let options = self.options_for(&file)?;
+        let generated = generate(&file.source, &file.with_pin(&options)?)?;
         directives.warnings(&generated.warnings);
         Ok(generated)
+    }
+
+    /// The options, their functions those of the robot.
+    fn options_for(&self, file: &RobotFile) -> Result<Options, Errors> {
+        let mut options = self.options.clone();
+        if self.functions.is_none() && self.bundles.is_empty() {
+            return Ok(options);
+        }
+        let robot = read_with(&file.source, &options)?.robot;
+        if let Some(names) = &self.functions {
+            options.functions = functions_named(names, &robot)?;
+        }
+        for (name, functions) in &self.bundles {
+            let functions = kinds_named(functions, &robot)?;
+            options.bundles.push(Bundle { name: name.clone(), functions });
+        }
+        Ok(options)
     }
 }
 

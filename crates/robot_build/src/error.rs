@@ -4,9 +4,8 @@ use std::fmt;
 use std::path::PathBuf;
 
 use robot_dynamics::diagnostic::{Diagnostics, quote};
-use robot_dynamics::functions::{ALL_FUNCTIONS, FunctionKind};
+use robot_dynamics::functions::WrongName;
 use robot_dynamics::mechanism::WrongSnap;
-use robot_symbolic::nearest_word;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -19,23 +18,15 @@ pub enum Error {
     #[error("{robot} has no function `{function}`: {why}")]
     MissingFunction {
         /// The function.
-        function: &'static str,
+        function: String,
         /// The robot.
         robot: String,
         /// What the robot lacks, and the remedy.
         why: &'static str,
     },
-    /// A name that is no function's.
-    #[error(
-        "there is no function `{}`{}; there are {}",
-        quote(function),
-        meant(function),
-        known_functions()
-    )]
-    UnknownFunction {
-        /// The name.
-        function: String,
-    },
+    /// A name that is no function's of the robot.
+    #[error(transparent)]
+    FunctionName(#[from] WrongName),
     /// A bundle that is none.
     #[error("the bundle `{}`: {reason}", quote(bundle))]
     Bundle {
@@ -70,6 +61,19 @@ pub enum Error {
         name: String,
         /// What is wrong.
         error: robot_codegen::Error,
+    },
+    /// A mass matrix that is singular in every posture, so that there is no forward dynamics.
+    #[error(
+        "{name}: the mass matrix is singular in every posture, so that there is no forward dynamics: no \
+         driving forces determine the accelerations of {}; give mass or inertia to what moves there, or \
+         `armature` to its drive (R0611)",
+        quoted(joints)
+    )]
+    Singular {
+        /// The robot file.
+        name: String,
+        /// The joints whose accelerations are not determined.
+        joints: Vec<String>,
     },
     /// Functions of more expressions than code is made of.
     #[error(
@@ -172,17 +176,9 @@ pub enum Error {
     },
 }
 
-/// `` (did you mean `bias`?)`` where a function's name is near.
-fn meant(name: &str) -> String {
-    let known = FunctionKind::ALL.iter().map(|kind| kind.name()).chain([ALL_FUNCTIONS]);
-    let near = nearest_word(name, known);
-    near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()
-}
-
-fn known_functions() -> String {
-    let names = FunctionKind::ALL.iter().map(|kind| format!("`{}`", kind.name()));
-    let all = format!("`{ALL_FUNCTIONS}` for all that the robot has");
-    names.chain([all]).collect::<Vec<_>>().join(", ")
+/// The names of joints.
+fn quoted(names: &[String]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// The text of [`fmt::Display`]: a `main` that returns an error shows this.

@@ -2,9 +2,9 @@
 
 use robot_codegen::backend::rust::{RustOptions, Scalar};
 use robot_codegen::{Cost, Fused, Trigonometry};
-use robot_dynamics::description::{Code, MAX_BUNDLES, check_bundle_name};
+use robot_dynamics::description::{self, Code, MAX_BUNDLES, check_bundle_name};
 use robot_dynamics::economical::Plan;
-use robot_dynamics::functions::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
+use robot_dynamics::functions::{self, ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::model::{BaseFrames, Robot};
 
@@ -58,6 +58,10 @@ pub struct Options {
     /// Over which parameters of links the base parameters are; `None` for what the robot file says,
     /// which is the file's frames where it says nothing.
     pub base_frames: Option<BaseFrames>,
+    /// Whether figures that no body can have are taken, with a warning.
+    pub allow_unphysical: bool,
+    /// Whether moving links without mass are taken, with a warning.
+    pub allow_massless: bool,
     /// The path of the runtime crate or module in generated code.
     pub runtime: String,
     /// The form of the economical recursion; `None` for one that suits most arms, or is searched.
@@ -89,6 +93,8 @@ impl Default for Options {
             trigonometry: rust.trigonometry,
             snap: None,
             base_frames: None,
+            allow_unphysical: false,
+            allow_massless: false,
             runtime: rust.runtime,
             plan: None,
             max_operations: None,
@@ -122,19 +128,20 @@ impl Options {
             Functions::Usual if !self.bundles.is_empty() => vec![],
             Functions::Usual => DEFAULT_FUNCTIONS.into_iter().filter(has).collect(),
             Functions::All => FunctionKind::of(robot),
-            Functions::Chosen(chosen) => once(chosen),
+            Functions::Chosen(chosen) => once(chosen, robot),
         };
         let of_bundle = |bundle: &Bundle| {
             let Bundle { name, functions } = bundle;
-            Bundle { name: name.clone(), functions: once(functions) }
+            Bundle { name: name.clone(), functions: once(functions, robot) }
         };
         let bundles: Vec<Bundle> = self.bundles.iter().map(of_bundle).collect();
         let named = functions.iter().chain(bundles.iter().flat_map(|bundle| &bundle.functions));
-        let mut named: Vec<FunctionKind> = once(named);
+        let mut named: Vec<FunctionKind> = once(named, robot);
         named.retain(|kind| !has(kind));
         let missing = named.into_iter().filter_map(|kind| {
             let why = kind.missing_in(robot)?;
-            Some(Error::MissingFunction { function: kind.name(), robot: robot.name.clone(), why })
+            let function = kind.full_name(robot);
+            Some(Error::MissingFunction { function, robot: robot.name.clone(), why })
         });
         Errors::check(missing.collect(), (functions, bundles))
     }
@@ -180,6 +187,16 @@ impl Options {
         Errors::check(errors, ())
     }
 
+    /// How a robot file is read.
+    #[must_use]
+    pub fn reading(&self) -> description::Options {
+        description::Options {
+            allow_massless: self.allow_massless,
+            allow_unphysical: self.allow_unphysical,
+            ..description::Options::default()
+        }
+    }
+
     /// How expressions become programs.
     pub(crate) fn codegen(&self) -> robot_codegen::Options {
         let options = robot_codegen::Options::default();
@@ -200,43 +217,48 @@ impl Options {
     }
 }
 
-/// The functions in their order, each once.
-fn once<'f>(functions: impl IntoIterator<Item = &'f FunctionKind>) -> Vec<FunctionKind> {
+/// The functions in their order, each once; that of a frame is left out where all frames' are there.
+fn once<'f>(
+    functions: impl IntoIterator<Item = &'f FunctionKind>,
+    robot: &Robot,
+) -> Vec<FunctionKind> {
     let mut found: Vec<FunctionKind> = vec![];
     for kind in functions {
         if !found.contains(kind) {
             found.push(*kind);
         }
     }
+    let parts: Vec<FunctionKind> = found.iter().flat_map(|kind| kind.parts(robot)).collect();
+    found.retain(|kind| !parts.contains(kind));
     found
 }
 
-/// The functions of those names; [`ALL_FUNCTIONS`] among them means all.
+/// The functions of a robot of those names; [`ALL_FUNCTIONS`] among them means all.
 ///
 /// # Errors
 ///
 /// Each name that is no function's, and an empty list.
-pub(crate) fn functions_named(names: &[String]) -> Result<Functions, Errors> {
+pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Errors> {
     if names.is_empty() {
         return Err(Errors::from(Error::NoFunctions));
     }
     let (all, names): (Vec<_>, Vec<_>) =
         names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
-    let kinds = kinds_named(&names)?;
+    let kinds = kinds_named(&names, robot)?;
     Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
 }
 
-/// The functions of those names.
+/// The functions of a robot of those names.
 ///
 /// # Errors
 ///
 /// Each name that is no function's.
-pub(crate) fn kinds_named(names: &[String]) -> Result<Vec<FunctionKind>, Errors> {
+pub fn kinds_named(names: &[String], robot: &Robot) -> Result<Vec<FunctionKind>, Errors> {
     let (mut kinds, mut errors) = (vec![], vec![]);
     for name in names {
-        match FunctionKind::from_name(name) {
-            Some(kind) => kinds.push(kind),
-            None => errors.push(Error::UnknownFunction { function: name.clone() }),
+        match functions::named(robot, name) {
+            Ok(kind) => kinds.push(kind),
+            Err(error) => errors.push(Error::FunctionName(error)),
         }
     }
     Errors::check(errors, kinds)

@@ -64,7 +64,7 @@ impl RobotFile {
             Errors::from(Error::Pin { path: pin_path(Path::new(&robot)), robot, reason })
         };
         let pin = read_pin(&path).map_err(failed)?;
-        let robot = crate::read(&self.source)?.robot;
+        let robot = crate::read_with(&self.source, options)?.robot;
         if pin.fingerprint != fingerprint(&robot) {
             return Err(failed(format!(
                 "the pinned plan is stale: it was searched for other mechanics than the file's now, where inverse \

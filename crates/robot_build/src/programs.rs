@@ -12,7 +12,7 @@ use robot_symbolic::Graph;
 
 use crate::error::{Error, Errors};
 use crate::options::Options;
-use crate::specification;
+use crate::{singular, specification};
 
 /// Functions of more expressions than this do not become code. The usual ones of 64 joints about
 /// skew axes are some tens of thousands.
@@ -46,13 +46,22 @@ pub fn read(source: &Source) -> Result<Described, Errors> {
     Ok(description::read(&source.name, &source.text)?)
 }
 
+/// As [`read`], with what the options take that is an error otherwise.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file.
+pub fn read_with(source: &Source, options: &Options) -> Result<Described, Errors> {
+    Ok(description::read_with(&source.name, &source.text, &options.reading())?)
+}
+
 /// Derives the functions of a robot and compiles them to straight-line programs.
 ///
 /// # Errors
 ///
 /// Everything that is wrong with the file or the options.
 pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
-    let Described { robot, warnings, code, budgets, .. } = read(source)?;
+    let Described { robot, warnings, code, budgets, .. } = read_with(source, options)?;
     let mut programs = programs_of(robot, &source.name, &options.or_of_file(&code))?;
     programs.warnings = warnings;
     programs.budgets = budgets;
@@ -105,7 +114,7 @@ pub(crate) fn programs_under(
         return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit }));
     }
     let module = Module::compile(&specification, codegen)
-        .map_err(|errors| Errors::of_code(name, &errors))?;
+        .map_err(|errors| singular::told(name, &robot, &functions, &bundles, &errors))?;
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };
     let warnings = Diagnostics::new(source, vec![]);

@@ -5,15 +5,21 @@ use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
 use robot_document::{Equation, Error, Group, html, typst};
 
+use crate::failure::Failure;
+use crate::forms::no_effect;
+
 /// The narrowest and the widest line, cm.
 const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
+
+/// The width of lines where none is given, cm.
+const WIDTH: f64 = 16.0;
 
 /// How displayed equations are laid out.
 #[derive(Args)]
 pub(crate) struct LayoutArguments {
-    /// The width of the lines of LaTeX, Typst and MathML, such as 8.5cm
-    #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true, default_value = "16cm")]
-    width: f64,
+    /// The width of the lines of LaTeX, Typst and MathML, such as 8.5cm; 16cm without this
+    #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true)]
+    width: Option<f64>,
     /// Number the equations; those of LaTeX and Typst get labels such as eq:Q1
     #[arg(long)]
     numbers: bool,
@@ -29,6 +35,17 @@ pub(crate) enum Notation {
 }
 
 impl LayoutArguments {
+    /// Refuses options that would have no effect where nothing is typeset.
+    pub(crate) fn check(&self, typeset: bool) -> Result<(), Failure> {
+        let given = [("--width", self.width.is_some()), ("--numbers", self.numbers)];
+        let wrong: Vec<String> = given
+            .into_iter()
+            .filter(|(_, given)| *given && !typeset)
+            .map(|(option, _)| no_effect(option))
+            .collect();
+        if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
+    }
+
     /// Displayed equations, a comment before each group where there are several; a page has the title.
     pub(crate) fn displayed(
         &self,
@@ -36,7 +53,7 @@ impl LayoutArguments {
         groups: &[Group],
         notation: Notation,
     ) -> Result<String, Error> {
-        let layout = Layout::of_centimetres(self.width);
+        let layout = Layout::of_centimetres(self.width.unwrap_or(WIDTH));
         let (comment, print): (_, Print) = match notation {
             Notation::Latex => ("%", latex::equations),
             Notation::Typst => ("//", typst::equations),

@@ -2,11 +2,13 @@
 
 use clap::{Args, ValueEnum};
 use robot_document::{Error, Form};
+use robot_dynamics::model::Robot;
 use robot_dynamics::quantity::Kind;
 use robot_symbolic::AngleSums;
 use robot_symbolic::print::latex::Trigonometry;
 
 use crate::failure::Failure;
+use crate::friction::has_friction;
 use crate::robot::RobotArgument;
 use crate::text;
 
@@ -16,13 +18,13 @@ pub(crate) struct EquationArguments {
     /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all; the grouped, the recursive and the regrouped form have Q alone
     #[arg(long = "quantity", value_name = "NAMES", value_delimiter = ',', default_value = "Q")]
     quantities: Vec<String>,
-    /// Sines and cosines in print
-    #[arg(long, value_enum, default_value_t = TrigonometryStyle::Named)]
-    trig: TrigonometryStyle,
+    /// Sines and cosines in LaTeX, Typst and MathML; named without this
+    #[arg(long, value_enum)]
+    trig: Option<TrigonometryStyle>,
     /// Sines and cosines of sums of angles, as parallel joints have them, in the driving forces of
-    /// all forms but the recursive one
-    #[arg(long, value_enum, default_value_t = AngleSumStyle::Expand)]
-    angle_sums: AngleSumStyle,
+    /// all forms but the recursive one; expanded without this
+    #[arg(long, value_enum)]
+    angle_sums: Option<AngleSumStyle>,
     /// In the grouped form, Christoffel symbols in place of the coefficients of velocities
     #[arg(long)]
     christoffel: bool,
@@ -77,6 +79,36 @@ enum AngleSumStyle {
 }
 
 impl EquationArguments {
+    /// Refuses options that would have no effect: in those forms, and where nothing is typeset.
+    pub(crate) fn check(&self, forms: &[Form], typeset: bool) -> Result<(), Failure> {
+        let mut wrong = vec![];
+        if self.christoffel && !forms.contains(&Form::Grouped) {
+            wrong.push(
+                "--christoffel has no effect in this form; add --form grouped, or leave it out"
+                    .to_owned(),
+            );
+        }
+        if self.angle_sums.is_some() && forms.iter().all(|form| *form == Form::Recursive) {
+            wrong.push(
+                "--angle-sums has no effect in the recursive form; choose another form, or leave it out"
+                    .to_owned(),
+            );
+        }
+        if self.trig.is_some() && !typeset {
+            wrong.push(no_effect("--trig"));
+        }
+        if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
+    }
+
+    /// Refuses friction that the robot has not.
+    pub(crate) fn check_friction(
+        &self,
+        file: &RobotArgument,
+        robot: &Robot,
+    ) -> Result<(), Failure> {
+        if self.friction { has_friction(file, robot) } else { Ok(()) }
+    }
+
     /// The options, in the form chosen.
     pub(crate) fn options(
         &self,
@@ -88,18 +120,25 @@ impl EquationArguments {
             kinds: kinds(&self.quantities)?,
             friction: self.friction,
             snap: robot.snap(),
-            trigonometry: match self.trig {
+            trigonometry: match self.trig.unwrap_or(TrigonometryStyle::Named) {
                 TrigonometryStyle::Named => Trigonometry::Named,
                 TrigonometryStyle::Short => Trigonometry::Short,
                 TrigonometryStyle::Paper => Trigonometry::Paper,
             },
-            angle_sums: match self.angle_sums {
+            angle_sums: match self.angle_sums.unwrap_or(AngleSumStyle::Expand) {
                 AngleSumStyle::Expand => AngleSums::Expand,
                 AngleSumStyle::Keep => AngleSums::Keep,
             },
             christoffel: self.christoffel,
         })
     }
+}
+
+/// What is said of an option of typeset formulas where none are.
+pub(crate) fn no_effect(option: &str) -> String {
+    format!(
+        "{option} has no effect on text and JSON; add --format latex, typst or mathml, or leave it out"
+    )
 }
 
 /// What is wrong with the equations of a robot file.

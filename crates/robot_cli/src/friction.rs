@@ -1,10 +1,20 @@
 //! Whether and how a command takes friction into account.
 
 use clap::Args;
+use robot_build::FunctionKind;
 use robot_dynamics::model::{Friction, Robot};
 use robot_symbolic::Formula;
 
 use crate::failure::Failure;
+use crate::robot::RobotArgument;
+
+/// That the robot has friction, which a command was asked to take into account.
+pub(crate) fn has_friction(file: &RobotArgument, robot: &Robot) -> Result<(), Failure> {
+    match FunctionKind::InverseDynamicsFriction.missing_in(robot) {
+        None => Ok(()),
+        Some(why) => Err(Failure::input(format!("{}: --friction: {why}", file.path().display()))),
+    }
+}
 
 /// Friction in the joints.
 #[derive(Args)]

@@ -5,7 +5,7 @@ use robot_dynamics::model::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
-use crate::friction::FrictionArguments;
+use crate::friction::{FrictionArguments, has_friction};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
 
@@ -16,10 +16,15 @@ pub(crate) fn robot(
     friction: &FrictionArguments,
     terminal: &mut Terminal<'_>,
 ) -> Result<Robot, Failure> {
-    let mut robot = file.read(terminal)?.robot;
-    let wrong = settings.wrong(&robot);
+    let described = file.read(terminal)?;
+    let wrong = settings.wrong(&described.robot);
     if !wrong.is_empty() {
         return Err(Failure::Input(wrong));
+    }
+    settings.check(file, &described, terminal)?;
+    let mut robot = described.robot;
+    if friction.is_wanted() {
+        has_friction(file, &robot)?;
     }
     friction.smooth(&mut robot)?;
     Ok(robot)

@@ -24,7 +24,7 @@ pub(crate) fn pinned_or_searched(
     if !is_of_pin(&errors) {
         return Err(errors.into());
     }
-    let robot = robot_build::read(&file.source)?.robot;
+    let robot = robot_build::read_with(&file.source, &options)?.robot;
     let mechanism = MechanismOptions::ROUNDED.with_snap(options.snap, &robot);
     let find = || search(&robot, &mechanism, Measure::Operations);
     let found = watched("searching a plan", terminal, find);

@@ -5,16 +5,18 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use robot_build::{
-    ALL_FUNCTIONS, BaseFrames, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, RobotFile,
-    Scalar, Source, Trigonometry, robot_inputs,
+    BaseFrames, Bundle, DEFAULT_BATCH, Functions, Options, RobotFile, Scalar, Source, Trigonometry,
+    robot_inputs,
 };
 use robot_dynamics::description::Described;
 use robot_dynamics::mechanism::MechanismOptions;
+use robot_dynamics::model::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::function::{FunctionName, bundles, functions};
 use crate::plan::pinned_or_searched;
-use crate::text;
+use crate::reading::ReadingArguments;
 
 /// The robot file.
 #[derive(Args)]
@@ -30,6 +32,8 @@ pub(crate) struct RobotArgument {
     /// the regressor needs fewer operations; without this what the robot file says, or file
     #[arg(long, value_name = "FRAMES", value_parser = base_frames())]
     base_frames: Option<BaseFrames>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArguments,
 }
 
 /// A snapping tolerance.
@@ -53,10 +57,9 @@ impl RobotArgument {
 
     /// The robot; warnings are shown.
     pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
-        let mut described = robot_build::read(&self.source()?)?;
+        let mut described = self.reading.read(&self.source()?, terminal)?;
         let robot = &mut described.robot;
         robot.base_frames = self.base_frames.unwrap_or(robot.base_frames);
-        text::warnings(&described.warnings, terminal)?;
         Ok(described)
     }
 
@@ -81,7 +84,7 @@ impl RobotArgument {
             snap: self.snap,
             base_frames: self.base_frames,
             search: true,
-            ..Options::default()
+            ..self.reading.options()
         }
     }
 
@@ -99,10 +102,12 @@ impl RobotArgument {
 /// What code is made.
 #[derive(Args)]
 pub(crate) struct CodeArguments {
-    /// Functions to generate, several with commas between; `all` for all that the robot has. Without
+    /// Functions to generate, several with commas between; `all` for all that the robot has, `jacobian_NAME`
+    /// and `jacobian_dot_qd_NAME` for those of one frame or moving link. Without
     /// this and --bundle those of the robot file's [code]; where it names none, inverse dynamics in its
     /// forms and the wrenches in the joints
-    #[arg(long = "function", value_name = "NAME", value_delimiter = ',')]
+    #[arg(long = "function", value_name = "NAME", value_delimiter = ',',
+          value_parser = FunctionName { all: true })]
     functions: Vec<String>,
     #[command(flatten)]
     bundles: BundleArguments,
@@ -141,13 +146,9 @@ fn bundle(text: &str) -> Result<(String, Vec<String>), String> {
 }
 
 impl BundleArguments {
-    /// The bundles, their functions known.
-    pub(crate) fn bundles(&self) -> Result<Vec<Bundle>, Failure> {
-        let mut bundles = vec![];
-        for (name, functions) in &self.bundles {
-            bundles.push(Bundle { name: name.clone(), functions: kinds(functions, &[])? });
-        }
-        Ok(bundles)
+    /// The bundles, their functions those of a robot.
+    pub(crate) fn bundles(&self, robot: &Robot) -> Result<Vec<Bundle>, Failure> {
+        bundles(&self.bundles, robot)
     }
 }
 
@@ -179,7 +180,8 @@ impl CodeArguments {
     /// The options for code.
     pub(crate) fn options(
         &self,
-        robot: &RobotArgument,
+        file: &RobotArgument,
+        robot: &Robot,
         trigonometry: TrigonometryName,
     ) -> Result<Options, Failure> {
         let scalar = match self.scalar {
@@ -188,56 +190,21 @@ impl CodeArguments {
         };
         let functions = match self.functions.as_slice() {
             [] => Functions::Usual,
-            names => functions(names)?,
+            names => functions(names, robot)?,
         };
         let &CodeArguments { generic, batch, parallel, fused, .. } = self;
         let batch = batch.map(|states| states.unwrap_or(DEFAULT_BATCH));
         let trigonometry = trigonometry.into();
         Ok(Options {
             functions,
-            bundles: self.bundles.bundles()?,
+            bundles: self.bundles.bundles(robot)?,
             scalar,
             generic,
             batch,
             parallel,
             fused,
             trigonometry,
-            ..robot.code_options()?
+            ..file.code_options()?
         })
     }
-}
-
-/// The functions of those names.
-pub(crate) fn functions(names: &[String]) -> Result<Functions, Failure> {
-    let (all, names): (Vec<_>, Vec<_>) =
-        names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
-    let kinds = kinds(&names, &[ALL_FUNCTIONS])?;
-    Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
-}
-
-/// The functions of those names; `more` are words that might have stood among them.
-fn kinds(names: &[String], more: &[&str]) -> Result<Vec<FunctionKind>, Failure> {
-    let (mut kinds, mut wrong) = (vec![], vec![]);
-    for name in names {
-        match FunctionKind::from_name(name) {
-            Some(kind) => kinds.push(kind),
-            None => wrong.push(unknown_function(name, more) + of_one_frame(name)),
-        }
-    }
-    if wrong.is_empty() { Ok(kinds) } else { Err(Failure::Usage(wrong)) }
-}
-
-/// What is said besides where a name may be that of one frame's function.
-fn of_one_frame(name: &str) -> &'static str {
-    if name.starts_with("jacobian_") {
-        " Functions of frames are chosen for all named frames at once: `jacobian`, `jacobian_dot_qd`."
-    } else {
-        ""
-    }
-}
-
-/// What is said of a name that is no function's nor one of some further words.
-pub(crate) fn unknown_function(name: &str, more: &[&str]) -> String {
-    let known: Vec<&str> = FunctionKind::ALL.iter().map(|kind| kind.name()).collect();
-    text::unknown("function", name, &[&known[..], more].concat())
 }

@@ -1,14 +1,18 @@
 //! Parameters that a command sets.
 
 use clap::Args;
+use robot_dynamics::description::Described;
 use robot_dynamics::model::Robot;
 
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::robot::RobotArgument;
 use crate::text;
 
 /// Parameters' values in place of the nominal ones.
 #[derive(Args)]
 pub(crate) struct Settings {
-    /// A parameter's value in place of the nominal one
+    /// A parameter's value in place of the nominal one; what the reader refuses in a file it refuses here
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     settings: Vec<(String, f64)>,
 }
@@ -25,6 +29,26 @@ impl Settings {
     /// Names and values.
     pub(crate) fn pairs(&self) -> Vec<(&str, f64)> {
         self.settings.iter().map(|(name, value)| (name.as_str(), *value)).collect()
+    }
+
+    /// Holds the robot file against the reader's checks with these values in place of the nominal ones.
+    pub(crate) fn check(
+        &self,
+        file: &RobotArgument,
+        described: &Described,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        let pairs = self.pairs();
+        if pairs.is_empty() {
+            return Ok(());
+        }
+        let checked = file.reading.check_values(&file.source()?, described, &pairs, terminal);
+        if let Err(Failure::Robot(_)) = &checked {
+            let values: Vec<String> =
+                pairs.iter().map(|(name, value)| format!("{name}={value}")).collect();
+            writeln!(terminal.errors, "with --set {}:", values.join(" --set "))?;
+        }
+        checked
     }
 
     /// Parameters that there are not, that are set twice, or that have no value.

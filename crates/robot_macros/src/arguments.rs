@@ -1,14 +1,15 @@
 //! The arguments of `include_robot!`.
 
 use robot_build::{
-    ALL_FUNCTIONS, BaseFrames, Bundle, FunctionKind, Functions, Options, Scalar, Trigonometry,
+    ALL_FUNCTIONS, BaseFrames, Bundle, FunctionKind, Functions, Options, Robot, Scalar,
+    Trigonometry, functions,
 };
 use robot_symbolic::nearest_word;
 use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
 /// The keys, for messages.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 16] = [
     "functions",
     "bundles",
     "snap",
@@ -23,13 +24,18 @@ const KEYS: [&str; 14] = [
     "max_stack",
     "runtime",
     "allow_outside",
+    "allow_unphysical",
+    "allow_massless",
 ];
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
     pub(crate) path: LitStr,
+    /// The options but for the functions, which the robot must be known for: see [`Arguments::options_for`].
     pub(crate) options: Options,
     pub(crate) allow_outside: bool,
+    functions: Option<Vec<LitStr>>,
+    bundles: Vec<(Ident, Vec<LitStr>)>,
 }
 
 impl Parse for Arguments {
@@ -37,7 +43,13 @@ impl Parse for Arguments {
         let path = input.parse().map_err(|error| {
             syn::Error::new(error.span(), "expected the path of a robot file as a string literal")
         })?;
-        let mut arguments = Arguments { path, options: Options::default(), allow_outside: false };
+        let mut arguments = Arguments {
+            path,
+            options: Options::default(),
+            allow_outside: false,
+            functions: None,
+            bundles: vec![],
+        };
         let mut errors: Option<syn::Error> = None;
         let mut seen: Vec<Ident> = vec![];
         while !input.is_empty() {
@@ -68,17 +80,36 @@ impl Parse for Arguments {
 
 impl Arguments {
     fn set_bundles(&mut self, Bundles(bundles): Bundles) -> syn::Result<()> {
-        let known: Vec<(&str, FunctionKind)> = names().collect();
         for (name, value) in bundles {
-            let functions = list(&value, &known)?;
-            self.options.bundles.push(Bundle { name: name.to_string(), functions });
+            self.bundles.push((name, list(&value, None)?));
         }
         Ok(())
     }
 
+    /// The options with the functions of a robot.
+    ///
+    /// # Errors
+    ///
+    /// Each name that is no function's, at its place.
+    pub(crate) fn options_for(&self, robot: &Robot) -> syn::Result<Options> {
+        let mut options = self.options.clone();
+        if let Some(names) = &self.functions {
+            let (all, names): (Vec<&LitStr>, Vec<&LitStr>) =
+                names.iter().partition(|name| name.value() == ALL_FUNCTIONS);
+            let kinds = kinds(names, robot)?;
+            options.functions =
+                if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All };
+        }
+        for (name, functions) in &self.bundles {
+            let functions = kinds(functions, robot)?;
+            options.bundles.push(Bundle { name: name.to_string(), functions });
+        }
+        Ok(options)
+    }
+
     fn set(&mut self, key: &Ident, value: &Expr) -> syn::Result<()> {
         match key.to_string().as_str() {
-            "functions" => self.options.functions = functions(value)?,
+            "functions" => self.functions = Some(list(value, Some(ALL_FUNCTIONS))?),
             "snap" => self.options.snap = Some(number(value)?),
             "base_frames" => {
                 let known = BaseFrames::ALL.map(|frames| (frames.name(), frames));
@@ -103,6 +134,8 @@ impl Arguments {
             "max_stack" => self.options.max_stack = Some(size(value)?),
             "runtime" => self.options.runtime = text(value)?.value(),
             "allow_outside" => self.allow_outside = boolean(value)?,
+            "allow_unphysical" => self.options.allow_unphysical = boolean(value)?,
+            "allow_massless" => self.options.allow_massless = boolean(value)?,
             _ => {
                 let near = meant(&key.to_string(), &KEYS);
                 let keys = KEYS.join(", ");
@@ -131,20 +164,30 @@ impl Parse for Bundles {
     }
 }
 
-fn functions(value: &Expr) -> syn::Result<Functions> {
-    let known = names().map(|(name, kind)| (name, Some(kind)));
-    let chosen = list(value, &known.chain([(ALL_FUNCTIONS, None)]).collect::<Vec<_>>())?;
-    let chosen: Option<Vec<FunctionKind>> = chosen.into_iter().collect();
-    Ok(chosen.map_or(Functions::All, Functions::Chosen))
+/// The functions of a robot by their names.
+fn kinds<'n>(
+    names: impl IntoIterator<Item = &'n LitStr>,
+    robot: &Robot,
+) -> syn::Result<Vec<FunctionKind>> {
+    let (mut kinds, mut errors): (_, Option<syn::Error>) = (vec![], None);
+    for name in names {
+        match functions::named(robot, &name.value()) {
+            Ok(kind) => kinds.push(kind),
+            Err(wrong) => {
+                let error = syn::Error::new(name.span(), wrong);
+                match &mut errors {
+                    Some(errors) => errors.combine(error),
+                    None => errors = Some(error),
+                }
+            }
+        }
+    }
+    errors.map_or(Ok(kinds), Err)
 }
 
-/// The functions by their names.
-fn names() -> impl Iterator<Item = (&'static str, FunctionKind)> {
-    FunctionKind::ALL.iter().map(|kind| (kind.name(), *kind))
-}
-
-/// A list of functions, not an empty one.
-fn list<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<Vec<T>> {
+/// A list of names of functions or a further word, not an empty one. The functions of frames are looked
+/// for when the robot is known.
+fn list(value: &Expr, more: Option<&'static str>) -> syn::Result<Vec<LitStr>> {
     let Expr::Array(array) = value else {
         return Err(syn::Error::new_spanned(
             value,
@@ -154,7 +197,16 @@ fn list<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<Vec<T>> {
     if array.elems.is_empty() {
         return Err(syn::Error::new_spanned(value, "no functions are chosen"));
     }
-    array.elems.iter().map(|element| one_of(element, known)).collect()
+    let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
+    let known: Vec<(&str, ())> = kinds.chain(more).map(|name| (name, ())).collect();
+    let name = |element| {
+        let name = text(element)?;
+        if !functions::is_of_frame(&name.value()) {
+            one_of(element, &known)?;
+        }
+        Ok(name.clone())
+    };
+    array.elems.iter().map(name).collect()
 }
 
 fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {

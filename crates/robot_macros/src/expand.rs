@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
-use robot_build::{Errors, Problem, RobotFile, generate, pin_path};
+use robot_build::{Errors, Problem, RobotFile, generate, pin_path, read_with};
 
 use crate::arguments::Arguments;
 
@@ -45,10 +45,17 @@ fn expand(arguments: &Arguments, package: &Path) -> syn::Result<TokenStream> {
             const _: &[u8] = ::core::include_bytes!(#pin);
         ));
     }
-    let generated =
-        file.with_pin(&arguments.options).and_then(|options| generate(&file.source, &options));
-    let module: TokenStream = match generated {
-        Ok(generated) => generated.code.parse()?,
+    let module: TokenStream = match read_with(&file.source, &arguments.options) {
+        Ok(described) => match arguments.options_for(&described.robot) {
+            Ok(options) => {
+                let options = file.with_pin(&options);
+                match options.and_then(|options| generate(&file.source, &options)) {
+                    Ok(generated) => generated.code.parse()?,
+                    Err(errors) => failed(span, &errors).to_compile_error(),
+                }
+            }
+            Err(error) => error.to_compile_error(),
+        },
         Err(errors) => failed(span, &errors).to_compile_error(),
     };
     let mut tokens = module;

@@ -23,7 +23,7 @@ use proc_macro::TokenStream;
 /// ```ignore
 /// include_robot!(
 ///     "robots/trttr1.toml",
-///     functions = ["inverse_dynamics", "mass_matrix"], // ["all"] for all; the file's without this
+///     functions = ["inverse_dynamics", "jacobian_tool"], // ["all"] for all; the file's without this
 ///     bundles = { dynamics = ["mass_matrix", "bias"] }, // several functions in one call
 ///     snap = 1e-8,                  // rad; constant angles this near to π/2 · n become that
 ///     base_frames = "denavit_hartenberg", // of the base parameters; "file" without this
@@ -37,6 +37,8 @@ use proc_macro::TokenStream;
 ///     max_stack = 2048,             // bytes, estimated; more is an error
 ///     runtime = "::robot_runtime",
 ///     allow_outside = true,         // the file may lie outside of the package
+///     allow_unphysical = true,      // masses and inertias that no body has are warnings
+///     allow_massless = true,        // moving links without mass are warnings
 /// );
 /// ```
 ///

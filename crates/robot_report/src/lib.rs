@@ -100,7 +100,7 @@ pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
 
 /// The robot of a file, and what the page says of it.
 fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
-    let robot = robot_build::read(input.source)?.robot;
+    let robot = robot_build::read_with(input.source, input.options)?.robot;
     presentable(&robot)?;
     let symbols = Symbols::of(&robot);
     let functions = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());

@@ -24,6 +24,7 @@ mod expressions;
 mod friction;
 mod grid;
 mod integration;
+mod kinks;
 mod motion;
 pub mod plot;
 mod program;

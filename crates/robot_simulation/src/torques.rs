@@ -80,7 +80,7 @@ impl Torques {
         Error::check(wrong, Torques(Law::Formulas { formulas, meanings }))
     }
 
-    /// Samples: the column t (s), rising, and one `tau1` … for each coordinate that is driven; other
+    /// Samples: the column t (s), rising, and one `tau1` … for each coordinate; other
     /// columns are those of a motion, and not read. Between samples the forces are linear in t, at
     /// the ends and beyond they stay at the last value; `duration` (s) must lie within the samples.
     ///
@@ -105,10 +105,12 @@ impl Torques {
         }
         let count = robot.degrees_of_freedom();
         let names: Vec<String> = (1..=count).map(|number| format!("tau{number}")).collect();
-        if names.iter().all(|name| table.column(name).is_none()) {
+        let lacks: Vec<&str> =
+            names.iter().map(String::as_str).filter(|name| table.column(name).is_none()).collect();
+        if !lacks.is_empty() {
             wrong.push(format!(
-                "{source}: there is no column of torques; there can be {}",
-                names.join(", ")
+                "{source}: there is no column {}; a joint that is not driven has one of zeros",
+                lacks.join(", ")
             ));
         }
         let known = |name: &str| names.iter().any(|known| known == name) || is_of_motion(name);
@@ -116,9 +118,7 @@ impl Torques {
             let name = quote(name);
             wrong.push(format!("{source}: there is no coordinate for the column `{name}`"));
         }
-        let column =
-            |name: &String| table.column(name).map_or_else(|| vec![0.0; t.len()], <[f64]>::to_vec);
-        let columns = names.iter().map(column).collect();
+        let columns = names.iter().filter_map(|name| Some(table.column(name)?.to_vec())).collect();
         Error::check(wrong, Torques(Law::Samples { t: t.to_vec(), columns }))
     }
 

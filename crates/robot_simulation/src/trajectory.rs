@@ -7,6 +7,7 @@ use robot_dynamics::model::Robot;
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use crate::error::Error;
+use crate::kinks::{Kink, kinks};
 use crate::table::{Table, check_times};
 use crate::{expressions, grid};
 
@@ -104,7 +105,8 @@ impl Trajectory {
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the texts, and values that are not finite.
+    /// Everything that is wrong with the texts, values that are not finite, and positions or velocities that
+    /// jump: the acceleration there is an impulse.
     pub fn from_expressions(
         robot: &Robot,
         parameters: &[(&str, f64)],
@@ -125,6 +127,7 @@ impl Trajectory {
         let q: Vec<Expr<'_>> = numbered(robot, "q").iter().map(lower).collect();
         let qd = walk::derivatives(&q, time);
         let qdd = walk::derivatives(&qd, time);
+        Error::check(kinked(&graph, [&q, &qd], &values, &times), ())?;
         let wrench_names = wrench_names(robot);
         let has_wrench = wrench_names.iter().any(|name| formulas.contains_key(name));
         let wrenches: Vec<Expr<'_>> = wrench_names.iter().map(lower).collect();
@@ -172,6 +175,28 @@ fn formulas(
             .push(format!("there is no expression for `{name}`; where it rests, write {name} = 0"));
     }
     (formulas, wrong)
+}
+
+/// A message for each coordinate whose position or velocity jumps.
+fn kinked<'g>(
+    graph: &'g Graph,
+    [q, qd]: [&[Expr<'g>]; 2],
+    parameters: &BTreeMap<String, f64>,
+    times: &[f64],
+) -> Vec<String> {
+    let value = |exprs: &[Expr<'g>], t: f64| {
+        at(graph, exprs, parameters, t).unwrap_or_else(|_| vec![f64::NAN; exprs.len()])
+    };
+    let message = |kink: Kink| {
+        let Kink { coordinate, t, what, sides: [left, right] } = kink;
+        format!(
+            "`q{}`: the {what} jumps at t = {t} s, from {left} to {right}: the acceleration there is an \
+             impulse, which no finite torque gives; write a smooth motion, such as sqrt(x^2 + w^2) for \
+             abs(x) and tanh(x/w) for sign(x) with a small w",
+            coordinate + 1
+        )
+    };
+    kinks(q, qd, times, &value).into_iter().map(message).collect()
 }
 
 /// The values of expressions at a time.

@@ -51,6 +51,7 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        self.layout.check(!matches!(self.format, Format::Text | Format::Json))?;
         let robot = self.robot.read(terminal)?.robot;
         let failed = |error| failed(&self.robot, &error);
         let set = base(&robot, self.robot.snap()).map_err(failed)?;

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_build::{Error, RobotFile};
-use robot_dynamics::description::Options;
 use robot_dynamics::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
 use robot_dynamics::doctor::{self, Examination};
 
@@ -14,6 +13,7 @@ use crate::Terminal;
 use crate::failure::Failure;
 use crate::format::Format;
 use crate::plan::is_of_pin;
+use crate::reading::ReadingArguments;
 use crate::text;
 
 #[derive(Args)]
@@ -44,12 +44,8 @@ pub(crate) struct Arguments {
     /// Show the page of a code
     #[arg(long, value_name = "CODE", exclusive = true)]
     explain: Option<String>,
-    /// URDF: take moving links without mass
-    #[arg(long)]
-    allow_massless: bool,
-    /// URDF: take inertias that no body has
-    #[arg(long)]
-    allow_unphysical: bool,
+    #[command(flatten)]
+    reading: ReadingArguments,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -96,11 +92,7 @@ impl Arguments {
     }
 
     fn report(&self, path: &std::path::Path) -> Report {
-        let options = Options {
-            allow_massless: self.allow_massless,
-            allow_unphysical: self.allow_unphysical,
-            friction: false,
-        };
+        let options = self.reading.options().reading();
         let examination = match RobotFile::read(path) {
             Ok(file) => {
                 let examination = doctor::check(&file.source.name, &file.source.text, &options);

@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{Options as CodeOptions, RobotFile, read};
+use robot_build::{Options as CodeOptions, RobotFile};
 use robot_difference::{Difference, Options, difference};
 
 use crate::Terminal;
@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::format::Format;
 use crate::plan::pinned_or_searched;
 use crate::progress::watched;
-use crate::text;
+use crate::reading::ReadingArguments;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -32,6 +32,8 @@ pub(crate) struct Arguments {
     a: PathBuf,
     /// The second robot file
     b: PathBuf,
+    #[command(flatten)]
+    reading: ReadingArguments,
     /// The seed of the states at which torques are compared
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -58,8 +60,8 @@ impl Arguments {
     }
 
     fn difference(&self, terminal: &mut Terminal<'_>) -> Result<Difference, Failure> {
-        let (a, of_a) = one(&self.a, terminal)?;
-        let (b, of_b) = one(&self.b, terminal)?;
+        let (a, of_a) = one(&self.a, self.reading, terminal)?;
+        let (b, of_b) = one(&self.b, self.reading, terminal)?;
         let options = Options { code: [of_a, of_b], seed: self.seed, states: self.states.get() };
         Ok(watched("comparing", terminal, || difference(&a, &b, &options)))
     }
@@ -68,11 +70,11 @@ impl Arguments {
 /// A robot, and how code is made of it: by its pinned plan or the cheapest one.
 fn one(
     path: &Path,
+    reading: ReadingArguments,
     terminal: &mut Terminal<'_>,
 ) -> Result<(robot_dynamics::model::Robot, CodeOptions), Failure> {
     let file = RobotFile::read(path)?;
-    let described = read(&file.source)?;
-    text::warnings(&described.warnings, terminal)?;
-    let options = CodeOptions { search: true, ..CodeOptions::default() };
+    let described = reading.read(&file.source, terminal)?;
+    let options = CodeOptions { search: true, ..reading.options() };
     Ok((described.robot, pinned_or_searched(&file, options, terminal)?))
 }

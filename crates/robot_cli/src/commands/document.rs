@@ -80,8 +80,10 @@ impl Arguments {
                 forms.push(form);
             }
         }
+        self.equations.check(&forms, true)?;
         let options = self.equations.options(&self.robot, Form::default())?;
         let robot = self.robot.read(terminal)?.robot;
+        self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let document = robot_document::robot::document(&robot, &options, &forms).map_err(failed)?;
         let usual = Page::with_columns(self.columns);

@@ -52,8 +52,12 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let typeset = !matches!(self.format, Format::Text | Format::Json);
+        self.equations.check(&[self.form.into()], typeset)?;
+        self.layout.check(typeset)?;
         let options = self.equations.options(&self.robot, self.form.into())?;
         let robot = self.robot.read(terminal)?.robot;
+        self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;

@@ -1,10 +1,12 @@
 //! `eval`: a function of a robot at given states.
 
+mod infinite;
 mod output;
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use robot_build::functions::named;
 use robot_build::{
     Bundle, FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs,
 };
@@ -16,11 +18,11 @@ use robot_dynamics::model::Robot;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
+use crate::function::FunctionName;
 use crate::progress::watched;
-use crate::robot::{RobotArgument, TrigonometryName, unknown_function};
+use crate::robot::{RobotArgument, TrigonometryName};
 use crate::settings::Settings;
 use crate::states::{Layout, State, WRENCH};
-use crate::text;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -36,8 +38,9 @@ inverse_dynamics_wrench_friction, and so for forward_dynamics. Numbers come from
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// The function, or a bundle of the robot file's [code]
-    #[arg(long, value_name = "NAME")]
+    /// The function, or a bundle of the robot file's [code]; `jacobian_NAME` and `jacobian_dot_qd_NAME` are
+    /// those of one frame or moving link
+    #[arg(long, value_name = "NAME", value_parser = FunctionName { all: false })]
     function: String,
     /// The file with the states; `-` for standard input
     #[arg(long, value_name = "FILE")]
@@ -61,17 +64,20 @@ enum Format {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = self.robot.source()?;
-        let Described { robot, code, .. } = robot_build::read(&source)?;
-        let bundles = code.bundles.into_iter().filter(|bundle| bundle.name == self.function);
-        let bundles: Vec<Bundle> = bundles.collect();
-        let kind = if bundles.is_empty() { Some(self.kind(&robot)?) } else { None };
-        let mut wrong = self.settings.wrong(&robot);
-        let states = self.states(&Layout::of(&robot), terminal, &mut wrong)?;
-        let kind = kind.map(|kind| with_wrench(kind, &robot, &states, &mut wrong));
+        let described = self.robot.read(terminal)?;
+        let Described { robot, code, .. } = &described;
+        let bundles = code.bundles.iter().filter(|bundle| bundle.name == self.function);
+        let bundles: Vec<Bundle> = bundles.cloned().collect();
+        let kind = if bundles.is_empty() { Some(self.kind(robot)?) } else { None };
+        let mut wrong = self.settings.wrong(robot);
+        if wrong.is_empty() {
+            self.settings.check(&self.robot, &described, terminal)?;
+        }
+        let states = self.states(&Layout::of(robot), terminal, &mut wrong)?;
+        let kind = kind.map(|kind| with_wrench(kind, robot, &states, &mut wrong));
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
         let options = Options { functions, bundles, ..self.robot.options(terminal)? };
         let programs = watched("deriving", terminal, || programs(&source, &options))?;
-        text::warnings(&programs.warnings, terminal)?;
         let results = self.results(&source, &programs, &states, wrong)?;
         let shown = match self.format {
             Format::Json => output::json(&results),
@@ -80,35 +86,19 @@ impl Arguments {
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 
-    /// The kind of the function: its name is the kind's, or has that of a frame behind it where
-    /// there is one for each frame.
+    /// The one function of that name.
     fn kind(&self, robot: &Robot) -> Result<FunctionKind, Failure> {
-        let suffixed = FunctionKind::ALL.iter().copied().find(|kind| {
-            let suffix = self.function.strip_prefix(kind.name());
-            let frame = suffix.and_then(|suffix| suffix.strip_prefix('_'));
-            FunctionKind::from_name(&self.function).is_none()
-                && kind.missing_in(robot).is_none()
-                && frame.is_some_and(|frame| robot.frames.iter().any(|one| one.name == frame))
-        });
-        let known = suffixed.or_else(|| FunctionKind::from_name(&self.function));
-        known.ok_or_else(|| Failure::Usage(vec![unknown_function(&self.function, &[])]))
-    }
-
-    /// The function among those of its kind.
-    fn chosen<'p>(&self, programs: &'p Programs) -> Result<&'p Function, Failure> {
-        match programs.module.functions.as_slice() {
-            [function] => Ok(function),
-            several => {
-                let names: Vec<&str> =
-                    several.iter().map(|function| function.name.as_str()).collect();
-                let found = several.iter().find(|function| function.name == self.function);
-                let choice = || {
-                    let (kind, names) = (&self.function, names.join("`, `"));
-                    format!("`{kind}` is a function of each named frame; choose one of `{names}`")
-                };
-                found.ok_or_else(|| Failure::Usage(vec![choice()]))
-            }
+        let kind = named(robot, &self.function)
+            .map_err(|wrong| Failure::Usage(vec![wrong.to_string()]))?;
+        let parts = kind.parts(robot);
+        if parts.is_empty() {
+            return Ok(kind);
         }
+        let names: Vec<String> = parts.iter().map(|part| part.full_name(robot)).collect();
+        let (kind, names) = (kind.name(), names.join("`, `"));
+        Err(Failure::Usage(vec![format!(
+            "`{kind}` is a function of each of several frames; choose one of `{names}`"
+        )]))
     }
 
     fn states(
@@ -131,7 +121,9 @@ impl Arguments {
         states: &[State],
         mut wrong: Vec<String>,
     ) -> Result<Vec<Vec<OutputValues>>, Failure> {
-        let function = self.chosen(programs)?;
+        let Some(function) = programs.module.functions.first() else {
+            return Err(Failure::input(format!("the robot has no function `{}`", self.function)));
+        };
         wrong.extend(states.iter().flat_map(|state| missing_inputs(function, state)));
         if !wrong.is_empty() {
             return Err(Failure::Input(wrong));
@@ -149,7 +141,12 @@ impl Arguments {
             let given: Vec<(&str, &[f64])> =
                 inputs.iter().map(|(name, entries)| (*name, entries.as_slice())).collect();
             let outputs = interpreter.call(&function.name, &given).map_err(failed)?;
-            wrong.extend(infinite(state, &outputs));
+            wrong.extend(infinite::messages(
+                &programs.robot,
+                &self.settings.pairs(),
+                state,
+                &outputs,
+            ));
             results.push(outputs);
         }
         if wrong.is_empty() { Ok(results) } else { Err(Failure::Input(wrong)) }
@@ -201,16 +198,4 @@ fn inputs<'f>(function: &'f Function, state: &State) -> Vec<(&'f str, Vec<f64>)>
         (input.name.as_str(), entries.unwrap_or_else(|| vec![0.0; input.symbols.len()]))
     });
     inputs.collect()
-}
-
-/// Outputs that JSON cannot hold.
-fn infinite<'s>(
-    state: &'s State,
-    outputs: &'s [OutputValues],
-) -> impl Iterator<Item = String> + use<'s> {
-    let wrong =
-        outputs.iter().filter(|output| output.values.iter().any(|value| !value.is_finite()));
-    wrong.map(|output| {
-        format!("{}: `{}` has no finite value; look at the parameters", state.place, output.name)
-    })
 }

@@ -8,7 +8,6 @@ use crate::delivery::OutputArguments;
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
-use crate::text;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -37,11 +36,11 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output.open(self.robot.inputs())?;
-        let mut options = self.code.options(&self.robot, self.trigonometry)?;
-        options.runtime.clone_from(&self.runtime);
         let source = self.robot.source()?;
+        let robot = self.robot.read(terminal)?.robot;
+        let mut options = self.code.options(&self.robot, &robot, self.trigonometry)?;
+        options.runtime.clone_from(&self.runtime);
         let generated = watched("generating", terminal, || generate(&source, &options))?;
-        text::warnings(&generated.warnings, terminal)?;
         output.deliver(&generated.code, terminal)
     }
 }

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_build::{Errors, Ownership, RobotFile, robot_inputs};
-use robot_dynamics::description::{self, Options};
+use robot_dynamics::description::{self, Format, Options};
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;
 use crate::failure::Failure;
+use crate::reading::ReadingArguments;
 use crate::text;
 
 #[derive(Args)]
@@ -23,12 +24,8 @@ pub(crate) struct Arguments {
     file: PathBuf,
     #[command(flatten)]
     output: OutputArguments,
-    /// Take moving links without mass
-    #[arg(long)]
-    allow_massless: bool,
-    /// Take inertias that no body has
-    #[arg(long)]
-    allow_unphysical: bool,
+    #[command(flatten)]
+    reading: ReadingArguments,
     /// Write the damping and friction of `<dynamics>` as friction of the joints
     #[arg(long)]
     friction: bool,
@@ -38,13 +35,12 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output.open_as(Ownership::Edited, robot_inputs(&self.file))?;
         let source = RobotFile::read(&self.file)?.source;
-        let options = Options {
-            allow_massless: self.allow_massless,
-            allow_unphysical: self.allow_unphysical,
-            friction: self.friction,
-        };
+        let options = Options { friction: self.friction, ..self.reading.options().reading() };
         let import =
             description::import(&source.name, &source.text, &options).map_err(Errors::from)?;
+        if import.described.format == Format::Toml {
+            return Err(Failure::input(format!("{}: this is a robot file already", source.name)));
+        }
         text::warnings(&import.described.warnings, terminal)?;
         for choice in import.described.choices.iter() {
             writeln!(terminal.errors, "note: {}", choice.message)?;

@@ -63,7 +63,8 @@ enum ProfileName {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let options = self.code.options(&self.robot, self.trigonometry)?;
+        let robot = self.robot.read(terminal)?.robot;
+        let options = self.code.options(&self.robot, &robot, self.trigonometry)?;
         let compiler = Compiler {
             rustc: self.rustc.clone(),
             target: self.target.clone(),

@@ -65,14 +65,18 @@ fn property(key: &Key) -> Value {
     Value::Object(schema)
 }
 
+/// A function of one frame or moving link, with the name of either behind.
+const OF_FRAME: &str = "^jacobian_[A-Za-z0-9_.-]+$";
+
 /// The names of functions, and a word for all of them.
 fn functions(all: Option<&'static str>) -> Vec<&'static str> {
     FunctionKind::ALL.iter().map(|kind| kind.name()).chain(all).collect()
 }
 
-/// A list of some of those words, each once.
+/// A list of some of those functions, each once, and of functions of frames.
 fn list(words: &[&str]) -> Value {
-    json!({ "type": "array", "items": { "enum": words }, "minItems": 1, "uniqueItems": true })
+    let items = json!({ "anyOf": [{ "enum": words }, { "type": "string", "pattern": OF_FRAME }] });
+    json!({ "type": "array", "items": items, "minItems": 1, "uniqueItems": true })
 }
 
 fn content(content: Content) -> Value {
@@ -91,7 +95,8 @@ fn content(content: Content) -> Value {
         Content::Whole => json!({ "type": "integer", "minimum": 0 }),
         Content::Function => {
             let bundle = json!({ "type": "string", "pattern": IDENTIFIER });
-            json!({ "anyOf": [{ "enum": functions(None) }, bundle] })
+            let of_frame = json!({ "type": "string", "pattern": OF_FRAME });
+            json!({ "anyOf": [{ "enum": functions(None) }, bundle, of_frame] })
         }
         Content::Functions(all) => list(&functions(all)),
         Content::Bundles => json!({

@@ -1,7 +1,7 @@
 //! `show`: what a robot file says.
 
 use clap::Args;
-use robot_build::{FunctionKind, snapping};
+use robot_build::{FrameRef, FunctionKind, functions, snapping};
 use robot_document::words;
 use robot_dynamics::model::{JointKind, Robot};
 
@@ -86,6 +86,14 @@ fn functions(robot: &Robot) -> Vec<Vec<String>> {
     let mut rows = vec![row(["function", ""])];
     for kind in FunctionKind::ALL {
         rows.push(row([kind.name(), kind.missing_in(robot).unwrap_or("yes")]));
+    }
+    for (name, kind) in functions::names(robot) {
+        let what = match kind.frame() {
+            None => continue,
+            Some(FrameRef::Named(_)) => "of a frame",
+            Some(FrameRef::Link(_)) => "of a moving link, where it is named",
+        };
+        rows.push(row([&name, what]));
     }
     rows
 }

@@ -4,14 +4,16 @@ use clap::Args;
 use robot_build::ablation::{Ablation, ablation};
 use robot_build::{Functions, Options, programs, snapping};
 use robot_codegen::{Counts, FunctionCounts, Module};
+use robot_dynamics::description::Described;
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
 use crate::counts;
 use crate::failure::Failure;
 use crate::format::Format;
+use crate::function::{FunctionName, functions};
 use crate::progress::watched;
-use crate::robot::{BundleArguments, RobotArgument, functions};
+use crate::robot::{BundleArguments, RobotArgument};
 use crate::text;
 
 #[derive(Args)]
@@ -33,7 +35,8 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     /// Functions to count; without this and --bundle all that the robot has, and the bundles of the
     /// robot file's [code]
-    #[arg(long = "function", value_name = "NAME", value_delimiter = ',')]
+    #[arg(long = "function", value_name = "NAME", value_delimiter = ',',
+          value_parser = FunctionName { all: true })]
     functions: Vec<String>,
     #[command(flatten)]
     bundles: BundleArguments,
@@ -51,12 +54,12 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = self.robot.source()?;
-        let (functions, bundles) = match (self.functions.as_slice(), self.bundles.bundles()?) {
-            ([], bundles) if bundles.is_empty() => {
-                (Functions::All, robot_build::read(&source)?.code.bundles)
-            }
+        let Described { robot, code, .. } = self.robot.read(terminal)?;
+        let (functions, bundles) = match (self.functions.as_slice(), self.bundles.bundles(&robot)?)
+        {
+            ([], bundles) if bundles.is_empty() => (Functions::All, code.bundles),
             ([], bundles) => (Functions::Usual, bundles),
-            (names, bundles) => (functions(names)?, bundles),
+            (names, bundles) => (functions(names, &robot)?, bundles),
         };
         let options = Options { functions, bundles, ..self.robot.options(terminal)? };
         if self.options {
@@ -64,7 +67,6 @@ impl Arguments {
             return self.show(&ablated(&counted), terminal);
         }
         let programs = watched("counting", terminal, || programs(&source, &options))?;
-        text::warnings(&programs.warnings, terminal)?;
         let module = &programs.module;
         if self.passes {
             return self.show(&passes(module), terminal);

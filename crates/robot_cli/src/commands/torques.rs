@@ -25,7 +25,8 @@ use crate::settings::Settings;
 
 A trajectory has the columns t, q1 …, qd1 …, qdd1 …, and fx, fy, fz, mx, my, mz where the tip exerts a
 wrench (fx_NAME … for each of several tips); what `simulate` writes is one. Expressions know t and the
-robot's parameters; velocities and accelerations are their exact derivatives. The output is CSV: t, the
+robot's parameters; velocities and accelerations are their exact derivatives, and a position or velocity that
+jumps is refused. The output is CSV: t, the
 torques tau, and their shares: inertia (M qdd), coriolis (C qd, with the centrifugal ones), gravity,
 friction and wrench, in N m or N.")]
 pub(crate) struct Arguments {
@@ -47,7 +48,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", requires = "expressions", allow_hyphen_values = true)]
     time: Option<f64>,
     /// The time between lines of the output where the motion is expressions, s
-    #[arg(long, value_name = "S", default_value_t = 0.01, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 0.01,
+        conflicts_with = "trajectory",
+        allow_hyphen_values = true
+    )]
     step: f64,
     #[command(flatten)]
     friction: FrictionArguments,

@@ -63,7 +63,8 @@ impl Arguments {
         let saves = self.saves.unwrap_or(usize::MAX);
         let looks = Files::new(self.robot.path(), &OVER).take(saves.saturating_add(1));
         let style = if terminal.colours { Style::Terminal } else { Style::Plain };
-        let settings = Settings { snap: self.robot.snap(), terms: self.terms, style };
+        let reading = self.robot.reading;
+        let settings = Settings { snap: self.robot.snap(), reading, terms: self.terms, style };
         follow(looks, &settings, page, terminal)
     }
 }

@@ -1,13 +1,14 @@
 //! States from JSON: `[{"q": […], "qd": […], "qdd": […], "wrench": […]}, …]`.
 
-use serde_json::{Map, Value};
+use robot_dynamics::diagnostic::quote;
 
+use super::node::Node;
 use super::{Layout, State};
 use crate::text;
 
 pub(super) fn read(text: &str, layout: &Layout) -> (Vec<State>, Vec<String>) {
     let elements = match serde_json::from_str(text) {
-        Ok(Value::Array(elements)) => elements,
+        Ok(Node::Array(elements)) => elements,
         Ok(_) => {
             let message = "expected an array of states, [{\"q\": […], …}, …]";
             return (vec![], vec![message.to_owned()]);
@@ -18,8 +19,8 @@ pub(super) fn read(text: &str, layout: &Layout) -> (Vec<State>, Vec<String>) {
     for (index, element) in elements.iter().enumerate() {
         let place = format!("state {}", index + 1);
         match element {
-            Value::Object(object) => states.push(state(place, object, layout, &mut errors)),
-            other => errors.push(format!("{place}: expected an object, not {}", kind(other))),
+            Node::Object(object) => states.push(state(place, object, layout, &mut errors)),
+            other => errors.push(format!("{place}: expected an object, not {}", other.kind())),
         }
     }
     (states, errors)
@@ -27,12 +28,16 @@ pub(super) fn read(text: &str, layout: &Layout) -> (Vec<State>, Vec<String>) {
 
 fn state(
     place: String,
-    object: &Map<String, Value>,
+    object: &[(String, Node)],
     layout: &Layout,
     errors: &mut Vec<String>,
 ) -> State {
     let mut arrays = vec![];
-    for (key, value) in object {
+    for (index, (key, value)) in object.iter().enumerate() {
+        if object[..index].iter().any(|(earlier, _)| earlier == key) {
+            errors.push(format!("{place}: `{}` is given twice", quote(key)));
+            continue;
+        }
         let Some(array) = layout.arrays.iter().find(|array| array.name == *key) else {
             errors.push(format!("{place}: {}", text::unknown("key", key, &layout.names())));
             continue;
@@ -45,16 +50,16 @@ fn state(
 }
 
 /// The numbers, and what is wrong with them.
-fn entries(value: &Value, expected: usize) -> (Vec<f64>, Vec<String>) {
-    let Value::Array(elements) = value else {
-        return (vec![], vec![format!("is {}, not an array of {expected} numbers", kind(value))]);
+fn entries(value: &Node, expected: usize) -> (Vec<f64>, Vec<String>) {
+    let Node::Array(elements) = value else {
+        return (vec![], vec![format!("is {}, not an array of {expected} numbers", value.kind())]);
     };
     let (mut entries, mut errors) = (vec![], vec![]);
     for (index, element) in elements.iter().enumerate() {
-        match element.as_f64().filter(|entry| entry.is_finite()) {
-            Some(entry) => entries.push(entry),
-            None => {
-                errors.push(format!("has {} at entry {}, not a number", kind(element), index + 1));
+        match element {
+            Node::Number(entry) if entry.is_finite() => entries.push(*entry),
+            other => {
+                errors.push(format!("has {} at entry {}, not a number", other.kind(), index + 1));
             }
         }
     }
@@ -62,15 +67,4 @@ fn entries(value: &Value, expected: usize) -> (Vec<f64>, Vec<String>) {
         errors.push(format!("has {} entries, not {expected}", elements.len()));
     }
     (entries, errors)
-}
-
-fn kind(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "null",
-        Value::Bool(_) => "a truth value",
-        Value::Number(_) => "a number",
-        Value::String(_) => "a text",
-        Value::Array(_) => "an array",
-        Value::Object(_) => "an object",
-    }
 }

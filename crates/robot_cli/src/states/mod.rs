@@ -2,6 +2,7 @@
 
 mod csv;
 mod json;
+mod node;
 
 use robot_dynamics::model::Robot;
 

@@ -176,7 +176,11 @@ fn fixed(robot: &mut Robot, locations: &mut Locations, link: DraftLink, on: Carr
                 carrier.bodies.push(body);
                 places.bodies.push(place);
             }
-            None => locations.dropped.push(DroppedBody { link: link.name.name.clone(), place }),
+            None => locations.dropped.push(DroppedBody {
+                link: link.name.name.clone(),
+                mass: body.mass,
+                place,
+            }),
         }
     }
     let frame = DraftFrame {

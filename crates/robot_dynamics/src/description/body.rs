@@ -36,7 +36,12 @@ pub(super) fn read(
         let mass = reader.formula(entry.value, MASS);
         place.mass = Some(entry.value.span());
         if let Some(value) = reader.known(&mass).filter(|value| *value <= 0.0) {
-            reader.report(not_positive(value, moving).at(&entry.value.span(), "not above 0"));
+            let severity = match value == 0.0 {
+                true => reader.options.massless(),
+                false => reader.options.unphysical(),
+            };
+            let diagnostic = not_positive(value, moving).graded(severity);
+            reader.report(diagnostic.at(&entry.value.span(), "not above 0"));
         }
         mass
     });
@@ -47,7 +52,8 @@ pub(super) fn read(
             Diagnostic::error(code::MISSING_KEY, format!("the link `{}` has no mass", name.name))
                 .at(&table.span, "`mass` is missing here")
                 .because("a link without mass falls out of the equations in silence")
-                .help("add `mass`, or `massless = true` where it is meant"),
+                .help("add `mass`, or `massless = true` where it is meant")
+                .graded(reader.options.massless()),
         );
     }
     let center = match required(reader, table, "center_of_mass", present, "[0, 0, 0]") {

@@ -1,11 +1,13 @@
 //! `[[budget]]`: what generated code may cost.
 
 use super::frames::tables;
-use super::reader::Reader;
+use super::reader::{Named, Reader};
 use super::shape::BUDGET;
 use super::table::{Entry, Table};
+use super::wanted::{function, known};
 use crate::diagnostic::{Diagnostic, Span, code};
-use crate::functions::{Bundle, FunctionKind};
+use crate::functions::FunctionKind;
+use crate::model::Robot;
 
 /// What a function of generated code may cost.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,23 +33,44 @@ pub struct Limit {
 pub(super) fn read(
     reader: &mut Reader<'_>,
     root: &mut Table<'_>,
-    bundles: &[Bundle],
-) -> Vec<Budget> {
+    bundles: &[&str],
+) -> Vec<(Budget, Option<Named>)> {
     let Some(entry) = root.get("budget") else { return Vec::new() };
-    let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
-    let names: Vec<&str> = kinds.chain(bundles.iter().map(|one| one.name.as_str())).collect();
     let tables = tables(reader, &entry, &BUDGET);
-    tables.into_iter().map(|table| budget(reader, table, &names)).collect()
+    tables.into_iter().map(|table| budget(reader, table, bundles)).collect()
 }
 
-fn budget(reader: &mut Reader<'_>, mut table: Table<'_>, names: &[&str]) -> Budget {
-    let function = table
-        .get("function")
-        .and_then(|entry| reader.word(entry.value, "a function", names).map(str::to_owned));
+/// A budget, and the name of its function where it is that of a frame.
+fn budget(
+    reader: &mut Reader<'_>,
+    mut table: Table<'_>,
+    bundles: &[&str],
+) -> (Budget, Option<Named>) {
+    let named = table.get("function").and_then(|entry| function(reader, entry.value, bundles));
     let max_operations = table.get("max_operations").and_then(|entry| limit(reader, &entry));
     let max_stack = table.get("max_stack").and_then(|entry| limit(reader, &entry));
     table.finish(reader);
-    Budget { function, max_operations, max_stack }
+    let function = named.as_ref().map(|named| named.name.clone());
+    let is_kind = |named: &Named| FunctionKind::from_name(&named.name).is_some();
+    let of_frame = named.filter(|named| !is_kind(named) && !bundles.contains(&&*named.name));
+    (Budget { function, max_operations, max_stack }, of_frame)
+}
+
+/// The budgets, the functions of frames under their own names; those that the robot lacks are reported.
+pub(super) fn of_robot(
+    reader: &mut Reader<'_>,
+    robot: &Robot,
+    budgets: Vec<(Budget, Option<Named>)>,
+) -> Vec<Budget> {
+    let own = |(budget, named): (Budget, Option<Named>)| match named {
+        None => budget,
+        Some(named) => {
+            let kind = known(reader, robot, &named);
+            let function = kind.map(|kind| kind.full_name(robot)).or(budget.function);
+            Budget { function, ..budget }
+        }
+    };
+    budgets.into_iter().map(own).collect()
 }
 
 /// A whole number that is not negative.

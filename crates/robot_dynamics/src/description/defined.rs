@@ -73,6 +73,7 @@ impl Rounded {
             Function::Sqrt if value <= 0.0 => Rounded { value: 0.0, error: error.sqrt() },
             Function::Sqrt => Rounded::new(result, error / result),
             Function::Sign => Rounded { value: result, error: 0.0 },
+            Function::RecipPositive => Rounded { value: 1.0, error: 0.0 }.quotient(self)?,
             Function::Sin | Function::Cos | Function::Abs | Function::Tanh => {
                 Rounded::new(result, error)
             }

@@ -235,6 +235,9 @@ impl Reader<'_> {
                 Dimensioned { dimension, ..a }
             }
             Step::Call(Function::Sqrt, a) => a.root(),
+            Step::Call(Function::RecipPositive, a) => {
+                Dimensioned { dimension: a.dimension.map(|dimension| dimension.to_power(-1)), ..a }
+            }
             Step::Call(Function::Sign, a) => Dimensioned::pure(Factors::Certain, a.is_number),
             Step::Call(Function::Sin | Function::Cos | Function::Tanh, a) | Step::Tan(a) => {
                 a.of_number()?

@@ -42,7 +42,7 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     let frames = frames::read(reader, &mut root, links.len());
     let payload = payload::read(reader, &mut root, &links, &frames, &mut parameters);
     let wanted = wanted::read(reader, &mut root);
-    let budgets = budget::read(reader, &mut root, &wanted.code.bundles);
+    let budgets = budget::read(reader, &mut root, &wanted.bundle_names());
     root.finish(reader);
     if let Some(dh) = dh {
         dh.finish(reader);

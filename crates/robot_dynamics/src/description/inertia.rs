@@ -189,7 +189,7 @@ fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool)
                  left out, add `unchecked = true`",
             ),
     };
-    reader.report(diagnostic.at(span, verdict.label()));
+    reader.report(diagnostic.graded(reader.options.unphysical()).at(span, verdict.label()));
 }
 
 fn values(reader: &Reader<'_>, inertia: &Inertia) -> Option<[f64; 6]> {

@@ -34,10 +34,12 @@ pub struct AngleLocation {
 }
 
 /// A body without effect on the motion: it is fixed to the base.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DroppedBody {
     /// The link that has it.
     pub link: String,
+    /// Its mass, kg.
+    pub mass: Formula,
     /// Its places.
     pub place: BodyLocation,
 }

@@ -20,6 +20,7 @@ mod drive;
 mod export;
 mod file;
 mod frames;
+mod free_base;
 pub(crate) mod inertia;
 mod joint;
 mod latex;
@@ -58,7 +59,7 @@ use std::path::Path;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, code};
 use crate::model::{Parameter, Robot};
 use draft::Draft;
-use reader::Reader;
+use reader::{Named, Reader};
 use wanted::Wanted;
 
 /// What a robot file gives.
@@ -73,6 +74,8 @@ pub struct Described {
     /// How the reader took what the format leaves open or what is not part of a robot here: notes,
     /// for a file that was not written for this program.
     pub choices: Diagnostics,
+    /// What the file says of the dynamics that is no part of the robot, such as `the friction of 6 joints`.
+    pub left_out: Vec<String>,
     /// Which functions are generated where the caller names none.
     pub code: Code,
     /// What generated code may cost.
@@ -177,7 +180,8 @@ struct Lowered {
     order: Vec<usize>,
     parameters: (Vec<Parameter>, Vec<ParameterLocation>),
     wanted: Wanted,
-    budgets: Vec<Budget>,
+    /// With the names of functions of frames, which are looked for when the robot is known.
+    budgets: Vec<(Budget, Option<Named>)>,
 }
 
 fn format_of(name: &str, text: &str) -> Format {
@@ -201,35 +205,43 @@ fn described(
     if text.len() > MAX_BYTES {
         return Err(too_large(name, text.len()));
     }
-    let mut reader = Reader::new(text);
+    let mut reader = Reader::new(text, options);
     let lowered = match format {
         Format::Toml => file::lower(&mut reader),
         Format::Urdf => urdf::lower(&mut reader, options),
     };
     let built = lowered.and_then(|lowered| {
-        let (robot, locations) = build(&mut reader, lowered.clone(), format)?;
-        Some((robot, locations, lowered))
+        let built = build(&mut reader, lowered.clone(), format)?;
+        Some((built, lowered))
     });
     let source = Source { name: name.to_owned(), text: text.to_owned() };
+    let left_out = std::mem::take(&mut reader.left_out);
     let (choices, found): (Vec<_>, Vec<_>) =
         reader.found.into_iter().partition(|found| found.severity == Severity::Note);
     let found = Diagnostics::new(source.clone(), found);
     match built {
-        Some((robot, locations, lowered)) if !found.has_errors() => {
+        Some((Built { robot, locations, code, budgets }, lowered)) if !found.has_errors() => {
             let choices = Diagnostics::new(source, choices);
-            let (code, budgets) = (lowered.wanted.code.clone(), lowered.budgets.clone());
             let warnings = found;
             let described =
-                Described { robot, locations, warnings, choices, code, budgets, format };
+                Described { robot, locations, warnings, choices, left_out, code, budgets, format };
             Ok((described, lowered))
         }
         _ => Err(found),
     }
 }
 
+/// What a lowered file gives.
+struct Built {
+    robot: Robot,
+    locations: Locations,
+    code: Code,
+    budgets: Vec<Budget>,
+}
+
 /// The robot of a lowered file, where nothing is wrong with it.
-fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(Robot, Locations)> {
-    let Lowered { draft, order, parameters, wanted, .. } = lowered;
+fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Built> {
+    let Lowered { draft, order, parameters, wanted, budgets } = lowered;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {
         let last = draft.links.last().map(|link| link.places.joint.clone());
         let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves")
@@ -246,12 +258,16 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<(R
         return None;
     }
     range::check(reader, &robot, &locations);
-    wanted.check(reader, &robot);
+    let code = wanted.code(reader, &robot);
+    let budgets = budget::of_robot(reader, &robot, budgets);
+    let stands = free_base::check(reader, &robot, &locations);
     if format == Format::Toml {
         unused(reader);
-        no_effect(reader, &locations);
+        if !stands {
+            no_effect(reader, &locations);
+        }
     }
-    Some((robot, locations))
+    Some(Built { robot, locations, code, budgets })
 }
 
 /// Warns of parameters that nothing uses.

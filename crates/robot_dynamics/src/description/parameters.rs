@@ -43,6 +43,9 @@ pub(super) fn read(
         if let Some(diagnostic) = reader.symbols.add(&named) {
             reader.report(diagnostic);
         }
+        if let Some(value) = reader.options.value(&named.name) {
+            parameter.value = Some(value.clone());
+        }
         parameter.name.clone_from(&named.name);
         place.name = named.span.clone();
         reader.define(Known {

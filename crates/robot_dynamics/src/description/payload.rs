@@ -6,10 +6,11 @@ use super::draft::{DraftFrame, DraftLink, DraftPayload, Parent};
 use super::link::named_parent;
 use super::locations::{BodyLocation, ParameterLocation};
 use super::names::Kind;
+use super::physics::{Verdict, judge};
 use super::reader::{Named, Reader};
 use super::shape::PAYLOAD;
 use super::table::Table;
-use crate::diagnostic::{Diagnostic, code};
+use crate::diagnostic::{Diagnostic, Span, code};
 use crate::model::{Body, Inertia, Link, Move, Parameter, Payload, Placement};
 use crate::unit::Unit;
 
@@ -37,7 +38,10 @@ pub(super) fn read(
         Some(frame) => (frame.parent.clone(), frame.placement.clone()),
         None => (parent, Placement::default()),
     };
-    for parameter in figures() {
+    for mut parameter in figures() {
+        if let Some(value) = reader.options.value(&parameter.name) {
+            parameter.value = Some(value.clone());
+        }
         let name = &parameter.name;
         let named = reader.check_name(name, &span, "a parameter of a payload", Kind::Identifier)?;
         if let Some(diagnostic) = reader.symbols.add(&named) {
@@ -49,7 +53,30 @@ pub(super) fn read(
         let place = ParameterLocation { name: span.clone(), ..ParameterLocation::default() };
         parameters.1.push(place);
     }
+    check(reader, &parameters.0, &span);
     Some(DraftPayload { parent, placement, place: span })
+}
+
+/// Reports a mass or a tensor that no body has. Of a mass of 0 any tensor is let pass: nothing is carried.
+fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
+    let Payload { mass, inertia, .. } = names();
+    let value = |name: &String| {
+        let parameter = parameters.iter().find(|parameter| parameter.name == *name);
+        parameter.and_then(|parameter| parameter.value.as_ref()).map_or(0.0, Rational::to_f64)
+    };
+    let severity = reader.options.unphysical();
+    let carried = value(&mass);
+    if carried < 0.0 {
+        let diagnostic = Diagnostic::error(code::MASS, format!("the mass is {carried} kg"));
+        let diagnostic = diagnostic.at(span, format!("`{mass}`")).help("correct the figure");
+        reader.report(diagnostic.graded(severity));
+    }
+    let verdict = judge(inertia.each_ref().map(value));
+    if verdict != Verdict::Possible {
+        let diagnostic = Diagnostic::error(verdict.code(), verdict.message());
+        let diagnostic = diagnostic.at(span, verdict.label()).help("correct the figures");
+        reader.report(diagnostic.graded(severity));
+    }
 }
 
 /// The names of the parameters.

@@ -7,6 +7,7 @@ use robot_symbolic::{Expr, Formula, Graph, Number, Rational, nearest_word, walk}
 
 use super::locations::AngleLocation;
 use super::names::{Registry, is_coordinate};
+use super::options::Options;
 use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
 
@@ -32,9 +33,12 @@ pub(super) struct Named {
 /// The state of reading one file.
 pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
+    pub(super) options: &'a Options,
     pub(super) found: Vec<Diagnostic>,
     /// The angles of the file.
     pub(super) angles: Vec<AngleLocation>,
+    /// What the file says of the dynamics that is no part of the robot, in words.
+    pub(super) left_out: Vec<String>,
     parameters: Vec<Known>,
     by_name: BTreeMap<String, usize>,
     /// Parameters and wrench components: what equations and code call by name.
@@ -42,11 +46,13 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(text: &'a str) -> Reader<'a> {
+    pub(super) fn new(text: &'a str, options: &'a Options) -> Reader<'a> {
         Reader {
             text,
+            options,
             found: Vec::new(),
             angles: Vec::new(),
+            left_out: Vec::new(),
             parameters: Vec::new(),
             by_name: BTreeMap::new(),
             symbols: Registry::new("symbol"),

@@ -9,8 +9,8 @@ use super::names::{Kind, Registry, is_identifier, reserved};
 use super::reader::{Named, Reader};
 use super::shape::CODE;
 use super::table::{Entry, Table, Value};
-use crate::diagnostic::{Diagnostic, Span, code};
-use crate::functions::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+use crate::functions::{self, ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
 use crate::model::Robot;
 
 /// Which functions a file wants to be generated.
@@ -22,11 +22,12 @@ pub struct Code {
     pub bundles: Vec<Bundle>,
 }
 
-/// The same with the places where functions are named.
+/// The same as the file has it: names of functions, which may be those of the robot's frames.
 #[derive(Clone, Default)]
 pub(super) struct Wanted {
-    pub(super) code: Code,
-    named: Vec<(FunctionKind, Span)>,
+    /// `None` where the file has no `functions`.
+    functions: Option<Vec<Named>>,
+    bundles: Vec<(String, Vec<Named>)>,
 }
 
 /// Whether a bundle may have a name.
@@ -48,9 +49,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
     let Some(entry) = root.get("code") else { return wanted };
     let Some(mut table) = reader.table(entry.value, &CODE) else { return wanted };
     if let Some(entry) = table.get("functions") {
-        let all = is_all(entry.value);
-        let kinds = wanted.kinds(reader, entry.value, &[ALL_FUNCTIONS]);
-        wanted.code.functions = if all { Functions::All } else { Functions::Chosen(kinds) };
+        wanted.functions = Some(names(reader, entry.value, &[ALL_FUNCTIONS]));
     }
     if let Some(entry) = table.get("bundles") {
         wanted.bundles(reader, &entry);
@@ -59,51 +58,76 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
     wanted
 }
 
-/// Whether a list has the word for all functions.
-fn is_all(value: Value<'_>) -> bool {
-    let is_word = |value: &Value<'_>| matches!(value.get_ref(), DeValue::String(text) if text == ALL_FUNCTIONS);
-    matches!(value.get_ref(), DeValue::Array(entries) if entries.iter().any(|entry| is_word(&entry)))
+/// Reads a list of functions, in which some further words may stand.
+fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Vec<Named> {
+    let expected = "a list of functions, such as `[\"mass_matrix\", \"bias\"]`";
+    let Some(entries) = reader.list(value, expected) else { return Vec::new() };
+    if entries.is_empty() {
+        reader.report(
+            Diagnostic::error(code::WRONG_COUNT, "0 functions are named here")
+                .at(&value.span(), "at least one is needed")
+                .help("name each function once, or leave the key out"),
+        );
+    }
+    let (mut names, mut seen) = (Vec::new(), BTreeSet::new());
+    for entry in entries {
+        let Some(named) = function(reader, entry, more) else { continue };
+        if !seen.insert(named.name.clone()) {
+            let message = format!("`{}` is named twice", quote(&named.name));
+            reader.report(
+                Diagnostic::error(code::DUPLICATE, message)
+                    .at(&named.span, "again here")
+                    .help("name each function once"),
+            );
+        }
+        names.push(named);
+    }
+    names
+}
+
+/// Reads the name of a function or one of some further words. One of the functions of a frame is looked
+/// for when the robot is known.
+pub(super) fn function(reader: &mut Reader<'_>, value: Value<'_>, more: &[&str]) -> Option<Named> {
+    let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
+    let words: Vec<&str> = kinds.chain(more.iter().copied()).collect();
+    let of_frame = match value.get_ref() {
+        DeValue::String(text) => functions::is_of_frame(text),
+        _ => false,
+    };
+    let name = match of_frame {
+        true => reader.string(value, "a function")?.to_string(),
+        false => reader.word(value, "a function", &words)?.to_owned(),
+    };
+    Some(Named { name, span: value.span() })
+}
+
+/// The function of a name, where the robot has it.
+pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Option<FunctionKind> {
+    let diagnostic = match functions::named(robot, &named.name) {
+        Ok(kind) => {
+            let Some(why) = kind.missing_in(robot) else { return Some(kind) };
+            let message = format!("{} has no function `{}`", robot.name, kind.name());
+            Diagnostic::error(code::LACKING, message).because(why).help("or take it from the list")
+        }
+        Err(wrong) => {
+            let near = wrong.near.as_ref().map(|near| format!(" Did you mean `{near}`?"));
+            let message = format!("`{}` is not a function of this robot", quote(&named.name));
+            let help = match wrong.several {
+                true => wrong.to_string(),
+                false => format!(
+                    "functions of frames are `jacobian_` and `jacobian_dot_qd_` with the name of a \
+                     frame or a moving link behind.{}",
+                    near.unwrap_or_default()
+                ),
+            };
+            Diagnostic::error(code::LACKING, message).help(help)
+        }
+    };
+    reader.report(diagnostic.at(&named.span, ""));
+    None
 }
 
 impl Wanted {
-    /// Reads a list of functions, in which some further words may stand.
-    fn kinds(
-        &mut self,
-        reader: &mut Reader<'_>,
-        value: Value<'_>,
-        more: &[&'static str],
-    ) -> Vec<FunctionKind> {
-        let expected = "a list of functions, such as `[\"mass_matrix\", \"bias\"]`";
-        let Some(entries) = reader.list(value, expected) else { return Vec::new() };
-        let names: Vec<&str> =
-            FunctionKind::ALL.iter().map(|kind| kind.name()).chain(more.iter().copied()).collect();
-        if entries.is_empty() || entries.len() > names.len() {
-            let (count, most) = (entries.len(), names.len());
-            reader.report(
-                Diagnostic::error(code::WRONG_COUNT, format!("{count} functions are named here"))
-                    .at(&value.span(), format!("1 to {most} are possible"))
-                    .help("name each function once, or leave the key out"),
-            );
-            return Vec::new();
-        }
-        let (mut kinds, mut seen) = (Vec::new(), BTreeSet::new());
-        for entry in entries {
-            let Some(word) = reader.word(entry, "a function", &names) else { continue };
-            if !seen.insert(word) {
-                reader.report(
-                    Diagnostic::error(code::DUPLICATE, format!("`{word}` is named twice"))
-                        .at(&entry.span(), "again here")
-                        .help("name each function once"),
-                );
-            }
-            if let Some(kind) = FunctionKind::from_name(word) {
-                kinds.push(kind);
-                self.named.push((kind, entry.span()));
-            }
-        }
-        kinds
-    }
-
     /// Reads `bundles`.
     fn bundles(&mut self, reader: &mut Reader<'_>, entry: &Entry<'_>) {
         let DeValue::Table(keys) = entry.value.get_ref() else {
@@ -118,21 +142,37 @@ impl Wanted {
         let mut names = Registry::new("bundle");
         for (key, value) in keys {
             let named = bundle_name(reader, key.get_ref(), &key.span(), &mut names);
-            let functions = self.kinds(reader, value, &[]);
+            let functions = self::names(reader, value, &[]);
             if let Some(Named { name, .. }) = named {
-                self.code.bundles.push(Bundle { name, functions });
+                self.bundles.push((name, functions));
             }
         }
     }
 
-    /// Reports the functions that the robot lacks.
-    pub(super) fn check(&self, reader: &mut Reader<'_>, robot: &Robot) {
-        for (kind, place) in &self.named {
-            let Some(why) = kind.missing_in(robot) else { continue };
-            let message = format!("{} has no function `{}`", robot.name, kind.name());
-            let diagnostic = Diagnostic::error(code::LACKING, message).at(place, "");
-            reader.report(diagnostic.because(why).help("or take it from the list"));
-        }
+    /// The names of the bundles.
+    pub(super) fn bundle_names(&self) -> Vec<&str> {
+        self.bundles.iter().map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// The functions of the robot; those that it lacks are reported.
+    pub(super) fn code(&self, reader: &mut Reader<'_>, robot: &Robot) -> Code {
+        let mut all = |names: &[Named]| -> Vec<FunctionKind> {
+            let names = names.iter().filter(|named| named.name != ALL_FUNCTIONS);
+            names.filter_map(|named| known(reader, robot, named)).collect()
+        };
+        let functions = self.functions.as_ref().map(|names| {
+            let kinds = all(names);
+            match names.iter().any(|named| named.name == ALL_FUNCTIONS) {
+                true => Functions::All,
+                false => Functions::Chosen(kinds),
+            }
+        });
+        let bundle = |(name, names): &(String, Vec<Named>)| Bundle {
+            name: name.clone(),
+            functions: all(names),
+        };
+        let bundles = self.bundles.iter().map(bundle).collect();
+        Code { functions: functions.unwrap_or_default(), bundles }
     }
 }
 

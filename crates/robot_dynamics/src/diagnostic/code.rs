@@ -73,6 +73,8 @@ codes! {
     DEGREES = "R0613", "An angle looks as if it were in degrees.";
     AXIS_NEAR = "R0614", "A joint axis is nearly along an axis of its frame.";
     GRAVITY_UP = "R0615", "Gravity points up.";
+    FREE_BASE = "R0617", "The base has mass, and several branches move on it.";
+    LIMIT_SIGN = "R0618", "A limit of a joint has a sign that it cannot have.";
     TAKEN_AS_BASE = "R0701", "A link is taken for the base.";
     TAKEN_TOGETHER = "R0702", "A fixed link is part of the link that carries it.";
     TAKEN_COORDINATE = "R0703", "A joint shares or gives a coordinate in a way to know of.";

@@ -80,6 +80,12 @@ impl Diagnostic {
         Diagnostic { severity: Severity::Note, ..Diagnostic::error(code, message) }
     }
 
+    /// The same, so grave.
+    #[must_use]
+    pub fn graded(self, severity: Severity) -> Diagnostic {
+        Diagnostic { severity, ..self }
+    }
+
     /// The offending text.
     #[must_use]
     pub fn at(mut self, span: &Span, text: impl Into<String>) -> Diagnostic {

@@ -181,5 +181,6 @@ fn slope_of(function: Elementary, argument: f64, value: f64) -> f64 {
         Elementary::Abs => argument.signum(),
         Elementary::Sign => 0.0,
         Elementary::Tanh => 1.0 - value * value,
+        Elementary::RecipPositive => -value * value,
     }
 }

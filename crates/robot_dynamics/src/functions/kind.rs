@@ -1,5 +1,6 @@
 //! The functions that can be derived, and their names.
 
+use super::named::{FrameRef, suffixes};
 use crate::base_parameters::out_of_reach;
 use crate::model::Robot;
 
@@ -34,10 +35,15 @@ pub enum FunctionKind {
     ForwardKinematics,
     /// The poses of the named frames from q.
     FramePoses,
-    /// A named frame's Jacobian from q: a function per frame.
+    /// The Jacobian from q: a function for each named frame, or for the last link of each branch where
+    /// the robot has no named frame.
     Jacobian,
-    /// J̇ q̇ of a named frame from q, q̇: a function per frame.
+    /// The Jacobian of one frame from q.
+    JacobianOf(FrameRef),
+    /// J̇ q̇ from q, q̇: a function for each frame, as of [`FunctionKind::Jacobian`].
     JacobianDotQd,
+    /// J̇ q̇ of one frame from q, q̇.
+    JacobianDotQdOf(FrameRef),
     /// Kinetic and potential energy from q, q̇.
     Energies,
     /// C from q, q̇, by Christoffel symbols.
@@ -55,7 +61,7 @@ pub enum FunctionKind {
 }
 
 impl FunctionKind {
-    /// All functions.
+    /// All functions but those of single frames.
     pub const ALL: &'static [FunctionKind] = &[
         FunctionKind::InverseDynamics,
         FunctionKind::InverseDynamicsWrench,
@@ -82,7 +88,8 @@ impl FunctionKind {
         FunctionKind::BaseParameters,
     ];
 
-    /// The name in code and on the command line.
+    /// The name in code and on the command line; of a function of one frame that of its kind, behind which
+    /// [`FunctionKind::full_name`] puts the frame's.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -100,8 +107,8 @@ impl FunctionKind {
             FunctionKind::ForwardDynamicsWrenchFriction => "forward_dynamics_wrench_friction",
             FunctionKind::ForwardKinematics => "forward_kinematics",
             FunctionKind::FramePoses => "frame_poses",
-            FunctionKind::Jacobian => "jacobian",
-            FunctionKind::JacobianDotQd => "jacobian_dot_qd",
+            FunctionKind::Jacobian | FunctionKind::JacobianOf(_) => "jacobian",
+            FunctionKind::JacobianDotQd | FunctionKind::JacobianDotQdOf(_) => "jacobian_dot_qd",
             FunctionKind::Energies => "energies",
             FunctionKind::CoriolisMatrix => "coriolis_matrix",
             FunctionKind::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
@@ -112,7 +119,45 @@ impl FunctionKind {
         }
     }
 
-    /// The function of that name.
+    /// The frame of a function of one frame.
+    #[must_use]
+    pub const fn frame(self) -> Option<FrameRef> {
+        match self {
+            FunctionKind::JacobianOf(frame) | FunctionKind::JacobianDotQdOf(frame) => Some(frame),
+            _ => None,
+        }
+    }
+
+    /// The function of one frame, of a kind that has one for each.
+    #[must_use]
+    pub const fn of_frame(self, frame: FrameRef) -> Option<FunctionKind> {
+        match self {
+            FunctionKind::Jacobian => Some(FunctionKind::JacobianOf(frame)),
+            FunctionKind::JacobianDotQd => Some(FunctionKind::JacobianDotQdOf(frame)),
+            _ => None,
+        }
+    }
+
+    /// The name of the function: that of the kind, or of one frame `jacobian_tool`.
+    #[must_use]
+    pub fn full_name(self, robot: &Robot) -> String {
+        let suffixes = self.frame().map(|frame| (frame, suffixes(robot)));
+        let suffix = suffixes.and_then(|(frame, suffixes)| {
+            suffixes.into_iter().find(|(other, _)| *other == frame).map(|(_, suffix)| suffix)
+        });
+        suffix.map_or_else(|| self.name().to_owned(), |suffix| format!("{}_{suffix}", self.name()))
+    }
+
+    /// The functions of single frames that a kind stands for; none of a kind that is one function by
+    /// itself, as also where the robot has one frame.
+    #[must_use]
+    pub fn parts(self, robot: &Robot) -> Vec<FunctionKind> {
+        let frames = FrameRef::usual(robot);
+        let several = frames.len() > 1;
+        frames.into_iter().filter(|_| several).filter_map(|frame| self.of_frame(frame)).collect()
+    }
+
+    /// The function of that name; for those of single frames see [`named`](super::named()).
     #[must_use]
     pub fn from_name(name: &str) -> Option<FunctionKind> {
         FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
@@ -144,23 +189,35 @@ impl FunctionKind {
     #[must_use]
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let (needs_tip, needs_friction) = (self.has_wrench(), self.has_friction());
-        let needs_frame = matches!(
-            self,
-            FunctionKind::FramePoses | FunctionKind::Jacobian | FunctionKind::JacobianDotQd
-        );
-        if needs_frame && robot.frames.is_empty() {
+        if self.frame().is_some_and(|frame| frame.name(robot).is_none()) {
+            return Some("the robot has no such frame");
+        }
+        if self == FunctionKind::FramePoses && robot.frames.is_empty() {
             return Some("the robot has no named frame; add [tip] or [[frame]] to its file");
         }
         if needs_tip && robot.tips().next().is_none() {
             return Some("the robot has no tip with a wrench; add [tip] to its file");
         }
         if needs_friction && !robot.has_friction() {
-            return Some("no joint has friction; add `friction` to a link of the file");
+            return Some(
+                "no joint has friction; add `friction` to a link of the file, which `robot-symbolic import --friction` does for the `<dynamics>` of URDF",
+            );
         }
         match self {
             FunctionKind::RegressorBase | FunctionKind::BaseParameters => out_of_reach(robot),
             _ => None,
         }
+    }
+
+    /// Whether the function solves with the mass matrix, which must not be singular.
+    #[must_use]
+    pub const fn divides_by_mass_matrix(self) -> bool {
+        matches!(
+            self,
+            FunctionKind::ForwardDynamics
+                | FunctionKind::ForwardDynamicsWrench
+                | FunctionKind::ForwardDynamicsDerivatives
+        )
     }
 
     /// The functions that a robot has.

@@ -2,10 +2,11 @@
 
 use robot_symbolic::Expr;
 
-use super::{Derivation, Function, FunctionKind, Output, plain};
+use super::{Derivation, FrameRef, Function, FunctionKind, Output, plain};
 use crate::economical::plan::{LinkPlan, Origin, Turn};
 use crate::economical::{Plan, Pose, Recursion};
-use crate::model::Frame;
+use crate::mechanism::MechanismFrame;
+use crate::vector::{Matrix, Vector};
 
 /// The poses of all links.
 pub(super) fn forward_kinematics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
@@ -80,47 +81,67 @@ fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     forms.min_by_key(cost).unwrap_or_else(|| plain::link_poses(derivation))
 }
 
-/// The functions of each named frame.
+/// The functions of each frame of which the kind alone asks.
 pub(super) fn per_frame<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
 ) -> Vec<Function<'g>> {
-    let frames = derivation.robot.frames.iter().enumerate();
-    let several = derivation.robot.frames.len() > 1;
-    let names: Vec<String> =
-        derivation.robot.frames.iter().map(|frame| identifier(&frame.name)).collect();
-    let function = |(index, _): (usize, &Frame)| {
-        let mut function = match kind {
-            FunctionKind::JacobianDotQd => jacobian_dot_qd(derivation, index),
-            _ => jacobian(derivation, index),
-        };
-        if several {
-            let name = &names[index];
-            let unique = names.iter().filter(|other| *other == name).count() == 1;
-            let number = if unique { String::new() } else { format!("_{}", index + 1) };
-            function.name = format!("{}_{name}{number}", kind.name());
+    let parts = kind.parts(derivation.robot);
+    if !parts.is_empty() {
+        return parts.into_iter().flat_map(|part| of_frame(derivation, part)).collect();
+    }
+    let frames = FrameRef::usual(derivation.robot).into_iter();
+    let functions = frames.filter_map(|frame| of_frame(derivation, kind.of_frame(frame)?));
+    functions.map(|function| Function { name: kind.name().to_owned(), ..function }).collect()
+}
+
+/// The function of one frame; `None` of a frame that the robot has not.
+pub(super) fn of_frame<'g>(
+    derivation: &Derivation<'_, 'g>,
+    kind: FunctionKind,
+) -> Option<Function<'g>> {
+    let frame = kind.frame()?;
+    let name = frame.name(derivation.robot)?;
+    let (what, place) = match frame {
+        FrameRef::Named(index) => {
+            (format!("the frame `{name}`"), derivation.mechanism.frames.get(index)?.clone())
         }
-        function
+        FrameRef::Link(index) => {
+            (format!("the frame of the link `{name}`"), link_frame(derivation, name, index))
+        }
     };
-    frames.map(function).collect()
+    let function = match kind {
+        FunctionKind::JacobianDotQdOf(_) => jacobian_dot_qd(derivation, &what, &place),
+        _ => jacobian(derivation, &what, &place),
+    };
+    Some(Function { name: kind.full_name(derivation.robot), ..function })
 }
 
-/// The name with everything that cannot stand in an identifier replaced.
-fn identifier(name: &str) -> String {
-    let fits = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-    name.chars().map(fits).collect()
+/// The frame of a moving link, as the file has it, as a frame on the link.
+fn link_frame<'g>(derivation: &Derivation<'_, 'g>, name: &str, index: usize) -> MechanismFrame<'g> {
+    let graph = derivation.mechanism.graph;
+    MechanismFrame {
+        name: name.to_owned(),
+        link: Some(index),
+        rotation: Matrix::identity(graph),
+        translation: Vector::zero(graph),
+        wrench: None,
+    }
 }
 
-fn jacobian<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Function<'g> {
+fn jacobian<'g>(
+    derivation: &Derivation<'_, 'g>,
+    what: &str,
+    frame: &MechanismFrame<'g>,
+) -> Function<'g> {
     let rows = match &derivation.recursion {
-        Some(recursion) => recursion.jacobian(&derivation.mechanism.frames[frame]),
+        Some(recursion) => recursion.jacobian(frame),
         None => plain::jacobian(derivation, frame),
     };
     let doc = format!(
-        "The geometric Jacobian J of the frame `{}`: J q̇ is the velocity of the frame's origin \
+        "The geometric Jacobian J of {what}: J q̇ is the velocity of the frame's origin \
          (rows 0 to 2, m/s) and the angular velocity of the frame (rows 3 to 5, rad/s), both in \
-         base axes.",
-        derivation.robot.frames[frame].name
+         base axes."
     );
     let unit = "m and 1 for a rotation, 1 and 0 for a translation";
     let shape = vec![6, derivation.mechanism.degrees_of_freedom];
@@ -133,16 +154,19 @@ fn jacobian<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Function<'g> {
     )
 }
 
-fn jacobian_dot_qd<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Function<'g> {
+fn jacobian_dot_qd<'g>(
+    derivation: &Derivation<'_, 'g>,
+    what: &str,
+    frame: &MechanismFrame<'g>,
+) -> Function<'g> {
     let values = match &derivation.recursion {
-        Some(recursion) => recursion.jacobian_dot_qd(&derivation.mechanism.frames[frame]),
+        Some(recursion) => recursion.jacobian_dot_qd(frame),
         None => plain::jacobian_dot_qd(derivation, frame),
     };
     let doc = format!(
-        "J̇ q̇ of the frame `{}`: what velocities alone contribute to the acceleration of the \
+        "J̇ q̇ of {what}: what velocities alone contribute to the acceleration of the \
          frame's origin (0 to 2, m/s²) and to its angular acceleration (3 to 5, rad/s²), in base \
-         axes; with J q̈ they make the whole.",
-        derivation.robot.frames[frame].name
+         axes; with J q̈ they make the whole."
     );
     derivation.of_kind(
         FunctionKind::JacobianDotQd,

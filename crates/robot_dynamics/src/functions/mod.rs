@@ -15,6 +15,7 @@ mod inverse_dynamics;
 mod kind;
 mod kinematics;
 mod mass_matrix;
+mod named;
 mod pivots;
 mod plain;
 mod plans;
@@ -23,6 +24,7 @@ mod sharing;
 
 pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
 pub use kind::FunctionKind;
+pub use named::{FrameRef, WrongName, is_of_frame, named, names};
 pub use plans::search_plan;
 pub(crate) use regressor::base_columns;
 use std::cell::OnceCell;
@@ -144,7 +146,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         recursion.filter(|_| *self.small_pivots.get_or_init(|| pivots::may_be_small(self.robot)))
     }
 
-    /// Derives the functions of a kind: one, or one per named frame. What the robot lacks (a tip,
+    /// Derives the functions of a kind: one, or one per frame. What the robot lacks (a tip,
     /// friction) is taken for 0: ask [`FunctionKind::missing_in`] first.
     ///
     /// A parameter that does not act on a function does not occur in it.
@@ -177,6 +179,9 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::FramePoses => kinematics::frame_poses(self),
             FunctionKind::Jacobian | FunctionKind::JacobianDotQd => {
                 return kinematics::per_frame(self, kind);
+            }
+            FunctionKind::JacobianOf(_) | FunctionKind::JacobianDotQdOf(_) => {
+                return Vec::from_iter(kinematics::of_frame(self, kind));
             }
             FunctionKind::Energies => energies::energies(self),
             FunctionKind::CoriolisMatrix => coriolis::coriolis_matrix(self),

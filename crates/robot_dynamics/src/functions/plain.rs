@@ -28,11 +28,14 @@ pub(super) fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
 /// The poses of named frames.
 pub(super) fn frame_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     let links = link_poses(derivation);
-    let pose = |frame: &MechanismFrame<'g>| match frame.link {
+    derivation.mechanism.frames.iter().map(|frame| frame_pose(&links, frame)).collect()
+}
+
+fn frame_pose<'g>(links: &[Pose<'g>], frame: &MechanismFrame<'g>) -> Pose<'g> {
+    match frame.link {
         Some(link) => carried(&links[link], frame.rotation, frame.translation),
         None => Pose { rotation: frame.rotation, position: frame.translation },
-    };
-    derivation.mechanism.frames.iter().map(pose).collect()
+    }
 }
 
 fn carried<'g>(carrier: &Pose<'g>, rotation: Matrix<'g>, translation: Vector<'g>) -> Pose<'g> {
@@ -42,13 +45,16 @@ fn carried<'g>(carrier: &Pose<'g>, rotation: Matrix<'g>, translation: Vector<'g>
     }
 }
 
-/// The geometric Jacobian of a named frame, row by row.
-pub(super) fn jacobian<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Vec<Vec<Expr<'g>>> {
+/// The geometric Jacobian of a frame, row by row.
+pub(super) fn jacobian<'g>(
+    derivation: &Derivation<'_, 'g>,
+    frame: &MechanismFrame<'g>,
+) -> Vec<Vec<Expr<'g>>> {
     let mechanism = &derivation.mechanism;
     let poses = link_poses(derivation);
-    let point = frame_poses(derivation)[frame].position;
+    let point = frame_pose(&poses, frame).position;
     let mut rows = vec![vec![mechanism.graph.zero(); mechanism.degrees_of_freedom]; 6];
-    let mut next = mechanism.frames[frame].link;
+    let mut next = frame.link;
     while let Some(index) = next {
         let (link, pose) = (&mechanism.links[index], &poses[index]);
         let axis = pose.rotation * link.axis;
@@ -65,7 +71,10 @@ pub(super) fn jacobian<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Vec
 }
 
 /// J̇ q̇: the rate of J q̇ at constant q̇.
-pub(super) fn jacobian_dot_qd<'g>(derivation: &Derivation<'_, 'g>, frame: usize) -> Vec<Expr<'g>> {
+pub(super) fn jacobian_dot_qd<'g>(
+    derivation: &Derivation<'_, 'g>,
+    frame: &MechanismFrame<'g>,
+) -> Vec<Expr<'g>> {
     let graph = derivation.mechanism.graph;
     let rates = derivation.coordinate_symbols("qd");
     let rows = jacobian(derivation, frame);

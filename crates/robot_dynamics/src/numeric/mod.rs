@@ -50,6 +50,7 @@ mod pose;
 pub mod random;
 mod regressor;
 mod scalar;
+mod singular;
 mod spatial;
 mod validate;
 
@@ -64,3 +65,4 @@ pub use newton_euler::{LinkDynamics, Loads};
 pub use pose::Pose;
 pub use regressor::{DRIVE_PARAMETERS, LINK_PARAMETERS};
 pub use scalar::Number;
+pub use singular::undetermined;

@@ -46,7 +46,7 @@ fn expressions_know_time_state_and_parameters() {
 fn tables_are_linear_between_samples() {
     let programs = compiled(&robot_file("planar_2r"), false);
     let robot = &programs.robot;
-    let table = Table::read("a.csv", "tau2,t,q1\n1,0,9\n3,1,9\n-1,3,9\n").unwrap();
+    let table = Table::read("a.csv", "tau2,t,q1,tau1\n1,0,9,0\n3,1,9,0\n-1,3,9,0\n").unwrap();
     let torques = Torques::from_table(robot, "a.csv", &table, 3.0).unwrap();
     for (t, expected) in [(0.0, 1.0), (0.25, 1.5), (1.0, 3.0), (2.0, 1.0), (3.0, -1.0)] {
         assert_eq!(torques.torques(t, &state()), [0.0, expected], "{t}");
@@ -58,7 +58,7 @@ fn tables_are_linear_between_samples() {
     let expected = [
         "a.csv: the time does not rise at row 3 under the header",
         "a.csv: the torques go from 0 s to 1 s; the motion from 0 s to 3 s",
-        "a.csv: there is no column of torques; there can be tau1, tau2",
+        "a.csv: there is no column tau1, tau2; a joint that is not driven has one of zeros",
         "a.csv: there is no coordinate for the column `tau3`",
     ];
     assert_eq!(shown.lines().collect::<Vec<_>>(), expected);

@@ -9,6 +9,7 @@ use robot_dynamics::doctor;
 use robot_dynamics::model::Robot;
 
 use crate::commands::diff::show;
+use crate::reading::ReadingArguments;
 
 /// What the files say at a moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,8 @@ pub(super) struct Look {
 pub(super) struct Settings {
     /// The tolerance for angles, rad, where one is given.
     pub(super) snap: Option<f64>,
+    /// What is taken of a file with a warning.
+    pub(super) reading: ReadingArguments,
     /// How many terms of each equation are shown at most.
     pub(super) terms: usize,
     /// How errors and warnings are shown.
@@ -78,14 +81,14 @@ impl State {
     /// How code is made of the last robot.
     pub(super) fn options(&self, settings: &Settings) -> Options {
         let plan = self.good.as_ref().and_then(|good| good.plan.clone());
-        Options { snap: settings.snap, plan, ..Options::default() }
+        Options { snap: settings.snap, plan, ..settings.reading.options() }
     }
 
     /// The state after a look, and what is to be shown of the way there.
     pub(super) fn after(&self, look: &Look, settings: &Settings) -> (State, Shown) {
         let number = self.number;
         let read = look.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
-        match read.and_then(|source| good(number, source, &look.plan, settings.style)) {
+        match read.and_then(|source| good(number, source, &look.plan, settings)) {
             Ok(good) => {
                 let shown = self.bettered(&good, settings);
                 (State { number: number + 1, good: Some(good), wrong: None }, shown)
@@ -139,9 +142,12 @@ fn good(
     number: usize,
     source: &Source,
     plan: &Result<Option<Plan>, Errors>,
-    style: Style,
+    settings: &Settings,
 ) -> Result<Good, Vec<Problem>> {
-    let described = robot_build::read(source).map_err(|errors| of_errors(&errors, style))?;
+    let style = settings.style;
+    let options = settings.reading.options();
+    let described =
+        robot_build::read_with(source, &options).map_err(|errors| of_errors(&errors, style))?;
     let examination = doctor::examine(&described);
     let mut problems: Vec<Problem> = examination
         .found
@@ -229,7 +235,7 @@ fn compared(before: &Good, now: &Good, settings: &Settings) -> DifferenceOptions
     let code = [before, now].map(|one| Options {
         snap: settings.snap,
         plan: one.plan.clone().filter(|_| own),
-        ..Options::default()
+        ..settings.reading.options()
     });
     DifferenceOptions { code, seed: 0, states: 0 }
 }

@@ -7,6 +7,7 @@ use robot_dynamics::mechanism::MechanismOptions;
 use tempfile::TempDir;
 
 use super::*;
+use crate::reading::ReadingArguments;
 
 const ARM: &str = include_str!("../../../../../robots/planar_2r.toml");
 
@@ -28,7 +29,12 @@ fn look(text: &str) -> Look {
     Look { source: Ok(source), plan: Ok(None) }
 }
 
-const SETTINGS: Settings = Settings { snap: None, terms: 20, style: Style::Plain };
+const SETTINGS: Settings = Settings {
+    snap: None,
+    reading: ReadingArguments { allow_massless: false, allow_unphysical: false },
+    terms: 20,
+    style: Style::Plain,
+};
 
 /// How the watch ends, and what it shows on either stream.
 fn followed(looks: impl IntoIterator<Item = Look>) -> (bool, String, String) {

@@ -28,6 +28,14 @@ pub(super) struct UrdfJoint<'a> {
     pub(super) of_limits: Option<Span>,
     pub(super) mimic: Option<UrdfMimic<'a>>,
     pub(super) dynamics: Option<Dynamics>,
+    pub(super) unread: Vec<Unread>,
+}
+
+/// An attribute of `<limit>` that is not used.
+pub(super) struct Unread {
+    pub(super) name: &'static str,
+    /// The value.
+    pub(super) span: Span,
 }
 
 /// Joint position = `multiplier` × that of `joint` + `offset`.
@@ -46,6 +54,13 @@ pub(super) struct Dynamics {
     pub(super) span: Span,
 }
 
+impl Dynamics {
+    /// The figures in a line.
+    pub(super) fn figures(&self) -> String {
+        format!("damping {}, friction {}", self.damping, self.friction)
+    }
+}
+
 /// Reads a joint; `None` where something that others need is wrong.
 pub(super) fn read<'a>(
     reader: &mut Reader<'_>,
@@ -62,7 +77,8 @@ pub(super) fn read<'a>(
         Some(Some((_, has_limits))) => Some(moving(reader, element, has_limits)),
         _ => None,
     };
-    let Moving { axis, of_axis, limits, of_limits, mimic, dynamics } = moving.unwrap_or_default();
+    let Moving { axis, of_axis, limits, of_limits, mimic, dynamics, unread } =
+        moving.unwrap_or_default();
     Some(UrdfJoint {
         name: name?,
         tag: element.tag(),
@@ -77,6 +93,7 @@ pub(super) fn read<'a>(
         of_limits,
         mimic,
         dynamics,
+        unread,
     })
 }
 
@@ -139,6 +156,7 @@ struct Moving<'a> {
     of_limits: Option<Span>,
     mimic: Option<UrdfMimic<'a>>,
     dynamics: Option<Dynamics>,
+    unread: Vec<Unread>,
 }
 
 /// The axis that URDF gives to a joint without one: x.
@@ -151,6 +169,7 @@ impl Default for Moving<'_> {
             of_limits: None,
             mimic: None,
             dynamics: None,
+            unread: Vec::new(),
         }
     }
 }
@@ -173,13 +192,37 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
                 .because("URDF says so"),
         ),
     }
-    if let Some(limit) = element.child(reader, "limit").filter(|_| has_limits) {
-        (moving.limits, moving.of_limits) = limits(reader, &limit);
+    if let Some(limit) = element.child(reader, "limit") {
+        if has_limits {
+            (moving.limits, moving.of_limits) = limits(reader, &limit);
+        }
+        moving.unread = unread(reader, &limit);
     }
     moving.mimic = element.child(reader, "mimic").and_then(|mimic| follows(reader, &mimic));
     let dynamics = element.child(reader, "dynamics");
     moving.dynamics = dynamics.and_then(|dynamics| friction(reader, &dynamics));
     moving
+}
+
+/// What a limit says of forces and rates, which have no part in the motion; a negative one is a slip.
+fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
+    const NAMES: [&str; 5] = ["effort", "velocity", "acceleration", "deceleration", "jerk"];
+    let mut unread = Vec::new();
+    for name in NAMES {
+        let Some(attribute) = element.attribute(name) else { continue };
+        let value = attribute.text.trim().parse::<f64>().ok();
+        if let Some(value) = value.filter(|value| *value < 0.0) {
+            let message = format!("the limit of {name} is {value}");
+            reader.report(
+                Diagnostic::warning(code::LIMIT_SIGN, message)
+                    .at(&attribute.span, "below 0")
+                    .because("the limit is one of the magnitude, in both directions")
+                    .help("correct the figure; nothing here depends on it"),
+            );
+        }
+        unread.push(Unread { name, span: attribute.span });
+    }
+    unread
 }
 
 /// An axis of any length but 0.

@@ -83,7 +83,7 @@ fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
     let mut diagnostic = Diagnostic::error(code::MASS, format!("the link `{name}` has no mass"))
         .at(place, label)
         .because("a link without mass falls out of the equations in silence")
-        .help("add its `<inertial>`; where it has no mass indeed, import it with `robot-symbolic import --allow-massless`");
+        .help("add its `<inertial>`; where it has no mass indeed, read it with `--allow-massless`");
     if options.allow_massless {
         diagnostic.severity = Severity::Warning;
         diagnostic.help = None;
@@ -116,11 +116,13 @@ fn judge_body(
             reader.report(alone_acts(&of_mass, moment));
             return;
         }
-        let mut diagnostic =
-            Diagnostic::error(code::MASS, "a body of mass 0 has moments of inertia")
-                .at(&of_mass, "the mass is 0")
-                .because("a moment of inertia is a sum of masses times squares")
-                .help("give the mass; where the figures are meant so, import it with `robot-symbolic import --allow-massless`");
+        let mut diagnostic = Diagnostic::error(
+            code::MASS,
+            "a body of mass 0 has moments of inertia",
+        )
+        .at(&of_mass, "the mass is 0")
+        .because("a moment of inertia is a sum of masses times squares")
+        .help("give the mass; where the figures are meant so, read it with `--allow-massless`");
         if options.allow_massless || !own {
             diagnostic.severity = Severity::Warning;
         }
@@ -144,7 +146,7 @@ fn judge_body(
                 PUBLISHED * 100.0
             ));
             diagnostic = diagnostic.help(
-                "correct the figures; where they are published so, import it with `robot-symbolic import --allow-unphysical`",
+                "correct the figures; where they are published so, read it with `--allow-unphysical`",
             );
             excess
         }

@@ -13,6 +13,7 @@ mod name;
 mod number;
 mod origin;
 mod report;
+mod unread;
 mod xml;
 
 use robot_symbolic::{Formula, Rational};

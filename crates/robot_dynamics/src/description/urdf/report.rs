@@ -5,6 +5,7 @@ use super::super::options::Options;
 use super::super::reader::Reader;
 use super::element::Element;
 use super::joint::UrdfJoint;
+use super::unread;
 use crate::diagnostic::{Diagnostic, code};
 
 /// What says nothing of the motion, and its plural.
@@ -40,6 +41,7 @@ pub(super) fn choices(
             moving(reader, joint, options);
         }
     }
+    unread::notes(reader, root, joints, options);
 }
 
 /// What concerns the file as a whole.
@@ -118,18 +120,12 @@ fn moving(reader: &mut Reader<'_>, joint: &UrdfJoint<'_>, options: &Options) {
                 .because("the torque of the joint that leads drives both"),
         );
     }
-    if let Some(dynamics) = &joint.dynamics {
-        let (damping, friction) = (&dynamics.damping, &dynamics.friction);
-        let figures = format!("damping {damping}, friction {friction}");
-        let diagnostic = if options.friction {
-            let message = format!("the friction of `{name}` is part of the robot");
+    if let Some(dynamics) = joint.dynamics.as_ref().filter(|_| options.friction) {
+        let message = format!("the friction of `{name}` is part of the robot");
+        reader.report(
             Diagnostic::note(code::TAKEN_DEFAULT, message)
-                .because("damping is viscous friction, friction is constant dry friction")
-        } else {
-            let message = format!("the friction of `{name}` is not part of the robot");
-            Diagnostic::note(code::LEFT_OUT, message)
-                .because("torques are those of the bodies alone")
-        };
-        reader.report(diagnostic.at(&dynamics.span, figures));
+                .at(&dynamics.span, dynamics.figures())
+                .because("damping is viscous friction, friction is constant dry friction"),
+        );
     }
 }

@@ -1,0 +1,76 @@
+//! Outputs that are not finite, which JSON cannot hold: which entry, at which state, and why.
+
+use robot_codegen::OutputValues;
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric::Mechanism;
+
+use crate::states::State;
+
+/// A message for each output that is not finite.
+pub(super) fn messages(
+    robot: &Robot,
+    settings: &[(&str, f64)],
+    state: &State,
+    outputs: &[OutputValues],
+) -> Vec<String> {
+    let wrong =
+        outputs.iter().filter(|output| output.values.iter().any(|value| !value.is_finite()));
+    let wrong: Vec<&OutputValues> = wrong.collect();
+    if wrong.is_empty() {
+        return vec![];
+    }
+    let why = reason(robot, settings, state);
+    let message = |output: &&OutputValues| {
+        let entries = entries(robot, output);
+        format!("{}: `{}` has no finite value{entries}; {why}", state.place, output.name)
+    };
+    wrong.iter().map(message).collect()
+}
+
+/// ` at entry 2 (joint `elbow`)`, of a matrix ` at row 1, column 2`: the first that is not finite.
+fn entries(robot: &Robot, output: &OutputValues) -> String {
+    let Some(first) = output.values.iter().position(|value| !value.is_finite()) else {
+        return String::new();
+    };
+    match output.shape.as_slice() {
+        [_, columns] if *columns > 0 => {
+            format!(" at row {}, column {}", first / columns + 1, first % columns + 1)
+        }
+        [length] => {
+            let joint = robot.coordinates.get(first).filter(|_| *length == robot.coordinates.len());
+            let joint = joint.map(|one| format!(" (joint `{}`)", one.joint)).unwrap_or_default();
+            format!(" at entry {}{joint}", first + 1)
+        }
+        _ => String::new(),
+    }
+}
+
+/// Why values may not be finite: the mass matrix is singular at the state, or figures are too large.
+fn reason(robot: &Robot, settings: &[(&str, f64)], state: &State) -> String {
+    let value = |name: &str| {
+        let set = settings.iter().find(|(set, _)| *set == name).map(|(_, value)| *value);
+        let nominal = || Some(robot.parameter(name)?.value.as_ref()?.to_f64());
+        set.or_else(nominal).unwrap_or(f64::NAN)
+    };
+    let mechanism = Mechanism::from_robot(robot, &value).ok();
+    let free = mechanism.zip(state.array("q")).map(|(mechanism, q)| mechanism.undetermined(q));
+    match free.and_then(Result::ok).as_deref() {
+        None | Some([]) => "look at the size of the parameters and of the state".to_owned(),
+        Some(free) => {
+            let q = state.array("q").unwrap_or_default();
+            let at: Vec<String> = free
+                .iter()
+                .map(|index| {
+                    let joint = robot.coordinates.get(*index).map_or("", |one| &one.joint);
+                    let position = q.get(*index).copied().unwrap_or_default();
+                    format!("q{} = {position} (joint `{joint}`)", index + 1)
+                })
+                .collect();
+            format!(
+                "the mass matrix is singular at this state: no driving forces determine the accelerations of \
+                 {}",
+                at.join(", ")
+            )
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! What a command takes of a robot file that is an error otherwise.
+
+use clap::Args;
+use robot_build::{Errors, Options, Source, read_with};
+use robot_dynamics::description::Described;
+use robot_symbolic::Rational;
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::text;
+
+/// What is taken with a warning.
+#[derive(Args, Clone, Copy, Default)]
+pub(crate) struct ReadingArguments {
+    /// Take moving links without mass, with a warning
+    #[arg(long)]
+    pub(crate) allow_massless: bool,
+    /// Take inertias that no body has, and such masses of a robot file, with a warning
+    #[arg(long)]
+    pub(crate) allow_unphysical: bool,
+}
+
+impl ReadingArguments {
+    /// The default options, with what is taken.
+    pub(crate) fn options(self) -> Options {
+        let ReadingArguments { allow_massless, allow_unphysical } = self;
+        Options { allow_massless, allow_unphysical, ..Options::default() }
+    }
+
+    /// Reads a robot; shows warnings, and in a line what the file says of the dynamics that is no part of
+    /// the robot.
+    pub(crate) fn read(
+        self,
+        source: &Source,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<Described, Failure> {
+        let described = read_with(source, &self.options())?;
+        text::warnings(&described.warnings, terminal)?;
+        if !described.left_out.is_empty() {
+            let (name, parts) = (&source.name, described.left_out.join("; "));
+            writeln!(terminal.errors, "note: {name}: no part of the robot: {parts}")?;
+        }
+        Ok(described)
+    }
+
+    /// Holds a robot file against the reader's checks with other values of parameters; shows the warnings
+    /// that these give.
+    pub(crate) fn check_values(
+        self,
+        source: &Source,
+        described: &Described,
+        values: &[(&str, f64)],
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        let exact = |(name, value): &(&str, f64)| {
+            Some(((*name).to_owned(), Rational::from_decimal(&value.to_string())?))
+        };
+        let values = values.iter().filter_map(exact).collect();
+        let options = robot_dynamics::description::Options { values, ..self.options().reading() };
+        let found = robot_dynamics::description::read_with(&source.name, &source.text, &options);
+        let set = found.map_err(|found| Failure::Robot(Errors::from(found)))?;
+        let is_new = |one: &&robot_dynamics::diagnostic::Diagnostic| {
+            described.warnings.iter().all(|known| known != *one)
+        };
+        let new = set.warnings.iter().filter(is_new).cloned().collect();
+        let new = robot_dynamics::diagnostic::Diagnostics::new(source.clone(), new);
+        text::warnings(&new, terminal)
+    }
+}

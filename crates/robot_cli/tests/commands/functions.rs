@@ -1,0 +1,137 @@
+//! Names of functions: what can be asked for, everywhere by the same names.
+
+use serde_json::Value;
+
+use crate::{complaint, folder, output, robot, run, run_with};
+
+/// A planar arm with frames whose names are no identifiers.
+fn arm(test: &str) -> String {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let frame = |name: &str| format!("\n[[frame]]\nname = \"{name}\"\nparent = \"1\"\n");
+    let frames: Vec<String> = ["EndEffector_Link", "Cam", "cam-1", "cam.1"].map(frame).into();
+    let path = folder(test).join("arm.toml");
+    std::fs::write(&path, format!("{text}{}", frames.concat())).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// The same without any frame.
+fn bare(test: &str) -> String {
+    let text = std::fs::read_to_string(robot("planar_3r")).unwrap();
+    let path = folder(test).join("bare.toml");
+    std::fs::write(&path, text.split("[tip]").next().unwrap()).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+fn eval(file: &str, function: &str, states: &str) -> Value {
+    let arguments = ["eval", file, "--function", function, "--states", "-"];
+    let outcome = run_with(&arguments, states.as_bytes());
+    assert_eq!(outcome.code, 0, "{function}: {}", outcome.errors);
+    serde_json::from_str(&outcome.output).unwrap()
+}
+
+const STATE: &str = r#"[{"q": [0.3, 0.5], "qd": [1, 2]}]"#;
+
+#[test]
+fn frames_are_named_as_in_the_file_or_as_in_the_function() {
+    let file = arm("functions-frames");
+    for kind in ["jacobian", "jacobian_dot_qd"] {
+        let of = |frame: &str| eval(&file, &format!("{kind}_{frame}"), STATE);
+        assert_eq!(of("EndEffector_Link"), of("endeffector_link"));
+        assert_eq!(of("Cam"), of("cam"));
+        assert_eq!(of("cam-1"), of("cam_1_4"));
+        assert_eq!(of("cam.1"), of("cam_1_5"));
+        // Two frames have this name as an identifier.
+        let name = format!("{kind}_cam_1");
+        let arguments = ["eval", &file, "--function", &name, "--states", "-"];
+        let shown = complaint(2, &arguments, STATE);
+        assert!(shown.contains(&format!("`{name}_4`, `{name}_5`")), "{shown}");
+    }
+}
+
+#[test]
+fn every_name_that_a_message_has_can_be_asked_for() {
+    let file = arm("functions-messages");
+    let arguments = ["eval", &file, "--function", "jacobian", "--states", "-"];
+    let shown = complaint(2, &arguments, STATE);
+    let names: Vec<&str> = shown.split('`').skip(3).step_by(2).collect();
+    assert_eq!(names.len(), 5, "{shown}");
+    for name in names {
+        eval(&file, name, STATE);
+    }
+    let shown = output(&["stats", &file], "");
+    let shown: Value = serde_json::from_str(&shown).unwrap();
+    let jacobians = shown["functions"].as_object().unwrap().keys();
+    let jacobians: Vec<&String> = jacobians.filter(|name| name.starts_with("jacobian")).collect();
+    assert_eq!(jacobians.len(), 10);
+    for name in jacobians {
+        eval(&file, name, STATE);
+    }
+}
+
+#[test]
+fn one_frame_or_link_is_asked_for_alone_everywhere() {
+    let file = arm("functions-alone");
+    let functions = |arguments: &[&str]| -> Vec<String> {
+        let outcome = run(arguments);
+        assert_eq!(outcome.code, 0, "{}", outcome.errors);
+        let lines = outcome.output.lines().filter_map(|line| line.trim().strip_prefix("pub fn "));
+        let names = lines.map(|line| line.split('(').next().unwrap().to_owned());
+        names.filter(|name| name.starts_with("jacobian") && !name.ends_with("_sc")).collect()
+    };
+    let generated = functions(&["generate", &file, "--function", "jacobian_Cam,jacobian_2"]);
+    assert_eq!(generated, ["jacobian_cam", "jacobian_2"]);
+    // All frames are asked for, and one of them: once.
+    let generated = functions(&["generate", &file, "--function", "jacobian_Cam,jacobian"]);
+    assert_eq!(generated.len(), 5);
+    let bundle = "both=jacobian_cam-1,jacobian_dot_qd_1";
+    let outcome = run(&["generate", &file, "--bundle", bundle]);
+    assert!(outcome.output.contains("pub jacobian_cam_1_4:"), "{}", outcome.output);
+    let shown = output(&["stats", &file, "--function", "jacobian_dot_qd_2"], "");
+    assert!(shown.contains("\"jacobian_dot_qd_2\""), "{shown}");
+
+    // In the robot file.
+    let text = std::fs::read_to_string(&file).unwrap();
+    let code = "\n[code]\nfunctions = [\"jacobian_EndEffector_Link\", \"jacobian_1\"]\n\
+                bundles = { both = [\"jacobian_cam\", \"bias\"] }\n\
+                [[budget]]\nfunction = \"jacobian_Cam\"\nmax_operations = 100\n";
+    std::fs::write(&file, format!("{text}{code}")).unwrap();
+    assert_eq!(functions(&["generate", &file]), ["jacobian_endeffector_link", "jacobian_1"]);
+    std::fs::write(&file, format!("{text}{}", code.replace("jacobian_1", "jacobian_9"))).unwrap();
+    let shown = run(&["check", &file]).errors;
+    assert!(
+        shown.contains("error[R0802]: `jacobian_9` is not a function of this robot"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn a_robot_without_frames_has_the_jacobian_of_its_last_link() {
+    let file = bare("functions-bare");
+    let states = r#"[{"q": [0.3, 0.5, -0.2], "qd": [1, 2, 3]}]"#;
+    for kind in ["jacobian", "jacobian_dot_qd"] {
+        assert_eq!(eval(&file, kind, states), eval(&file, &format!("{kind}_3"), states));
+    }
+}
+
+#[test]
+fn help_and_completions_list_the_functions() {
+    for command in ["eval", "generate", "stats", "crate", "prove"] {
+        let shown = run(&[command, "--help"]).output;
+        for name in ["inverse_dynamics_derivatives", "jacobian_dot_qd", "regressor_base"] {
+            assert!(shown.contains(name), "{command} --help lacks {name}");
+        }
+    }
+    for shell in ["bash", "zsh", "fish"] {
+        let shown = output(&["completions", shell], "");
+        assert!(shown.contains("forward_dynamics_derivatives"), "{shell}");
+    }
+}
+
+#[test]
+fn the_page_lists_every_function() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/generated-code.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    for kind in robot_build::FunctionKind::ALL {
+        assert!(page.contains(&format!("`{}`", kind.name())), "{}", kind.name());
+    }
+}

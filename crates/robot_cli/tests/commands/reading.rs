@@ -1,0 +1,252 @@
+//! What commands take of files and values, and what they say of what has no effect.
+
+use crate::{URDF, complaint, folder, output, robot, run, run_with};
+
+fn written(test: &str, name: &str, text: &str) -> String {
+    let path = folder(test).join(name);
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+const STATE: &str = r#"[{"q": [0.3, 0.5], "qd": [1, 2], "qdd": [0, 0]}]"#;
+
+#[test]
+fn values_that_are_set_are_held_against_the_checks_of_the_reader() {
+    let file = robot("planar_2r");
+    let eval = ["eval", &file, "--function", "gravity", "--states", "-"];
+    let shown = complaint(1, &[&eval[..], &["--set", "m2=-1"]].concat(), STATE);
+    assert!(shown.starts_with("with --set m2=-1:\nerror[R0501]: the mass is -1 kg"), "{shown}");
+    for command in ["simulate", "torques"] {
+        let arguments = [command, &file, "--set", "m2=-1", "--time", "1"];
+        let expressions = ["--expressions", "q1=t;q2=t"];
+        let more = if command == "torques" { &expressions[..] } else { &[] };
+        let shown = complaint(1, &[&arguments[..], more].concat(), "");
+        assert!(shown.contains("error[R0501]: the mass is -1 kg"), "{shown}");
+    }
+    let outcome = run_with(
+        &[&eval[..], &["--set", "m2=-1", "--allow-unphysical"]].concat(),
+        STATE.as_bytes(),
+    );
+    assert_eq!(outcome.code, 0);
+    assert!(outcome.errors.starts_with("warning[R0501]: the mass is -1 kg"), "{}", outcome.errors);
+
+    // A tensor, an axis, a payload.
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let checked =
+        text.replace("{ zz = \"I2\", unchecked = true }", "{ xx = 0.1, yy = 0.1, zz = \"I2\" }");
+    assert_ne!(text, checked);
+    let payload = checked.replace("[tip]", "[payload]\n\n[tip]");
+    let file = written("reading-set", "arm.toml", &payload);
+    let eval = ["eval", &file, "--function", "gravity", "--states", "-", "--set"];
+    for (setting, code) in [
+        ("I2=-5", "R0502"),
+        ("I2=0.5", "R0503"),
+        ("payload_mass=-1", "R0501"),
+        ("payload_xx=-1", "R0502"),
+    ] {
+        let shown = complaint(1, &[&eval[..], &[setting]].concat(), STATE);
+        assert!(shown.contains(&format!("error[{code}]")), "{setting}: {shown}");
+    }
+    output(&[&eval[..], &["payload_mass=1.5"]].concat(), STATE);
+    let leaning = text.replacen("axis = \"z\"", "axis = [0, 0, \"r1\"]", 1);
+    let file = written("reading-axis", "arm.toml", &leaning);
+    let eval = ["eval", &file, "--function", "gravity", "--states", "-", "--set", "r1=0"];
+    assert!(complaint(1, &eval, STATE).contains("error[R0403]: the joint axis is zero"));
+}
+
+#[test]
+fn what_is_waived_is_waived_at_every_command() {
+    let text = URDF.replace("iyy=\"0.1\" izz=\"0.1\"", "iyy=\"1e-6\" izz=\"0.1\"");
+    let file = written("reading-waived", "arm.urdf", &text);
+    let state = r#"[{"q": [0.3], "qd": [1], "qdd": [0]}]"#;
+    let commands: [&[&str]; 7] = [
+        &["equations", &file],
+        &["stats", &file, "--function", "bias"],
+        &["generate", &file],
+        &["show", &file],
+        &["base", &file],
+        &["eval", &file, "--function", "bias", "--states", "-"],
+        &["simulate", &file, "--time", "0.1"],
+    ];
+    for arguments in commands {
+        let outcome = run_with(arguments, state.as_bytes());
+        assert_eq!(outcome.code, 1, "{arguments:?}");
+        assert!(outcome.errors.contains("read it with `--allow-unphysical`"), "{}", outcome.errors);
+        let outcome = run_with(&[arguments, &["--allow-unphysical"]].concat(), state.as_bytes());
+        assert_eq!(outcome.code, 0, "{arguments:?}: {}", outcome.errors);
+        assert!(outcome.errors.contains("warning[R0503]"), "{}", outcome.errors);
+    }
+}
+
+/// A trunk of 5 kg with two legs.
+const WALKER: &str = include_str!("../../../robot_dynamics/tests/broken/urdf_free_base.urdf");
+
+#[test]
+fn a_trunk_that_stands_still_is_a_warning_everywhere() {
+    let file = written("reading-trunk", "walker.urdf", WALKER);
+    let commands: [&[&str]; 4] = [
+        &["equations", &file],
+        &["generate", &file],
+        &["stats", &file, "--function", "bias"],
+        &["check", &file],
+    ];
+    for arguments in commands {
+        let shown = run(arguments).errors;
+        let expected = "warning[R0617]: the base of 5 kg stands still, and 2 branches move on it";
+        assert!(shown.contains(expected), "{arguments:?}: {shown}");
+    }
+    // The base of an arm is what it always was.
+    let arm = URDF.replace(
+        "<link name=\"base\"/>",
+        "<link name=\"base\"><inertial><mass value=\"3\"/>\
+        <inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>",
+    );
+    assert_ne!(arm, URDF);
+    let file = written("reading-base", "arm.urdf", &arm);
+    output(&["equations", &file], "");
+}
+
+#[test]
+fn what_bears_on_the_dynamics_and_is_not_read_is_told_in_a_line() {
+    let dynamics = "<dynamics damping=\"5\" friction=\"3\"/></joint>\
+        <transmission name=\"t\"><actuator name=\"m\"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>\
+        <gazebo reference=\"rod\"><turnGravityOff>true</turnGravityOff></gazebo>";
+    let text = URDF.replace("</joint>", dynamics);
+    let file = written("reading-dropped", "arm.urdf", &text);
+    let outcome = run(&["generate", &file]);
+    assert_eq!(outcome.code, 0);
+    let line = outcome.errors.trim_end();
+    assert_eq!(line.lines().count(), 1, "{line}");
+    for part in ["the friction of 1 joint", "1 transmission", "gravity", "import --friction"] {
+        assert!(line.contains(part), "{line}");
+    }
+    let shown = run(&["check", &file]).errors;
+    for part in
+        ["1 joint: `effort` of `<limit>` is not read", "1 transmission: gear ratio", "1 Gazebo"]
+    {
+        assert!(shown.contains(part), "{shown}");
+    }
+    // What says nothing of the dynamics is not told.
+    let file = written("reading-plain", "arm.urdf", URDF);
+    output(&["generate", &file], "");
+    let negative = URDF.replace("effort=\"10\"", "effort=\"-10\"");
+    let file = written("reading-effort", "arm.urdf", &negative);
+    let shown = run(&["check", &file]).errors;
+    assert!(shown.contains("warning[R0618]: the limit of effort is -10"), "{shown}");
+}
+
+#[test]
+fn friction_that_the_robot_has_not_is_an_error() {
+    let dynamics = "<dynamics damping=\"5\" friction=\"3\"/></joint>";
+    let file = written("reading-friction", "arm.urdf", &URDF.replace("</joint>", dynamics));
+    let commands: [&[&str]; 4] = [
+        &["equations", &file, "--friction"],
+        &["document", &file, "--friction"],
+        &["simulate", &file, "--friction", "--time", "0.1"],
+        &["torques", &file, "--friction", "--expressions", "q1=t", "--time", "0.1"],
+    ];
+    for arguments in commands {
+        let shown = complaint(1, arguments, "");
+        assert!(shown.contains("--friction: no joint has friction"), "{shown}");
+        assert!(shown.contains("import --friction"), "{shown}");
+    }
+    let imported = run(&["import", &file, "--friction"]).output;
+    let file = written("reading-imported", "arm.toml", &imported);
+    assert!(output(&["equations", &file, "--friction"], "").contains("5*qd1"));
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    let file = robot("planar_2r");
+    let commands: [(&[&str], &str); 7] = [
+        (&["equations", &file, "--christoffel"], "add --form grouped"),
+        (&["equations", &file, "--width", "8cm"], "add --format latex"),
+        (&["equations", &file, "--numbers"], "add --format latex"),
+        (&["equations", &file, "--trig", "short"], "add --format latex"),
+        (&["equations", &file, "--form", "recursive", "--angle-sums", "keep"], "another form"),
+        (&["base", &file, "--width", "8cm", "--format", "json"], "add --format latex"),
+        (&["document", &file, "--christoffel", "--form", "expanded"], "add --form grouped"),
+    ];
+    for (arguments, expected) in commands {
+        let shown = complaint(2, arguments, "");
+        assert!(shown.contains(expected), "{arguments:?}: {shown}");
+    }
+    let trajectory = ["torques", &file, "--trajectory", "a.csv", "--step", "0.1"];
+    assert!(complaint(2, &trajectory, "").contains("--step"));
+    assert!(complaint(1, &["import", &file, "--friction"], "").contains("a robot file already"));
+}
+
+#[test]
+fn torques_of_a_file_are_those_of_all_joints() {
+    let file = robot("planar_2r");
+    let arguments = ["simulate", &file, "--torques", "-", "--time", "0.1"];
+    let shown = complaint(1, &arguments, "t,tau1\n0,1\n1,1\n");
+    assert_eq!(
+        shown,
+        "error: standard input: there is no column tau2; a joint that is not driven has one of zeros\n"
+    );
+    output(&arguments, "t,tau1,tau2\n0,1,0\n1,1,0\n");
+}
+
+#[test]
+fn a_motion_with_a_kink_is_refused() {
+    let file = robot("planar_2r");
+    let of = |expressions: &'static str, time: &'static str| {
+        [
+            "torques".to_owned(),
+            file.clone(),
+            format!("--expressions={expressions}"),
+            format!("--time={time}"),
+        ]
+    };
+    let refused = |expressions, time| {
+        let arguments = of(expressions, time);
+        complaint(1, &arguments.each_ref().map(String::as_str), "")
+    };
+    let taken = |expressions, time| {
+        let arguments = of(expressions, time);
+        output(&arguments.each_ref().map(String::as_str), "");
+    };
+    let shown = refused("q1=t;q2=abs(t-0.025)", "0.1");
+    assert!(shown.contains("`q2`: the velocity jumps at t = 0.025"), "{shown}");
+    assert!(shown.contains("from -1 to 1"), "{shown}");
+    // At a sample, at the beginning, between samples twice, and a position that jumps.
+    assert!(refused("q1=t;q2=abs(t-0.02)", "0.1").contains("t = 0.02"));
+    assert!(refused("q1=abs(t);q2=t", "0.1").contains("`q1`: the velocity jumps at t = 0 s"));
+    assert!(refused("q1=abs(sin(9*t));q2=t", "1").contains("`q1`: the velocity jumps"));
+    assert!(refused("q1=t;q2=sign(t-0.055)", "0.1").contains("`q2`: the position jumps"));
+    // Smooth where it switches: the velocity has a kink, no jump; and beyond the time.
+    taken("q1=t*abs(t-0.025)*(t-0.025);q2=t", "0.1");
+    taken("q1=t;q2=abs(t-0.3)", "0.1");
+    taken("q1=tanh((t-0.5)/1e-3);q2=1e6*sin(50*t) + abs(t + 1)", "1");
+}
+
+#[test]
+fn values_that_are_not_finite_are_told_by_their_cause() {
+    // Two rods that turn about one axis: the second has no inertia about the first where they are folded.
+    let text = "format = 1\n[robot]\nname = \"gimbal\"\n\
+        [[link]]\nname = \"a\"\njoint = { type = \"revolute\", axis = \"z\" }\nmassless = true\n\
+        [[link]]\nname = \"b\"\njoint = { type = \"revolute\", axis = \"y\" }\nmassless = true\n\
+        [[link]]\nname = \"c\"\njoint = { type = \"revolute\", axis = \"z\" }\nmass = 1\n\
+        center_of_mass = [0.1, 0.2, 0.3]\ninertia = { xx = 0.1, yy = 0.12, zz = 0.13 }\n";
+    let file = written("reading-gimbal", "gimbal.toml", text);
+    let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];
+    let states = r#"[{"q": [0.1, 0.2, 0.3], "qd": [0, 0, 0], "tau": [1, 1, 1]},
+                     {"q": [0.1, 0, 0.3], "qd": [0, 0, 0], "tau": [1, 1, 1]}]"#;
+    let shown = complaint(1, &arguments, states);
+    assert!(shown.contains("state 2: `qdd` has no finite value at entry"), "{shown}");
+    assert!(shown.contains("the mass matrix is singular at this state"), "{shown}");
+    assert!(
+        shown.contains("q1 = 0.1 (joint `a`)") && shown.contains("q3 = 0.3 (joint `c`)"),
+        "{shown}"
+    );
+    assert!(!shown.contains("q2 ="), "{shown}");
+
+    // Singular in every posture.
+    let text = text.replace("axis = \"y\"", "axis = \"z\"");
+    let file = written("reading-idle", "idle.toml", &text);
+    let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];
+    let shown = complaint(1, &arguments, states);
+    assert!(shown.contains("the mass matrix is singular in every posture"), "{shown}");
+    assert!(shown.contains("R0611"), "{shown}");
+}

@@ -1,0 +1,129 @@
+//! What a URDF file says and the reader does not use, a line for each kind of thing.
+//!
+//! What bears on the dynamics is told to the reader in words besides, so that every command can say it.
+
+use roxmltree::Node;
+
+use super::super::options::Options;
+use super::super::reader::Reader;
+use super::element::{Element, tag};
+use super::joint::UrdfJoint;
+use crate::diagnostic::{Diagnostic, Span, code};
+
+/// Reports it as notes.
+pub(super) fn notes(
+    reader: &mut Reader<'_>,
+    root: &Element<'_, '_>,
+    joints: &[UrdfJoint<'_>],
+    options: &Options,
+) {
+    limits(reader, joints);
+    if !options.friction {
+        friction(reader, joints);
+    }
+    let gears: Vec<Span> =
+        root.nodes("transmission").filter(|node| any(*node, has_gear)).map(tag).collect();
+    drives(reader, &gears);
+    let below = root.nodes("link").chain(root.nodes("joint"));
+    let below = below.flat_map(|node| node.children().filter(|child| child.has_tag_name("gazebo")));
+    let gazebo = root.nodes("gazebo").chain(below);
+    let forces: Vec<Span> = gazebo.filter(|node| any(*node, has_force)).map(tag).collect();
+    simulated(reader, &forces);
+}
+
+/// `12 joints`
+fn counted(count: usize, one: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {one}{plural}")
+}
+
+/// Limits of forces and rates.
+fn limits(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
+    let mut kinds: Vec<(&str, Vec<&Span>)> = Vec::new();
+    for unread in joints.iter().flat_map(|joint| &joint.unread) {
+        match kinds.iter_mut().find(|(name, _)| *name == unread.name) {
+            Some((_, spans)) => spans.push(&unread.span),
+            None => kinds.push((unread.name, vec![&unread.span])),
+        }
+    }
+    for (name, spans) in kinds {
+        let count = counted(spans.len(), "joint");
+        let message = format!("{count}: `{name}` of `<limit>` is not read");
+        let diagnostic = Diagnostic::note(code::LEFT_OUT, message);
+        reader.report(
+            diagnostic
+                .at(spans.first().copied().unwrap_or(&(0..0)), "")
+                .because("nothing here bounds forces and rates"),
+        );
+    }
+}
+
+/// Friction of joints.
+fn friction(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
+    let mut found = joints.iter().filter_map(|joint| joint.dynamics.as_ref());
+    let Some(first) = found.next() else { return };
+    let count = counted(1 + found.count(), "joint");
+    let message = format!("{count}: the friction in `<dynamics>` is not part of the robot");
+    reader.report(
+        Diagnostic::note(code::LEFT_OUT, message)
+            .at(&first.span, first.figures())
+            .because("torques are those of the bodies alone")
+            .help("`robot-symbolic import --friction` takes it into the robot file"),
+    );
+    reader.left_out.push(format!("the friction of {count} (`import --friction` takes it)"));
+}
+
+/// Gears and motors.
+fn drives(reader: &mut Reader<'_>, places: &[Span]) {
+    let Some(first) = places.first() else { return };
+    let count = counted(places.len(), "transmission");
+    let message = format!("{count}: gear ratio and motor inertia are not part of the robot");
+    reader.report(
+        Diagnostic::note(code::LEFT_OUT, message)
+            .at(first, "")
+            .because("torques are those at the joints, of drives without inertia")
+            .help("give a link of the imported robot file a `drive`"),
+    );
+    reader.left_out.push(format!("the drives of {count}"));
+}
+
+/// What Gazebo is told of gravity, springs and damping.
+fn simulated(reader: &mut Reader<'_>, places: &[Span]) {
+    let Some(first) = places.first() else { return };
+    let count = counted(places.len(), "Gazebo element");
+    let message = format!("{count}: gravity, springs and damping there are not part of the robot");
+    reader.report(
+        Diagnostic::note(code::LEFT_OUT, message)
+            .at(first, "")
+            .because("they are for a simulator; here gravity acts on every body, and no spring"),
+    );
+    reader.left_out.push(format!("gravity, springs or damping of {count}"));
+}
+
+/// Whether an element within is so.
+fn any(node: Node<'_, '_>, is: fn(&str, &str) -> bool) -> bool {
+    let mut within = node.descendants().filter(Node::is_element);
+    within.any(|one| is(one.tag_name().name(), one.text().unwrap_or_default().trim()))
+}
+
+/// Whether a figure of a transmission bears on the dynamics.
+fn has_gear(name: &str, text: &str) -> bool {
+    let figure = text.parse::<f64>().ok();
+    match name {
+        "mechanicalReduction" | "mechanical_reduction" => figure != Some(1.0),
+        "motorInertia" | "motor_inertia" | "rotorInertia" | "rotor_inertia" => figure != Some(0.0),
+        _ => false,
+    }
+}
+
+/// Whether what Gazebo is told bears on the dynamics.
+fn has_force(name: &str, text: &str) -> bool {
+    let is_true = text == "1" || text.eq_ignore_ascii_case("true");
+    let is_some = text.parse::<f64>().ok() != Some(0.0);
+    match name {
+        "turnGravityOff" => is_true,
+        "gravity" => text == "0" || text.eq_ignore_ascii_case("false"),
+        "springStiffness" | "spring_stiffness" | "dampingFactor" => is_some,
+        _ => false,
+    }
+}
