@@ -26,7 +26,7 @@ fn holds(
 ) -> Result<bool, String> {
     let count = || usize::try_from(rule.as_u64().unwrap()).unwrap();
     Ok(match (keyword, value) {
-        ("$schema" | "title" | "description", _) => true,
+        ("$schema" | "$comment" | "title" | "description", _) => true,
         ("type", _) => match rule {
             Value::Array(types) => types.iter().any(|one| is_of_type(one, value)),
             one => is_of_type(one, value),
