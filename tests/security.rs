@@ -182,6 +182,8 @@ fn texts_of_a_file_stay_in_comments() {
     };
     let plain = code("a mass");
     assert!(plain.contains("a mass"));
+    // Both texts are made harmless: the description of the robot and that of the parameter.
+    assert_eq!(code("see `x`").matches(r"see \`x\`").count(), 2);
     for hostile in HOSTILE {
         let code = code(hostile);
         // Nothing but comments changes, and in them nothing ends a comment or begins an example.

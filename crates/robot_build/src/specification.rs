@@ -1,5 +1,6 @@
 //! A robot's functions as the code generator takes them.
 
+use robot_codegen::backend::rust::markdown;
 use robot_codegen::spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
 use robot_dynamics::functions::{Bundle, Derivation, Function, FunctionKind, Input, Output};
 use robot_dynamics::model::{Parameter, Robot};
@@ -17,7 +18,7 @@ pub(crate) fn module<'g>(
     let is_full = || derivation.mechanism.graph.is_full();
     ModuleSpec {
         name: robot.name.to_lowercase(),
-        doc: module_doc(robot),
+        doc: module_doc(robot, &not_generated(robot, functions, bundles)),
         parameters: robot.parameters.iter().map(parameter).collect(),
         functions: functions
             .iter()
@@ -29,15 +30,40 @@ pub(crate) fn module<'g>(
     }
 }
 
-/// The robot, what the file says about it, and the conventions.
-fn module_doc(robot: &Robot) -> Vec<String> {
+/// The robot, what the file says about it, the conventions, and what else there is.
+fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
     let blank = || "\n".to_owned();
     let mut lines = vec![format!("Dynamics of the robot {}.", robot.name), blank()];
     if let Some(description) = &robot.description {
-        lines.extend([description.clone(), blank()]);
+        lines.extend(markdown(description));
+        lines.push(blank());
     }
     lines.extend(CONVENTIONS.map(|line| format!("- {line}")));
+    if !more.is_empty() {
+        let names: Vec<String> = more.iter().map(|kind| format!("`{}`", kind.name())).collect();
+        lines.extend([
+            blank(),
+            "More functions are generated where they are chosen, with `functions = [\"…\"]` in `[code]` of the \
+             robot file or in the macro, `.functions([\"…\"])` of the builder, `--function` of the command; \
+             `\"all\"` chooses all. This robot has besides:"
+                .to_owned(),
+            format!("{}.", names.join(", ")),
+        ]);
+    }
     lines
+}
+
+/// The functions that the robot has and the module does not, in a bundle either.
+fn not_generated(
+    robot: &Robot,
+    functions: &[FunctionKind],
+    bundles: &[Bundle],
+) -> Vec<FunctionKind> {
+    let bundled =
+        |kind: &FunctionKind| bundles.iter().any(|bundle| bundle.functions.contains(kind));
+    let mut more = FunctionKind::of(robot);
+    more.retain(|kind| !functions.contains(kind) && !bundled(kind));
+    more
 }
 
 fn parameter(parameter: &Parameter) -> ParameterSpec {

@@ -1,4 +1,9 @@
 //! What is to become code: named expressions over named inputs and parameters.
+//!
+//! Documentation is Markdown of the caller's own, printed as it is: text that the caller does not control, a
+//! remark of a robot file, goes through [`markdown`](crate::backend::rust::markdown) before it becomes part of
+//! it. The documentation of parameters alone is text of such a file, and names and units are: they are made
+//! harmless where they are printed.
 
 use robot_symbolic::Expr;
 
@@ -10,7 +15,7 @@ use robot_symbolic::Expr;
 pub struct ModuleSpec<'g> {
     /// The name; a backend makes an identifier of it.
     pub name: String,
-    /// Documentation, a paragraph or line each.
+    /// Documentation in Markdown, a paragraph or line each.
     pub doc: Vec<String>,
     /// The parameters, in the order in which the code lists them.
     pub parameters: Vec<ParameterSpec>,
@@ -23,7 +28,7 @@ pub struct ModuleSpec<'g> {
 pub struct ParameterSpec {
     /// The symbol.
     pub name: String,
-    /// Its meaning.
+    /// Its meaning; text, not Markdown.
     pub doc: String,
     /// Its unit; empty where it has none.
     pub unit: String,
@@ -36,7 +41,7 @@ pub struct ParameterSpec {
 pub struct FunctionSpec<'g> {
     /// The name.
     pub name: String,
-    /// Documentation, a paragraph or line each.
+    /// Documentation in Markdown, a paragraph or line each.
     pub doc: Vec<String>,
     /// The inputs, arrays of symbols.
     pub inputs: Vec<InputSpec>,
@@ -49,7 +54,7 @@ pub struct FunctionSpec<'g> {
 pub struct InputSpec {
     /// The name of the array.
     pub name: String,
-    /// Its meaning.
+    /// Its meaning, in Markdown.
     pub doc: String,
     /// Its unit; empty where it has none or the entries differ.
     pub unit: String,
@@ -62,7 +67,7 @@ pub struct InputSpec {
 pub struct OutputSpec<'g> {
     /// The name.
     pub name: String,
-    /// Its meaning.
+    /// Its meaning, in Markdown.
     pub doc: String,
     /// Its unit; empty where it has none or the entries differ.
     pub unit: String,

@@ -14,14 +14,20 @@ pub(super) fn inverse_dynamics<'g>(
 ) -> Function<'g> {
     let (wrench, friction) = (kind.has_wrench(), kind.has_friction());
     let friction_doc = match friction {
-        true => "Includes the friction of the joints, equations (4)-(5).",
+        true => "Includes the friction of the joints, viscous and dry.",
         false => "Without friction.",
     };
-    let doc = [
-        "Inverse dynamics: the generalised driving forces Q that bring about the accelerations \
-         `qdd`, equation (3).",
-        friction_doc,
-    ];
+    let sum_doc = match wrench {
+        true => {
+            "Inverse dynamics: the generalised driving forces Q that bring about the accelerations `qdd`, \
+             M q̈ + C q̇ + g and what holds the wrenches of the tips."
+        }
+        false => {
+            "Inverse dynamics: the generalised driving forces Q that bring about the accelerations `qdd`, \
+             M q̈ + C q̇ + g."
+        }
+    };
+    let doc = [sum_doc, friction_doc];
     let mut inputs = derivation.coordinate_inputs(["q", "qd", "qdd"]);
     if wrench {
         inputs.extend(derivation.wrench_inputs());
@@ -103,8 +109,8 @@ pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g>
     inputs.extend(derivation.wrench_inputs());
     derivation.of_kind(
         FunctionKind::LinkWrenches,
-        &["The contact torsor of every joint, equations (26) and (36): what each link receives \
-           through its joint, a row per link, in the link's own frame."],
+        &["The wrench in every joint: the contact force F_l and the contact moment M_l that each link \
+           receives through its joint, a row per link, in the link's own frame."],
         inputs,
         vec![
             output("force", "Contact forces F_l", "N", rows(|wrench| wrench.force)),

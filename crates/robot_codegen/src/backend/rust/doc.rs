@@ -1,4 +1,5 @@
-//! Text from outside in comments of generated code: made harmless in this one place.
+//! Documentation of generated code. Text from outside is made harmless in this one place; what the caller wrote
+//! is Markdown and stays it.
 
 use syn::{Attribute, parse_quote};
 
@@ -41,9 +42,9 @@ pub(super) fn sanitise_line(text: &str) -> String {
     line.trim_end().to_owned()
 }
 
-/// Lines of documentation; the name of what is documented where there are none.
+/// Lines of the caller's Markdown; the name of what is documented where there are none.
 pub(super) fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
-    let lines: Vec<String> = texts.iter().flat_map(|text| sanitise(text)).collect();
+    let lines: Vec<String> = texts.iter().flat_map(|text| text.lines()).map(comment_line).collect();
     if lines.iter().all(String::is_empty) {
         vec![format!("{}.", sanitise_line(name))]
     } else {
@@ -51,9 +52,9 @@ pub(super) fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
     }
 }
 
-/// `meaning, in unit; 3 rows of 4.` The name stands where there is no meaning.
+/// `meaning, in unit; 3 rows of 4.` The meaning is Markdown; the name stands where there is none.
 pub(super) fn array(meaning: &str, name: &str, unit: &str, shape: &[usize]) -> String {
-    let mut line = sanitise_line(if meaning.is_empty() { name } else { meaning });
+    let mut line = if meaning.is_empty() { sanitise_line(name) } else { comment_line(meaning) };
     if !unit.is_empty() {
         line.push_str(&format!(", in {}", sanitise_line(unit)));
     }
@@ -87,6 +88,15 @@ fn is_invisible(character: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn markdown_of_the_caller_stays() {
+        let texts = ["The `q` of\r\n[`Model`]".to_owned(), "\n".to_owned()];
+        assert_eq!(paragraphs(&texts, "f"), ["The `q` of", "[`Model`]", ""]);
+        assert_eq!(paragraphs(&[], "a[b]"), ["a\\[b\\]."]);
+        let line = array("Of `q`", "x", "rad; m at [2]", &[2, 3]);
+        assert_eq!(line, "Of `q`, in rad; m at \\[2\\]; 2 rows of 3.");
+    }
 
     #[test]
     fn nothing_but_text_is_left() {

@@ -83,7 +83,8 @@ pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
 
 /// `mass of link 1, in kg; nominally 12.`
 fn parameter_doc(spec: &ParameterSpec) -> String {
-    let mut line = doc::array(&spec.doc, &spec.name, &spec.unit, &[]);
+    let meaning = doc::sanitise_line(&spec.doc);
+    let mut line = doc::array(&meaning, &spec.name, &spec.unit, &[]);
     if let Some(value) = spec.nominal {
         line.pop();
         line.push_str(&format!("; nominally {value:?}."));

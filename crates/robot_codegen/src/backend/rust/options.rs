@@ -103,7 +103,7 @@ pub enum Wrapping {
 pub struct Setter {
     /// The name.
     pub name: String,
-    /// Its meaning, a paragraph or line each.
+    /// Its meaning in Markdown, a paragraph or line each.
     pub doc: Vec<String>,
     /// What it takes.
     pub arguments: Vec<SetterArgument>,
@@ -114,7 +114,7 @@ pub struct Setter {
 pub struct SetterArgument {
     /// The name.
     pub name: String,
-    /// Its meaning.
+    /// Its meaning, in Markdown.
     pub doc: String,
     /// Its unit.
     pub unit: String,
@@ -127,7 +127,7 @@ pub struct SetterArgument {
 pub struct ConstantItem {
     /// The name; printed in capitals.
     pub name: String,
-    /// Its meaning.
+    /// Its meaning, in Markdown.
     pub doc: String,
     /// Its value.
     pub value: ConstantValue,
