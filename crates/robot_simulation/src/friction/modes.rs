@@ -161,7 +161,7 @@ mod tests {
     /// Held, both ask too much; let go both, the second goes backwards; it is held by the first's motion.
     #[test]
     fn what_sets_off_the_wrong_way_is_held() {
-        let (modes, found) = at_rest(vec![2.0, 1.0, 1.0, 1.0], vec![1.0; 2], &[5.0, 1.2]);
+        let (modes, found) = at_rest(vec![4.0, 1.0, 1.0, 1.0], vec![1.0; 2], &[9.0, 1.2]);
         assert_eq!(modes, [Mode::Sliding(1.0), Mode::Held]);
         assert_eq!(found.qdd, [2.0, 0.0]);
     }
