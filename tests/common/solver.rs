@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, Vector3};
 use robot_dynamics::functions::{FrameRef, FunctionKind};
-use robot_dynamics::model::Robot;
+use robot_dynamics::model::{Friction, Robot};
 use robot_dynamics::numeric::{
     self, LINK_PARAMETERS, Loads, Mechanism,
     random::{Random, State},

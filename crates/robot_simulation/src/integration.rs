@@ -199,10 +199,11 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
             }
         }
         let tau = self.system.driving(t, state).map_err(stopped)?;
-        let (modes, found) = chosen(friction, state, &tau, guess).map_err(stopped)?;
+        let (modes, _) = chosen(friction, state, &tau, guess).map_err(stopped)?;
         self.system.modes = modes;
+        let (_, found) = self.system.found(t, state).map_err(stopped)?;
         self.overruns = self.system.overruns(state, &found);
-        self.system.found(t, state).map(|_| ()).map_err(stopped)
+        Ok(())
     }
 
     /// Sets the integrator on a state; with a length of 0 it chooses its first step.

@@ -6,7 +6,7 @@ use differential_equations::ode::ODE;
 
 use crate::dynamics::{DryFriction, Dynamics, State, TorqueLaw};
 use crate::error::Cause;
-use crate::friction::{Balance, Mode, balance};
+use crate::friction::{Balance, Holding, Mode, balance};
 
 /// How far a velocity may be from 0 where a coordinate comes to rest, rad/s or m/s.
 pub(crate) const REST: f64 = 1e-13;
@@ -95,14 +95,16 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
     /// How far each coordinate is beyond the end of its mode.
     pub(crate) fn overruns(&self, state: &State, found: &Balance) -> Vec<Overrun> {
         let holding = found.holding.iter();
-        let of_mode = |((mode, qd), holding): ((&Mode, &f64), &Option<_>)| match (mode, holding) {
-            (Mode::Sliding(direction), _) => Overrun { value: -direction * qd, tolerance: REST },
-            (Mode::Held, Some(holding)) => {
-                let holding: &crate::friction::Holding = holding;
-                Overrun { value: holding.excess(), tolerance: holding.slack }
-            }
-            _ => Overrun { value: f64::NEG_INFINITY, tolerance: 0.0 },
-        };
+        let of_mode =
+            |((mode, qd), holding): ((&Mode, &f64), &Option<Holding>)| match (mode, holding) {
+                (Mode::Sliding(direction), _) => {
+                    Overrun { value: -direction * qd, tolerance: REST }
+                }
+                (Mode::Held, Some(holding)) => {
+                    Overrun { value: holding.excess(), tolerance: holding.slack }
+                }
+                _ => Overrun { value: f64::NEG_INFINITY, tolerance: 0.0 },
+            };
         self.modes.iter().zip(&state.qd).zip(holding).map(of_mode).collect()
     }
 

@@ -29,7 +29,8 @@ use crate::settings::Settings;
 
 The output is CSV: t, q, qd, qdd, tau and the energies, in s, rad or m, N m or N, and J; numbers read
 back to the last bit. Expressions know t, q1 …, qd1 … and the robot's parameters. A file of torques
-has the columns t and tau1 …, one for each joint; between its lines torques are linear in t. The method, and what its
+has the columns t and tau1 …, one for each joint; between its lines torques are linear in t. With
+--friction, dry friction holds joints at rest unless it has a smoothing. The method, and what its
 tolerance means: docs/simulation.md.")]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -121,6 +121,32 @@ fn matrices_are_rows_and_csv_has_a_header() {
     }
 }
 
+/// What `forward_dynamics_friction` gives takes the driving forces that it was given, with a wrench and
+/// without one; a robot without friction has no such function.
+#[test]
+fn forward_dynamics_takes_friction_in() {
+    let file = robot("trttr1");
+    let tau = [40.0, -3.0, 300.0, 8.0, 0.5];
+    for wrench in [[0.0; 6], WRENCH] {
+        let state = json!([{"q": Q, "qd": QD, "tau": tau, "wrench": wrench}]);
+        let called = |function: &str, state: &Value| {
+            let arguments = ["eval", &file, "--function", function, "--states", "-"];
+            let found: Value =
+                serde_json::from_str(&output(&arguments, &state.to_string())).unwrap();
+            found[0].clone()
+        };
+        let qdd = called("forward_dynamics_friction", &state)["qdd"].clone();
+        let state = json!([{"q": Q, "qd": QD, "qdd": qdd, "wrench": wrench}]);
+        let found = called("inverse_dynamics_friction", &state)["tau"].clone();
+        for (found, tau) in found.as_array().unwrap().iter().zip(tau) {
+            assert!((found.as_f64().unwrap() - tau).abs() < 1e-10, "{found} is not {tau}");
+        }
+    }
+    let file = robot("planar_2r");
+    let arguments = ["eval", &file, "--function", "forward_dynamics_friction", "--states", "-"];
+    assert!(complaint(1, &arguments, "[]").contains("no joint has friction"));
+}
+
 #[test]
 fn everything_that_is_wrong_is_said_at_once() {
     let states = json!([{"q": Q, "qd": QD}, {"q": [1, 2], "qd": QD, "qdd": QDD, "tip": 1}]);

@@ -63,6 +63,46 @@ fn friction_slows_and_parameters_are_set() {
     assert!(more[5] < rubbed[5], "{more:?}");
 }
 
+/// A slide of 1 kg whose dry friction is 10 N, and TRTTR1 with the friction of its file.
+#[test]
+fn dry_friction_holds_and_lets_go() {
+    let path = folder("simulate-slide").join("slide.toml");
+    let text = "format = 1\n[robot]\nname = \"slide\"\ngravity = [0, 0, 0]\n[[link]]\nname = \"1\"\n\
+                joint = { type = \"prismatic\", axis = \"x\" }\nmass = 1\ncenter_of_mass = [0, 0, 0]\n\
+                inertia = { xx = 1, yy = 1, zz = 1 }\nfriction = { coulomb_force = 10 }\n";
+    std::fs::write(&path, text).unwrap();
+    let slide = path.to_str().unwrap();
+    let pushed = |torque: &str, time: &str| {
+        let common = ["simulate", slide, "--friction", "--torque", torque, "--time", time];
+        output(&common, "")
+    };
+    let held = pushed("1=5", "1");
+    for name in ["q1", "qd1", "qdd1"] {
+        assert!(column(&held, name).iter().all(|value| *value == 0.0), "{name}");
+    }
+    let moved = pushed("1=15", "1");
+    assert!((column(&moved, "q1").last().unwrap() - 2.5).abs() < 1e-12);
+    // A force that jumps with the velocity asks for the impossible, and soon.
+    let jump = ["simulate", slide, "--friction", "--torque", "1=20*(1-qd1/abs(qd1))", "--qd0", "1"];
+    let shown = complaint(1, &jump, "");
+    assert!(shown.contains("the motion ends at t = 0.1"), "{shown}");
+
+    let path = folder("simulate-trttr1").join("motion.csv");
+    let (file, path) = (robot("trttr1"), path.to_str().unwrap().to_owned());
+    let torque = ["--torque", "1 = 10*sin(3*t)", "-o", &path];
+    let shown = output(&[&["simulate", &file, "--friction"], &torque[..]].concat(), "");
+    let steps = shown.strip_prefix("10 s in ").and_then(|shown| shown.split_once(' ')).unwrap().0;
+    assert!(steps.parse::<usize>().unwrap() < 2500, "{shown}");
+}
+
+/// A hopeless run ends after some thousand steps.
+#[test]
+fn steps_that_lead_nowhere_are_few() {
+    let file = robot("planar_2r");
+    let shown = complaint(1, &["simulate", &file, "--torque", "1 = -1e9*qd1"], "");
+    assert!(shown.contains("the last 5000 steps led so short a way"), "{shown}");
+}
+
 #[test]
 fn everything_that_is_wrong_is_said() {
     let file = robot("planar_2r");
@@ -137,8 +177,14 @@ fn the_commands_of_the_document_make_its_pictures() {
     for line in document.lines().filter(|line| line.starts_with("robot-symbolic ")) {
         run_line(line, &folder);
     }
-    let pictures =
-        ["planar_2r.svg", "pendulum.svg", "double_pendulum.svg", "puma560.svg", "torques.svg"];
+    let pictures = [
+        "planar_2r.svg",
+        "stick_slip.svg",
+        "pendulum.svg",
+        "double_pendulum.svg",
+        "puma560.svg",
+        "torques.svg",
+    ];
     for name in pictures {
         assert!(document.contains(&format!("(simulation/{name})")), "{name}");
         let kept = std::fs::read_to_string(format!("{docs}/simulation/{name}")).unwrap();

@@ -108,3 +108,97 @@ fn tried(
     }
     Err(Cause::Friction)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Balance, Mode, chosen, starting};
+    use crate::dynamics::{DryFriction, State};
+    use crate::error::Cause;
+
+    /// Constant dry friction on coordinates with a constant mass matrix.
+    struct Rubbing {
+        mass: Vec<f64>,
+        limits: Vec<f64>,
+        can_stick: Vec<bool>,
+    }
+
+    impl DryFriction for Rubbing {
+        fn can_stick(&self) -> &[bool] {
+            &self.can_stick
+        }
+
+        fn is_by_load(&self) -> bool {
+            false
+        }
+
+        fn mass_matrix(&self, _: &[f64]) -> Result<Vec<f64>, Cause> {
+            Ok(self.mass.clone())
+        }
+
+        fn driving_forces(
+            &self,
+            state: &State,
+            qdd: &[f64],
+            friction: bool,
+        ) -> Result<Vec<f64>, Cause> {
+            let rows = self.mass.chunks(qdd.len()).zip(&state.qd).zip(&self.limits);
+            let force = |((row, qd), limit): ((&[f64], &f64), &f64)| {
+                let inertia: f64 = row.iter().zip(qdd).map(|(m, qdd)| m * qdd).sum();
+                inertia + if friction { limit * qd.signum() } else { 0.0 }
+            };
+            Ok(rows.map(force).collect())
+        }
+    }
+
+    /// The modes of coordinates at rest, and their accelerations.
+    fn at_rest(mass: Vec<f64>, limits: Vec<f64>, tau: &[f64]) -> (Vec<Mode>, Balance) {
+        let can_stick = vec![true; tau.len()];
+        let rubbing = Rubbing { mass, limits, can_stick };
+        let state = State { q: vec![0.0; tau.len()], qd: vec![0.0; tau.len()] };
+        chosen(&rubbing, &state, tau, starting(&rubbing, &state.qd)).unwrap()
+    }
+
+    /// Held, both ask too much; let go both, the second goes backwards; it is held by the first's motion.
+    #[test]
+    fn what_sets_off_the_wrong_way_is_held() {
+        let (modes, found) = at_rest(vec![4.0, 1.0, 1.0, 1.0], vec![1.0; 2], &[9.0, 1.2]);
+        assert_eq!(modes, [Mode::Sliding(1.0), Mode::Held]);
+        assert_eq!(found.qdd, [2.0, 0.0]);
+    }
+
+    /// λ = τ − M q̈ lies within its limits, and at them against every acceleration.
+    #[test]
+    fn friction_is_within_its_limits_and_against_what_sets_off() {
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (seed >> 33) as f64 / f64::from(u32::MAX >> 1) * 2.0 - 1.0
+        };
+        let (mut held, mut slid) = (0, 0);
+        for case in 0..300 {
+            let count = 1 + case % 12;
+            let factor: Vec<f64> = (0..count * count).map(|_| random()).collect();
+            let entry = |i: usize, j: usize| -> f64 {
+                let dot: f64 =
+                    (0..count).map(|k| factor[i * count + k] * factor[j * count + k]).sum();
+                dot + if i == j { 0.01 } else { 0.0 }
+            };
+            let mass: Vec<f64> = (0..count * count).map(|n| entry(n / count, n % count)).collect();
+            let limits: Vec<f64> = (0..count).map(|_| random().abs()).collect();
+            let tau: Vec<f64> = (0..count).map(|_| 2.0 * random()).collect();
+            let (_, Balance { qdd, .. }) = at_rest(mass.clone(), limits.clone(), &tau);
+            for (i, row) in mass.chunks(count).enumerate() {
+                let friction = tau[i] - row.iter().zip(&qdd).map(|(m, qdd)| m * qdd).sum::<f64>();
+                assert!(friction.abs() <= limits[i] + 1e-9, "{friction} of {}", limits[i]);
+                if qdd[i] == 0.0 {
+                    held += 1;
+                } else {
+                    slid += 1;
+                    let expected = limits[i] * qdd[i].signum();
+                    assert!((friction - expected).abs() < 1e-9, "{friction} is not {expected}");
+                }
+            }
+        }
+        assert!(held > 200 && slid > 200, "{held} and {slid}");
+    }
+}
