@@ -8,8 +8,8 @@ use crate::support::{
 };
 use robot_codegen::backend::rust::{RustOptions, Scalar, Wrapping, generate};
 use robot_codegen::program::{Layout, Limits};
-use robot_codegen::spec::{FunctionSpec, ModuleSpec};
-use robot_codegen::{Fused, Interpreter, Module, Options};
+use robot_codegen::spec::{FunctionSpec, ModuleSpec, ParameterSpec};
+use robot_codegen::{Fused, Interpreter, Module, Options, Trigonometry};
 use robot_symbolic::Graph;
 
 const STATES: usize = 20;
@@ -35,7 +35,15 @@ fn states(random: &mut Random) -> Vec<[f64; 2 * ENTRIES]> {
 
 /// The bits that the interpreter gives.
 fn interpreted(module: &Module, states: &[[f64; 2 * ENTRIES]]) -> Vec<u64> {
-    let interpreter = Interpreter::new(module, &[]).unwrap();
+    interpreted_with(Trigonometry::default(), module, states)
+}
+
+fn interpreted_with(
+    trigonometry: Trigonometry,
+    module: &Module,
+    states: &[[f64; 2 * ENTRIES]],
+) -> Vec<u64> {
+    let interpreter = Interpreter::new(module, &[]).unwrap().with_trigonometry(trigonometry);
     let values = states.iter().flat_map(|state| {
         let (q, v) = state.split_at(ENTRIES);
         let outputs = interpreter.call("f", &[("q", q), ("v", v)]).unwrap();
@@ -46,17 +54,19 @@ fn interpreted(module: &Module, states: &[[f64; 2 * ENTRIES]]) -> Vec<u64> {
 
 #[test]
 fn compiled_code_gives_the_bits_of_the_interpreter() {
-    for seed in 0..4 {
+    let sources = [Trigonometry::Polynomial, Trigonometry::Standard];
+    for (seed, trigonometry) in (0..4).zip(sources.into_iter().cycle()) {
         let mut random = Random(seed);
         let graph = Graph::new();
         let spec = support::random::module(&graph, &mut random, 400);
         let module = Module::compile(&spec, &Options::default()).unwrap();
         let states = states(&mut random);
-        let code = generate(&module, &RustOptions::default()).unwrap().to_text();
+        let options = RustOptions { trigonometry, ..RustOptions::default() };
+        let code = generate(&module, &options).unwrap().to_text();
         let text = format!("#![deny(warnings)]\n{code}\n{}", main_text(&states));
         let printed = support::rustc::output_of(&format!("bits-{seed}"), &text, &["-O"]);
         let bits: Vec<u64> = printed.lines().map(|line| line.parse().unwrap()).collect();
-        let expected = interpreted(&module, &states);
+        let expected = interpreted_with(trigonometry, &module, &states);
         assert_eq!(bits.len(), expected.len());
         let wrong = bits.iter().zip(&expected).position(|(a, b)| a != b);
         assert_eq!(
@@ -178,4 +188,42 @@ fn a_module_without_parameters_has_functions_of_its_own() {
     let interpreter = Interpreter::new(&module, &[]).unwrap();
     let expected = interpreter.call("f", &[("q", &[0.4, -1.1])]).unwrap()[0].values.clone();
     assert_eq!(bits, expected.into_iter().map(f64::to_bits).collect::<Vec<_>>());
+}
+
+/// Of a parameter, computed once, as of an input: at angles where the two sources differ.
+#[test]
+fn sines_of_the_constructor_come_from_where_those_of_calls_come_from() {
+    let graph = Graph::new();
+    let (p, q1) = (graph.symbol("p"), graph.symbol("q1"));
+    let tilt =
+        ParameterSpec { name: "p".into(), doc: String::new(), unit: "rad".into(), nominal: None };
+    let spec = ModuleSpec {
+        name: "tilted".into(),
+        doc: vec![],
+        parameters: vec![tilt],
+        functions: vec![FunctionSpec {
+            name: "f".into(),
+            doc: vec![],
+            inputs: vec![support::arm::joints("q", "rad")],
+            outputs: vec![support::arm::vector("y", "", vec![q1 * p.sin(), q1.sin()])],
+        }],
+    };
+    let module = Module::compile(&spec, &Options::default()).unwrap();
+    let mut differing = 0;
+    for n in 1..2000 {
+        let angle = f64::from(n) * 0.1;
+        for trigonometry in [Trigonometry::Polynomial, Trigonometry::Standard] {
+            let interpreter = Interpreter::new(&module, &[("p", angle)]).unwrap();
+            let interpreter = interpreter.with_trigonometry(trigonometry);
+            let stored = interpreter.call("f", &[("q", &[1.0, 0.0])]).unwrap()[0].values[0];
+            let called = interpreter.call("f", &[("q", &[angle, 0.0])]).unwrap()[0].values[1];
+            assert_eq!(stored.to_bits(), called.to_bits(), "{trigonometry:?} at {angle}");
+            let is_the_library = stored.to_bits() == angle.sin().to_bits();
+            match trigonometry {
+                Trigonometry::Standard => assert!(is_the_library),
+                Trigonometry::Polynomial => differing += usize::from(!is_the_library),
+            }
+        }
+    }
+    assert!(differing > 0);
 }
