@@ -8,8 +8,8 @@ use crate::support::{
 };
 use robot_codegen::backend::rust::{RustOptions, Scalar, Wrapping, generate};
 use robot_codegen::program::{Layout, Limits};
-use robot_codegen::spec::{FunctionSpec, ModuleSpec};
-use robot_codegen::{Fused, Interpreter, Module, Options};
+use robot_codegen::spec::{FunctionSpec, ModuleSpec, ParameterSpec};
+use robot_codegen::{Fused, Interpreter, Module, Options, Trigonometry};
 use robot_symbolic::Graph;
 
 const STATES: usize = 20;
@@ -36,9 +36,20 @@ fn states(random: &mut Random) -> Vec<[f64; 2 * ENTRIES]> {
 /// Holds the bits that a program printed against those that the interpreter gives, which it returns.
 #[track_caller]
 fn hold(label: &str, module: &Module, states: &[[f64; 2 * ENTRIES]], printed: &str) -> Vec<f64> {
+    hold_with(Trigonometry::default(), label, module, states, printed)
+}
+
+#[track_caller]
+fn hold_with(
+    trigonometry: Trigonometry,
+    label: &str,
+    module: &Module,
+    states: &[[f64; 2 * ENTRIES]],
+    printed: &str,
+) -> Vec<f64> {
     let bits: Vec<u64> = printed.lines().map(|line| line.parse().unwrap()).collect();
     let mut found = bits.into_iter().map(f64::from_bits);
-    let interpreter = Interpreter::new(module, &[]).unwrap();
+    let interpreter = Interpreter::new(module, &[]).unwrap().with_trigonometry(trigonometry);
     let mut all = vec![];
     for (index, state) in states.iter().enumerate() {
         let (q, v) = state.split_at(ENTRIES);
@@ -59,16 +70,19 @@ fn hold(label: &str, module: &Module, states: &[[f64; 2 * ENTRIES]], printed: &s
 
 #[test]
 fn compiled_code_gives_the_bits_of_the_interpreter() {
-    for seed in 0..4 {
+    let sources = [Trigonometry::Polynomial, Trigonometry::Standard];
+    for (seed, trigonometry) in (0..4).zip(sources.into_iter().cycle()) {
         let mut random = Random(seed);
         let graph = Graph::new();
         let spec = support::random::module(&graph, &mut random, 400);
         let module = Module::compile(&spec, &Options::default()).unwrap();
         let states = states(&mut random);
-        let code = generate(&module, &RustOptions::default()).unwrap().to_text();
+        let options = RustOptions { trigonometry, ..RustOptions::default() };
+        let code = generate(&module, &options).unwrap().to_text();
         let text = format!("#![deny(warnings)]\n{code}\n{}", main_text(&states));
         let printed = support::rustc::output_of(&format!("bits-{seed}"), &text, &["-O"]);
-        let values = hold(&format!("seed {seed}"), &module, &states, &printed);
+        let label = format!("seed {seed}");
+        let values = hold_with(trigonometry, &label, &module, &states, &printed);
         assert!(values.iter().all(|value| value.is_finite()));
     }
 }
@@ -180,4 +194,42 @@ fn a_module_without_parameters_has_functions_of_its_own() {
     let interpreter = Interpreter::new(&module, &[]).unwrap();
     let expected = interpreter.call("f", &[("q", &[0.4, -1.1])]).unwrap()[0].values.clone();
     assert_eq!(bits, expected.into_iter().map(f64::to_bits).collect::<Vec<_>>());
+}
+
+/// Of a parameter, computed once, as of an input: at angles where the two sources differ.
+#[test]
+fn sines_of_the_constructor_come_from_where_those_of_calls_come_from() {
+    let graph = Graph::new();
+    let (p, q1) = (graph.symbol("p"), graph.symbol("q1"));
+    let tilt =
+        ParameterSpec { name: "p".into(), doc: String::new(), unit: "rad".into(), nominal: None };
+    let spec = ModuleSpec {
+        name: "tilted".into(),
+        doc: vec![],
+        parameters: vec![tilt],
+        functions: vec![FunctionSpec {
+            name: "f".into(),
+            doc: vec![],
+            inputs: vec![support::arm::joints("q", "rad")],
+            outputs: vec![support::arm::vector("y", "", vec![q1 * p.sin(), q1.sin()])],
+        }],
+    };
+    let module = Module::compile(&spec, &Options::default()).unwrap();
+    let mut differing = 0;
+    for n in 1..2000 {
+        let angle = f64::from(n) * 0.1;
+        for trigonometry in [Trigonometry::Polynomial, Trigonometry::Standard] {
+            let interpreter = Interpreter::new(&module, &[("p", angle)]).unwrap();
+            let interpreter = interpreter.with_trigonometry(trigonometry);
+            let stored = interpreter.call("f", &[("q", &[1.0, 0.0])]).unwrap()[0].values[0];
+            let called = interpreter.call("f", &[("q", &[angle, 0.0])]).unwrap()[0].values[1];
+            assert_eq!(stored.to_bits(), called.to_bits(), "{trigonometry:?} at {angle}");
+            let is_the_library = stored.to_bits() == angle.sin().to_bits();
+            match trigonometry {
+                Trigonometry::Standard => assert!(is_the_library),
+                Trigonometry::Polynomial => differing += usize::from(!is_the_library),
+            }
+        }
+    }
+    assert!(differing > 0);
 }
