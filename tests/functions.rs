@@ -120,12 +120,14 @@ fn check_links(mut robot: Robot, name: &str) {
     let hold = |robot: &Robot, kind: FunctionKind| {
         let graph = Graph::new();
         let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
+        let outputs = outputs(&derivation, kind);
+        let layout = Layout::of(robot, &outputs);
         let roots = values(&derivation, kind);
         for state in &states {
             let expected = expected(robot, &solver, kind, state);
             let found = evaluate(robot, &roots, state);
-            let error = largest_difference(&found, &expected) / magnitude(&expected).max(1.0);
-            assert!(error <= TOLERANCE, "{name}, {kind:?}: off by {error:e}");
+            let off = Off::of(&layout, &found, &expected, magnitude(&expected).max(1.0));
+            assert!(off.error <= TOLERANCE, "{name}, {kind:?} is {off}");
         }
     };
     of_links.for_each(|kind| hold(&robot, kind));
