@@ -277,7 +277,7 @@ impl Builder {
         for path in paths {
             match self.module(path, &package, directives) {
                 Ok(generated) => {
-                    modules.push(Module { path: path.display().to_string(), generated })
+                    modules.push(Module { path: path.display().to_string(), generated });
                 }
                 Err(found) => Errors::extend(&mut errors, found),
             }

@@ -15,8 +15,12 @@ use proc_macro::TokenStream;
 ///
 /// The path is relative to the package's `Cargo.toml`. The module bears the robot's name in lower
 /// case and is the same that `robot_build` generates in a build script. The crate `robot_runtime`
-/// must be a dependency. A change of the file builds again; what is wrong with it is a compile error
-/// with the file's own diagnostics.
+/// must be a dependency. A change of the file builds again; each thing that is wrong with it is a compile
+/// error, the place in the file and the reason on its first line.
+///
+/// A plan that `robot-symbolic search` pinned beside the file is taken and watched too. The search sets the
+/// file's time, so that the first plan is seen; after a plan came in another way, such as a checkout, touch the
+/// file.
 ///
 /// Options follow the path:
 ///
