@@ -194,7 +194,7 @@ fn run(cases: &[Case]) -> String {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("generated");
     let manifest = format!(
         "[package]\nname = \"generated\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
-         [dependencies]\nrobot_runtime = {{ path = \"{}/crates/robot_runtime\", features = [\"std\"] }}\n",
+         [dependencies]\nrobot_runtime = {{ path = \"{}/crates/robot_runtime\" }}\n",
         env!("CARGO_MANIFEST_DIR")
     );
     std::fs::create_dir_all(folder.join("src")).unwrap();

@@ -7,7 +7,7 @@ const PAGE: &str = include_str!("../../docs/users/rust.md");
 
 #[test]
 fn the_package_of_the_page_prints_what_it_shows() {
-    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let runtime = dependency("robot_runtime", "");
     let (macros, build) = (dependency("robot_macros", ""), dependency("robot_build", ""));
     let tables = format!("[dependencies]\n{runtime}{macros}\n[build-dependencies]\n{build}");
     let package = Package::new("by_the_book", &tables);

@@ -4,7 +4,7 @@ use crate::package::{Package, dependency};
 use crate::reference;
 
 fn package(name: &str) -> Package {
-    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let runtime = dependency("robot_runtime", "");
     let build = dependency("robot_build", "");
     let tables = format!("[dependencies]\n{runtime}\n[build-dependencies]\n{build}");
     let package = Package::new(name, &tables);

@@ -58,7 +58,7 @@ macro_rules! compare {
 #[test]
 fn a_bundle_gives_what_its_functions_give() {
     let robots = [("trttr1", 5, true), ("puma560", 6, false), ("ur5", 6, false)];
-    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let runtime = dependency("robot_runtime", "");
     let package = Package::new("bundles", &format!("[dependencies]\n{runtime}"));
     let (mut head, mut body) = (HARNESS.to_owned(), String::new());
     for (name, coordinates, has_parameters) in robots {

@@ -5,7 +5,7 @@ use crate::reference;
 
 #[test]
 fn a_macro_follows_its_file() {
-    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let runtime = dependency("robot_runtime", "");
     let macros = dependency("robot_macros", "");
     let package = Package::new("by_macro", &format!("[dependencies]\n{runtime}{macros}"));
     let module = "robot_macros::include_robot!(\"robots/trttr1.toml\");";

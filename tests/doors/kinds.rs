@@ -267,7 +267,7 @@ impl Worst {
 
 #[test]
 fn every_function_of_every_robot() {
-    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let runtime = dependency("robot_runtime", "");
     // The build is what takes the time.
     let profile = "[profile.dev]\ndebug = false\nincremental = false\n";
     let package = Package::new("kinds", &format!("{profile}[dependencies]\n{runtime}"));

@@ -149,7 +149,7 @@ fn a_pin_made_without_the_payload_is_stale() {
 /// Models with the body, and calls at the states, in `f64` and `f32`.
 #[test]
 fn compiled_models_carry_a_payload() {
-    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let runtime = dependency("robot_runtime", "");
     let package = Package::new("payload", &format!("[dependencies]\n{runtime}"));
     let mut text = "#![deny(warnings, missing_docs, clippy::all)]\n//! Torques.\n".to_owned();
     let mut main = "fn main() {\n".to_owned();

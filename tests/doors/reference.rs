@@ -1,6 +1,6 @@
 //! The robot file of the packages, and what its functions give by the interpreter.
 
-use robot_build::{Options, Source, generate, programs};
+use robot_build::{Options, Source, Trigonometry, generate, programs};
 use robot_codegen::Interpreter;
 
 /// TRTTR1's file.
@@ -49,14 +49,17 @@ pub(crate) fn torques(text: &str) -> String {
     torques_under(text, &Options::default())
 }
 
-/// The same by the command, which searches the cheapest form where none is pinned.
+/// The same by the command, which searches the cheapest form where none is pinned, with the standard
+/// library's sines.
 pub(crate) fn searched_torques(text: &str) -> String {
-    torques_under(text, &Options { search: true, ..Options::default() })
+    let trigonometry = Trigonometry::Standard;
+    torques_under(text, &Options { search: true, trigonometry, ..Options::default() })
 }
 
 fn torques_under(text: &str, options: &Options) -> String {
     let programs = programs(&source(text), options).unwrap();
-    let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
+    let interpreter =
+        Interpreter::new(&programs.module, &[]).unwrap().with_trigonometry(options.trigonometry);
     let inputs = [("q", &Q[..]), ("qd", &QD[..]), ("qdd", &QDD[..])];
     let outputs = interpreter.call("inverse_dynamics", &inputs).unwrap();
     format!("{:?}\n", outputs[0].values)

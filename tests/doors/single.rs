@@ -68,7 +68,7 @@ fn robot_files() -> Vec<PathBuf> {
 
 #[test]
 fn single_precision_keeps_its_digits() {
-    let runtime = dependency("robot_runtime", ", features = [\"std\"]");
+    let runtime = dependency("robot_runtime", "");
     let package = Package::new("single", &format!("[dependencies]\n{runtime}"));
     let (mut cases, mut main) = (String::new(), "fn main() {\n".to_owned());
     let files = robot_files();

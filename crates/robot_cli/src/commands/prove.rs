@@ -16,8 +16,8 @@ use crate::text;
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic prove robots/ur5.toml
-  robot-symbolic prove robots/ur5.toml --function inverse_dynamics --trigonometry polynomial \\
-      --scalar f32 --target thumbv7em-none-eabihf
+  robot-symbolic prove robots/ur5.toml --function inverse_dynamics --scalar f32 \\
+      --target thumbv7em-none-eabihf
 
 Compiles the generated code and reads the object file. It and `report` start another program:
 rustc, which must be installed. Nothing is linked, so that a target needs no more than
