@@ -29,6 +29,12 @@ pub(crate) fn module<'g>(
     }
 }
 
+/// The module of the pivots of the mass matrix alone.
+pub(crate) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
+    let functions = vec![function(derivation.pivots())];
+    ModuleSpec { functions, ..module(derivation, &[], &[]) }
+}
+
 /// The robot, what the file says about it, and the conventions.
 fn module_doc(robot: &Robot) -> Vec<String> {
     let blank = || "\n".to_owned();

@@ -1,6 +1,6 @@
 //! The interpreted program of a robot as dynamics.
 
-use robot_build::{FunctionKind, Programs};
+use robot_build::{FunctionKind, Pivot, Pivots, Programs};
 use robot_codegen::Interpreter;
 use robot_dynamics::model::{Friction, Robot};
 
@@ -22,6 +22,8 @@ pub struct RobotProgram<'p> {
     friction: bool,
     /// Whether friction depends on the accelerations.
     by_load: bool,
+    /// What says why there are no accelerations.
+    pivots: Option<Pivots>,
 }
 
 impl<'p> RobotProgram<'p> {
@@ -50,7 +52,14 @@ impl<'p> RobotProgram<'p> {
         let robot = &programs.robot;
         let by_load = robot.links.iter().any(|link| link.friction.coulomb != none.coulomb);
         let interpreter = Interpreter::new(&programs.module, given)?;
-        Ok(RobotProgram { robot, interpreter, friction, by_load })
+        Ok(RobotProgram { robot, interpreter, friction, by_load, pivots: None })
+    }
+
+    /// The same with the pivots of the robot's mass matrix, so that where there are no accelerations the
+    /// error names the joint.
+    #[must_use]
+    pub fn with_pivots(self, pivots: Pivots) -> RobotProgram<'p> {
+        RobotProgram { pivots: Some(pivots), ..self }
     }
 
     /// The robot.
@@ -71,6 +80,12 @@ impl<'p> RobotProgram<'p> {
             &[kinetic, potential] => Ok([kinetic, potential]),
             _ => Err(Error::input("the program gives no energies")),
         }
+    }
+
+    /// The pivot for which a state has no accelerations.
+    fn wrong_pivot(&self, state: &State) -> Option<Pivot> {
+        let smallest = self.pivots.as_ref()?.smallest(&state.q);
+        smallest.ok().flatten().filter(Pivot::is_wrong)
     }
 
     /// q̈ of M q̈ = τ − C q̇ − g, without friction.
@@ -120,10 +135,17 @@ impl Dynamics for RobotProgram<'_> {
             true => self.rough(state, tau),
             false => self.smooth(state, tau),
         };
-        found.map_err(|error| match error {
+        let found = found.map_err(|error| match error {
             Error::Stopped { cause, .. } => cause,
             other => Cause::Other(other.to_string()),
-        })
+        })?;
+        if found.iter().all(|entry| entry.is_finite()) {
+            return Ok(found);
+        }
+        match self.wrong_pivot(state) {
+            Some(pivot) => Err(Cause::Other(format!("there are no accelerations: {pivot}"))),
+            None => Ok(found),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! `eval`: a function of a robot at given states.
 
+mod digits;
 mod output;
 
 use std::path::PathBuf;
@@ -13,6 +14,7 @@ use robot_codegen::{Interpreter, OutputValues};
 use robot_dynamics::description::Described;
 use robot_dynamics::model::Robot;
 
+use self::digits::Digits;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
@@ -73,7 +75,9 @@ impl Arguments {
         let options = Options { functions, bundles, ..self.robot.options()? };
         let programs = watched("deriving", terminal, || programs(&source, &options))?;
         text::warnings(&programs.warnings, terminal)?;
-        let results = self.results(&source, &programs, &states, wrong)?;
+        let digits = Digits::of(&programs, &options, &self.settings.pairs(), self.trigonometry)?;
+        let results = self.results(&source, &programs, &states, wrong, &digits)?;
+        digits.warn(&states, terminal)?;
         let shown = match self.format {
             Format::Json => output::json(&results),
             Format::Csv => output::csv(&results),
@@ -131,6 +135,7 @@ impl Arguments {
         programs: &Programs,
         states: &[State],
         mut wrong: Vec<String>,
+        digits: &Digits,
     ) -> Result<Vec<Vec<OutputValues>>, Failure> {
         let function = self.chosen(programs)?;
         wrong.extend(states.iter().flat_map(|state| missing_inputs(function, state)));
@@ -150,7 +155,9 @@ impl Arguments {
             let given: Vec<(&str, &[f64])> =
                 inputs.iter().map(|(name, entries)| (*name, entries.as_slice())).collect();
             let outputs = interpreter.call(&function.name, &given).map_err(failed)?;
-            wrong.extend(infinite(state, &outputs));
+            let infinite: Vec<String> = infinite(state, &outputs).collect();
+            let singular = digits.singular(state).filter(|_| !infinite.is_empty());
+            wrong.extend(singular.map_or(infinite, |reason| vec![reason]));
             results.push(outputs);
         }
         if wrong.is_empty() { Ok(results) } else { Err(Failure::Input(wrong)) }
