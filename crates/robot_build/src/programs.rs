@@ -16,7 +16,7 @@ use crate::{singular, specification};
 
 /// Functions of more expressions than this do not become code. The usual ones of 64 joints about
 /// skew axes are some tens of thousands.
-const MAX_NODES: usize = 500_000;
+pub(crate) const MAX_NODES: usize = 500_000;
 
 /// A robot and the programs of its functions.
 #[derive(Clone, Debug)]

@@ -30,6 +30,12 @@ pub(crate) fn module<'g>(
     }
 }
 
+/// The module of the pivots of the mass matrix alone.
+pub(crate) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
+    let functions = vec![function(derivation.pivots())];
+    ModuleSpec { functions, ..module(derivation, &[], &[]) }
+}
+
 /// The robot, what the file says about it, the conventions, and what else there is.
 fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
     let blank = || "\n".to_owned();

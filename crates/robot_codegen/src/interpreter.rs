@@ -12,6 +12,7 @@ use rustc_hash::FxHashMap;
 use crate::error::{Error, Errors};
 use crate::module::{Function, Module};
 use crate::program::{Operation, Program, Source, Value};
+use crate::rounding::{self, Rounded};
 use crate::trigonometry::Trigonometry;
 
 /// A module with its parameters given.
@@ -83,13 +84,7 @@ impl<'m> Interpreter<'m> {
         function: &str,
         inputs: &[(&str, &[f64])],
     ) -> Result<Vec<OutputValues>, Errors> {
-        let Some(function) = self.module.function(function) else {
-            return Err(Errors::from(Error::UnknownFunction {
-                module: self.module.name.clone(),
-                function: function.to_owned(),
-                known: names(self.module.functions.iter().map(|function| &function.name)),
-            }));
-        };
+        let function = self.function(function)?;
         let inputs = gather_inputs(function, inputs)?;
         let mut results = self.run(function, &inputs).into_iter();
         let outputs = function.outputs.iter().map(|output| OutputValues {
@@ -100,15 +95,46 @@ impl<'m> Interpreter<'m> {
         Ok(outputs.collect())
     }
 
+    /// As [`Interpreter::call`], all outputs in one array, with bounds of what rounding does to them.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Interpreter::call`].
+    pub fn call_rounded(
+        &self,
+        function: &str,
+        inputs: &[(&str, &[f64])],
+    ) -> Result<Vec<Rounded>, Errors> {
+        let function = self.function(function)?;
+        let inputs = gather_inputs(function, inputs)?;
+        let circular = self.circular(function, &inputs);
+        let load = |source| self.load(source, &inputs, &circular);
+        Ok(rounding::evaluate(&function.core, self.trigonometry, load))
+    }
+
+    fn function(&self, name: &str) -> Result<&'m Function, Errors> {
+        self.module.function(name).ok_or_else(|| {
+            Errors::from(Error::UnknownFunction {
+                module: self.module.name.clone(),
+                function: name.to_owned(),
+                known: names(self.module.functions.iter().map(|function| &function.name)),
+            })
+        })
+    }
+
     /// The results of a function of the module at the entries of its inputs, all in one array.
     fn run(&self, function: &Function, inputs: &[f64]) -> Vec<f64> {
+        let circular = self.circular(function, inputs);
+        let load = |source| self.load(source, inputs, &circular);
+        evaluate(&function.core, self.trigonometry, load)
+    }
+
+    /// The sines and cosines of the function's angles.
+    fn circular(&self, function: &Function, inputs: &[f64]) -> Vec<(f64, f64)> {
         let trigonometry = self.trigonometry;
         let load = |source| self.load(source, inputs, &[]);
         let angles = evaluate(&function.angles, trigonometry, load);
-        let circular = angles.iter().map(|angle| sin_cos(trigonometry, *angle));
-        let circular: Vec<(f64, f64)> = circular.collect();
-        let load = |source| self.load(source, inputs, &circular);
-        evaluate(&function.core, trigonometry, load)
+        angles.iter().map(|angle| sin_cos(trigonometry, *angle)).collect()
     }
 
     fn load(&self, source: Source, inputs: &[f64], circular: &[(f64, f64)]) -> f64 {
@@ -172,7 +198,7 @@ fn sin_cos(trigonometry: Trigonometry, angle: f64) -> (f64, f64) {
 }
 
 /// The functions as generated code has them.
-fn call(trigonometry: Trigonometry, function: Call, argument: f64) -> f64 {
+pub(crate) fn call(trigonometry: Trigonometry, function: Call, argument: f64) -> f64 {
     match function {
         Call::Sin => sin_cos(trigonometry, argument).0,
         Call::Cos => sin_cos(trigonometry, argument).1,

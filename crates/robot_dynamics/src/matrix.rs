@@ -58,6 +58,12 @@ impl<'g> SymmetricMatrix<'g> {
     /// As [`SymmetricMatrix::solve`], for several right sides, with one factorisation.
     #[must_use]
     pub fn solve_all(mut self, mut right: Vec<Vec<Expr<'g>>>) -> Vec<Vec<Expr<'g>>> {
+        let reciprocals = self.eliminate(&mut right);
+        right.into_iter().map(|side| self.outward(&reciprocals, &side)).collect()
+    }
+
+    /// Makes the matrix L D below the diagonal and D on it, the right sides those of L, and gives 1/D.
+    fn eliminate(&mut self, right: &mut [Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
         let mut reciprocals: Vec<Expr<'g>> = vec![];
         for pivot in (0..self.order).rev() {
             let diagonal = self.at(pivot, pivot);
@@ -65,7 +71,7 @@ impl<'g> SymmetricMatrix<'g> {
             reciprocals.push(reciprocal);
             for row in 0..pivot {
                 let factor = self.at(pivot, row) * reciprocal;
-                for side in &mut right {
+                for side in right.iter_mut() {
                     side[row] = side[row] - factor * side[pivot];
                 }
                 for column in 0..=row {
@@ -74,7 +80,14 @@ impl<'g> SymmetricMatrix<'g> {
             }
         }
         reciprocals.reverse();
-        right.into_iter().map(|side| self.outward(&reciprocals, &side)).collect()
+        reciprocals
+    }
+
+    /// D of A = Lᵀ D L.
+    #[must_use]
+    pub fn pivots(mut self) -> Vec<Expr<'g>> {
+        self.eliminate(&mut []);
+        (0..self.order).map(|row| self.at(row, row)).collect()
     }
 
     /// The solution from the first row to the last, once the matrix is L below D.

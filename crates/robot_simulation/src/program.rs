@@ -1,6 +1,6 @@
 //! The interpreted program of a robot as dynamics.
 
-use robot_build::{FunctionKind, Programs};
+use robot_build::{FunctionKind, Pivot, Pivots, Programs};
 use robot_codegen::Interpreter;
 use robot_dynamics::model::{Friction, JointKind, Robot};
 use robot_symbolic::Formula;
@@ -19,6 +19,8 @@ pub struct RobotProgram<'p> {
     robot: &'p Robot,
     interpreter: Interpreter<'p>,
     friction: Option<RobotFriction>,
+    /// What says why there are no accelerations.
+    pivots: Option<Pivots>,
 }
 
 /// What the program's friction is like.
@@ -59,7 +61,14 @@ impl<'p> RobotProgram<'p> {
         let robot = &programs.robot;
         let interpreter = Interpreter::new(&programs.module, given)?;
         let friction = friction.then(|| robot_friction(robot, given)).transpose()?;
-        Ok(RobotProgram { robot, interpreter, friction })
+        Ok(RobotProgram { robot, interpreter, friction, pivots: None })
+    }
+
+    /// The same with the pivots of the robot's mass matrix, so that where there are no accelerations the
+    /// error names the joint.
+    #[must_use]
+    pub fn with_pivots(self, pivots: Pivots) -> RobotProgram<'p> {
+        RobotProgram { pivots: Some(pivots), ..self }
     }
 
     /// The robot.
@@ -86,6 +95,12 @@ impl<'p> RobotProgram<'p> {
     fn values(&self, kind: FunctionKind, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Cause> {
         values(&self.interpreter, kind, inputs).map_err(|error| Cause::Other(error.to_string()))
     }
+
+    /// The pivot for which a state has no accelerations.
+    fn wrong_pivot(&self, state: &State) -> Option<Pivot> {
+        let smallest = self.pivots.as_ref()?.smallest(&state.q);
+        smallest.ok().flatten().filter(Pivot::is_wrong)
+    }
 }
 
 impl Dynamics for RobotProgram<'_> {
@@ -95,12 +110,20 @@ impl Dynamics for RobotProgram<'_> {
 
     /// With friction where that was asked for; where a velocity is 0, there is no dry friction.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause> {
-        if self.friction.is_some() {
-            let modes = vec![Mode::Free; tau.len()];
-            return Ok(balance(self, state, tau, &modes)?.qdd);
+        let found = match self.friction {
+            Some(_) => balance(self, state, tau, &vec![Mode::Free; tau.len()])?.qdd,
+            None => {
+                let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("tau", tau)];
+                self.values(FunctionKind::ForwardDynamics, &inputs)?
+            }
+        };
+        if found.iter().all(|entry| entry.is_finite()) {
+            return Ok(found);
         }
-        let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("tau", tau)];
-        self.values(FunctionKind::ForwardDynamics, &inputs)
+        match self.wrong_pivot(state) {
+            Some(pivot) => Err(Cause::Other(format!("there are no accelerations: {pivot}"))),
+            None => Ok(found),
+        }
     }
 
     fn dry_friction(&self) -> Option<&dyn DryFriction> {

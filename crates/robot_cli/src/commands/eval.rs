@@ -1,5 +1,6 @@
 //! `eval`: a function of a robot at given states.
 
+mod digits;
 mod infinite;
 mod output;
 
@@ -15,6 +16,7 @@ use robot_codegen::{Interpreter, OutputValues};
 use robot_dynamics::description::Described;
 use robot_dynamics::model::Robot;
 
+use self::digits::Digits;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
@@ -78,7 +80,9 @@ impl Arguments {
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
         let options = Options { functions, bundles, ..self.robot.options(terminal)? };
         let programs = watched("deriving", terminal, || programs(&source, &options))?;
-        let results = self.results(&source, &programs, &states, wrong)?;
+        let digits = Digits::of(&programs, &options, &self.settings.pairs(), self.trigonometry)?;
+        let results = self.results(&source, &programs, &states, wrong, &digits)?;
+        digits.warn(&states, terminal)?;
         let shown = match self.format {
             Format::Json => output::json(&results),
             Format::Csv => output::csv(&results),
@@ -120,6 +124,7 @@ impl Arguments {
         programs: &Programs,
         states: &[State],
         mut wrong: Vec<String>,
+        digits: &Digits,
     ) -> Result<Vec<Vec<OutputValues>>, Failure> {
         let Some(function) = programs.module.functions.first() else {
             return Err(Failure::input(format!("the robot has no function `{}`", self.function)));
@@ -146,6 +151,7 @@ impl Arguments {
                 &self.settings.pairs(),
                 state,
                 &outputs,
+                || digits.singular(state),
             ));
             results.push(outputs);
         }

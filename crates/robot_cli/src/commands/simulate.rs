@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::Programs;
+use robot_build::{Pivots, Programs};
 use robot_dynamics::model::Robot;
 use robot_simulation::plot::motion_figure;
 use robot_simulation::{
@@ -83,8 +83,12 @@ impl Arguments {
         let friction = self.friction.is_wanted();
         let functions = RobotProgram::functions(friction);
         let programs = motion::programs(&self.robot, robot, functions, terminal)?;
-        let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?;
+        let options = self.robot.options(terminal)?;
+        let pivots = Pivots::new(&programs.robot, &options, &self.settings.pairs())?;
+        let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?
+            .with_pivots(pivots.clone());
         let motion = self.motion(&programs, &program, terminal)?;
+        warn(&motion, &pivots, terminal)?;
         let energies = motion.energies(&program)?;
         let figure = || {
             let conserved = !friction && motion.tau.iter().flatten().all(|tau| *tau == 0.0);
@@ -125,6 +129,17 @@ impl Arguments {
         let table = Table::read(&name, &text)?;
         Ok(Torques::from_table(robot, &name, &table, self.time)?)
     }
+}
+
+/// Says once where accelerations have few digits.
+fn warn(motion: &Motion, pivots: &Pivots, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    for (t, state) in motion.t.iter().zip(&motion.states) {
+        if let Ok(Some(pivot)) = pivots.smallest(&state.q) {
+            writeln!(terminal.errors, "warning: t = {t} s: {pivot}")?;
+            return Ok(());
+        }
+    }
+    Ok(())
 }
 
 /// What a motion came to, in a line.

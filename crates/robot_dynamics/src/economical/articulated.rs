@@ -35,7 +35,9 @@ struct Eliminated<'g> {
     /// U = I S and the moment of the drive's gyroscopic rotor: what a unit acceleration of the joint
     /// asks of the parent, in home axes.
     asked: Wrench<'g>,
-    /// 1/D, D = Sᵀ U and the drive's reflected inertia.
+    /// D = Sᵀ U and the drive's reflected inertia.
+    pivot: Expr<'g>,
+    /// 1/D.
     reciprocal: Expr<'g>,
     /// u = b − Sᵀ p.
     force: Expr<'g>,
@@ -65,6 +67,17 @@ pub(crate) fn solve<'g>(
     let ways = Ways::new(chain, |index| plans[index].composite_sum);
     let joints = inward(&ways, right, turns);
     outward(&ways, &joints)
+}
+
+/// D of each coordinate: what inertia its joint shows where the joints farther out are free.
+pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], turns: Turns) -> Vec<Expr<'g>> {
+    let ways = Ways::new(chain, |index| plans[index].composite_sum);
+    let mut pivots = vec![chain.graph.zero(); chain.degrees_of_freedom];
+    let joints = inward(&ways, &pivots, turns);
+    for (link, joint) in chain.links.iter().zip(joints) {
+        pivots[link.coordinate] = joint.pivot * link.ratio * link.ratio;
+    }
+    pivots
 }
 
 /// Eliminates the joints, from the tips to the base.
@@ -139,6 +152,7 @@ impl<'g> Carried<'g> {
         asked.moment.0[2] += link.rotor_coupling;
         Eliminated {
             asked,
+            pivot,
             reciprocal: pivot.recip_positive(),
             force: right / link.ratio - direction.dot(&self.wrench),
         }
@@ -146,7 +160,7 @@ impl<'g> Carried<'g> {
 
     /// What is left where the joint gives way: I − U Uᵀ/D, and p + U u/D.
     fn without(&self, joint: &Eliminated<'g>, link: &ChainLink<'g>, unit: Expr<'g>) -> Carried<'g> {
-        let Eliminated { asked, reciprocal, force } = joint;
+        let Eliminated { asked, reciprocal, force, .. } = joint;
         let share = Wrench { force: asked.force * *reciprocal, moment: asked.moment * *reciprocal };
         let inertia = self.inertia.minus_product(asked, &share);
         // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ with the reflected inertia r and the rotor's k, which a

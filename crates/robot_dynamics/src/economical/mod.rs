@@ -166,6 +166,19 @@ impl<'g> Recursion<'g> {
         articulated::solve(&chain, &self.plans, right, Turns::Exact)
     }
 
+    /// D of M = Lᵀ D L by coordinates, as [`Recursion::forward_dynamics`] has it with that solver; `None`
+    /// where the solver does not apply.
+    pub(crate) fn pivots(&self, solver: Solver) -> Option<Vec<Expr<'g>>> {
+        let chain = self.chain.without_idle_turns(&[]);
+        let articulated =
+            |turns| self.is_articulated().then(|| articulated::pivots(&chain, &self.plans, turns));
+        match solver {
+            Solver::MassMatrix => Some(self.mass_matrix().pivots()),
+            Solver::ArticulatedBodies => articulated(Turns::Cheap),
+            Solver::SmallPivots => articulated(Turns::Exact),
+        }
+    }
+
     fn torques(
         &self,
         chain: &Chain<'g>,

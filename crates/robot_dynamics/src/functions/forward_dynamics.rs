@@ -169,6 +169,18 @@ pub(super) fn solve_all<'g>(
     }
 }
 
+/// D of M = Lᵀ D L by coordinates, as the accelerations have it.
+pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
+    let small = derivation.recursion_for_small_pivots();
+    let small = small.and_then(|recursion| recursion.pivots(Solver::SmallPivots));
+    let long = || {
+        let is_long = derivation.mechanism.degrees_of_freedom > MANY;
+        let recursion = derivation.recursion.as_ref().filter(|_| is_long);
+        recursion.and_then(|recursion| recursion.pivots(Solver::ArticulatedBodies))
+    };
+    small.or_else(long).unwrap_or_else(|| mass_matrix::matrix(derivation).pivots())
+}
+
 /// q̈ for the driving forces `tau`, by the decomposition of M.
 fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let recursion = derivation.recursion.as_ref();

@@ -194,6 +194,16 @@ impl<'r, 'g> Derivation<'r, 'g> {
         vec![function]
     }
 
+    /// The function `pivots` of the inputs `q`, with the outputs `pivots`, D of M = Lᵀ D L as forward dynamics
+    /// has it, and `diagonal`, that of M: kg m² or kg, by coordinates.
+    ///
+    /// A pivot is the inertia that a joint shows where the joints farther out are free. Forward dynamics has
+    /// no solution where one is not above 0, and few digits where rounding is of its size.
+    #[must_use]
+    pub fn pivots(&self) -> Function<'g> {
+        pivots::pivots(self)
+    }
+
     /// A function of the kind's own name.
     fn of_kind(
         &self,

@@ -8,6 +8,7 @@
 
 use nalgebra::DMatrix;
 
+use super::{Derivation, Function, Output, forward_dynamics, mass_matrix};
 use crate::model::Robot;
 use crate::numeric::from_robot::nominal_value;
 use crate::numeric::random::Random;
@@ -23,7 +24,7 @@ const SMALL_OF_MANY: f64 = 1e-5;
 const MANY: usize = 9;
 /// Mass matrices that are looked at, times the square of the coordinates: a second at most where nothing
 /// is optimised.
-const MAX_WORK: usize = 60_000;
+const MAX_WORK: usize = 30_000;
 /// Mass matrices that are looked at in any case.
 const LEAST: usize = 60;
 /// Postures from which smaller pivots are looked for.
@@ -31,6 +32,26 @@ const DESCENTS: usize = 3;
 /// The step, in rad or m, with which a descent begins, and the one below which it ends.
 const STEPS: [f64; 2] = [0.4, 1e-4];
 const SEED: u64 = 1;
+
+/// The function `pivots` of q: the pivots as forward dynamics has them, and the diagonal of M. It is no
+/// [`super::FunctionKind`]: what evaluates forward dynamics asks it how many digits are left.
+pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let matrix = mass_matrix::matrix(derivation);
+    let diagonal = (0..matrix.order()).map(|row| matrix.at(row, row)).collect();
+    let output = |name, doc, values: Vec<_>| {
+        let unit = derivation.coordinate_unit("kg m²", "kg");
+        Output::new(name, doc, &unit, vec![values.len()], values)
+    };
+    Function {
+        name: "pivots".to_owned(),
+        doc: vec!["D of M = Lᵀ D L and the diagonal of M.".to_owned()],
+        inputs: derivation.coordinate_inputs(["q"]),
+        outputs: vec![
+            output("pivots", "D", forward_dynamics::pivots(derivation)),
+            output("diagonal", "The diagonal of M", diagonal),
+        ],
+    }
+}
 
 /// Whether a pivot of M is small in some posture, at nominal parameters; those without a value are 1.
 ///

@@ -6,12 +6,13 @@ use robot_dynamics::numeric::Mechanism;
 
 use crate::states::State;
 
-/// A message for each output that is not finite.
+/// A message for each output that is not finite; `pivot` says what the pivots of the mass matrix know of it.
 pub(super) fn messages(
     robot: &Robot,
     settings: &[(&str, f64)],
     state: &State,
     outputs: &[OutputValues],
+    pivot: impl FnOnce() -> Option<String>,
 ) -> Vec<String> {
     let wrong =
         outputs.iter().filter(|output| output.values.iter().any(|value| !value.is_finite()));
@@ -19,7 +20,9 @@ pub(super) fn messages(
     if wrong.is_empty() {
         return vec![];
     }
-    let why = reason(robot, settings, state);
+    let why = singular(robot, settings, state).or_else(pivot);
+    let why =
+        why.unwrap_or_else(|| "look at the size of the parameters and of the state".to_owned());
     let message = |output: &&OutputValues| {
         let entries = entries(robot, output);
         format!("{}: `{}` has no finite value{entries}; {why}", state.place, output.name)
@@ -45,8 +48,8 @@ fn entries(robot: &Robot, output: &OutputValues) -> String {
     }
 }
 
-/// Why values may not be finite: the mass matrix is singular at the state, or figures are too large.
-fn reason(robot: &Robot, settings: &[(&str, f64)], state: &State) -> String {
+/// The coordinates whose accelerations no forces determine, where the mass matrix is singular at the state.
+fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<String> {
     let value = |name: &str| {
         let set = settings.iter().find(|(set, _)| *set == name).map(|(_, value)| *value);
         let nominal = || Some(robot.parameter(name)?.value.as_ref()?.to_f64());
@@ -55,7 +58,7 @@ fn reason(robot: &Robot, settings: &[(&str, f64)], state: &State) -> String {
     let mechanism = Mechanism::from_robot(robot, &value).ok();
     let free = mechanism.zip(state.array("q")).map(|(mechanism, q)| mechanism.undetermined(q));
     match free.and_then(Result::ok).as_deref() {
-        None | Some([]) => "look at the size of the parameters and of the state".to_owned(),
+        None | Some([]) => None,
         Some(free) => {
             let q = state.array("q").unwrap_or_default();
             let at: Vec<String> = free
@@ -66,11 +69,11 @@ fn reason(robot: &Robot, settings: &[(&str, f64)], state: &State) -> String {
                     format!("q{} = {position} (joint `{joint}`)", index + 1)
                 })
                 .collect();
-            format!(
+            Some(format!(
                 "the mass matrix is singular at this state: no driving forces determine the accelerations of \
                  {}",
                 at.join(", ")
-            )
+            ))
         }
     }
 }

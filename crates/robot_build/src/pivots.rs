@@ -1,0 +1,145 @@
+//! The pivots of the mass matrix at states: how many digits forward dynamics has there.
+
+use std::fmt;
+
+use robot_codegen::{Interpreter, Module, Rounded, Trigonometry};
+use robot_dynamics::functions::Derivation;
+use robot_dynamics::model::Robot;
+use robot_symbolic::Graph;
+
+use crate::error::{Error, Errors};
+use crate::options::Options;
+use crate::programs::MAX_NODES;
+use crate::specification;
+
+/// Below this part of the joint's entry on the diagonal of M a pivot is worth a word.
+const SMALL: f64 = 1e-8;
+/// The digits of `f64`.
+const DIGITS: f64 = 15.0;
+
+/// The pivots of a robot's mass matrix as a program, solved as its forward dynamics is.
+///
+/// The pivot of a coordinate is the inertia that its joint shows where the joints farther out are free.
+#[derive(Clone, Debug)]
+pub struct Pivots {
+    module: Module,
+    joints: Vec<String>,
+    given: Vec<(String, f64)>,
+    trigonometry: Trigonometry,
+}
+
+/// A pivot at a state that leaves forward dynamics few digits or none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pivot {
+    /// The joint.
+    pub joint: String,
+    /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, where the state
+    /// has no accelerations.
+    pub part: f64,
+    /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15.
+    pub digits: u32,
+}
+
+impl Pivots {
+    /// The pivots of a robot whose parameters have the values that `given` names, the others their nominal
+    /// ones.
+    ///
+    /// # Errors
+    ///
+    /// A robot too large for code.
+    pub fn new(robot: &Robot, options: &Options, given: &[(&str, f64)]) -> Result<Pivots, Errors> {
+        let (name, limit) = (&robot.name, MAX_NODES);
+        let graph = Graph::limited(limit);
+        let derivation =
+            Derivation::new(robot, &graph, &options.mechanism(robot), options.plan.clone());
+        let specification = specification::pivots(&derivation);
+        if graph.is_full() {
+            return Err(Errors::from(Error::TooLarge { name: name.clone(), limit }));
+        }
+        let module = Module::compile(&specification, &robot_codegen::Options::none())
+            .map_err(|errors| Errors::of_code(name, &errors))?;
+        Ok(Pivots {
+            module,
+            joints: robot.coordinates.iter().map(|coordinate| coordinate.joint.clone()).collect(),
+            given: given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
+            trigonometry: Trigonometry::Standard,
+        })
+    }
+
+    /// The same with sines and cosines from elsewhere than the standard library.
+    #[must_use]
+    pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
+        Pivots { trigonometry, ..self }
+    }
+
+    /// The smallest pivot at positions, where it is below 10⁻⁸ of the joint's entry on the diagonal of M or
+    /// has fewer than eight digits left.
+    ///
+    /// # Errors
+    ///
+    /// Parameters without a value; positions of another number.
+    pub fn smallest(&self, q: &[f64]) -> Result<Option<Pivot>, robot_codegen::Errors> {
+        let given: Vec<(&str, f64)> =
+            self.given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let interpreter =
+            Interpreter::new(&self.module, &given)?.with_trigonometry(self.trigonometry);
+        let values = interpreter.call_rounded("pivots", &[("q", q)])?;
+        let (pivots, diagonal) = values.split_at(values.len() / 2);
+        let found = pivots.iter().zip(diagonal).zip(&self.joints).map(|((pivot, whole), joint)| {
+            let part = pivot.value / whole.value.abs();
+            Pivot { joint: joint.clone(), part, digits: digits(pivot) }
+        });
+        // From the last row of M on, in the order of its decomposition: what follows a wrong pivot is wrong.
+        let mut smallest: Option<Pivot> = None;
+        for pivot in found.collect::<Vec<_>>().into_iter().rev() {
+            if pivot.is_wrong() {
+                return Ok(Some(pivot));
+            }
+            if smallest.as_ref().is_none_or(|smallest| pivot.part < smallest.part) {
+                smallest = Some(pivot);
+            }
+        }
+        Ok(smallest.filter(|pivot| pivot.part < SMALL || f64::from(pivot.digits) < DIGITS / 2.0))
+    }
+}
+
+impl Pivot {
+    /// Whether there are no accelerations, for the pivot is not above 0 and finite.
+    #[must_use]
+    pub fn is_wrong(&self) -> bool {
+        !(self.part > 0.0 && self.part.is_finite())
+    }
+}
+
+/// What it means for the accelerations.
+impl fmt::Display for Pivot {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Pivot { joint, part, digits } = self;
+        if self.is_wrong() && *part <= -SMALL {
+            return write!(
+                formatter,
+                "the mass matrix is not positive definite: the joint `{joint}` shows an inertia below 0 \
+                 where the joints farther out are free; look at the masses and moments of inertia"
+            );
+        }
+        if self.is_wrong() {
+            return write!(
+                formatter,
+                "the mass matrix is singular in this posture: the joint `{joint}` shows no inertia where \
+                 the joints farther out are free; it is the state, not the parameters, unless it is so in \
+                 every posture"
+            );
+        }
+        write!(
+            formatter,
+            "the mass matrix is nearly singular: where the joints farther out are free, the joint \
+             `{joint}` shows {part:.1e} of its inertia; the accelerations have about {digits} digits"
+        )
+    }
+}
+
+/// The decimal digits that rounding leaves.
+fn digits(pivot: &Rounded) -> u32 {
+    let left = -(pivot.error / pivot.value.abs()).log10();
+    if left.is_nan() { 0 } else { left.clamp(0.0, DIGITS) as u32 }
+}

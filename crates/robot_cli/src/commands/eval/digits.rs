@@ -1,0 +1,52 @@
+//! How many digits the accelerations of states have.
+
+use robot_build::{Options, Pivot, Pivots, Programs, Trigonometry};
+
+use crate::Terminal;
+use crate::failure::Failure;
+use crate::robot::TrigonometryName;
+use crate::states::State;
+
+/// The pivots of the mass matrix, where functions solve with it.
+pub(super) struct Digits(Option<Pivots>);
+
+impl Digits {
+    pub(super) fn of(
+        programs: &Programs,
+        options: &Options,
+        given: &[(&str, f64)],
+        trigonometry: TrigonometryName,
+    ) -> Result<Digits, Failure> {
+        let bundled = programs.bundles.iter().flat_map(|bundle| &bundle.functions);
+        if !programs.functions.iter().chain(bundled).any(|kind| kind.divides_by_mass_matrix()) {
+            return Ok(Digits(None));
+        }
+        let pivots = Pivots::new(&programs.robot, options, given)?;
+        Ok(Digits(Some(pivots.with_trigonometry(Trigonometry::from(trigonometry)))))
+    }
+
+    /// Says at which states accelerations have few digits.
+    pub(super) fn warn(
+        &self,
+        states: &[State],
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        for state in states {
+            if let Some(pivot) = self.smallest(state) {
+                writeln!(terminal.errors, "warning: {}: {pivot}", state.place)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Why a state has no accelerations, where the mass matrix is the reason.
+    pub(super) fn singular(&self, state: &State) -> Option<String> {
+        let pivot = self.smallest(state).filter(Pivot::is_wrong)?;
+        Some(format!("there are no accelerations: {pivot}"))
+    }
+
+    fn smallest(&self, state: &State) -> Option<Pivot> {
+        // Whether the state is complete, the function itself has said.
+        self.0.as_ref()?.smallest(state.array("q")?).ok().flatten()
+    }
+}
