@@ -203,6 +203,20 @@ mod tests {
         }
     }
 
+    /// p r x + p s y: with p r and p s from the constructor two products and a sum, and no factoring of p
+    /// makes them fewer.
+    #[test]
+    fn what_saves_nothing_stays() {
+        let mut b = Builder::new();
+        let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+        let [p, r, s] = [0, 1, 2].map(|index| b.load(Source::Parameter(index)));
+        let (pr, ps) = (b.mul(p, r), b.mul(p, s));
+        let (prx, psy) = (b.mul(pr, x), b.mul(ps, y));
+        let sum = b.add(prx, psy);
+        let counts = Counts::of_calls(&run(&b.finish(vec![sum])));
+        assert_eq!((counts.mul, counts.add), (2, 1));
+    }
+
     #[test]
     fn sums_of_parameters_go_to_the_constructor() {
         let mut b = Builder::new();

@@ -243,6 +243,26 @@ mod tests {
     }
 
     #[test]
+    fn without_passes_a_program_is_as_built_but_for_dead_code() {
+        let none = Options::none();
+        assert_eq!(
+            (none.factoring, none.pair_reuse, none.arrival, none.signs),
+            (false, false, false, false)
+        );
+        for seed in 0..50 {
+            let program = testing::random_program(seed);
+            let run = run(&program, &Program::default(), &none).0;
+            assert_eq!(run, dead_code::run(&value_numbering::run(&program)), "seed {seed}");
+            assert_eq!(finish(&run, &none).0, run, "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn tidying_keeps_bits() {
+        assert_same_bits("tidy", tidy);
+    }
+
+    #[test]
     fn no_pass_that_is_taken_costs_more() {
         for seed in 0..100 {
             let program = testing::random_program(seed);
