@@ -4,6 +4,7 @@ use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output, mass_matrix};
 use crate::economical::Solver;
+use crate::matrix::Pivots;
 
 /// Coordinates up to which M is decomposed without a look at articulated bodies: these need fewer
 /// operations from some ten joints on, and share nothing with other functions of a bundle.
@@ -29,41 +30,31 @@ pub(super) fn forward_dynamics<'g>(
         vec![values.len()],
         values,
     );
-    derivation.of_kind(
-        kind,
-        &[
-            "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
-             solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`.",
-            &method(derivation),
-            "No branch: where a pivot is not above 0 and finite (a coordinate that moves no mass in that \
-             posture, an inertia below 0), the accelerations that depend on it are NaN.",
-        ],
-        inputs,
-        vec![output],
-    )
+    let doc = "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
+               solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`.";
+    let mut function = derivation.of_kind(kind, &[doc], inputs, vec![output]);
+    function.doc.extend(method(derivation));
+    function
 }
 
-/// How the functions of a robot solve M q̈ = b, and how many digits that may cost.
-pub(super) fn method(derivation: &Derivation<'_, '_>) -> String {
-    if derivation.recursion_for_small_pivots().is_some() {
-        return "By articulated bodies: at the nominal parameters there are postures in which the mass \
-                matrix is nearly singular, and there these keep digits that a decomposition of it loses."
-            .to_owned();
-    }
-    let way = match derivation.mechanism.degrees_of_freedom {
-        ..=FEW => "By the decomposition M = Lᵀ D L",
-        ..=MANY => {
-            "By the decomposition M = Lᵀ D L or by articulated bodies, whichever needs fewer operations"
-        }
-        _ => {
-            "By articulated bodies or, where a coordinate moves several joints, the decomposition M = Lᵀ D L"
-        }
-    };
-    format!(
-        "{way}. Digits are lost where a pivot of D, the inertia that a joint shows where the joints farther \
-         out are free, is much smaller than the joint's entry on the diagonal of M: as many as their \
+/// How the functions of a robot solve M q̈ = b, how many digits that may cost, and what a wrong pivot does.
+pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
+    let way = if derivation.recursion_for_small_pivots().is_some() {
+        "By articulated bodies: at the nominal parameters there are postures in which the mass matrix is \
+         nearly singular, and there these keep digits that a decomposition of it loses."
+    } else {
+        "Digits are lost where a pivot of the mass matrix, the inertia that a joint shows where the joints \
+         farther out are free, is much smaller than the joint's entry on the diagonal: as many as their \
          quotient has zeros."
-    )
+    };
+    let wrong = match derivation.pivots_known() {
+        Pivots::Checked => {
+            "No branch: where a pivot is not above 0 and finite (a coordinate that moves no mass in that \
+             posture, an inertia below 0), the accelerations that depend on it are NaN."
+        }
+        Pivots::Positive => "No posture of this robot makes a pivot small, and none is checked.",
+    };
+    vec![way.to_owned(), wrong.to_owned()]
 }
 
 /// q̈ for the symbols τ, by the solver that needs fewer operations.
@@ -75,7 +66,12 @@ fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<
     let articulated = match &derivation.recursion {
         Some(recursion) if coordinates > FEW => {
             let tau = derivation.coordinate_symbols("tau");
-            recursion.forward_dynamics(&tau, wrench, Solver::ArticulatedBodies)
+            recursion.forward_dynamics(
+                &tau,
+                wrench,
+                Solver::ArticulatedBodies,
+                derivation.pivots_known(),
+            )
         }
         _ => None,
     };
@@ -93,7 +89,12 @@ fn accelerations<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<
 /// q̈ for the symbols τ, where pivots of M may be small.
 fn by_small_pivots<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Option<Vec<Expr<'g>>> {
     let recursion = derivation.recursion_for_small_pivots()?;
-    recursion.forward_dynamics(&derivation.coordinate_symbols("tau"), wrench, Solver::SmallPivots)
+    recursion.forward_dynamics(
+        &derivation.coordinate_symbols("tau"),
+        wrench,
+        Solver::SmallPivots,
+        Pivots::Checked,
+    )
 }
 
 /// q̈ for the symbols τ in derivatives, which solve M x = b for many b: by the decomposition of M, but
@@ -110,7 +111,7 @@ pub(super) fn solve_all<'g>(
 ) -> Vec<Vec<Expr<'g>>> {
     match derivation.recursion_for_small_pivots() {
         Some(recursion) => right.iter().map(|side| recursion.solve_articulated(side)).collect(),
-        None => mass_matrix::matrix(derivation).solve_all(right),
+        None => mass_matrix::matrix(derivation).solve_all(right, derivation.pivots_known()),
     }
 }
 
@@ -123,18 +124,19 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
         let recursion = derivation.recursion.as_ref().filter(|_| is_long);
         recursion.and_then(|recursion| recursion.pivots(Solver::ArticulatedBodies))
     };
-    small.or_else(long).unwrap_or_else(|| mass_matrix::matrix(derivation).pivots())
+    small.or_else(long).unwrap_or_else(|| mass_matrix::matrix(derivation).pivots(Pivots::Checked))
 }
 
 /// q̈ for the symbols τ, by the decomposition of M.
 fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
     let tau = derivation.coordinate_symbols("tau");
+    let pivots = derivation.pivots_known();
     let recursion = derivation.recursion.as_ref();
     let by_recursion = recursion
-        .and_then(|recursion| recursion.forward_dynamics(&tau, wrench, Solver::MassMatrix));
+        .and_then(|recursion| recursion.forward_dynamics(&tau, wrench, Solver::MassMatrix, pivots));
     by_recursion.unwrap_or_else(|| {
         let bias = derivation.paper_torques(wrench, &["qdd"]);
         let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();
-        mass_matrix::matrix(derivation).solve(excess)
+        mass_matrix::matrix(derivation).solve(excess, pivots)
     })
 }
