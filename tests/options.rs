@@ -12,6 +12,7 @@ use robot_dynamics::economical::{
     Plan, Recursion, Solver,
     plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
 };
+use robot_dynamics::matrix::Pivots;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::model::{Move, Robot};
 use robot_dynamics::numeric::{
@@ -164,8 +165,10 @@ impl<'g> Bench<'_, 'g> {
             Shown::Torques => recursion.inverse_dynamics(false),
             Shown::MassMatrix => recursion.mass_matrix().rows(),
             Shown::Accelerations => {
-                let by = |solver| recursion.forward_dynamics(&self.tau, false, solver);
-                let ways = [Solver::MassMatrix, Solver::ArticulatedBodies].map(by);
+                let by =
+                    |solver| recursion.forward_dynamics(&self.tau, false, solver, Pivots::Checked);
+                let ways =
+                    [Solver::MassMatrix, Solver::ArticulatedBodies, Solver::SmallPivots].map(by);
                 ways.into_iter().flatten().flatten().collect()
             }
         }

@@ -2,6 +2,25 @@
 
 use robot_symbolic::{Expr, Graph};
 
+/// What is known of the pivots of a matrix that is to be positive definite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pivots {
+    /// Nothing: one that is not above 0 and finite makes NaN of what depends on it.
+    Checked,
+    /// They are above 0 and finite.
+    Positive,
+}
+
+impl Pivots {
+    /// 1/D.
+    pub(crate) fn reciprocal(self, pivot: Expr<'_>) -> Expr<'_> {
+        match self {
+            Pivots::Checked => pivot.recip_positive(),
+            Pivots::Positive => pivot.graph().one() / pivot,
+        }
+    }
+}
+
 /// A symmetric matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SymmetricMatrix<'g> {
@@ -49,25 +68,29 @@ impl<'g> SymmetricMatrix<'g> {
     /// x of A x = b, by A = Lᵀ D L from the last row to the first, which keeps the zeros between
     /// branches of a tree zero (R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section
     /// 6.5). A division per row whose pivot is not constant, no branch. A is to be positive
-    /// definite: a pivot that is not above 0 makes NaN of what depends on it.
+    /// definite.
     #[must_use]
-    pub fn solve(self, right: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        self.solve_all(vec![right]).into_iter().flatten().collect()
+    pub fn solve(self, right: Vec<Expr<'g>>, pivots: Pivots) -> Vec<Expr<'g>> {
+        self.solve_all(vec![right], pivots).into_iter().flatten().collect()
     }
 
     /// As [`SymmetricMatrix::solve`], for several right sides, with one factorisation.
     #[must_use]
-    pub fn solve_all(mut self, mut right: Vec<Vec<Expr<'g>>>) -> Vec<Vec<Expr<'g>>> {
-        let reciprocals = self.eliminate(&mut right);
+    pub fn solve_all(
+        mut self,
+        mut right: Vec<Vec<Expr<'g>>>,
+        pivots: Pivots,
+    ) -> Vec<Vec<Expr<'g>>> {
+        let reciprocals = self.eliminate(&mut right, pivots);
         right.into_iter().map(|side| self.outward(&reciprocals, &side)).collect()
     }
 
     /// Makes the matrix L D below the diagonal and D on it, the right sides those of L, and gives 1/D.
-    fn eliminate(&mut self, right: &mut [Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
+    fn eliminate(&mut self, right: &mut [Vec<Expr<'g>>], pivots: Pivots) -> Vec<Expr<'g>> {
         let mut reciprocals: Vec<Expr<'g>> = vec![];
         for pivot in (0..self.order).rev() {
             let diagonal = self.at(pivot, pivot);
-            let reciprocal = diagonal.recip_positive();
+            let reciprocal = pivots.reciprocal(diagonal);
             reciprocals.push(reciprocal);
             for row in 0..pivot {
                 let factor = self.at(pivot, row) * reciprocal;
@@ -85,8 +108,8 @@ impl<'g> SymmetricMatrix<'g> {
 
     /// D of A = Lᵀ D L.
     #[must_use]
-    pub fn pivots(mut self) -> Vec<Expr<'g>> {
-        self.eliminate(&mut []);
+    pub fn pivots(mut self, pivots: Pivots) -> Vec<Expr<'g>> {
+        self.eliminate(&mut [], pivots);
         (0..self.order).map(|row| self.at(row, row)).collect()
     }
 

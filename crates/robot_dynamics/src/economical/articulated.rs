@@ -13,6 +13,7 @@ use super::inertia::PseudoInertia;
 use super::plan::{LinkPlan, Place};
 use super::rotation::{ConstantRotation, Plane};
 use super::spatial::{Twist, Ways, Wrench};
+use crate::matrix::Pivots;
 use crate::vector::{Matrix, Vector};
 
 /// The inertia that a link and all that it carries show where their joints are free.
@@ -52,6 +53,13 @@ pub(crate) enum Turns {
     Exact,
 }
 
+/// How joints are eliminated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Method {
+    pub(crate) turns: Turns,
+    pub(crate) pivots: Pivots,
+}
+
 /// Whether each coordinate moves one joint: elsewhere joints cannot be eliminated one by one.
 pub(crate) fn applies(chain: &Chain<'_>) -> bool {
     (0..chain.links.len()).all(|link| chain.drives_alone(link))
@@ -62,18 +70,18 @@ pub(crate) fn solve<'g>(
     chain: &Chain<'g>,
     plans: &[LinkPlan],
     right: &[Expr<'g>],
-    turns: Turns,
+    method: Method,
 ) -> Vec<Expr<'g>> {
     let ways = Ways::new(chain, |index| plans[index].composite_sum);
-    let joints = inward(&ways, right, turns);
+    let joints = inward(&ways, right, method);
     outward(&ways, &joints)
 }
 
 /// D of each coordinate: what inertia its joint shows where the joints farther out are free.
-pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], turns: Turns) -> Vec<Expr<'g>> {
+pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], method: Method) -> Vec<Expr<'g>> {
     let ways = Ways::new(chain, |index| plans[index].composite_sum);
     let mut pivots = vec![chain.graph.zero(); chain.degrees_of_freedom];
-    let joints = inward(&ways, &pivots, turns);
+    let joints = inward(&ways, &pivots, method);
     for (link, joint) in chain.links.iter().zip(joints) {
         pivots[link.coordinate] = joint.pivot * link.ratio * link.ratio;
     }
@@ -81,7 +89,7 @@ pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], turns: Turns) ->
 }
 
 /// Eliminates the joints, from the tips to the base.
-fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>], turns: Turns) -> Vec<Eliminated<'g>> {
+fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>], method: Method) -> Vec<Eliminated<'g>> {
     let chain = ways.chain;
     let zero = Carried::zero(chain.graph);
     // What children hand over, in the link's own axes and in its home axes.
@@ -94,14 +102,14 @@ fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>], turns: Turns) -> Vec<Elim
     let mut joints = vec![];
     for (index, link) in chain.links.iter().enumerate().rev() {
         let posture = &ways.postures[index];
-        let carried = own[index].turned(&posture.group_turn, turns).plus(&at_home[index]);
-        let joint = carried.joint(ways, index, right[link.coordinate]);
+        let carried = own[index].turned(&posture.group_turn, method.turns).plus(&at_home[index]);
+        let joint = carried.joint(ways, index, right[link.coordinate], method.pivots);
         if let Some(parent) = link.parent {
             let rest = carried.without(&joint, link, chain.unit);
             if ways.is_joined(index) {
                 at_home[parent] = at_home[parent].plus(&rest.moved(ways.arm_at_home(index)));
             } else {
-                let moved = rest.rotated(&link.rotation, turns).moved(posture.origin);
+                let moved = rest.rotated(&link.rotation, method.turns).moved(posture.origin);
                 own[parent] = own[parent].plus(&moved);
             }
         }
@@ -144,7 +152,13 @@ struct Carried<'g> {
 }
 
 impl<'g> Carried<'g> {
-    fn joint(&self, ways: &Ways<'_, 'g>, index: usize, right: Expr<'g>) -> Eliminated<'g> {
+    fn joint(
+        &self,
+        ways: &Ways<'_, 'g>,
+        index: usize,
+        right: Expr<'g>,
+        pivots: Pivots,
+    ) -> Eliminated<'g> {
         let link = &ways.chain.links[index];
         let direction = ways.joint_twist(index);
         let mut asked = self.inertia.asks_for(&direction);
@@ -153,7 +167,7 @@ impl<'g> Carried<'g> {
         Eliminated {
             asked,
             pivot,
-            reciprocal: pivot.recip_positive(),
+            reciprocal: pivots.reciprocal(pivot),
             force: right / link.ratio - direction.dot(&self.wrench),
         }
     }

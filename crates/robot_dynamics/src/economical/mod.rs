@@ -35,10 +35,10 @@ mod spatial;
 
 use robot_symbolic::{Expr, Graph};
 
-use crate::matrix::SymmetricMatrix;
+use crate::matrix::{Pivots, SymmetricMatrix};
 use crate::mechanism::Mechanism;
 use crate::vector::Vector;
-use articulated::Turns;
+use articulated::{Method, Turns};
 use chain::{Base, Chain};
 pub use derivatives::TorqueDerivatives;
 pub(crate) use frames::WorkingFrame;
@@ -128,6 +128,7 @@ impl<'g> Recursion<'g> {
         tau: &[Expr<'g>],
         wrench: bool,
         solver: Solver,
+        pivots: Pivots,
     ) -> Option<Vec<Expr<'g>>> {
         if solver != Solver::MassMatrix && !articulated::applies(&self.chain) {
             return None;
@@ -136,12 +137,13 @@ impl<'g> Recursion<'g> {
         let excess: Vec<Expr<'g>> =
             tau.iter().zip(torques).map(|(tau, torque)| *tau - torque).collect();
         let articulated = |turns| {
-            articulated::solve(&self.chain.without_idle_turns(&[]), &self.plans, &excess, turns)
+            let chain = self.chain.without_idle_turns(&[]);
+            articulated::solve(&chain, &self.plans, &excess, Method { turns, pivots })
         };
         let mut accelerations = match solver {
             Solver::ArticulatedBodies => articulated(Turns::Cheap),
             Solver::SmallPivots => articulated(Turns::Exact),
-            Solver::MassMatrix => self.mass_matrix().solve(excess),
+            Solver::MassMatrix => self.mass_matrix().solve(excess, pivots),
         };
         for (link, state) in self.chain.links.iter().zip(&states) {
             let rate = match link.is_revolute() {
@@ -163,17 +165,21 @@ impl<'g> Recursion<'g> {
     /// x of M x = b, both by coordinates, with [`Solver::SmallPivots`].
     pub(crate) fn solve_articulated(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let chain = self.chain.without_idle_turns(&[]);
-        articulated::solve(&chain, &self.plans, right, Turns::Exact)
+        let method = Method { turns: Turns::Exact, pivots: Pivots::Checked };
+        articulated::solve(&chain, &self.plans, right, method)
     }
 
     /// D of M = Lᵀ D L by coordinates, as [`Recursion::forward_dynamics`] has it with that solver; `None`
     /// where the solver does not apply.
     pub(crate) fn pivots(&self, solver: Solver) -> Option<Vec<Expr<'g>>> {
         let chain = self.chain.without_idle_turns(&[]);
-        let articulated =
-            |turns| self.is_articulated().then(|| articulated::pivots(&chain, &self.plans, turns));
+        let pivots = Pivots::Checked;
+        let articulated = |turns| {
+            let method = Method { turns, pivots };
+            self.is_articulated().then(|| articulated::pivots(&chain, &self.plans, method))
+        };
         match solver {
-            Solver::MassMatrix => Some(self.mass_matrix().pivots()),
+            Solver::MassMatrix => Some(self.mass_matrix().pivots(pivots)),
             Solver::ArticulatedBodies => articulated(Turns::Cheap),
             Solver::SmallPivots => articulated(Turns::Exact),
         }

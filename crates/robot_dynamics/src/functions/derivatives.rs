@@ -92,22 +92,21 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
     let output = |name, doc, per, matrix: SquareMatrix<'g>| {
         matrix_output(name, doc, &format!("the unit of qdd per {per}"), &matrix)
     };
-    derivation.of_kind(
+    let mut function = derivation.of_kind(
         FunctionKind::ForwardDynamicsDerivatives,
-        &[
-            "The derivatives of forward dynamics without friction and wrenches: the entry in row i \
+        &["The derivatives of forward dynamics without friction and wrenches: the entry in row i \
              and column j is that of the acceleration i by the position, velocity or driving force \
              j, exact: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that the driving forces give, and \
-             ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018).",
-            &forward_dynamics::method(derivation),
-        ],
+             ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018)."],
         derivation.coordinate_inputs(["q", "qd", "tau"]),
         vec![
             output("dqdd_dq", "∂q̈/∂q, row by row", "rad or m", part(0)),
             output("dqdd_dqd", "∂q̈/∂q̇, row by row", "rad/s or m/s", part(order)),
             output("dqdd_dtau", "∂q̈/∂τ = M⁻¹, row by row", "N m or N", part(2 * order)),
         ],
-    )
+    );
+    function.doc.extend(forward_dynamics::method(derivation));
+    function
 }
 
 /// The derivatives with the accelerations in place of the symbols q̈.

@@ -4,6 +4,7 @@ use robot_symbolic::{Expr, walk};
 
 use super::{Derivation, Function, FunctionKind, Output, inverse_dynamics, mass_matrix};
 use crate::economical::Solver;
+use crate::matrix::Pivots;
 
 /// Coordinates up to which M is decomposed without a look at articulated bodies: these need fewer
 /// operations from some ten joints on, and share nothing with other functions of a bundle.
@@ -43,44 +44,33 @@ pub(super) fn forward_dynamics<'g>(
              solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`."
         }
     };
-    derivation.of_kind(
-        kind,
-        &[
-            what,
-            &method(derivation),
-            "No branch: where a pivot is not above 0 and finite (a coordinate that moves no mass in that \
-             posture, an inertia below 0), the accelerations that depend on it are NaN.",
-        ],
-        inputs,
-        vec![output],
-    )
+    let mut function = derivation.of_kind(kind, &[what], inputs, vec![output]);
+    function.doc.extend(method(derivation));
+    function
 }
 
-/// How the functions of a robot solve M q̈ = b, and how many digits that may cost.
-pub(super) fn method(derivation: &Derivation<'_, '_>) -> String {
-    if derivation.recursion_for_small_pivots().is_some() {
-        return "By articulated bodies: at the nominal parameters there are postures in which the mass \
-                matrix is nearly singular, and there these keep digits that a decomposition of it loses."
-            .to_owned();
-    }
-    let way = match derivation.mechanism.degrees_of_freedom {
-        ..=FEW => "By the decomposition M = Lᵀ D L",
-        ..=MANY => {
-            "By the decomposition M = Lᵀ D L or by articulated bodies, whichever needs fewer operations"
-        }
-        _ => {
-            "By articulated bodies or, where a coordinate moves several joints, the decomposition M = Lᵀ D L"
-        }
-    };
-    format!(
-        "{way}. Digits are lost where a pivot of D, the inertia that a joint shows where the joints farther \
-         out are free, is much smaller than the joint's entry on the diagonal of M: as many as their \
+/// How the functions of a robot solve M q̈ = b, how many digits that may cost, and what a wrong pivot does.
+pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
+    let way = if derivation.recursion_for_small_pivots().is_some() {
+        "By articulated bodies: at the nominal parameters there are postures in which the mass matrix is \
+         nearly singular, and there these keep digits that a decomposition of it loses."
+    } else {
+        "Digits are lost where a pivot of the mass matrix, the inertia that a joint shows where the joints \
+         farther out are free, is much smaller than the joint's entry on the diagonal: as many as their \
          quotient has zeros."
-    )
+    };
+    let wrong = match derivation.pivots_known() {
+        Pivots::Checked => {
+            "No branch: where a pivot is not above 0 and finite (a coordinate that moves no mass in that \
+             posture, an inertia below 0), the accelerations that depend on it are NaN."
+        }
+        Pivots::Positive => "No posture of this robot makes a pivot small, and none is checked.",
+    };
+    vec![way.to_owned(), wrong.to_owned()]
 }
 
 /// What the function says of friction.
-const FRICTION_DOC: &str = "Forward dynamics with the friction of the joints, equations (4)-(5): the \
+const FRICTION_DOC: &str = "Forward dynamics with the friction of the joints, viscous and dry: the \
      accelerations that the driving forces `tau` bring about, the solution of M q̈ = τ − C q̇ − g − Q_f. \
      Dry friction takes the sign of the velocity, or its smooth sign where the robot gives `smoothing`; \
      the sign of 0 is 0, so that a sharp one holds nothing at rest. Friction by load depends on q̈ \
@@ -125,7 +115,8 @@ fn accelerations<'g>(
     }
     let articulated = match &derivation.recursion {
         Some(recursion) if coordinates > FEW => {
-            recursion.forward_dynamics(tau, wrench, Solver::ArticulatedBodies)
+            let pivots = derivation.pivots_known();
+            recursion.forward_dynamics(tau, wrench, Solver::ArticulatedBodies, pivots)
         }
         _ => None,
     };
@@ -147,7 +138,7 @@ fn by_small_pivots<'g>(
     tau: &[Expr<'g>],
 ) -> Option<Vec<Expr<'g>>> {
     let recursion = derivation.recursion_for_small_pivots()?;
-    recursion.forward_dynamics(tau, wrench, Solver::SmallPivots)
+    recursion.forward_dynamics(tau, wrench, Solver::SmallPivots, Pivots::Checked)
 }
 
 /// q̈ for the symbols τ in derivatives, which solve M x = b for many b: by the decomposition of M, but
@@ -165,7 +156,7 @@ pub(super) fn solve_all<'g>(
 ) -> Vec<Vec<Expr<'g>>> {
     match derivation.recursion_for_small_pivots() {
         Some(recursion) => right.iter().map(|side| recursion.solve_articulated(side)).collect(),
-        None => mass_matrix::matrix(derivation).solve_all(right),
+        None => mass_matrix::matrix(derivation).solve_all(right, derivation.pivots_known()),
     }
 }
 
@@ -178,17 +169,18 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
         let recursion = derivation.recursion.as_ref().filter(|_| is_long);
         recursion.and_then(|recursion| recursion.pivots(Solver::ArticulatedBodies))
     };
-    small.or_else(long).unwrap_or_else(|| mass_matrix::matrix(derivation).pivots())
+    small.or_else(long).unwrap_or_else(|| mass_matrix::matrix(derivation).pivots(Pivots::Checked))
 }
 
 /// q̈ for the driving forces `tau`, by the decomposition of M.
 fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let pivots = derivation.pivots_known();
     let recursion = derivation.recursion.as_ref();
-    let by_recursion =
-        recursion.and_then(|recursion| recursion.forward_dynamics(tau, wrench, Solver::MassMatrix));
+    let by_recursion = recursion
+        .and_then(|recursion| recursion.forward_dynamics(tau, wrench, Solver::MassMatrix, pivots));
     by_recursion.unwrap_or_else(|| {
         let bias = derivation.paper_torques(wrench, &["qdd"]);
         let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();
-        mass_matrix::matrix(derivation).solve(excess)
+        mass_matrix::matrix(derivation).solve(excess, pivots)
     })
 }

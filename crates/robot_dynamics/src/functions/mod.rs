@@ -32,6 +32,7 @@ use std::cell::OnceCell;
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use crate::economical::{Plan, Recursion};
+use crate::matrix::Pivots;
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::model::{JointKind, Parameter, Robot};
 use crate::newton_euler::{self, Effects};
@@ -143,7 +144,18 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// pivots of M may be small, and each coordinate moves one joint.
     fn recursion_for_small_pivots(&self) -> Option<&Recursion<'g>> {
         let recursion = self.recursion.as_ref().filter(|recursion| recursion.is_articulated());
-        recursion.filter(|_| *self.small_pivots.get_or_init(|| pivots::may_be_small(self.robot)))
+        recursion.filter(|_| self.may_have_small_pivots())
+    }
+
+    fn may_have_small_pivots(&self) -> bool {
+        *self.small_pivots.get_or_init(|| pivots::may_be_small(self.robot))
+    }
+
+    /// What is known of the pivots of M: where all figures are numbers and no posture makes one small, they
+    /// are positive, and need no check at run time.
+    fn pivots_known(&self) -> Pivots {
+        let is_sure = self.robot.parameters.is_empty() && !self.may_have_small_pivots();
+        if is_sure { Pivots::Positive } else { Pivots::Checked }
     }
 
     /// Derives the functions of a kind: one, or one per frame. What the robot lacks (a tip,

@@ -63,7 +63,7 @@ pub(super) fn may_be_small(robot: &Robot) -> bool {
         value if value.is_nan() => 1.0,
         value => value,
     };
-    let Ok(mechanism) = Mechanism::from_robot(robot, &value) else { return false };
+    let Ok(mechanism) = Mechanism::from_robot(robot, &value) else { return true };
     let small = if mechanism.coordinates() < MANY { SMALL } else { SMALL_OF_MANY };
     !is_bounded(&mechanism, small) && Search::new(&mechanism, small).finds_one()
 }
@@ -99,7 +99,7 @@ fn is_bounded(mechanism: &Mechanism, part: f64) -> bool {
             next = link.parent.map(|parent| &mechanism.links()[parent]);
         }
     }
-    least.iter().zip(&most).all(|(least, most)| *least >= part * most)
+    least.iter().zip(&most).all(|(least, most)| *least > 0.0 && *least >= part * most)
 }
 
 /// The sum of the arms, m: how far joints that slide are taken to go.
@@ -191,20 +191,16 @@ impl<'m> Search<'m> {
     }
 }
 
-/// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 for a negative one. Coordinates
-/// that move nothing have none.
+/// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 where one is not above 0.
 fn smallest_part(mut matrix: DMatrix<f64>) -> f64 {
     let diagonal = matrix.diagonal();
     let mut smallest = 1.0_f64;
     for pivot in (0..matrix.nrows()).rev() {
-        if diagonal[pivot] <= 0.0 {
-            continue;
-        }
         let value = matrix[(pivot, pivot)];
-        smallest = smallest.min((value / diagonal[pivot]).max(0.0));
-        if value <= 0.0 {
-            break;
+        if value.is_nan() || value <= 0.0 {
+            return 0.0;
         }
+        smallest = smallest.min(value / diagonal[pivot]);
         for row in 0..pivot {
             let factor = matrix[(pivot, row)] / value;
             for column in 0..=row {

@@ -101,7 +101,8 @@ fn forward_dynamics<'g>(
         }
     }
     let forces = derivation.coordinate_symbols("tau");
-    Some(matrix.solve(forces.iter().zip(bias).map(|(force, bias)| *force - *bias).collect()))
+    let excess = forces.iter().zip(bias).map(|(force, bias)| *force - *bias).collect();
+    Some(matrix.solve(excess, derivation.pivots_known()))
 }
 
 /// ½ q̇ᵀ M q̇.
