@@ -160,7 +160,7 @@ fn written(test: &str, robots: &[(&str, &str)]) -> Vec<(String, String)> {
         Module { path: (*path).to_owned(), generated }
     };
     let modules: Vec<Module> = robots.iter().map(module).collect();
-    output::write(&modules, &folder.join("out"), true).unwrap();
+    output::write(&modules, std::iter::empty(), &folder.join("out"), true).unwrap();
     let mut files: Vec<(String, String)> = fs::read_dir(folder.join("out"))
         .unwrap()
         .map(|entry| entry.unwrap().path())
