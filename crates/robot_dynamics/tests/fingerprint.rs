@@ -89,6 +89,11 @@ fn what_a_plan_may_depend_on_is_held() {
         ("[\"r\", 0, 0.1]", "[\"r\", 0, 0]"),
         ("1.570", "1.571"),
         ("name = \"arm\"", "name = \"arm\"\nsnap = 1e-3"),
+        ("[\"l\", 0, 0]", "[\"l\", \"r\", 0]"),
+        (
+            "zz = \"I\", unchecked = true }\n[[link]]",
+            "zz = \"I\", xx = 0.1, unchecked = true }\n[[link]]",
+        ),
         ("mass = 3", "drive = { armature = \"I\" }\nmass = 3"),
     ] {
         assert_ne!(mechanics(&edited(from, to)), text, "{to}");
