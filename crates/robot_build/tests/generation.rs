@@ -66,6 +66,27 @@ fn only_the_chosen_functions_are_generated() {
     assert_eq!(names, ["link_wrenches"]);
 }
 
+/// And where it ends stands in the documentation.
+#[test]
+fn the_sine_is_the_runtimes_unless_asked_otherwise() {
+    let source = source("planar_2r.toml");
+    let limit = "1073741824 rad";
+    assert_eq!(robot_runtime::trig::double::LIMIT, 1073741824.0);
+    assert_eq!(robot_runtime::trig::single::LIMIT, 131072.0);
+    let standard = Options { trigonometry: Trigonometry::Standard, ..Options::default() };
+    for (options, is_standard) in [(Options::default(), false), (standard, true)] {
+        let readme = package::package(&source, &options).unwrap().swap_remove(1);
+        assert_eq!(readme.path, "README.md");
+        let code = generate(&source, &options).unwrap().code;
+        assert_eq!(code.contains("std_sin_cos_array"), is_standard);
+        for text in [readme.text, code] {
+            let (of_limit, of_any) = (text.contains(limit), text.contains("of any size"));
+            assert_eq!((of_limit, of_any), (!is_standard, is_standard), "{text}");
+            assert_eq!(text.contains("131072 rad"), !is_standard);
+        }
+    }
+}
+
 #[test]
 fn hostile_text_stays_text() {
     let hostile = "*/ ]] ``` \\n}fn evil() {} <script> /// #![doc] \"";
@@ -78,8 +99,7 @@ fn hostile_text_stays_text() {
     for line in code.lines().filter(|line| line.contains("evil")) {
         assert!(line.trim_start().starts_with("///"), "{line}");
     }
-    let options = Options { trigonometry: Trigonometry::Polynomial, ..Options::default() };
-    for file in package::package(&hostile_source, &options).unwrap() {
+    for file in package::package(&hostile_source, &Options::default()).unwrap() {
         let fences = file.text.lines().filter(|line| line.trim_start().starts_with("```"));
         assert_eq!(fences.count() % 2, 0, "{}", file.path);
         for line in file.text.lines().filter(|line| line.contains("evil")) {

@@ -25,12 +25,12 @@ fn the_module_is_that_of_the_builder() {
 fn options_reach_the_code() {
     let file = robot("trttr1");
     let arguments = ["generate", &file, "--function", "link_wrenches", "--scalar", "f32"];
-    let more = ["--trigonometry", "polynomial", "--runtime", "crate::rt"];
+    let more = ["--trigonometry", "standard", "--runtime", "crate::rt"];
     let shown = output(&[&arguments[..], &more].concat(), "");
     for (part, is_there) in [
         ("pub fn link_wrenches", true),
         ("[f32; 5]", true),
-        ("crate::rt::sin_cos_array", true),
+        ("crate::rt::std_sin_cos_array", true),
         ("robot_runtime", false),
         ("pub fn inverse_dynamics", false),
     ] {
@@ -38,7 +38,9 @@ fn options_reach_the_code() {
     }
     let forms = ["generate", &file, "--function", "all", "--generic", "--batch", "--fused"];
     let shown = output(&forms, "");
+    assert!(!shown.contains("std_sin_cos_array") && !shown.contains("StdTrig"));
     for part in [
+        "::robot_runtime::sin_cos_array",
         "pub fn inverse_dynamics_generic<T: ::robot_runtime::Scalar>",
         "pub fn mass_matrix_batch",
         "as_chunks::<8>",
