@@ -78,6 +78,16 @@ fn what_is_wrong_with_a_file_is_shown_and_the_file_watched() {
 }
 
 #[test]
+fn functions_of_a_link_are_asked_for_by_name() {
+    let shown =
+        expanded(quote!("robots/trttr1.toml", functions = ["jacobian_3"], allow_unphysical = true));
+    assert!(shown.contains("fn jacobian_3"), "{shown}");
+    assert!(!shown.contains("fn jacobian ("), "{shown}");
+    let shown = expanded(quote!("robots/trttr1.toml", functions = ["jacobian_hand", "bias"]));
+    assert!(shown.contains("there is no function `jacobian_hand`"), "{shown}");
+}
+
+#[test]
 fn wrong_bundles_are_named() {
     let of = |bundles| expanded(quote!("robots/trttr1.toml", bundles = #bundles));
     assert!(of(quote!({ load = [] })).contains("no functions are chosen"));
