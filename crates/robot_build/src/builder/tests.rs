@@ -288,15 +288,36 @@ fn all_errors_of_all_files_are_shown() {
 }
 
 #[test]
+fn functions_of_a_frame_or_a_link_are_asked_for_by_name() {
+    let package = package("names");
+    fs::write(package.join("robots/a.toml"), ARM).unwrap();
+    let name = "jacobian_1";
+    let built = builder(&package).functions([name]).bundle("both", ["jacobian_dot_qd_1", "bias"]);
+    built.compile(&["robots/a.toml"]).unwrap();
+    let code = fs::read_to_string(package.join("out/pendulum.rs")).unwrap();
+    assert!(code.contains(&format!("pub fn {name}(")), "{code}");
+    assert!(!code.contains("pub fn jacobian("), "{code}");
+    let shown = message(&builder(&package).functions(["jacobian_hand"]), &["robots/a.toml"]);
+    assert!(shown.contains("no function `jacobian_hand`."), "{shown}");
+}
+
+#[test]
+fn what_no_body_has_is_taken_where_that_is_asked_for() {
+    let package = package("unphysical");
+    fs::write(package.join("robots/a.toml"), ARM.replace("value = 2.0", "value = -2.0")).unwrap();
+    let shown = message(&builder(&package), &["robots/a.toml"]);
+    assert!(shown.contains("error[R0501]: the mass is -"), "{shown}");
+    builder(&package).allow_unphysical(true).compile(&["robots/a.toml"]).unwrap();
+}
+
+#[test]
 fn wrong_options_are_errors() {
     let package = package("options");
     fs::write(package.join("robots/a.toml"), ARM).unwrap();
     let with = |names: &[&str]| builder(&package).functions(names.iter().copied());
     let shown = message(&with(&["inverse_dynamic", "forward"]), &["robots/a.toml"]);
     assert!(
-        shown.contains(
-            "no function `inverse_dynamic` (did you mean `inverse_dynamics`?); there are `inverse_dynamics`"
-        ),
+        shown.contains("no function `inverse_dynamic`. Did you mean `inverse_dynamics`? There are"),
         "{shown}"
     );
     assert!(shown.contains("no function `forward`"), "{shown}");
@@ -306,7 +327,7 @@ fn wrong_options_are_errors() {
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("no functions are chosen"));
     let shown = message(&builder(&package).bundle("both", ["bia"]), &["robots/a.toml"]);
-    assert!(shown.contains("no function `bia` (did you mean `bias`?)"), "{shown}");
+    assert!(shown.contains("no function `bia`. Did you mean `bias`? There are"), "{shown}");
     let shown = message(&builder(&package).bundle("bias", ["bias"]), &["robots/a.toml"]);
     assert!(shown.contains("the bundle `bias`: it cannot have this name"), "{shown}");
     let shown = message(&builder(&package).parallel(true), &["robots/a.toml"]);

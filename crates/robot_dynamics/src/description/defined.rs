@@ -120,12 +120,14 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Options;
     use super::super::reader::Known;
     use super::*;
 
     #[test]
     fn poles_are_told_from_values() {
-        let mut reader = Reader::new("");
+        let options = Options::default();
+        let mut reader = Reader::new("", &options);
         for (name, value) in [("a", Some("0.3")), ("b", Some("0.1")), ("x", None)] {
             reader.define(Known {
                 name: name.to_owned(),

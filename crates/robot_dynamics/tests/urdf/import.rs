@@ -69,12 +69,7 @@ fn waivers_are_written_where_they_are_needed() {
     let text = two_links()
         .replacen("<mass value=\"2\"/>", "<mass value=\"0\"/>", 1)
         .replace("izz=\"0.04\"", "izz=\"0.09\"");
-    let options = Options {
-        allow_massless: true,
-        allow_unphysical: true,
-        friction: false,
-        ..Options::default()
-    };
+    let options = Options { allow_massless: true, allow_unphysical: true, ..Options::default() };
     let text = toml(&text, &options);
     assert!(text.contains("massless = true\ncenter_of_mass = [0, 0, 0.1]\n"), "{text}");
     assert_eq!(text.matches("unchecked = true").count(), 2, "{text}");

@@ -134,6 +134,16 @@ fn paths_are_shown_from_where_the_compiler_runs() {
 }
 
 #[test]
+fn functions_of_a_link_are_asked_for_by_name() {
+    let shown =
+        expanded(quote!("robots/trttr1.toml", functions = ["jacobian_3"], allow_unphysical = true));
+    assert!(shown.contains("fn jacobian_3"), "{shown}");
+    assert!(!shown.contains("fn jacobian ("), "{shown}");
+    let shown = expanded(quote!("robots/trttr1.toml", functions = ["jacobian_hand", "bias"]));
+    assert!(shown.contains("there is no function `jacobian_hand`"), "{shown}");
+}
+
+#[test]
 fn wrong_bundles_are_named() {
     let of = |bundles| expanded(quote!("robots/trttr1.toml", bundles = #bundles));
     assert!(of(quote!({ load = [] })).contains("no functions are chosen"));
