@@ -1,0 +1,225 @@
+//! Forward dynamics where the mass matrix is nearly singular, and where it is.
+
+#![allow(clippy::unwrap_used)]
+
+use robot_build::{FunctionKind, Functions, Options, Pivots, Programs, Source};
+use robot_codegen::{Interpreter, counts::Counts, program::Operation};
+use robot_dynamics::model::Robot;
+use robot_dynamics::numeric::Mechanism;
+use robot_dynamics::random::{self, Random, Recipe};
+use robot_symbolic::Function;
+use serde_json::Value;
+
+/// The wrists of `tests/fixtures/gimbals`, with what comes out in 80 digits.
+const GIMBALS: &str = include_str!("../../../tests/fixtures/gimbals/gimbals.json");
+/// A wrist without mass in its first two links; it is singular where q2 is 0.
+const WRIST: &str = include_str!("../../../tests/fixtures/gimbals/wrist.toml");
+const PENDULUM: &str = "format = 1
+[robot]
+name = \"pendulum\"
+[parameters]
+I = 0.1
+[[link]]
+name = \"1\"
+joint = { type = \"revolute\", axis = \"y\" }
+mass = 2
+center_of_mass = [0.5, 0, 0]
+inertia = { yy = \"I\", unchecked = true }
+";
+
+fn options(kind: FunctionKind) -> Options {
+    Options { functions: Functions::Chosen(vec![kind]), ..Options::default() }
+}
+
+fn programs(name: &str, text: &str, kind: FunctionKind) -> Programs {
+    let source = Source { name: name.to_owned(), text: text.to_owned() };
+    robot_build::programs(&source, &options(kind)).unwrap()
+}
+
+/// All outputs at a state, one after the other.
+fn call(programs: &Programs, given: &[(&str, f64)], inputs: &[(&str, &[f64])]) -> Vec<f64> {
+    let interpreter = Interpreter::new(&programs.module, given).unwrap();
+    let outputs = interpreter.call(&programs.module.functions[0].name, inputs).unwrap();
+    outputs.into_iter().flat_map(|output| output.values).collect()
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// The largest error in units of the largest value.
+fn error(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let size = expected.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
+    let largest = |worst: f64, (a, b): (&f64, &f64)| worst.max((a - b).abs());
+    assert!(found.iter().all(|entry| entry.is_finite()), "{found:?}");
+    found.iter().zip(expected).fold(0.0, largest) / size
+}
+
+/// The errors of the outputs of a function over the robots whose fixtures have them, with their states.
+fn errors(kind: FunctionKind, keys: &[&str]) -> Vec<(String, f64, f64)> {
+    let robots: Value = serde_json::from_str(GIMBALS).unwrap();
+    let mut errors = vec![];
+    for robot in robots.as_array().unwrap() {
+        let text = robot["text"].as_str().unwrap();
+        let name = if text.starts_with('<') { "wrist.urdf" } else { "wrist.toml" };
+        let programs = programs(name, text, kind);
+        for state in robot["states"].as_array().unwrap() {
+            if keys.iter().any(|key| state.get(key).is_none()) {
+                continue;
+            }
+            let [q, qd, tau] = ["q", "qd", "tau"].map(|key| numbers(&state[key]));
+            let found = call(&programs, &[], &[("q", &q), ("qd", &qd), ("tau", &tau)]);
+            for (found, key) in found.chunks(found.len() / keys.len()).zip(keys) {
+                let distance = state["distance"].as_f64().unwrap();
+                let place = format!("{} at {distance}: {key}", robot["name"]);
+                errors.push((place, distance, error(found, &numbers(&state[key]))));
+            }
+        }
+    }
+    errors
+}
+
+/// From condition numbers of 10 to 10¹⁷. By the decomposition of M the last have no digit.
+#[test]
+fn accelerations_keep_their_digits() {
+    let errors = errors(FunctionKind::ForwardDynamics, &["qdd"]);
+    assert_eq!(errors.len(), 14 * 16);
+    // In one state torques cancel: there Pinocchio is off by 10⁻¹⁴ too.
+    let many = errors.iter().filter(|(.., error)| *error > 5e-15).count();
+    assert!(many <= 1, "{errors:?}");
+    for (place, _, error) in errors {
+        assert!(error <= 2e-13, "{place} is off by {error:e}");
+    }
+}
+
+/// M⁻¹ ∂τ/∂x: ∂τ/∂x is a difference of large torques, and loses digits with the distance.
+#[test]
+fn derivatives_keep_what_their_torques_have() {
+    let keys = ["dqdd_dq", "dqdd_dqd", "dqdd_dtau"];
+    let errors = errors(FunctionKind::ForwardDynamicsDerivatives, &keys);
+    assert_eq!(errors.len(), 2 * 16 * 3);
+    for (place, distance, error) in errors {
+        let bound = if place.ends_with("dtau") { 5e-15 } else { 1e-14 / distance };
+        assert!(error <= bound, "{place} is off by {error:e}");
+    }
+}
+
+#[test]
+fn accelerations_have_the_right_sign() {
+    let programs = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics);
+    let signs = |q2: f64| -> Vec<f64> {
+        let inputs: [(&str, &[f64]); 3] =
+            [("q", &[0.3, q2, 0.4]), ("qd", &[0.0; 3]), ("tau", &[1.0, 0.0, 0.0])];
+        call(&programs, &[], &inputs).iter().map(|entry| entry.signum()).collect()
+    };
+    for exponent in 2..16 {
+        // Torque on the first joint moves it its own way, and the third against it.
+        let signs = signs(10.0_f64.powi(-exponent));
+        assert_eq!([signs[0], signs[2]], [1.0, -1.0], "at 1e-{exponent}");
+    }
+}
+
+#[test]
+fn what_is_singular_has_no_number() {
+    let wrist = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics);
+    let inputs: [(&str, &[f64]); 3] =
+        [("q", &[0.3, 0.0, 0.4]), ("qd", &[0.0; 3]), ("tau", &[1.0, 2.0, 3.0])];
+    let found = call(&wrist, &[], &inputs);
+    assert!(found.iter().all(|entry| entry.is_nan()), "{found:?}");
+
+    // An inertia of −9 beside m r² = 0.5: the acceleration would be finite, and against the torque.
+    let pendulum = programs("pendulum.toml", PENDULUM, FunctionKind::ForwardDynamics);
+    let inputs: [(&str, &[f64]); 3] = [("q", &[0.0]), ("qd", &[0.0]), ("tau", &[1.0])];
+    assert!(call(&pendulum, &[("I", 0.1)], &inputs)[0].is_finite());
+    assert!(call(&pendulum, &[("I", -9.0)], &inputs)[0].is_nan());
+    assert!(call(&pendulum, &[("I", -0.5)], &inputs)[0].is_nan());
+}
+
+#[test]
+fn pivots_name_the_joint_and_the_digits() {
+    let robot = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics).robot;
+    let pivots = Pivots::new(&robot, &Options::default(), &[]).unwrap();
+    let at = |q2: f64| pivots.smallest(&[0.3, q2, 0.4]).unwrap();
+    assert_eq!(at(0.5), None);
+    let near = at(1e-5).unwrap();
+    assert!(near.joint == "roll" && near.part < 1e-9 && !near.is_wrong(), "{near:?}");
+    assert!(near.digits >= 14, "{near:?}");
+    let here = at(0.0).unwrap();
+    assert!(here.joint == "roll" && here.is_wrong(), "{here:?}");
+    assert!(here.to_string().contains("singular in this posture"), "{here}");
+}
+
+/// Where each coordinate does not move one joint, M is decomposed, and digits go.
+#[test]
+fn pivots_count_the_digits_that_a_decomposition_loses() {
+    let follower = "[[link]]\nname = \"finger\"\nparent = \"hand\"\nmass = 0.1\n\
+                    center_of_mass = [0, 0, 0.1]\n\
+                    inertia = { xx = 1e-5, yy = 1e-5, zz = 1e-5 }\n\
+                    joint = { type = \"prismatic\", axis = \"x\", mimic = { joint = \"finger2\" } }\n\
+                    [[link]]\nname = \"finger2\"\nparent = \"hand\"\nmass = 0.1\n\
+                    center_of_mass = [0, 0, 0.1]\n\
+                    inertia = { xx = 1e-5, yy = 1e-5, zz = 1e-5 }\n\
+                    joint = { type = \"prismatic\", axis = \"y\" }\n";
+    let text = format!("{WRIST}\n{follower}");
+    let robot = programs("wrist.toml", &text, FunctionKind::ForwardDynamics).robot;
+    let pivots = Pivots::new(&robot, &Options::default(), &[]).unwrap();
+    let near = pivots.smallest(&[0.3, 1e-5, 0.4, 0.0]).unwrap().unwrap();
+    assert!((2..=6).contains(&near.digits), "{near:?}");
+}
+
+/// The code of arms is what it was before there was a choice: multiplications, additions and divisions of
+/// forward dynamics without a search, and no check.
+#[test]
+fn arms_decompose_their_mass_matrix() {
+    for (name, operations) in
+        [("puma560", 541), ("ur5", 480), ("iiwa", 791), ("panda", 1129), ("scara", 84)]
+    {
+        let path = format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let programs = programs(name, &text, FunctionKind::ForwardDynamics);
+        let core = &programs.module.functions[0].core;
+        assert_eq!(Counts::of(core).operations(), operations, "{name}");
+        let checks = |operation: &Operation| {
+            matches!(operation, Operation::Call(Function::RecipPositive, _))
+        };
+        assert!(!core.operations().iter().any(checks), "{name}");
+    }
+}
+
+/// A random tree in which some links that carry others have no mass.
+fn with_massless_links(seed: u64) -> Robot {
+    let mut random = Random::new(seed);
+    let recipe = Recipe::tree(3 + random.index(5));
+    let mut robot = random::robot(&mut random, &recipe);
+    for index in 0..robot.links.len() {
+        let carries = robot.links.iter().any(|other| other.parent == Some(index));
+        if carries && random.index(2) == 0 {
+            robot.links[index].bodies.clear();
+        }
+    }
+    robot
+}
+
+#[test]
+fn trees_with_massless_links_agree_with_the_numeric_solver() {
+    let mut checked = 0;
+    for seed in 0..60 {
+        let robot = with_massless_links(seed);
+        let mechanism = Mechanism::nominal(&robot).unwrap();
+        let state = Random::new(seed).state(&mechanism);
+        let (q, qd, tau) = (&state.q, &state.qd, &state.tau);
+        let Ok(expected) = mechanism.articulated_body(q, qd, tau, &[]) else { continue };
+        // Two parallel slides with nothing between: M is singular in every posture.
+        if expected.iter().any(|entry| !entry.is_finite() || entry.abs() > 1e8) {
+            continue;
+        }
+        let options = options(FunctionKind::ForwardDynamics);
+        let programs = robot_build::programs_of(robot, "random", &options).unwrap();
+        let found = call(&programs, &[], &[("q", q), ("qd", qd), ("tau", tau)]);
+        let error = error(&found, expected.as_slice());
+        assert!(error < 1e-9, "seed {seed}: {error:e}");
+        checked += 1;
+    }
+    assert!(checked > 40, "{checked}");
+}
