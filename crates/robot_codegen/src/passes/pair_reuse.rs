@@ -246,6 +246,17 @@ mod tests {
         assert_eq!(Counts::of(&run(&b.finish(results))).add, 4);
     }
 
+    /// p + x + r: the sum of the parameters comes from the constructor.
+    #[test]
+    fn what_is_known_early_is_joined_early() {
+        let mut b = Builder::new();
+        let [x, ..] = inputs(&mut b);
+        let [p, r] = [0, 1].map(|index| b.load(Source::Parameter(index)));
+        let sum = b.add(p, x);
+        let sum = b.add(sum, r);
+        assert_eq!(Counts::of_calls(&run(&b.finish(vec![sum]))).add, 1);
+    }
+
     #[test]
     fn squares_in_high_powers_are_shared() {
         let mut b = Builder::new();

@@ -116,6 +116,29 @@ fn a_coefficient_counts_in_what_a_term_resembles() {
 }
 
 #[test]
+fn the_distance_of_terms_counts_factors_and_one_for_the_coefficient() {
+    let graph = Graph::new();
+    let distance = |one: &str, other: &str| {
+        let terms = term::terms_of(&[one, other].map(|text| graph.parse(text).unwrap()), &LIMITS);
+        let terms = terms.unwrap();
+        terms[0][0].distance(&terms[1][0])
+    };
+    let cases = [
+        ("a*b*c", "a*b*c", 0),
+        ("a*b*c", "a*b", 1),
+        ("a*b", "a*b*c", 1),
+        ("a*b", "a*c", 2),
+        ("a^3", "a", 2),
+        ("a", "a^2*b", 2),
+        ("2*a*b", "a*c", 3),
+        ("-a", "a", 1),
+    ];
+    for (one, other, expected) in cases {
+        assert_eq!(distance(one, other), expected, "{one} and {other}");
+    }
+}
+
+#[test]
 fn terms_that_are_no_torque_are_told() {
     let evidence = |wrong: &str| -> Vec<String> {
         spoilt(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
@@ -124,6 +147,11 @@ fn terms_that_are_no_torque_are_told() {
     assert_eq!(evidence("+ m2*l1*r2*cos(q2)*qd1"), [dot]);
     assert_eq!(evidence("+ m2*l1*cos(q2)*qdd1"), ["not a torque but kg m s^-2, for kg m^2 s^-2"]);
     assert_eq!(evidence("+ k*l1*r2*cos(q2)*qdd1"), ["the robot has no symbol k"]);
+    // Where more than the time is wrong it is not a matter of dots.
+    for (wrong, dimension) in [("qd1", "kg^2 m^2 s^-1"), ("qd1*qdd1", "kg^2 m^2 s^-3")] {
+        let expected = format!("not a torque but {dimension}, for kg m^2 s^-2");
+        assert_eq!(evidence(&format!("+ m1*m2*l1*r2*cos(q2)*{wrong}")), [expected]);
+    }
     let mut nameless = robot("planar_2r");
     for parameter in &mut nameless.parameters {
         parameter.unit = None;
@@ -164,6 +192,11 @@ fn errors_show_the_place() {
         assert!(shown.contains(part), "{shown}");
     }
     assert!(message("\\[ Q_1 = \\frac{m_1}{ \\]").contains("printed:1:"));
+    let column = "\\begin{bmatrix} 0 \\\\ 0 \\\\ 0 \\end{bmatrix}";
+    for beside in [format!("{column} + m_1"), format!("m_1 {column}")] {
+        let shown = message(&format!("\\[ F_{{1}}^{{1}} = {beside} \\]"));
+        assert!(shown.contains("something beside it"), "{shown}");
+    }
     assert!(message("").contains("no equations"));
 }
 

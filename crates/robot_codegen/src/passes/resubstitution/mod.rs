@@ -391,6 +391,18 @@ mod tests {
         );
     }
 
+    /// 3 x + 3 y beside x + y and 3 x: a product in place of a product and a sum.
+    #[test]
+    fn two_operations_become_one_multiplication() {
+        let mut b = Builder::new();
+        let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+        let three = b.constant(3.0);
+        let (sum, first, second) = (b.add(x, y), b.mul(three, x), b.mul(three, y));
+        let thrice = b.add(first, second);
+        let found = with(Resubstitution::Multiples)(&b.finish(vec![sum, first, thrice]));
+        assert_eq!(Counts::of(&found).operations(), 3);
+    }
+
     /// cos kθ by its recursion: bounds of rounding grow with each step, the values do not.
     #[test]
     fn a_long_recursion_is_not_taken_for_rounding() {
