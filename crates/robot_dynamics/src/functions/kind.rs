@@ -216,6 +216,8 @@ impl FunctionKind {
             self,
             FunctionKind::ForwardDynamics
                 | FunctionKind::ForwardDynamicsWrench
+                | FunctionKind::ForwardDynamicsFriction
+                | FunctionKind::ForwardDynamicsWrenchFriction
                 | FunctionKind::ForwardDynamicsDerivatives
         )
     }
