@@ -19,3 +19,4 @@ mod pages;
 mod payload;
 mod reference;
 mod single;
+mod singular;

@@ -223,3 +223,15 @@ fn trees_with_massless_links_agree_with_the_numeric_solver() {
     }
     assert!(checked > 40, "{checked}");
 }
+
+/// A joint that moves nothing in any posture: the error names the mass matrix.
+#[test]
+fn a_joint_without_mass_is_the_reason() {
+    let text = format!(
+        "{WRIST}\n[[link]]\nname = \"idle\"\njoint = {{ type = \"revolute\", axis = \"x\" }}\nmassless = true\n"
+    );
+    let source = Source { name: "wrist.toml".to_owned(), text };
+    let options = options(FunctionKind::ForwardDynamics);
+    let found = robot_build::programs(&source, &options).unwrap_err().to_string();
+    assert!(found.contains("the mass matrix is singular"), "{found}");
+}

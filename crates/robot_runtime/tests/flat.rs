@@ -66,6 +66,7 @@ numbers! {
     root_f64: f64, Scalar::sqrt; root_f32: f32, Scalar::sqrt;
     sign_f64: f64, Scalar::signum0; sign_f32: f32, Scalar::signum0;
     tanh_f64: f64, Scalar::tanh; tanh_f32: f32, Scalar::tanh;
+    recip_f64: f64, Scalar::recip_positive; recip_f32: f32, Scalar::recip_positive;
 }
 "#;
 
@@ -146,7 +147,7 @@ fn numbers_are_computed_without_branches_in_every_profile() {
     }
     for level in ["-Copt-level=1", "-Copt-level=2", "-Copt-level=3"] {
         let functions = compile("numbers", NUMBERS, X86, &[level]);
-        assert_eq!(functions.len(), 8, "{:?}", functions.keys());
+        assert_eq!(functions.len(), 10, "{:?}", functions.keys());
         for (name, listing) in &functions {
             assert_eq!(jumps(listing), 0, "{name} at {level} jumps");
             assert_eq!(count(listing, &["call"]), 0, "{name} at {level} calls");
@@ -162,7 +163,7 @@ fn single_precision_is_flat_on_a_microcontroller() {
     }
     for level in ["-Copt-level=s", "-Copt-level=3"] {
         let functions = compile("microcontroller", NUMBERS, CORTEX_M4F, &[level]);
-        for name in ["cosine_f32", "root_f32", "sign_f32", "tanh_f32"] {
+        for name in ["cosine_f32", "root_f32", "sign_f32", "tanh_f32", "recip_f32"] {
             let listing = &functions[name];
             println!("{name} at {level}: {} instructions", listing.len());
             let jumps =

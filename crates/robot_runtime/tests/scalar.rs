@@ -50,6 +50,29 @@ fn sign_of_zero_is_zero() {
 }
 
 #[test]
+fn only_what_is_positive_and_finite_has_a_positive_reciprocal() {
+    for positive in [1.0, 3.5, 0.1, 1e300, f64::MIN_POSITIVE, f64::MAX] {
+        assert_eq!(positive.recip_positive(), 1.0 / positive);
+        assert!((-positive).recip_positive().is_nan());
+    }
+    for positive in [1.0, 3.5, 0.1, 1e30, f32::MIN_POSITIVE, f32::MAX] {
+        assert_eq!(positive.recip_positive(), 1.0 / positive);
+        assert!((-positive).recip_positive().is_nan());
+    }
+    let least = f64::from_bits(1);
+    assert_eq!(
+        (least.recip_positive(), f32::from_bits(1).recip_positive()),
+        (f64::INFINITY, f32::INFINITY)
+    );
+    for none in [0.0, -0.0, -least, f64::INFINITY, f64::NEG_INFINITY, f64::NAN, -f64::NAN] {
+        assert!(none.recip_positive().is_nan(), "{none}");
+        assert!((none as f32).recip_positive().is_nan(), "{none}");
+    }
+    const HALF: f64 = robot_runtime::recip_positive_f64(2.0);
+    assert_eq!(HALF, 0.5);
+}
+
+#[test]
 fn numbers_convert_and_compare() {
     assert_eq!((f64::from_f64(0.1), f32::from_f64(0.1)), (0.1, 0.1));
     assert_eq!(F64x4::from_f64(0.1), Lanes::splat(0.1));
@@ -78,6 +101,7 @@ fn check_lanes<T: Scalar, const N: usize>() {
         assert_eq!((x * x).sqrt(), each(&|a, _, _| (a * a).sqrt()));
         assert_eq!(x.abs(), each(&|a, _, _| a.abs()));
         assert_eq!(x.signum0(), each(&|a, _, _| a.signum0()));
+        assert_eq!((x * x).recip_positive(), each(&|a, _, _| (a * a).recip_positive()));
         assert_eq!(x.tanh(), each(&|a, _, _| a.tanh()));
         assert_eq!(x.sin_cos().0, each(&|a, _, _| a.sin_cos().0));
         assert_eq!(PolyTrig::sin_cos(x).1, each(&|a, _, _| a.sin_cos().1));

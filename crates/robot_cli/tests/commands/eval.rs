@@ -4,7 +4,7 @@ use robot_dynamics::description::read_toml;
 use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
 use serde_json::{Value, json};
 
-use crate::{complaint, output, robot};
+use crate::{WRIST, complaint, output, robot, run_with};
 
 /// The numeric mechanism of a robot with some parameters changed.
 fn mechanism(name: &str, settings: &[(&str, f64)]) -> Mechanism {
@@ -245,4 +245,29 @@ fn bundles_of_the_file_are_called_by_their_names() {
     assert_eq!(both[0]["bias"], bias[0]["tau"]);
     let shown = output(&["stats", path.to_str().unwrap(), "--format", "text"], "");
     assert!(shown.lines().any(|line| line.starts_with("both ")), "{shown}");
+}
+
+#[test]
+fn a_nearly_singular_mass_matrix_is_reported() {
+    let states = |q2: f64| {
+        json!([{"q": [0.3, 0.5, 0.4], "qd": [0, 0, 0], "tau": [1, 2, 3]},
+                                  {"q": [0.3, q2, 0.4], "qd": [0, 0, 0], "tau": [1, 2, 3]}])
+    };
+    for function in ["forward_dynamics", "forward_dynamics_derivatives"] {
+        let arguments = ["eval", WRIST, "--function", function, "--states", "-"];
+        let shown = |q2: f64| run_with(&arguments, states(q2).to_string().as_bytes());
+        let (far, near, there) = (shown(0.1), shown(1e-6), shown(0.0));
+        assert_eq!((far.code, far.errors.as_str()), (0, ""));
+        assert_eq!((near.code, near.errors.lines().count()), (0, 1), "{}", near.errors);
+        let starts = "warning: state 2: the mass matrix is nearly singular";
+        assert!(
+            near.errors.starts_with(starts) && near.errors.contains("`roll`"),
+            "{}",
+            near.errors
+        );
+        assert_eq!((there.code, there.output.as_str()), (1, ""));
+        let reason = "the mass matrix is singular at this state";
+        assert!(there.errors.starts_with("error: state 2: "), "{}", there.errors);
+        assert!(there.errors.contains(reason), "{}", there.errors);
+    }
 }

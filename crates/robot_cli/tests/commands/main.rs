@@ -85,6 +85,9 @@ fn robot(name: &str) -> String {
     format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 
+/// A wrist that is singular where q2 is 0.
+const WRIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/fixtures/gimbals/wrist.toml");
+
 /// A pendulum in URDF.
 const URDF: &str = r#"<robot name="pendulum">
   <link name="base"/>

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::pages::blocks;
-use crate::{complaint, folder, output, robot, run};
+use crate::{WRIST, complaint, folder, output, robot, run};
 
 /// The columns of CSV by name.
 fn column(csv: &str, name: &str) -> Vec<f64> {
@@ -125,6 +125,24 @@ fn everything_that_is_wrong_is_said() {
     let trttr1 = robot("trttr1");
     let usage = run(&["simulate", &trttr1, "--friction", "--smoothing", "-1"]);
     assert_eq!(usage.code, 2);
+}
+
+#[test]
+fn a_motion_by_a_singular_posture_is_reported() {
+    let from =
+        |q0: &str| run(&["simulate", WRIST, "--time", "0.01", "--step", "0.005", "--q0", q0]);
+    let near = from("0.1,0.00001,0.2");
+    assert_eq!((near.code, near.errors.lines().count()), (0, 1), "{}", near.errors);
+    assert!(
+        near.errors.starts_with("warning: t = 0 s: the mass matrix is nearly singular"),
+        "{}",
+        near.errors
+    );
+    let there = from("0.1,0,0.2");
+    let reason = "error: the motion ends at t = 0 s: there are no accelerations: the mass matrix is singular";
+    assert!(there.code == 1 && there.errors.starts_with(reason), "{}", there.errors);
+    assert!(there.errors.contains("`roll`"), "{}", there.errors);
+    assert_eq!(from("0.1,0.5,0.2").errors, "");
 }
 
 /// Runs a command line as documents show it: robot files of the project, other files in `folder`.

@@ -64,7 +64,9 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
             "No branch: where a pivot is not above 0 and finite (a coordinate that moves no mass in that \
              posture, an inertia below 0), the accelerations that depend on it are NaN."
         }
-        Pivots::Positive => "No posture of this robot makes a pivot small, and none is checked.",
+        Pivots::Positive => {
+            "No posture of this robot was found in which a pivot is small, and none is checked."
+        }
     };
     vec![way.to_owned(), wrong.to_owned()]
 }
