@@ -30,13 +30,13 @@ pub(crate) fn robot(
     Ok(robot)
 }
 
-/// The programs of its functions.
+/// The programs of its functions, under options of the file's.
 pub(crate) fn programs(
     file: &RobotArgument,
     robot: Robot,
     functions: Vec<FunctionKind>,
-    terminal: &mut Terminal<'_>,
+    options: Options,
 ) -> Result<Programs, Failure> {
-    let options = Options { functions: Functions::Chosen(functions), ..file.options(terminal)? };
+    let options = Options { functions: Functions::Chosen(functions), ..options };
     Ok(programs_of(robot, &file.path().display().to_string(), &options)?)
 }

@@ -82,8 +82,8 @@ impl Arguments {
         let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
         let functions = RobotProgram::functions(friction);
-        let programs = motion::programs(&self.robot, robot, functions, terminal)?;
         let options = self.robot.options(terminal)?;
+        let programs = motion::programs(&self.robot, robot, functions, options.clone())?;
         let pivots = Pivots::new(&programs.robot, &options, &self.settings.pairs())?;
         let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?
             .with_pivots(pivots.clone());

@@ -80,7 +80,8 @@ impl Arguments {
         let trajectory = self.trajectory(&robot, terminal)?;
         let wrench = trajectory.wrenches.is_some();
         let functions = Shares::functions(friction, wrench);
-        let programs = motion::programs(&self.robot, robot, functions, terminal)?;
+        let options = self.robot.options(terminal)?;
+        let programs = motion::programs(&self.robot, robot, functions, options)?;
         let shares = shares(&programs, &self.settings.pairs(), &trajectory, friction)?;
         let figure = || shares_figure(&programs.robot, &shares);
         recording.write(&shares.table().csv(), figure, terminal)
