@@ -52,6 +52,16 @@ pub fn symbols(roots: &[Expr<'_>]) -> Vec<SymbolId> {
 /// The values of `roots` with the symbols at the values that `value` gives.
 #[must_use]
 pub fn evaluate(roots: &[Expr<'_>], value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
+    evaluate_by(roots, value, Function::apply)
+}
+
+/// As [`evaluate`], with the values of functions that `apply` gives.
+#[must_use]
+pub fn evaluate_by(
+    roots: &[Expr<'_>],
+    value: impl Fn(SymbolId) -> f64,
+    apply: impl Fn(Function, f64) -> f64,
+) -> Vec<f64> {
     let mut values: FxHashMap<_, f64> = FxHashMap::default();
     for expr in reachable(roots) {
         let at = |operand: Expr<'_>| values[&operand.id()];
@@ -64,7 +74,7 @@ pub fn evaluate(roots: &[Expr<'_>], value: impl Fn(SymbolId) -> f64) -> Vec<f64>
             View::Mul(a, b) => at(a) * at(b),
             View::Div(a, b) => at(a) / at(b),
             View::Neg(a) => -at(a),
-            View::Call(function, a) => function.apply(at(a)),
+            View::Call(function, a) => apply(function, at(a)),
         };
         values.insert(expr.id(), result);
     }

@@ -43,7 +43,7 @@ impl<'g> Derivation<'_, 'g> {
             });
             let same = (0..STATES).all(|state| {
                 let value = |symbol| value(&graph.symbol_name(symbol), state);
-                same(&walk::evaluate(&roots, value), &walk::evaluate(&settled, value))
+                same(&evaluate(&roots, value), &evaluate(&settled, value))
             });
             if same && !graph.is_full() {
                 let mut settled = settled.into_iter();
@@ -86,7 +86,7 @@ fn is_idle(roots: &[Expr<'_>], parameter: SymbolId) -> bool {
     };
     (0..STATES).all(|state| {
         let at = |factor: f64| {
-            walk::evaluate(roots, |symbol| {
+            evaluate(roots, |symbol| {
                 let value = value(&graph.symbol_name(symbol), state);
                 if symbol == parameter { value * factor } else { value }
             })
@@ -100,6 +100,14 @@ fn same(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| {
         let size = a.abs().max(b.abs());
         (a - b).abs() <= UNCHANGED * size || size <= ROUNDING * largest
+    })
+}
+
+/// Values at any parameters, also such as no body has: there a pivot below 0 is to show what it depends on.
+fn evaluate(roots: &[Expr<'_>], value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
+    walk::evaluate_by(roots, value, |function, argument| match function {
+        Elementary::RecipPositive => argument.recip(),
+        other => other.apply(argument),
     })
 }
 
@@ -123,7 +131,7 @@ fn slopes(roots: &[Expr<'_>], state: u64) -> BTreeMap<SymbolId, Slope> {
     let Some(graph) = nodes.first().map(|node| node.graph()) else {
         return BTreeMap::new();
     };
-    let values = walk::evaluate(&nodes, |symbol| value(&graph.symbol_name(symbol), state));
+    let values = evaluate(&nodes, |symbol| value(&graph.symbol_name(symbol), state));
     // All operands are among the nodes.
     let place_of = |expr: Expr<'_>| {
         nodes.binary_search_by_key(&expr.id(), |node| node.id()).unwrap_or_default()

@@ -88,7 +88,7 @@ mod tests {
                 Step::Tan(a) => format!("tan[{a}]"),
             })
         });
-        let expected = "[[- [[2 * [l1 ^ 3]] / sin[[pi - x]]]] + tan[y]]";
+        let expected = "[[[[- 2] * [l1 ^ 3]] / sin[[pi - x]]] + tan[y]]";
         assert_eq!(text.as_deref(), Some(expected));
         assert_eq!(formula.fold(|_| None::<()>), None);
     }
