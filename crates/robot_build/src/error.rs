@@ -67,17 +67,15 @@ pub enum Error {
     },
     /// Forward dynamics of a robot whose mass matrix is singular in every posture.
     #[error(
-        "{name}: `{function}` has no solution: {error}. As a rule the mass matrix is singular, for a joint \
-         moves nothing that has mass; `robot-symbolic check` names it. Give mass or inertia to what it \
-         moves, or `armature` to its drive"
+        "{name}: `{function}` contains a constant that is no finite number. As a rule the mass matrix is \
+         singular, for a joint moves nothing that has mass; `robot-symbolic check` names it. Give mass or \
+         inertia to what it moves, or `armature` to its drive"
     )]
     Singular {
         /// The robot file.
         name: String,
         /// The function.
         function: String,
-        /// What the code generator says.
-        error: robot_codegen::Error,
     },
     /// Functions of more expressions than code is made of.
     #[error(
@@ -188,12 +186,12 @@ impl Errors {
     /// What is wrong with code made of the file `name`.
     pub(crate) fn of_code(name: &str, errors: &robot_codegen::Errors) -> Errors {
         let solves = |function: &str| function.starts_with(FunctionKind::ForwardDynamics.name());
-        let errors = errors.as_slice().iter().cloned();
-        let errors = errors.map(|error| match &error {
+        let errors = errors.as_slice().iter();
+        let errors = errors.map(|error| match error {
             robot_codegen::Error::NotFinite { function, .. } if solves(function) => {
-                Error::Singular { name: name.to_owned(), function: function.clone(), error }
+                Error::Singular { name: name.to_owned(), function: function.clone() }
             }
-            _ => Error::Code { name: name.to_owned(), error },
+            _ => Error::Code { name: name.to_owned(), error: error.clone() },
         });
         Errors(errors.collect())
     }
