@@ -37,6 +37,7 @@ pub fn derivative(robot: &Robot, roots: &[Expr<'_>], state: &State, rate: &State
             View::Call(Function::Sin, a) => ComplexField::sin(at(a)),
             View::Call(Function::Cos, a) => ComplexField::cos(at(a)),
             View::Call(Function::Sqrt, a) => ComplexField::sqrt(at(a)),
+            View::Call(Function::RecipPositive, a) => ComplexField::recip(at(a)),
             View::Call(other, _) => panic!("{other:?} has no complex step here"),
         };
         values.insert(expr.id(), value);

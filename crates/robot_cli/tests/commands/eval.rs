@@ -179,7 +179,7 @@ fn a_robot_without_a_tip_takes_no_wrench() {
     let arguments =
         ["eval", path.to_str().unwrap(), "--function", "inverse_dynamics", "--states", "-"];
     let state = json!([{"q": zero, "qd": zero, "qdd": zero, "wrench": [0, 0, 0, 0, 0, 0]}]);
-    crate::run_with(&arguments, state.to_string().as_bytes());
+    run_with(&arguments, state.to_string().as_bytes());
     let state = json!([{"q": zero, "qd": zero, "qdd": zero, "wrench": [1, 0, 0, 0, 0, 0]}]);
     let shown = complaint(1, &arguments, &state.to_string());
     assert!(shown.contains("state 1: a wrench, but the robot has no tip"), "{shown}");
