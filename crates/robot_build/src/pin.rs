@@ -56,7 +56,8 @@ impl RobotFile {
     /// cannot be read. Where there is a pin, also everything that is wrong with the robot file.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
-        if options.plan.is_some() || !path.is_file() {
+        // A link that leads nowhere is there.
+        if options.plan.is_some() || std::fs::symlink_metadata(&path).is_err() {
             return Ok(options.clone());
         }
         let failed = |reason: String| {
@@ -72,13 +73,20 @@ impl RobotFile {
                 pin.operations
             )));
         }
+        if !pin.plan.fits(robot.links.len()) {
+            return Err(failed("the pinned plan is not one for this robot's links".to_owned()));
+        }
         Ok(Options { plan: Some(pin.plan), ..options.clone() })
     }
 }
 
 /// The pin in a file, or why there is none.
 fn read_pin(path: &Path) -> Result<Pin, String> {
-    let size = std::fs::metadata(path).map_err(|error| error.to_string())?.len();
+    let found = std::fs::metadata(path).map_err(|error| error.to_string())?;
+    if !found.is_file() {
+        return Err("a plan is read from a regular file, which this is not".to_owned());
+    }
+    let size = found.len();
     if size > MAX_BYTES {
         return Err(format!("the file has {size} bytes, which no pinned plan has"));
     }
@@ -135,6 +143,19 @@ mod tests {
         let empty = Plan { links: vec![], unit_length: None };
         let options_with_plan = Options { plan: Some(empty), ..options.clone() };
         assert!(crate::programs(&file.source, &options_with_plan).is_err());
+
+        // The mechanics of this robot, the links of another.
+        let longer = Found { plan: Plan { links: vec![], unit_length: None }, ..found.clone() };
+        std::fs::write(pin_path(&path), pin_text(&robot, &longer)).unwrap();
+        let error = file.with_pin(&options).unwrap_err().to_string();
+        assert!(error.contains("not one for this robot's links"), "{error}");
+        // A folder where the plan would lie is a plan that cannot be read.
+        std::fs::remove_file(pin_path(&path)).unwrap();
+        std::fs::create_dir(pin_path(&path)).unwrap();
+        let error = file.with_pin(&options).unwrap_err().to_string();
+        assert!(error.contains("a plan is read from a regular file"), "{error}");
+        std::fs::remove_dir(pin_path(&path)).unwrap();
+        std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
 
         // What people write beside the mechanics is no change of them.
         let remarked =

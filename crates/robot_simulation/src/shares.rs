@@ -103,6 +103,13 @@ pub fn shares(
     for (index, ((q, qd), qdd)) in motion.enumerate() {
         let sample = Sample { q, qd, qdd, wrenches: wrenches(&programs.robot, trajectory, index) };
         sample.add(&interpreter, &mut shares)?;
+        if shares.total.last().is_some_and(|total| total.iter().any(|torque| !torque.is_finite())) {
+            let t = trajectory.t.get(index).copied().unwrap_or_default();
+            return Err(Error::input(format!(
+                "at t = {t} s torques have no finite value; look at the size of the trajectory and of the \
+                 parameters"
+            )));
+        }
     }
     Ok(shares)
 }

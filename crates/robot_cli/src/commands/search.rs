@@ -46,6 +46,12 @@ impl Arguments {
         let path = pin_path(self.robot.path());
         let writer = self.force.writer([self.robot.path().to_owned()]);
         if !self.dry_run {
+            if path.exists() && !path.is_file() {
+                return Err(Failure::input(format!(
+                    "{}: a plan is pinned in a regular file, which this is not; move it away",
+                    path.display()
+                )));
+            }
             writer.check(&[(&path, Ownership::Marked)])?;
         }
         let robot = self.robot.read(terminal)?.robot;

@@ -129,3 +129,23 @@ fn a_search_sets_the_time_of_the_robot_file_and_leaves_its_text() {
     assert!(is_new());
     assert_eq!(std::fs::read_to_string(&arm).unwrap(), ARM);
 }
+
+/// What lies where the plan would lie and cannot be one is told, and never waited for.
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_no_plan() {
+    let arm = pinned("plans_no_file");
+    let plan = Path::new(&arm).with_extension("plan");
+    std::fs::remove_file(&plan).unwrap();
+    let made = std::process::Command::new("mkfifo").arg(&plan).status().unwrap();
+    assert!(made.success());
+    let shown = complaint(1, &["search", &arm], "");
+    assert!(shown.contains("a plan is pinned in a regular file"), "{shown}");
+    let shown = complaint(1, &["generate", &arm], "");
+    assert!(shown.contains("a plan is read from a regular file"), "{shown}");
+    let shown = run(&["stats", &arm]);
+    assert!(shown.code == 0 && shown.errors.contains("warning: "), "{}", shown.errors);
+    std::fs::remove_file(&plan).unwrap();
+    std::os::unix::fs::symlink(&plan, &plan).unwrap();
+    assert!(complaint(1, &["generate", &arm], "").contains("arm.plan"));
+}

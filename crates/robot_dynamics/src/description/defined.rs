@@ -96,6 +96,13 @@ impl Reader<'_> {
         reason
     }
 
+    /// Whether the expression is 0 at the nominal values of the parameters, or as near to it as rounding can
+    /// tell.
+    pub(super) fn vanishes(&self, formula: &Formula) -> bool {
+        let value = formula.fold(|step| self.rounded(&step).ok()).flatten();
+        value.is_some_and(Rounded::is_zero)
+    }
+
     fn rounded(&self, step: &Step<'_, Option<Rounded>>) -> Result<Option<Rounded>, &'static str> {
         let both = |a: Option<Rounded>, b: Option<Rounded>| a.zip(b);
         let pi = Rounded::new(std::f64::consts::PI, 0.0);

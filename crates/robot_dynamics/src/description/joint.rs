@@ -182,7 +182,7 @@ fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
             return array::from_fn(|_| Reader::unknown());
         }
     };
-    if vector.iter().all(|component| reader.known(component) == Some(0.0)) {
+    if vector.iter().all(|component| reader.vanishes(component)) {
         reader.report(
             Diagnostic::error(code::ZERO_AXIS, "the joint axis is zero")
                 .at(&value.span(), "this vector has no direction")
