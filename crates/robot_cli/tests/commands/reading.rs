@@ -223,7 +223,7 @@ fn a_motion_with_a_kink_is_refused() {
 
 #[test]
 fn torques_without_a_finite_value_are_an_error() {
-    let file = crate::robot("planar_2r");
+    let file = robot("planar_2r");
     let arguments = ["torques", &file, "--expressions", "q1=1e300*t;q2=0", "--time", "1"];
     let shown = complaint(1, &arguments, "");
     assert!(shown.contains("torques have no finite value"), "{shown}");
