@@ -209,7 +209,8 @@ impl FunctionKind {
         }
     }
 
-    /// Whether the function solves with the mass matrix, which must not be singular.
+    /// Whether the function solves with the mass matrix, which must not be singular. It is then free to choose
+    /// the accelerations of its bias.
     #[must_use]
     pub const fn divides_by_mass_matrix(self) -> bool {
         matches!(

@@ -23,7 +23,7 @@ pub fn search_plan(
     let scope = Scope {
         motions: kinds.iter().any(|kind| kind.uses_motions()),
         composites: kinds.iter().any(|kind| kind.uses_composites()),
-        free: kinds.iter().any(|kind| kind.chooses_accelerations()),
+        free: kinds.iter().any(|kind| kind.divides_by_mass_matrix()),
     };
     let small_pivots = OnceCell::new();
     search::search_for(robot, options, scope, &|mechanism, recursion| {
@@ -84,18 +84,6 @@ impl FunctionKind {
                 | FunctionKind::Energies
                 | FunctionKind::CoriolisMatrix
                 | FunctionKind::InverseDynamicsDerivatives
-        ) || self.chooses_accelerations()
-    }
-
-    /// Whether the function is free to choose the accelerations of its bias.
-    fn chooses_accelerations(self) -> bool {
-        matches!(
-            self,
-            FunctionKind::ForwardDynamics
-                | FunctionKind::ForwardDynamicsWrench
-                | FunctionKind::ForwardDynamicsFriction
-                | FunctionKind::ForwardDynamicsWrenchFriction
-                | FunctionKind::ForwardDynamicsDerivatives
-        )
+        ) || self.divides_by_mass_matrix()
     }
 }
