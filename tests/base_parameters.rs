@@ -6,15 +6,14 @@ mod common;
 use common::place::{Layout, Off};
 use common::{evaluate, magnitude, read, robot_files, with_free_axes};
 use nalgebra::DMatrix;
-use robot_dynamics::base_parameters::{BaseParameters, base_parameters, out_of_reach};
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::base_parameters::{BaseParameters, base_parameters};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::{BaseFrames, Robot};
-use robot_dynamics::numeric::{
-    self,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::functions::FunctionKind;
+use robot_model::functions::out_of_reach;
+use robot_model::robot::{BaseFrames, Robot};
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Graph, Number, Rational};
 
 const STATES: usize = 6;
@@ -31,7 +30,7 @@ fn output<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'
 }
 
 /// States of all speeds, those of rest among them.
-fn states(random: &mut Random, solver: &numeric::Mechanism, count: usize) -> Vec<State> {
+fn states(random: &mut Random, solver: &robot_numeric::Mechanism, count: usize) -> Vec<State> {
     let slow = |(index, mut state): (usize, State)| {
         let factor = [1.0, 1.0, 0.1, 0.01, 0.0][index % 5];
         state.qd.iter_mut().for_each(|speed| *speed *= factor);
@@ -93,7 +92,7 @@ fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
     assert_eq!(values.len(), count);
 
     let mut random = Random::new(seed);
-    let solver = numeric::Mechanism::nominal(&robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
     let many = states(&mut random, &solver, 3 * count / robot.degrees_of_freedom() + 12);
     assert_eq!(rank(&robot, &full, &many, &label), count, "{label}: the number");
 
@@ -101,7 +100,7 @@ fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
         let (full, kept) = (evaluate(&robot, &full, &state), evaluate(&robot, &kept, &state));
         check_columns(&robot, &found, &state, [&full, &kept], &label);
         let values = evaluate(&robot, &values, &state);
-        let loads = numeric::Loads { wrenches: vec![], friction: true };
+        let loads = robot_numeric::Loads { wrenches: vec![], friction: true };
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
         let expected = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         let size = magnitude(&expected).max(1e-3);
@@ -159,7 +158,7 @@ fn base_parameters_of_every_robot_file() {
 fn base_parameters_of_random_chains() {
     for seed in 0..50 {
         let recipe = Recipe::serial(1 + seed as usize % 7);
-        check(&random::robot(&mut Random::new(seed), &recipe), seed, "chain");
+        check(&robots::robot(&mut Random::new(seed), &recipe), seed, "chain");
     }
 }
 
@@ -168,7 +167,7 @@ fn base_parameters_of_random_trees_with_drives() {
     for seed in 1000..1050 {
         let joints = 1 + seed as usize % 8;
         let recipe = Recipe { drives: true, fixed: true, ..Recipe::tree(joints) };
-        check(&random::robot(&mut Random::new(seed), &recipe), seed, "tree");
+        check(&robots::robot(&mut Random::new(seed), &recipe), seed, "tree");
     }
 }
 
@@ -177,7 +176,7 @@ fn base_parameters_where_joints_share_coordinates() {
     for seed in 2000..2020 {
         let joints = 2 + seed as usize % 6;
         let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(joints) };
-        check(&random::robot(&mut Random::new(seed), &recipe), seed, "shared");
+        check(&robots::robot(&mut Random::new(seed), &recipe), seed, "shared");
     }
 }
 

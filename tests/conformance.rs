@@ -7,10 +7,10 @@ mod common;
 use common::largest_difference;
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
-use robot_dynamics::description::{self, read_toml, read_urdf};
-use robot_dynamics::diagnostic::{Diagnostics, Severity};
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::Mechanism;
+use robot_model::description::{self, read_toml, read_urdf};
+use robot_model::diagnostic::{Diagnostics, Severity};
+use robot_model::robot::Robot;
+use robot_numeric::Mechanism;
 use toml::{Table, Value};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance");

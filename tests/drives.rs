@@ -10,10 +10,10 @@ use robot_dynamics::economical::{
     plan::{LinkPlan, Turn},
 };
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::{Body, Inertia, Joint, JointKind, Link, Placement, Robot};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_dynamics::numeric::random::{Random, Recipe};
-use robot_dynamics::random;
+use robot_model::robot::{Body, Inertia, Joint, JointKind, Link, Placement, Robot};
+use robot_numeric::random::{Random, Recipe};
+use robot_numeric::robots;
 use robot_symbolic::polynomial::expands_to_zero;
 use robot_symbolic::{Expr, Formula, Graph};
 
@@ -67,7 +67,7 @@ fn with_rotors_as_links(robot: &Robot) -> Robot {
                 ..link.joint.clone()
             },
             bodies: vec![rotor(&link, inertia.text(), Placement::default())],
-            drive: robot_dynamics::model::Drive::none(),
+            drive: robot_model::robot::Drive::none(),
             ..link.clone()
         });
         let taken = format!("-({})", inertia.text());
@@ -133,7 +133,7 @@ fn branched_robots_with_joints_that_follow_agree_with_lagrange() {
     let mut checked = 0;
     for seed in 0..60 {
         let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(3) };
-        let mut robot = random::robot(&mut Random::new(seed), &recipe);
+        let mut robot = robots::robot(&mut Random::new(seed), &recipe);
         // Exact sines of any angles expand to long sums: right angles alone, and no friction.
         for link in &mut robot.links {
             link.placement = Placement::default();

@@ -9,14 +9,13 @@ use common::plans::random_plan;
 use common::solver::{expected, state};
 use common::{evaluate, magnitude, robot_files, with_free_axes};
 use robot_dynamics::economical::{Plan, Recursion};
-use robot_dynamics::functions::{self, Derivation, FrameRef, FunctionKind, Output, search_plan};
+use robot_dynamics::functions::{Derivation, Output, search_plan};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{
-    self,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::functions;
+use robot_model::functions::{FrameRef, FunctionKind};
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
 use robot_symbolic::differentiate::{forward, reverse};
 use robot_symbolic::{Expr, Graph, operations};
 
@@ -58,7 +57,7 @@ fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'
 /// The worst error of each function, relative to its largest value over the states.
 fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64; KINDS.len()]) {
     let mut random = Random::new(seed);
-    let solver = numeric::Mechanism::nominal(robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
     let states: Vec<State> = (0..STATES).map(|_| state(&mut random, &solver, robot)).collect();
     let graph = Graph::new();
     let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
@@ -111,7 +110,7 @@ fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
 /// The Jacobians of the links of a robot, and those that the kind alone gives where there are no frames,
 /// against the solver.
 fn check_links(mut robot: Robot, name: &str) {
-    let solver = numeric::Mechanism::nominal(&robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
     let mut random = Random::new(5);
     let states: Vec<State> = (0..3).map(|_| state(&mut random, &solver, &robot)).collect();
     let links = (0..robot.links.len()).map(FrameRef::Link);
@@ -146,7 +145,7 @@ fn jacobians_of_links_agree_with_the_numeric_solver() {
     }
     for seed in 0..12 {
         let recipe = Recipe { mimic: seed % 3 == 0, ..Recipe::tree(2 + seed as usize % 7) };
-        let robot = random::robot(&mut Random::new(seed), &recipe);
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
         check_links(robot, &format!("tree {seed}"));
     }
     // Without the economical recursion.
@@ -156,7 +155,7 @@ fn jacobians_of_links_agree_with_the_numeric_solver() {
 #[test]
 fn every_name_of_a_function_gives_the_function_of_that_name() {
     for seed in 0..8 {
-        let robot = random::robot(&mut Random::new(seed), &Recipe::tree(5));
+        let robot = robots::robot(&mut Random::new(seed), &Recipe::tree(5));
         let graph = Graph::new();
         let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
         let names = functions::names(&robot);
@@ -177,7 +176,7 @@ fn functions_of_random_chains_agree_with_the_numeric_solver() {
     let mut worst = [0.0; KINDS.len()];
     for seed in 0..64 {
         let recipe = Recipe::serial(1 + seed as usize % 8);
-        let robot = random::robot(&mut Random::new(seed), &recipe);
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
         check(&robot, seed, "chain", &mut worst);
     }
     report("chains", worst);
@@ -189,7 +188,7 @@ fn functions_of_random_trees_agree_with_the_numeric_solver() {
     for seed in 1000..1040 {
         let joints = 2 + seed as usize % 9;
         let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
-        let robot = random::robot(&mut Random::new(seed), &recipe);
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
         check(&robot, seed, "tree", &mut worst);
     }
     report("trees", worst);
@@ -200,8 +199,8 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
     let mut worst = [0.0; KINDS.len()];
     for seed in 2000..2012 {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
-        let robot = random::robot(&mut Random::new(seed), &recipe);
-        check(&random::parametrised(&robot), seed, "parameters", &mut worst);
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        check(&robots::parametrised(&robot), seed, "parameters", &mut worst);
     }
     report("parameters", worst);
 }
@@ -213,8 +212,8 @@ fn three_ways_to_the_derivatives_agree_with_the_numeric_solver() {
     for seed in 4000..4024 {
         let recipe = Recipe { mimic: true, ..Recipe::tree(1 + seed as usize % 7) };
         let mut random = Random::new(seed);
-        let robot = random::robot(&mut random, &recipe);
-        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let robot = robots::robot(&mut random, &recipe);
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
         let graph = Graph::new();
         let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::ROUNDED);
         let recursion = Recursion::new(&mechanism, &random_plan(&mut random, &robot)).unwrap();

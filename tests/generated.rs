@@ -15,12 +15,9 @@ use nalgebra::DVector;
 use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
 use robot_codegen::backend::rust::{self, RustOptions, Scalar};
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{
-    self,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
 
 const TOLERANCE: f64 = 1e-12;
 const FUNCTIONS: [FunctionKind; 5] = [
@@ -36,7 +33,7 @@ struct Case {
     name: String,
     programs: Programs,
     states: Vec<State>,
-    solver: numeric::Mechanism,
+    solver: robot_numeric::Mechanism,
 }
 
 impl Case {
@@ -45,7 +42,7 @@ impl Case {
     }
 
     fn of(kinds: &[FunctionKind], name: &str, robot: Robot, seed: u64, states: usize) -> Case {
-        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
         let mut random = Random::new(seed);
         let states = (0..states).map(|_| state(&mut random, &solver, &robot)).collect();
         let kinds = kinds.iter().copied().filter(|kind| kind.missing_in(&robot).is_none());
@@ -129,8 +126,8 @@ fn the_programs_of_two_hundred_random_robots() {
             mimic: seed % 8 == 3,
             ..Recipe::serial(1 + seed as usize % 8)
         };
-        let robot = random::robot(&mut Random::new(seed), &recipe);
-        let robot = if seed % 5 == 0 { random::parametrised(&robot) } else { robot };
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        let robot = if seed % 5 == 0 { robots::parametrised(&robot) } else { robot };
         worst = worst.max(Case::new("random robot", robot, seed, 50).interpret());
     }
     println!("200 random robots × 50 states: worst error {worst:.1e}");
@@ -150,7 +147,7 @@ fn the_programs_of_long_chains() {
         FunctionKind::Regressor,
     ];
     for joints in [12, 16, 24, 32, 48] {
-        let robot = random::robot(&mut Random::new(joints), &Recipe::serial(joints as usize));
+        let robot = robots::robot(&mut Random::new(joints), &Recipe::serial(joints as usize));
         for kind in kinds {
             let worst = Case::of(&[kind], "long chain", robot.clone(), joints, 3).interpret();
             println!("{joints} joints, {}: worst error {worst:.1e}", kind.name());
@@ -164,8 +161,8 @@ fn the_compiled_code_of_every_robot_file_and_of_twenty_random_robots() {
     let files = files.map(|(name, text)| Case::new(&name, common::read(&name, &text), 11, 50));
     let random_cases = (500..520).map(|seed| {
         let recipe = Recipe { drives: seed % 2 == 0, ..Recipe::tree(1 + seed as usize % 8) };
-        let robot = random::robot(&mut Random::new(seed), &recipe);
-        let robot = if seed % 3 == 0 { random::parametrised(&robot) } else { robot };
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        let robot = if seed % 3 == 0 { robots::parametrised(&robot) } else { robot };
         Case::new("compiled robot", robot, seed, 50)
     });
     let cases: Vec<Case> = files.chain(random_cases).collect();

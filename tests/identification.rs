@@ -12,7 +12,7 @@ mod study;
 mod trajectory;
 
 use nalgebra::DVector;
-use robot_dynamics::numeric::random::Random;
+use robot_numeric::random::Random;
 
 use study::{NOISE, PARAMETERS};
 use trajectory::{JOINTS, Trajectory};

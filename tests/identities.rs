@@ -22,14 +22,12 @@ use common::complex_step::derivative;
 use common::place::{Layout, Off};
 use common::{evaluate, magnitude, robot_files, with_free_axes};
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3};
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{
-    self,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::functions::FunctionKind;
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph};
 
 const STATES: usize = 3;
@@ -93,7 +91,7 @@ impl<'g> Subject<'_, 'g> {
         for entries in [&mut rate.q, &mut rate.qd, &mut rate.qdd, &mut rate.tau] {
             entries.fill(0.0);
         }
-        rate.wrenches.fill(numeric::Wrench::zero());
+        rate.wrenches.fill(robot_numeric::Wrench::zero());
         set(&mut rate);
         rate
     }
@@ -290,7 +288,7 @@ fn check(robot: &Robot, seed: u64, name: &str) {
         (kind, outputs.map(|output| output.values).collect())
     });
     let outputs = outputs.collect();
-    let solver = numeric::Mechanism::nominal(robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
     let mut random = Random::new(seed);
     for _ in 0..STATES {
         let state = random.state(&solver);
@@ -310,7 +308,7 @@ fn identities_of_every_robot_file() {
 fn identities_of_random_chains() {
     for seed in 0..24 {
         let recipe = Recipe::serial(1 + seed as usize % 8);
-        check(&random::robot(&mut Random::new(seed), &recipe), seed, "chain");
+        check(&robots::robot(&mut Random::new(seed), &recipe), seed, "chain");
     }
 }
 
@@ -319,15 +317,15 @@ fn identities_of_random_trees() {
     for seed in 1000..1024 {
         let joints = 2 + seed as usize % 9;
         let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
-        check(&random::robot(&mut Random::new(seed), &recipe), seed, "tree");
+        check(&robots::robot(&mut Random::new(seed), &recipe), seed, "tree");
     }
 }
 
 #[test]
 fn identities_of_robots_with_parameters_and_with_free_axes() {
     for seed in 2000..2006 {
-        let robot = random::robot(&mut Random::new(seed), &Recipe::tree(1 + seed as usize % 5));
-        check(&random::parametrised(&robot), seed, "parameters");
+        let robot = robots::robot(&mut Random::new(seed), &Recipe::tree(1 + seed as usize % 5));
+        check(&robots::parametrised(&robot), seed, "parameters");
     }
     for seed in 3000..3004 {
         check(&with_free_axes(seed), seed, "free axes");

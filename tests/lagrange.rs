@@ -7,10 +7,10 @@ mod common;
 use common::energy::{Motion, energies};
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::Robot;
 use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_dynamics::numeric::random::{Random, Recipe};
-use robot_dynamics::random;
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe};
+use robot_numeric::robots;
 use robot_symbolic::Graph;
 use robot_symbolic::polynomial::expands_to_zero;
 
@@ -54,7 +54,7 @@ fn random_robots_of_up_to_three_joints() {
     // Three joints about skew axes take seconds: their expansions have 10⁵ terms.
     let robots = [(0, 1), (1, 2), (2, 3), (3, 1), (4, 2), (6, 1), (7, 2), (10, 2), (13, 2)];
     for (seed, joints) in robots {
-        let robot = random::robot(&mut Random::new(seed), &Recipe::serial(joints));
+        let robot = robots::robot(&mut Random::new(seed), &Recipe::serial(joints));
         check(&robot, &format!("seed {seed}, {joints} joints"));
     }
 }
@@ -63,7 +63,7 @@ fn random_robots_of_up_to_three_joints() {
 fn random_parametrised_robots() {
     for seed in 100..106 {
         let joints = 1 + seed as usize % 2;
-        let robot = random::robot(&mut Random::new(seed), &Recipe::serial(joints));
-        check(&random::parametrised(&robot), &format!("seed {seed}, {joints} joints"));
+        let robot = robots::robot(&mut Random::new(seed), &Recipe::serial(joints));
+        check(&robots::parametrised(&robot), &format!("seed {seed}, {joints} joints"));
     }
 }

@@ -14,12 +14,9 @@ use robot_dynamics::economical::{
 };
 use robot_dynamics::matrix::Pivots;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::{Move, Robot};
-use robot_dynamics::numeric::{
-    self,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::robot::{Move, Robot};
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph};
 
 const STATES: usize = 8;
@@ -152,7 +149,7 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
 /// What the numeric solver says, and what of a recursion is held against it.
 struct Bench<'m, 'g> {
     robot: &'m Robot,
-    solver: numeric::Mechanism,
+    solver: robot_numeric::Mechanism,
     states: Vec<State>,
     mechanism: &'m Mechanism<'g>,
     tau: Vec<Expr<'g>>,
@@ -206,7 +203,7 @@ impl<'g> Bench<'_, 'g> {
 /// The worst error of all options on and off.
 fn check(robot: &Robot, seed: u64, name: &str, effects: &mut Effects) -> f64 {
     let mut random = Random::new(seed);
-    let solver = numeric::Mechanism::nominal(robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
     let states = (0..STATES).map(|_| random.state(&solver)).collect();
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::ROUNDED);
@@ -269,7 +266,7 @@ fn options_on_robot_files() {
 fn options_on_random_chains() {
     let robots = (0..64).map(|seed| {
         let recipe = Recipe::serial(1 + seed as usize % 8);
-        ("chain".to_owned(), seed, random::robot(&mut Random::new(seed), &recipe))
+        ("chain".to_owned(), seed, robots::robot(&mut Random::new(seed), &recipe))
     });
     // Random axes are not parallel.
     check_all("chains", robots, &["angle sum"]);
@@ -291,7 +288,7 @@ fn with_parallel_axes(mut robot: Robot) -> Robot {
 fn options_on_random_chains_with_parallel_axes() {
     let robots = (5000..5032).map(|seed| {
         let recipe = Recipe::serial(2 + seed as usize % 6);
-        let robot = random::robot(&mut Random::new(seed), &recipe);
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
         ("parallel axes".to_owned(), seed, with_parallel_axes(robot))
     });
     check_all("chains with parallel axes", robots, &[]);
@@ -302,7 +299,7 @@ fn options_on_random_trees() {
     let robots = (1000..1040).map(|seed| {
         let joints = 2 + seed as usize % 9;
         let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
-        ("tree".to_owned(), seed, random::robot(&mut Random::new(seed), &recipe))
+        ("tree".to_owned(), seed, robots::robot(&mut Random::new(seed), &recipe))
     });
     check_all("trees", robots, &[]);
 }
@@ -329,7 +326,7 @@ fn arm(centre: f64, lever: f64, axis: &str) -> Robot {
 
 /// Whether an option of one link changes anything; the torques are right in any case.
 fn in_effect(robot: &Robot, link: usize, off: &LinkPlan, on: &LinkPlan) -> bool {
-    let solver = numeric::Mechanism::nominal(robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
     let states = (0..STATES).map(|seed| Random::new(seed as u64).state(&solver)).collect();
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::ROUNDED);

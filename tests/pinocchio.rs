@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use common::{largest_difference, magnitude};
 use robot_build::{Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
-use robot_dynamics::functions::FunctionKind;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::LINK_PARAMETERS;
+use robot_model::functions::FunctionKind;
+use robot_model::robot::LINK_PARAMETERS;
+use robot_model::robot::Robot;
 use serde_json::Value;
 
 const ARMS: [&str; 6] = ["ur5", "panda", "iiwa", "puma560", "stanford", "scara"];

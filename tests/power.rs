@@ -6,18 +6,16 @@ mod common;
 use common::energy::{Motion, energies};
 use common::{evaluate, robot_files};
 use nalgebra::DVector;
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{
-    self,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::functions::FunctionKind;
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
 use robot_symbolic::Graph;
 
 /// The power that the tips give to their surroundings, by the numeric solver's Jacobians.
-fn tip_power(robot: &Robot, solver: &numeric::Mechanism, state: &State) -> f64 {
+fn tip_power(robot: &Robot, solver: &robot_numeric::Mechanism, state: &State) -> f64 {
     let poses = solver.forward_kinematics(&state.q).unwrap();
     let tips = robot.frames.iter().enumerate().filter(|(_, frame)| frame.wrench.is_some());
     tips.map(|(index, _)| {
@@ -42,7 +40,7 @@ fn check(robot: &Robot, name: &str, seed: u64) {
     let motion = Motion::new(&derivation.mechanism);
     let (kinetic, potential) = energies(&derivation.mechanism, &motion);
     let gain = motion.rate(&[kinetic + potential]);
-    let solver = numeric::Mechanism::nominal(robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
     let mut random = Random::new(seed);
     for _ in 0..20 {
         let state = random.state(&solver);
@@ -67,6 +65,6 @@ fn of_every_robot_file() {
 fn of_random_robots() {
     for seed in 0..40 {
         let recipe = Recipe::tree(1 + seed as usize % 8);
-        check(&random::robot(&mut Random::new(seed), &recipe), "random robot", seed);
+        check(&robots::robot(&mut Random::new(seed), &recipe), "random robot", seed);
     }
 }

@@ -8,11 +8,12 @@ use common::place::{Layout, Off};
 use common::{evaluate, magnitude, robot_files};
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::Robot;
 use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_dynamics::numeric::{self, Loads, random::Recipe};
 use robot_dynamics::quantity::Kind;
-use robot_dynamics::random;
+use robot_model::robot::Robot;
+use robot_numeric::random::Recipe;
+use robot_numeric::robots;
+use robot_numeric::{self, Loads};
 use robot_symbolic::{Expr, Graph};
 
 const STATES: usize = 50;
@@ -20,25 +21,25 @@ const TOLERANCE: f64 = 1e-12;
 
 /// What the numeric solver says about a state.
 struct Reference {
-    state: numeric::random::State,
+    state: robot_numeric::random::State,
     torques: Vec<f64>,
     torques_with_loads: Vec<f64>,
     link_wrenches: Vec<f64>,
 }
 
-fn references(robot: &Robot, random: &mut numeric::random::Random) -> Vec<Reference> {
-    let solver = numeric::Mechanism::nominal(robot).unwrap();
+fn references(robot: &Robot, random: &mut robot_numeric::random::Random) -> Vec<Reference> {
+    let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
     let reference = |_| {
         let mut state = random.state(&solver);
         for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
             if frame.wrench.is_none() {
-                *wrench = numeric::Wrench::zero();
+                *wrench = robot_numeric::Wrench::zero();
             }
         }
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
         let loads = Loads { wrenches: state.wrenches.clone(), friction: true };
         let links = solver.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
-        let torsor = |link: &numeric::LinkDynamics| {
+        let torsor = |link: &robot_numeric::LinkDynamics| {
             [link.contact_force, link.contact_moment].map(|vector| [vector.x, vector.y, vector.z])
         };
         Reference {
@@ -56,7 +57,7 @@ fn references(robot: &Robot, random: &mut numeric::random::Random) -> Vec<Refere
 }
 
 fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
-    let mut random = numeric::random::Random::new(seed);
+    let mut random = robot_numeric::random::Random::new(seed);
     let references = references(robot, &mut random);
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::ROUNDED);
@@ -103,8 +104,8 @@ fn random_serial_robots_agree_with_the_numeric_solver() {
     let mut worst = 0.0_f64;
     for seed in 0..64 {
         let joints = 1 + seed as usize % 8;
-        let mut random = numeric::random::Random::new(seed);
-        let robot = random::robot(&mut random, &Recipe::serial(joints));
+        let mut random = robot_numeric::random::Random::new(seed);
+        let robot = robots::robot(&mut random, &Recipe::serial(joints));
         worst = worst.max(check(&robot, seed, "serial robot"));
     }
     println!("64 serial robots: worst error {worst:.1e} of the largest torque");
@@ -115,9 +116,9 @@ fn random_trees_agree_with_the_numeric_solver() {
     let mut worst = 0.0_f64;
     for seed in 1000..1040 {
         let joints = 2 + seed as usize % 11;
-        let mut random = numeric::random::Random::new(seed);
+        let mut random = robot_numeric::random::Random::new(seed);
         let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
-        let robot = random::robot(&mut random, &recipe);
+        let robot = robots::robot(&mut random, &recipe);
         worst = worst.max(check(&robot, seed, "tree"));
     }
     println!("40 trees: worst error {worst:.1e} of the largest torque");

@@ -6,14 +6,13 @@ mod common;
 use common::place::{Layout, Off};
 use common::{evaluate, magnitude, robot_files, with_free_axes};
 use robot_build::{BaseFrames, Functions, Options, programs_of};
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{
-    self, LINK_PARAMETERS,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::functions::FunctionKind;
+use robot_model::robot::LINK_PARAMETERS;
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Graph, Rational, operations};
 
 const STATES: usize = 8;
@@ -36,7 +35,7 @@ fn parameters(robot: &Robot, state: &State) -> Vec<f64> {
     for link in &mut locked.links {
         link.drive.gyroscopic = false;
     }
-    let links = numeric::Mechanism::nominal(&locked).unwrap().parameters();
+    let links = robot_numeric::Mechanism::nominal(&locked).unwrap().parameters();
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &OPTIONS);
     let drives = mechanism.links.iter().flat_map(|link| {
@@ -63,7 +62,7 @@ fn check(robot: &Robot, seed: u64, name: &str) {
         link.friction.coulomb = Formula::number(&Rational::ZERO);
     }
     let mut random = Random::new(seed);
-    let solver = numeric::Mechanism::nominal(&robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
     let graph = Graph::new();
     let roots = regressor(&Derivation::new(&robot, &graph, &OPTIONS, None));
     for _ in 0..STATES {
@@ -85,7 +84,7 @@ fn check(robot: &Robot, seed: u64, name: &str) {
 
         let product = |row: &[f64]| row.iter().zip(&parameters).map(|(y, p)| y * p).sum::<f64>();
         let torques: Vec<f64> = rows.map(product).collect();
-        let loads = numeric::Loads { wrenches: vec![], friction: true };
+        let loads = robot_numeric::Loads { wrenches: vec![], friction: true };
         let expected = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         let size = magnitude(&expected).max(1e-3);
         let layout = Layout::per_joint(&robot, "Y π");
@@ -105,7 +104,7 @@ fn regressors_of_every_robot_file() {
 fn regressors_of_random_chains() {
     for seed in 0..32 {
         let recipe = Recipe::serial(1 + seed as usize % 8);
-        check(&random::robot(&mut Random::new(seed), &recipe), seed, "chain");
+        check(&robots::robot(&mut Random::new(seed), &recipe), seed, "chain");
     }
 }
 
@@ -115,7 +114,7 @@ fn regressors_of_random_trees_with_drives() {
     for seed in 1000..1040 {
         let joints = 2 + seed as usize % 9;
         let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
-        let robot = random::robot(&mut Random::new(seed), &recipe);
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
         gyroscopic += robot.links.iter().filter(|link| link.drive.gyroscopic).count();
         check(&robot, seed, "tree");
     }
@@ -126,8 +125,8 @@ fn regressors_of_random_trees_with_drives() {
 fn regressors_of_robots_with_parameters() {
     for seed in 2000..2012 {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
-        let robot = random::robot(&mut Random::new(seed), &recipe);
-        check(&random::parametrised(&robot), seed, "parameters");
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        check(&robots::parametrised(&robot), seed, "parameters");
     }
 }
 

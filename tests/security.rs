@@ -10,9 +10,9 @@ use std::time::Instant;
 use robot_build::{FunctionKind, Functions, Options, Source, generate};
 use robot_document::base::base;
 use robot_document::{EquationOptions, Form, equations};
-use robot_dynamics::description::{MAX_BYTES, read_toml};
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
+use robot_model::description::{MAX_BYTES, read_toml};
 use robot_symbolic::print::latex::Trigonometry;
 
 fn source(text: String) -> Source {

@@ -9,7 +9,6 @@ use robot_build::{FunctionKind, Functions, Options, Source, programs, snapping};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
-use robot_dynamics::numeric;
 
 const TOLERANCE: f64 = 1e-12;
 const STATES: usize = 20;
@@ -92,8 +91,8 @@ fn any_tolerance_gives_accurate_torques() {
     let written = source(WRITTEN);
     for (snap, taken, count) in TAKEN {
         let robot = robot_build::read(&source(taken)).unwrap().robot;
-        let solver = numeric::Mechanism::nominal(&robot).unwrap();
-        let mut random = numeric::random::Random::new(5);
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+        let mut random = robot_numeric::random::Random::new(5);
         let states: Vec<_> = (0..STATES).map(|_| random.state(&solver)).collect();
         let expected: Vec<Vec<f64>> = states
             .iter()

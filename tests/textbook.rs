@@ -6,8 +6,9 @@ mod common;
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::LinkPlan;
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
+use robot_model::functions::FunctionKind;
 use robot_symbolic::polynomial::equal;
 use robot_symbolic::{Expr, Formula, Graph};
 

@@ -10,13 +10,11 @@ use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::{Robot, Wrench};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_dynamics::numeric::{
-    self, Loads,
-    random::{Random, Recipe, State},
-};
-use robot_dynamics::random;
+use robot_model::robot::{Robot, Wrench};
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
+use robot_numeric::{self, Loads};
 use robot_symbolic::Graph;
 
 const STATES: usize = 6;
@@ -30,7 +28,7 @@ fn tree(seed: u64) -> Robot {
         fixed: seed.is_multiple_of(5),
         ..Recipe::tree(2 + seed as usize % 11)
     };
-    let mut robot = random::robot(&mut Random::new(seed), &recipe);
+    let mut robot = robots::robot(&mut Random::new(seed), &recipe);
     let sensor = &mut robot.frames[1];
     sensor.link = sensor.link.or(Some(0));
     let named = |letter: &str| ["x", "y", "z"].map(|axis| format!("{letter}{axis}_sensor"));
@@ -58,7 +56,7 @@ fn interpreted(robot: &Robot, states: &[State]) -> Vec<Vec<f64>> {
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
     let run = |state: &State| {
         let wrench = |index: usize| {
-            let numeric::Wrench { force, moment } = &state.wrenches[index];
+            let robot_numeric::Wrench { force, moment } = &state.wrenches[index];
             [force.as_slice(), moment.as_slice()].concat()
         };
         let (tip, sensor) = (wrench(0), wrench(1));
@@ -76,7 +74,7 @@ fn interpreted(robot: &Robot, states: &[State]) -> Vec<Vec<f64>> {
 
 fn check(seed: u64) -> f64 {
     let robot = tree(seed);
-    let solver = numeric::Mechanism::nominal(&robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
     let mut random = Random::new(seed);
     let states: Vec<State> = (0..STATES).map(|_| random.state(&solver)).collect();
     let expected: Vec<Vec<f64>> = states

@@ -4,10 +4,10 @@ use std::error::Error;
 use std::fmt::Write as _;
 
 use robot_dynamics::base_parameters::{BaseParameter, base_parameters};
-use robot_dynamics::description::read_toml;
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::numeric::random::Random;
+use robot_model::description::read_toml;
+use robot_numeric::random::Random;
 use robot_symbolic::Graph;
 
 use crate::study::{self, Estimate, Measurements, NOISE, PARAMETERS};

@@ -1,7 +1,7 @@
 //! Measure, estimate, predict: the base parameters of the PUMA 560 from its torques.
 
 use nalgebra::{DMatrix, DVector};
-use robot_dynamics::numeric::random::Random;
+use robot_numeric::random::Random;
 
 use crate::trajectory::{JOINTS, Joints, Trajectory};
 

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use robot_dynamics::numeric::random::Random;
+use robot_numeric::random::Random;
 
 /// The number of joints.
 pub(crate) const JOINTS: usize = 6;

@@ -1,9 +1,9 @@
 //! What the targets share: how far an accepted robot is followed, and what must hold of it there.
 
 use robot_codegen::backend::rust::{self, RustOptions};
-use robot_dynamics::description::{Described, Options, import, read_toml};
-use robot_dynamics::diagnostic::Diagnostics;
-use robot_dynamics::doctor::{Examination, examine};
+use robot_model::description::{Described, Options, import, read_toml};
+use robot_model::diagnostic::Diagnostics;
+use robot_check::doctor::{Examination, examine};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
 use robot_symbolic::print::latex::{LatexStyle, Trigonometry, to_latex_limited};

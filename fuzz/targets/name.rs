@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use robot_codegen::backend::rust;
-use robot_dynamics::description::{read_toml, read_urdf};
+use robot_model::description::{read_toml, read_urdf};
 use robot_symbolic::print::latex::{check_name, symbol_latex};
 
 fuzz_target!(|text: &str| {

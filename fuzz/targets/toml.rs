@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use robot_dynamics::description::{decode, read_toml};
+use robot_model::description::{decode, read_toml};
 
 fuzz_target!(|data: &[u8]| {
     let Ok(text) = decode("robot.toml", data.to_vec()) else { return };

@@ -2,7 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use robot_dynamics::description::{decode, read_urdf};
+use robot_model::description::{decode, read_urdf};
 
 fuzz_target!(|data: &[u8]| {
     let Ok(text) = decode("robot.urdf", data.to_vec()) else { return };

@@ -4,8 +4,8 @@
 use std::collections::HashMap;
 
 use nalgebra::{Complex, ComplexField};
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::random::State;
+use robot_model::robot::Robot;
+use robot_numeric::random::State;
 use robot_symbolic::{Expr, Function, View, walk};
 
 use super::value_of;

@@ -9,13 +9,10 @@ pub mod solver;
 
 use std::path::Path;
 
-use robot_dynamics::description::read_toml;
-use robot_dynamics::model::{Parameter, Robot};
-use robot_dynamics::numeric::{
-    self,
-    random::{Random, Recipe},
-};
-use robot_dynamics::random;
+use robot_model::description::read_toml;
+use robot_model::robot::{Parameter, Robot};
+use robot_numeric::random::{Random, Recipe};
+use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Rational, walk};
 
 /// The robot files of the project, by name.
@@ -55,7 +52,7 @@ pub fn read(name: &str, text: &str) -> Robot {
 /// A random tree whose joint axes depend on parameters: no working frames can be chosen for it.
 pub fn with_free_axes(seed: u64) -> Robot {
     let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(1 + seed as usize % 4) };
-    let mut robot = random::robot(&mut Random::new(seed), &recipe);
+    let mut robot = robots::robot(&mut Random::new(seed), &recipe);
     for (number, link) in (1..).zip(&mut robot.links) {
         let name = format!("lean{number}");
         link.joint.axis[1] = Formula::symbol(&name);
@@ -71,7 +68,11 @@ pub fn nominal(robot: &Robot, name: &str) -> f64 {
 }
 
 /// Values of expressions at a state; a wrench per tip, parameters at their nominal values.
-pub fn evaluate(robot: &Robot, roots: &[Expr<'_>], state: &numeric::random::State) -> Vec<f64> {
+pub fn evaluate(
+    robot: &Robot,
+    roots: &[Expr<'_>],
+    state: &robot_numeric::random::State,
+) -> Vec<f64> {
     let graph = roots[0].graph();
     walk::evaluate(roots, |symbol| {
         let name = graph.symbol_name(symbol);
@@ -80,7 +81,7 @@ pub fn evaluate(robot: &Robot, roots: &[Expr<'_>], state: &numeric::random::Stat
 }
 
 /// The value of a symbol at a state.
-pub fn value_of(robot: &Robot, name: &str, state: &numeric::random::State) -> Option<f64> {
+pub fn value_of(robot: &Robot, name: &str, state: &robot_numeric::random::State) -> Option<f64> {
     let coordinate = |prefix: &str, values: &[f64]| {
         let number: usize = name.strip_prefix(prefix)?.parse().ok()?;
         values.get(number - 1).copied()

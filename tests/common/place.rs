@@ -3,7 +3,7 @@
 use std::fmt;
 
 use robot_dynamics::functions::Output;
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 /// What values are: arrays one after another, each with a name and the lengths of its dimensions, row by row.
 pub struct Layout<'r> {

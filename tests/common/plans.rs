@@ -4,8 +4,8 @@ use robot_dynamics::economical::{
     Plan,
     plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
 };
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::random::Random;
+use robot_model::robot::Robot;
+use robot_numeric::random::Random;
 
 /// A plan with every option drawn at random.
 pub fn random_plan(random: &mut Random, robot: &Robot) -> Plan {

@@ -1,19 +1,18 @@
 //! What the numeric solver says about functions, and the states and inputs to ask for.
 
 use nalgebra::{DMatrix, Vector3};
-use robot_dynamics::functions::{FrameRef, FunctionKind};
-use robot_dynamics::model::{Friction, Robot};
-use robot_dynamics::numeric::{
-    self, LINK_PARAMETERS, Loads, Mechanism,
-    random::{Random, State},
-};
+use robot_model::functions::{FrameRef, FunctionKind};
+use robot_model::robot::LINK_PARAMETERS;
+use robot_model::robot::{Friction, Robot};
+use robot_numeric::random::{Random, State};
+use robot_numeric::{self, Loads, Mechanism};
 
 /// A random state with wrenches on the tips only.
 pub fn state(random: &mut Random, solver: &Mechanism, robot: &Robot) -> State {
     let mut state = random.state(solver);
     for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
         if frame.wrench.is_none() {
-            *wrench = numeric::Wrench::zero();
+            *wrench = robot_numeric::Wrench::zero();
         }
     }
     state
@@ -45,7 +44,7 @@ pub fn inputs(
 /// columns of the links.
 pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
     let State { q, qd, qdd, tau, wrenches } = state;
-    let torques = |wrenches: &[numeric::Wrench], friction| {
+    let torques = |wrenches: &[robot_numeric::Wrench], friction| {
         let loads = Loads { wrenches: wrenches.to_vec(), friction };
         solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
     };
@@ -122,7 +121,7 @@ fn with_friction(
     robot: &Robot,
     solver: &Mechanism,
     state: &State,
-    wrenches: &[numeric::Wrench],
+    wrenches: &[robot_numeric::Wrench],
 ) -> Vec<f64> {
     let State { q, qd, tau, .. } = state;
     let none = Friction::none();
@@ -140,7 +139,7 @@ fn with_friction(
 }
 
 /// Rotations row by row, then origins.
-fn poses(poses: &[numeric::Pose]) -> Vec<f64> {
+fn poses(poses: &[robot_numeric::Pose]) -> Vec<f64> {
     let rotations = poses.iter().flat_map(|pose| pose.rotation.transpose().as_slice().to_vec());
     let origins = poses.iter().flat_map(|pose| pose.translation.as_slice().to_vec());
     rotations.chain(origins).collect()

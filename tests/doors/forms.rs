@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use robot_build::{Functions, Options, Source, Trigonometry, generate, programs};
 use robot_codegen::Interpreter;
-use robot_dynamics::functions::FunctionKind;
-use robot_dynamics::numeric::random::Random;
+use robot_model::functions::FunctionKind;
+use robot_numeric::random::Random;
 
 use crate::package::{Package, dependency};
 

@@ -12,11 +12,9 @@ use robot_codegen::module::Function;
 use robot_dynamics::base_parameters::{BaseParameter, base_parameters};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{
-    self, LINK_PARAMETERS,
-    random::{Random, State},
-};
+use robot_model::robot::LINK_PARAMETERS;
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, State};
 use robot_symbolic::Graph;
 
 use crate::common::solver::{expected, inputs, state};
@@ -103,7 +101,7 @@ impl Case {
         });
         let kinds = kinds.collect();
         assert!(functions.next().is_none());
-        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
         let mut random = Random::new(17);
         let states = (0..STATES).map(|_| {
             let mut state = state(&mut random, &solver, &robot);
@@ -188,7 +186,7 @@ impl Case {
 
     /// Holds the printed lines of this robot.
     fn hold<'l>(&self, lines: &mut impl Iterator<Item = &'l str>, worst: &mut Worst) {
-        let solver = numeric::Mechanism::nominal(&self.robot).unwrap();
+        let solver = robot_numeric::Mechanism::nominal(&self.robot).unwrap();
         for (kind, functions) in &self.kinds {
             let name = format!("{}, {}", self.robot.name, kind.name());
             let mut found: Vec<Vec<f64>> = vec![vec![]; STATES];

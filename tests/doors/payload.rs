@@ -9,9 +9,10 @@ use robot_build::{
 };
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::pin::Pin;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{self, Joint, Link, Pose, random::Random};
-use robot_dynamics::random::parametrised;
+use robot_model::robot::Robot;
+use robot_numeric::random::Random;
+use robot_numeric::robots::parametrised;
+use robot_numeric::{self, Joint, Link, Pose};
 
 use crate::package::{Package, dependency};
 
@@ -39,18 +40,18 @@ fn source(name: &str, parent: Option<&str>) -> Source {
 }
 
 /// The solver with the body as a fixed link.
-fn solver(robot: &Robot, carrier: usize, placement: Pose) -> numeric::Mechanism {
+fn solver(robot: &Robot, carrier: usize, placement: Pose) -> robot_numeric::Mechanism {
     let [xx, yy, zz, xy, xz, yz] = INERTIA;
     let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    let alone = numeric::Mechanism::nominal(robot).unwrap();
+    let alone = robot_numeric::Mechanism::nominal(robot).unwrap();
     let mut links = alone.links().to_vec();
     let body = Link::new(Some(carrier), placement, Joint::fixed(), MASS, CENTER.into(), inertia);
     links.push(body);
-    numeric::Mechanism::new(*alone.gravity(), links, alone.frames().to_vec()).unwrap()
+    robot_numeric::Mechanism::new(*alone.gravity(), links, alone.frames().to_vec()).unwrap()
 }
 
 /// States and the torques at them.
-fn expected(solver: &numeric::Mechanism) -> Vec<([Vec<f64>; 3], Vec<f64>)> {
+fn expected(solver: &robot_numeric::Mechanism) -> Vec<([Vec<f64>; 3], Vec<f64>)> {
     let mut random = Random::new(17);
     let state = |_| {
         let n = solver.coordinates();
@@ -93,7 +94,7 @@ fn every_plan_carries_a_payload() {
         for plan in [None, Some(pin.plan)] {
             let programs = programs(&source, &Options { plan, ..options() }).unwrap();
             let robot = &programs.robot;
-            let alone = numeric::Mechanism::nominal(robot).unwrap();
+            let alone = robot_numeric::Mechanism::nominal(robot).unwrap();
             let frame = robot.frames.iter().position(|frame| Some(frame.name.as_str()) == parent);
             let link = robot.links.iter().position(|link| Some(link.name.as_str()) == parent);
             let (carrier, placement) = match frame {

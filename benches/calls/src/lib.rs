@@ -1,7 +1,7 @@
 //! Every function of every robot, called: for the benchmark (`cargo bench`) and for the comparison with
 //! other programs (`benches/peers/run`).
 
-use robot_dynamics::numeric::random;
+use robot_numeric::random;
 
 mod standard {
     include!(concat!(env!("OUT_DIR"), "/standard/robots.rs"));

@@ -4,8 +4,9 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::fs;
 
-use robot_dynamics::description;
-use robot_dynamics::numeric::{JointKind, Mechanism, Pose, random::Random};
+use robot_model::description;
+use robot_numeric::{JointKind, Mechanism, Pose};
+use robot_numeric::random::Random;
 
 
 const STATES: usize = calls::STATES;

@@ -2,10 +2,10 @@
 //! out.
 
 use robot_codegen::{FunctionCounts, Resubstitution};
-use robot_dynamics::description::Described;
-use robot_dynamics::diagnostic::Source;
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
+use robot_model::description::Described;
+use robot_model::diagnostic::Source;
 
 use crate::error::Errors;
 use crate::generate::counts;

@@ -10,9 +10,9 @@ use std::fmt;
 use robot_codegen::backend::rust::Scalar;
 use robot_codegen::module::Function;
 use robot_codegen::stack;
-use robot_dynamics::description::{Budget, Limit};
-use robot_dynamics::diagnostic::{Diagnostic, Diagnostics, Source, code};
-use robot_dynamics::functions::FunctionKind;
+use robot_model::description::{Budget, Limit};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code};
+use robot_model::functions::FunctionKind;
 
 use crate::error::{Error, Errors};
 use crate::options::Options;

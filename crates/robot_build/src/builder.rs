@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::Scalar;
 use robot_dynamics::economical::Plan;
-use robot_dynamics::functions::Bundle;
-use robot_dynamics::model::BaseFrames;
+use robot_model::functions::Bundle;
+use robot_model::robot::BaseFrames;
 
 use crate::cargo::{self, Directives};
 use crate::error::{Error, Errors};

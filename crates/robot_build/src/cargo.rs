@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use robot_dynamics::diagnostic::Diagnostics;
+use robot_model::diagnostic::Diagnostics;
 
 use crate::error::{Error, Errors};
 

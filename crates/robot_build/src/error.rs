@@ -3,9 +3,9 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use robot_dynamics::diagnostic::{Diagnostics, quote};
-use robot_dynamics::functions::WrongName;
-use robot_dynamics::mechanism::WrongSnap;
+use robot_model::diagnostic::{Diagnostics, quote};
+use robot_model::functions::WrongName;
+use robot_model::snap::InvalidSnap;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -40,7 +40,7 @@ pub enum Error {
     NoFunctions,
     /// A tolerance that is no angle.
     #[error(transparent)]
-    Snap(#[from] WrongSnap),
+    Snap(#[from] InvalidSnap),
     /// A number of states that is no size of a block.
     #[error(
         "a batch in blocks of {states} states is not possible; choose 1 to {most}, 8 is a good number"

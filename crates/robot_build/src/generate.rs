@@ -4,9 +4,9 @@ use robot_codegen::backend::rust::{
     self, ConstantItem, ConstantValue, Parallel, RustOptions, Setter, SetterArgument, Wrapping,
 };
 use robot_codegen::{FunctionCounts, Module};
-use robot_dynamics::diagnostic::{Diagnostics, Source};
 use robot_dynamics::mechanism::Snap;
-use robot_dynamics::model::{Payload, Robot};
+use robot_model::diagnostic::{Diagnostics, Source};
+use robot_model::robot::{Payload, Robot};
 use sha2::{Digest, Sha256};
 
 use crate::budget;

@@ -58,10 +58,10 @@ pub use problems::Problem;
 pub use programs::{Programs, planned, programs, programs_of, read, read_with};
 pub use robot_codegen::Trigonometry;
 pub use robot_codegen::backend::rust::{Scalar, identifier};
-pub use robot_dynamics::diagnostic::Source;
 pub use robot_dynamics::economical::Plan;
-pub use robot_dynamics::functions::{
+pub use robot_model::diagnostic::Source;
+pub use robot_model::functions::{
     self, ALL_FUNCTIONS, Bundle, FrameRef, FunctionKind, Functions, WrongName,
 };
-pub use robot_dynamics::model::{BaseFrames, Robot};
+pub use robot_model::robot::{BaseFrames, Robot};
 pub use snapping::{Snapping, snapping};

@@ -2,11 +2,13 @@
 
 use robot_codegen::backend::rust::{RustOptions, Scalar};
 use robot_codegen::{Cost, Fused, Trigonometry};
-use robot_dynamics::description::{self, Code, MAX_BUNDLES, check_bundle_name};
 use robot_dynamics::economical::Plan;
-use robot_dynamics::functions::{self, ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::{BaseFrames, Robot};
+use robot_model::description::{self, Code, MAX_BUNDLES, check_bundle_name};
+use robot_model::functions;
+use robot_model::functions::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
+use robot_model::robot::{BaseFrames, Robot};
+use robot_model::snap;
 
 use crate::error::{Error, Errors};
 
@@ -176,7 +178,7 @@ impl Options {
     /// What is wrong with the options, whatever the robot.
     pub(crate) fn check(&self) -> Result<(), Errors> {
         let mut errors = self.wrong_bundles();
-        let snap = self.snap.map(MechanismOptions::check_snap);
+        let snap = self.snap.map(snap::check);
         errors.extend(snap.and_then(Result::err).map(Error::Snap));
         if let Some(states) = self.batch.filter(|states| !(1..=MAX_BATCH).contains(states)) {
             errors.push(Error::Batch { states, most: MAX_BATCH });

@@ -5,7 +5,7 @@ mod readme;
 
 use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::{self, Wrapping};
-use robot_dynamics::diagnostic::Source;
+use robot_model::diagnostic::Source;
 
 use crate::budget;
 use crate::check::{CheckValue, check_value};

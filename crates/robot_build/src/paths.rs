@@ -3,8 +3,8 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use robot_dynamics::description::{self, MAX_BYTES};
-use robot_dynamics::diagnostic::{Source, quote};
+use robot_model::description::{self, MAX_BYTES};
+use robot_model::diagnostic::{Source, quote};
 
 use crate::error::{Error, Errors};
 

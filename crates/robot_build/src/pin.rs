@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use robot_dynamics::economical::mechanics;
 use robot_dynamics::economical::pin::Pin;
 use robot_dynamics::economical::search::Found;
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Errors};

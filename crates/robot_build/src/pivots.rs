@@ -4,7 +4,7 @@ use std::fmt;
 
 use robot_codegen::{Interpreter, Module, Rounded, Trigonometry};
 use robot_dynamics::functions::Derivation;
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
 use crate::error::{Error, Errors};

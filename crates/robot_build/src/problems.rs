@@ -1,6 +1,6 @@
 //! What is wrong, thing by thing, for tools that show the first line of a message: Cargo, rustc, editors.
 
-use robot_dynamics::diagnostic::{Diagnostic, Diagnostics, Severity, Style, render};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, render};
 
 use crate::error::{Error, Errors};
 

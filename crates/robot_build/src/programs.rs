@@ -1,13 +1,14 @@
 //! From the text of a robot file to straight-line programs.
 
 use robot_codegen::Module;
-use robot_dynamics::description::{self, Budget, Described};
-use robot_dynamics::diagnostic::{Diagnostics, Source};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::search::{Measure, search};
-use robot_dynamics::functions::{Bundle, Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::Snap;
-use robot_dynamics::model::Robot;
+use robot_model::description::{self, Budget, Described};
+use robot_model::diagnostic::{Diagnostics, Source};
+use robot_model::functions::{Bundle, FunctionKind};
+use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
 use crate::error::{Error, Errors};

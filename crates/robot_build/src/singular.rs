@@ -1,9 +1,9 @@
 //! What is said where code cannot be made as the mass matrix is singular in every posture.
 
 use robot_codegen::Error as CodeError;
-use robot_dynamics::functions::{Bundle, FunctionKind};
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::undetermined;
+use robot_dynamics::functions::undetermined;
+use robot_model::functions::{Bundle, FunctionKind};
+use robot_model::robot::Robot;
 
 use crate::error::{Error, Errors};
 

@@ -1,9 +1,9 @@
 //! What taking angles near multiples of π/2 for them changes, and what it saves.
 
 use robot_dynamics::economical::Plan;
-use robot_dynamics::functions::{FunctionKind, Functions};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions, Snap};
-use robot_dynamics::model::Robot;
+use robot_model::functions::{FunctionKind, Functions};
+use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
 use crate::error::Errors;

@@ -2,8 +2,9 @@
 
 use robot_codegen::backend::rust::markdown;
 use robot_codegen::spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
-use robot_dynamics::functions::{Bundle, Derivation, Function, FunctionKind, Input, Output};
-use robot_dynamics::model::{Parameter, Robot};
+use robot_dynamics::functions::{Derivation, Function, Input, Output};
+use robot_model::functions::{Bundle, FunctionKind};
+use robot_model::robot::{Parameter, Robot};
 
 use crate::conventions::CONVENTIONS;
 

@@ -4,7 +4,7 @@
 
 use robot_build::{Functions, Options, Source, budget, generate, package, programs};
 use robot_codegen::stack;
-use robot_dynamics::functions::FunctionKind;
+use robot_model::functions::FunctionKind;
 
 const ROBOT: &str = include_str!("../../../robots/planar_2r.toml");
 

@@ -4,9 +4,9 @@
 
 use robot_build::{FunctionKind, Functions, Options, Pivots, Programs, Source};
 use robot_codegen::{Interpreter, counts::Counts, program::Operation};
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::Mechanism;
-use robot_dynamics::random::{self, Random, Recipe};
+use robot_model::robot::Robot;
+use robot_numeric::Mechanism;
+use robot_numeric::robots::{self, Random, Recipe};
 use robot_symbolic::Function;
 use serde_json::Value;
 
@@ -191,7 +191,7 @@ fn arms_decompose_their_mass_matrix() {
 fn with_massless_links(seed: u64) -> Robot {
     let mut random = Random::new(seed);
     let recipe = Recipe::tree(3 + random.index(5));
-    let mut robot = random::robot(&mut random, &recipe);
+    let mut robot = robots::robot(&mut random, &recipe);
     for index in 0..robot.links.len() {
         let carries = robot.links.iter().any(|other| other.parent == Some(index));
         if carries && random.index(2) == 0 {

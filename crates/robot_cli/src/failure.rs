@@ -3,7 +3,7 @@
 use std::io;
 
 use robot_build::{Error, Errors};
-use robot_dynamics::diagnostic::Style;
+use robot_model::diagnostic::Style;
 
 use crate::Terminal;
 

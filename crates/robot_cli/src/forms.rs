@@ -2,8 +2,8 @@
 
 use clap::{Args, ValueEnum};
 use robot_document::{Error, Form};
-use robot_dynamics::model::Robot;
 use robot_dynamics::quantity::Kind;
+use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
 use robot_symbolic::print::latex::Trigonometry;
 

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use robot_build::FunctionKind;
-use robot_dynamics::model::{Friction, Robot};
+use robot_model::robot::{Friction, Robot};
 use robot_symbolic::Formula;
 
 use crate::failure::Failure;

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 
 use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use robot_build::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions, functions::named};
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 use crate::failure::Failure;
 

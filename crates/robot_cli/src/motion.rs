@@ -1,7 +1,7 @@
 //! What commands about motions make of a robot file.
 
 use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;

@@ -2,7 +2,7 @@
 
 use clap::Args;
 use robot_build::{Errors, Options, Source, read_with};
-use robot_dynamics::description::Described;
+use robot_model::description::Described;
 use robot_symbolic::Rational;
 
 use crate::Terminal;
@@ -56,14 +56,14 @@ impl ReadingArguments {
             Some(((*name).to_owned(), Rational::from_decimal(&value.to_string())?))
         };
         let values = values.iter().filter_map(exact).collect();
-        let options = robot_dynamics::description::Options { values, ..self.options().reading() };
-        let found = robot_dynamics::description::read_with(&source.name, &source.text, &options);
+        let options = robot_model::description::Options { values, ..self.options().reading() };
+        let found = robot_model::description::read_with(&source.name, &source.text, &options);
         let set = found.map_err(|found| Failure::Robot(Errors::from(found)))?;
-        let is_new = |one: &&robot_dynamics::diagnostic::Diagnostic| {
+        let is_new = |one: &&robot_model::diagnostic::Diagnostic| {
             described.warnings.iter().all(|known| known != *one)
         };
         let new = set.warnings.iter().filter(is_new).cloned().collect();
-        let new = robot_dynamics::diagnostic::Diagnostics::new(source.clone(), new);
+        let new = robot_model::diagnostic::Diagnostics::new(source.clone(), new);
         text::warnings(&new, terminal)
     }
 }

@@ -1,5 +1,6 @@
 //! The robot file of a command, and how code is made of it.
 
+use robot_model::snap;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -8,9 +9,8 @@ use robot_build::{
     BaseFrames, Bundle, DEFAULT_BATCH, Functions, Options, RobotFile, Scalar, Source, Trigonometry,
     robot_inputs,
 };
-use robot_dynamics::description::Described;
-use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
+use robot_model::description::Described;
+use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -38,8 +38,8 @@ pub(crate) struct RobotArgument {
 
 /// A snapping tolerance.
 fn snap(text: &str) -> Result<f64, String> {
-    let angle = text.parse().ok().and_then(|angle| MechanismOptions::check_snap(angle).ok());
-    let most = MechanismOptions::MAX_SNAP;
+    let angle = text.parse().ok().and_then(|angle| snap::check(angle).ok());
+    let most = snap::MAX;
     angle.ok_or_else(|| format!("it is an angle in radians between 0 and {most}"))
 }
 

@@ -1,8 +1,8 @@
 //! Parameters that a command sets.
 
 use clap::Args;
-use robot_dynamics::description::Described;
-use robot_dynamics::model::Robot;
+use robot_model::description::Described;
+use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;

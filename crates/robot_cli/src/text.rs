@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use robot_build::Snapping;
-use robot_dynamics::diagnostic::{Diagnostics, Style, quote};
 use robot_dynamics::mechanism::Snap;
+use robot_model::diagnostic::{Diagnostics, Style, quote};
 use robot_symbolic::nearest_word;
 
 use crate::Terminal;

@@ -1,11 +1,11 @@
 //! The base parameters of a robot: what of its inertias and drives the driving forces tell.
 
-use robot_dynamics::base_parameters::{
-    BaseParameter, BaseParameters, Quantity, base_parameters, out_of_reach,
-};
+use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, base_parameters};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
+use robot_model::functions::out_of_reach;
+use robot_model::robot::Robot;
+use robot_model::snap;
 use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
@@ -75,7 +75,7 @@ pub struct Written {
 /// A robot whose base parameters are out of reach; formulas that are too long to be of use; symbols
 /// that would look alike.
 pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
-    snap.map(MechanismOptions::check_snap).transpose()?;
+    snap.map(snap::check).transpose()?;
     let graph = Graph::limited(MAX_NODES);
     let set = written(robot, snap, &graph);
     if graph.is_full() {

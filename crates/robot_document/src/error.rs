@@ -1,6 +1,6 @@
 //! Why equations cannot be printed.
 
-use robot_dynamics::mechanism::WrongSnap;
+use robot_model::snap::InvalidSnap;
 use robot_symbolic::print::TooLarge;
 
 use crate::latex::ReadError;
@@ -40,7 +40,7 @@ pub enum Error {
     },
     /// A tolerance that is no angle.
     #[error(transparent)]
-    Snap(#[from] WrongSnap),
+    Snap(#[from] InvalidSnap),
     /// Base parameters that cannot be found or written out.
     #[error("the base parameters are not to be had: {reason}")]
     Base {

@@ -1,6 +1,6 @@
 //! How the symbols of a robot look, and formulas made of expressions.
 
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use robot_symbolic::print::latex::{
     LatexStyle, LatexTerm, Trigonometry, polynomial_terms, to_latex,
 };

@@ -4,7 +4,7 @@
 //! form defines, then coordinates, velocities and accelerations; each by number. Terms are in the
 //! order of their factors, higher powers of the first one first.
 
-use robot_dynamics::model::{Parameter, Robot};
+use robot_model::robot::{Parameter, Robot};
 use robot_symbolic::print::default_rank;
 use robot_symbolic::{Expr, View};
 use rustc_hash::FxHashMap;

@@ -1,6 +1,6 @@
 //! What is said of a robot in tables and lists, in the same words everywhere.
 
-use robot_dynamics::model::{Axis, JointKind, Move, Placement, Robot};
+use robot_model::robot::{Axis, JointKind, Move, Placement, Robot};
 use robot_symbolic::Formula;
 
 /// The name of the link that carries something, by its index; `base` where no link does.

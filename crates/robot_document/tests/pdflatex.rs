@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use robot_document::latex::{Page, document};
 use robot_document::{EquationOptions, Form, robot};
-use robot_dynamics::description::read_toml;
+use robot_model::description::read_toml;
 
 /// Runs pdflatex once; its log, or `None` where there is no such program.
 fn log(folder: &Path, name: &str, latex: &str) -> Option<String> {

@@ -11,12 +11,13 @@ use robot_document::latex::{self, Layout};
 use robot_document::math::Math;
 use robot_document::meaning::meaning;
 use robot_document::{EquationOptions, Equations, Form, base::base, equations};
-use robot_dynamics::description::read_toml;
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::{BaseFrames, Robot};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
 use robot_dynamics::quantity::Kind;
+use robot_model::description::read_toml;
+use robot_model::functions::FunctionKind;
+use robot_model::robot::{BaseFrames, Robot};
 use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 

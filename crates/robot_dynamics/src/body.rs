@@ -6,8 +6,8 @@
 use robot_symbolic::{Expr, Graph};
 
 use crate::mechanism::MechanismLink;
-use crate::numeric::LINK_PARAMETERS;
 use crate::vector::{Matrix, Vector};
+use robot_model::robot::LINK_PARAMETERS;
 
 /// The place of the first moment's x component among the parameters.
 pub(crate) const FIRST_MOMENT: usize = 1;

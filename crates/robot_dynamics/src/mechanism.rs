@@ -3,9 +3,10 @@
 mod direction;
 mod lower;
 
+use robot_model::robot::{JointKind, Robot};
+use robot_model::snap;
 use robot_symbolic::{Expr, Graph};
 
-use crate::model::{JointKind, Robot};
 use crate::vector::{Matrix, Vector};
 
 /// How a robot's values become expressions.
@@ -21,42 +22,17 @@ pub struct MechanismOptions {
 }
 
 impl MechanismOptions {
-    /// The default snapping tolerance, rad.
-    pub const SNAP: f64 = 1e-9;
-    /// The largest snapping tolerance, rad.
-    pub const MAX_SNAP: f64 = 0.1;
     /// For print: exact constants.
-    pub const EXACT: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: false };
+    pub const EXACT: MechanismOptions = MechanismOptions { snap: snap::DEFAULT, rounded: false };
     /// For code: irrational constants as floating-point numbers.
-    pub const ROUNDED: MechanismOptions = MechanismOptions { snap: Self::SNAP, rounded: true };
+    pub const ROUNDED: MechanismOptions = MechanismOptions { snap: snap::DEFAULT, rounded: true };
 
-    /// The tolerance, where it is one.
-    ///
-    /// # Errors
-    ///
-    /// An angle below 0 or above [`Self::MAX_SNAP`], and what is no number.
-    pub fn check_snap(snap: f64) -> Result<f64, WrongSnap> {
-        if (0.0..=Self::MAX_SNAP).contains(&snap) {
-            Ok(snap)
-        } else {
-            Err(WrongSnap(snap.to_string()))
-        }
-    }
-
-    /// The same with a tolerance: the one given, else the robot file's, else [`Self::SNAP`].
+    /// The same with a tolerance: the one given, else the robot file's, else [`snap::DEFAULT`].
     #[must_use]
     pub fn with_snap(self, given: Option<f64>, robot: &Robot) -> MechanismOptions {
-        MechanismOptions { snap: given.or(robot.snap).unwrap_or(Self::SNAP), ..self }
+        MechanismOptions { snap: given.or(robot.snap).unwrap_or(snap::DEFAULT), ..self }
     }
 }
-
-/// A snapping tolerance that is none, as text.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the snapping tolerance {0} is no angle in radians between 0 and {most}",
-    most = MechanismOptions::MAX_SNAP
-)]
-pub struct WrongSnap(String);
 
 /// A robot in symbols.
 ///
@@ -128,7 +104,7 @@ pub struct MechanismLink<'g> {
     pub rotor_coupling: Expr<'g>,
 }
 
-/// Friction in symbols; see [`crate::model::Friction`].
+/// Friction in symbols; see [`robot_model::robot::Friction`].
 #[derive(Clone, Debug)]
 pub struct MechanismFriction<'g> {
     /// b of equation (4).

@@ -11,10 +11,10 @@
 use robot_symbolic::Expr;
 
 use crate::mechanism::{Mechanism, MechanismFriction, MechanismLink};
-use crate::model::JointKind;
 use crate::quantity::{Kind, Quantity, Symbol};
-use crate::unit::Dimension;
 use crate::vector::{Matrix, Vector};
+use robot_model::robot::JointKind;
+use robot_model::unit::Dimension;
 
 /// Which effects the iterations take in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use robot_symbolic::Expr;
 
-use crate::unit::Dimension;
+use robot_model::unit::Dimension;
 
 /// A scalar quantity of a robot's dynamics, or one component of a vector.
 #[derive(Clone, Debug)]

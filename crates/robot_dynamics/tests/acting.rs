@@ -4,13 +4,14 @@
 
 use std::path::Path;
 
-use robot_dynamics::description::read_toml;
-use robot_dynamics::functions::{Derivation, Function, FunctionKind};
+use robot_dynamics::functions::{Derivation, Function};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::Mechanism;
-use robot_dynamics::numeric::random::{Random, Recipe, State};
-use robot_dynamics::random::{parametrised, robot};
+use robot_model::description::read_toml;
+use robot_model::functions::FunctionKind;
+use robot_model::robot::Robot;
+use robot_numeric::Mechanism;
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots::{parametrised, robot};
 use robot_symbolic::{Expr, Graph, Rational, walk};
 
 fn robot_file(name: &str) -> Robot {

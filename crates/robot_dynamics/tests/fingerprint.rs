@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
-use robot_dynamics::description::read_toml;
 use robot_dynamics::economical::mechanics;
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
+use robot_model::description::read_toml;
+use robot_model::robot::Robot;
 
 const ARM: &str = r#"format = 1
 [robot]

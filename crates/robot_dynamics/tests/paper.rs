@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Matrix3, Vector3};
-use robot_dynamics::numeric::random::Random;
+use robot_numeric::random::Random;
 use robot_symbolic::Graph;
 
 /// What one side of an equation may be off by, where values are about 1.

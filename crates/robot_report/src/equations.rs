@@ -4,7 +4,7 @@
 use robot_document::breaking::terms;
 use robot_document::math::Math;
 use robot_document::{Equation, EquationOptions, Equations, Form, Group, equations};
-use robot_dynamics::model::{Robot, Wrench};
+use robot_model::robot::{Robot, Wrench};
 
 use crate::formula::{self, math};
 use crate::html::{Element, Node, element, holding};

@@ -1,7 +1,7 @@
 //! Why there is no page.
 
 use robot_build::Errors;
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 /// The most coordinates of a robot on a page: its matrices and forms are no longer for reading beyond, and
 /// what is counted takes the derivation of its code a dozen times.

@@ -2,9 +2,9 @@
 
 use robot_build::Programs;
 use robot_codegen::Interpreter;
-use robot_dynamics::numeric::Mechanism;
-use robot_dynamics::numeric::random::Random;
 use robot_evidence::{Evidence, Module};
+use robot_numeric::Mechanism;
+use robot_numeric::random::Random;
 
 use crate::html::{Element, Node, element, holding};
 use crate::table::Table;
@@ -127,7 +127,7 @@ fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
     for _ in 0..STATES {
         let state = random.state(&mechanism);
         let [q, qd, qdd, tau] = [&state.q, &state.qd, &state.qdd, &state.tau].map(Vec::as_slice);
-        let failed = |error: robot_dynamics::numeric::NumericError| error.to_string();
+        let failed = |error: robot_numeric::NumericError| error.to_string();
         let torques = mechanism.inverse_dynamics(q, qd, qdd).map_err(failed)?;
         let masses = mechanism.mass_matrix(q).map_err(failed)?;
         let rates = mechanism.forward_dynamics(q, qd, tau, &[]).map_err(failed)?;

@@ -3,7 +3,7 @@
 use robot_document::Notation;
 use robot_document::math::Math;
 use robot_document::mathml::{self, Content, Markup};
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{Formula, Graph};
 

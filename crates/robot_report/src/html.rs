@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use robot_build::MARKER;
-use robot_dynamics::diagnostic::is_invisible;
+use robot_model::diagnostic::is_invisible;
 
 /// An element with its attributes and what is in it.
 #[derive(Clone, Debug, PartialEq)]

@@ -28,7 +28,7 @@ pub use evidence::Compiled;
 
 use robot_build::ablation::ablation;
 use robot_build::{Errors, FunctionKind, Functions, Options, Programs, Source, programs};
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 use formula::Symbols;
 use html::{Node, element, holding};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use robot_build::Programs;
-use robot_dynamics::model::{JointKind, Robot};
+use robot_model::robot::{JointKind, Robot};
 use robot_simulation::{Trajectory, shares};
 
 use crate::html::{Node, holding};
@@ -102,7 +102,7 @@ mod tests {
     fn the_trajectory_is_smooth() {
         let path = format!("{}/../../robots/panda.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        let robot = robot_dynamics::description::read_toml("panda.toml", &text).unwrap().robot;
+        let robot = robot_model::description::read_toml("panda.toml", &text).unwrap().robot;
         let Trajectory { t, q, qd, qdd, .. } = trajectory(&robot);
         for middle in 1..t.len() - 1 {
             let step = t[middle + 1] - t[middle - 1];

@@ -2,7 +2,7 @@
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use sha2::{Digest, Sha256};
 
 use crate::html::{Element, Node, element, holding};

@@ -2,8 +2,8 @@
 //!
 //! `data-is` is on what shows a link or a parameter, `data-of` on what depends on some.
 
-use robot_dynamics::model::{Body, Drive, Friction, Inertia, Joint, Move};
-use robot_dynamics::model::{Link, Placement, Robot};
+use robot_model::robot::{Body, Drive, Friction, Inertia, Joint, Move};
+use robot_model::robot::{Link, Placement, Robot};
 use robot_symbolic::Formula;
 
 /// The token of a link, by index.

@@ -9,9 +9,9 @@
 use std::collections::BTreeMap;
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::Robot;
 use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_dynamics::numeric::random::Random;
+use robot_model::robot::Robot;
+use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Graph, SymbolId, walk};
 
 use crate::html::{Element, element, holding};
@@ -174,7 +174,7 @@ mod tests {
     fn structure(file: &str) -> Structure {
         let path = format!("{}/../../robots/{file}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        Structure::of(&robot_dynamics::description::read_toml(file, &text).unwrap().robot)
+        Structure::of(&robot_model::description::read_toml(file, &text).unwrap().robot)
     }
 
     #[test]

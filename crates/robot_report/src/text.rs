@@ -1,7 +1,7 @@
 //! Values of robot files in words and numbers.
 
 use robot_document::words;
-use robot_dynamics::model::{Move, Placement, Robot};
+use robot_model::robot::{Move, Placement, Robot};
 use robot_symbolic::{Formula, Rational};
 
 /// The nominal value of a parameter; NaN where it has none.

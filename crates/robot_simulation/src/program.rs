@@ -2,7 +2,7 @@
 
 use robot_build::{FunctionKind, Pivot, Pivots, Programs};
 use robot_codegen::Interpreter;
-use robot_dynamics::model::{Friction, JointKind, Robot};
+use robot_model::robot::{Friction, JointKind, Robot};
 use robot_symbolic::Formula;
 
 use crate::dynamics::{DryFriction, Dynamics, State};

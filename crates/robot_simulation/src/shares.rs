@@ -2,7 +2,7 @@
 
 use robot_build::{FunctionKind, Programs};
 use robot_codegen::Interpreter;
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 use crate::error::Error;
 use crate::program::{check_functions, difference, values};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use robot_dynamics::diagnostic::quote;
+use robot_model::diagnostic::quote;
 
 use crate::error::Error;
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use robot_dynamics::diagnostic::quote;
-use robot_dynamics::model::Robot;
+use robot_model::diagnostic::quote;
+use robot_model::robot::Robot;
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use crate::error::Error;

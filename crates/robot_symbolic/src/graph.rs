@@ -217,6 +217,11 @@ impl Graph {
         self.inner.borrow().symbols.len()
     }
 
+    /// The symbols made so far, in the order of their ids.
+    pub fn symbols(&self) -> impl Iterator<Item = SymbolId> + use<> {
+        (0..self.symbol_count() as u32).map(SymbolId)
+    }
+
     /// A constant.
     pub fn number(&self, value: impl Into<Number>) -> Expr<'_> {
         self.expr(self.intern_number(&value.into()))

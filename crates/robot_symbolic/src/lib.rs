@@ -52,8 +52,9 @@ mod operations;
 mod operators;
 pub mod polynomial;
 pub mod print;
-#[cfg(test)]
 mod random;
+#[cfg(test)]
+mod random_expressions;
 mod rational;
 pub mod rules;
 mod spelling;
@@ -66,5 +67,6 @@ pub use graph::{Function, Graph, Id, SymbolId};
 pub use number::Number;
 pub use operations::{Counter, Operations, operations};
 pub use polynomial::{AngleSums, Monomial, Polynomial, PolynomialError, PolynomialOptions};
+pub use random::Random;
 pub use rational::Rational;
 pub use spelling::nearest_word;

@@ -3,10 +3,14 @@
 //! Ids grow from operands to results, so each pass runs over a table in the order of ids; none
 //! recurses, however deep an expression is.
 
+mod evaluator;
+
 use rustc_hash::FxHashMap;
 
 use crate::expr::{Expr, View};
 use crate::graph::{Function, Graph, SymbolId};
+
+pub use evaluator::Evaluator;
 
 /// The expressions that `roots` are made of, operands before results, each once.
 #[must_use]
@@ -62,23 +66,7 @@ pub fn evaluate_by(
     value: impl Fn(SymbolId) -> f64,
     apply: impl Fn(Function, f64) -> f64,
 ) -> Vec<f64> {
-    let mut values: FxHashMap<_, f64> = FxHashMap::default();
-    for expr in reachable(roots) {
-        let at = |operand: Expr<'_>| values[&operand.id()];
-        let result = match expr.view() {
-            View::Number(number) => number.to_f64(),
-            View::Pi => std::f64::consts::PI,
-            View::Symbol(symbol) => value(symbol),
-            View::Add(a, b) => at(a) + at(b),
-            View::Sub(a, b) => at(a) - at(b),
-            View::Mul(a, b) => at(a) * at(b),
-            View::Div(a, b) => at(a) / at(b),
-            View::Neg(a) => -at(a),
-            View::Call(function, a) => apply(function, at(a)),
-        };
-        values.insert(expr.id(), result);
-    }
-    roots.iter().map(|root| values[&root.id()]).collect()
+    Evaluator::new(roots).values_by(value, apply)
 }
 
 /// `roots` rebuilt in `graph`, each symbol replaced by what `replace` gives for its name; the local

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use robot_codegen::backend::rust;
-use robot_dynamics::model::JointKind;
+use robot_model::robot::JointKind;
 
 use super::Parts;
 use super::call::{call, model_expression};

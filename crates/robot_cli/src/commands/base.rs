@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use robot_build::BaseFrames;
 use robot_document::base::{BaseEntry, BaseSet, base};
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;

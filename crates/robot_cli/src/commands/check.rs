@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_build::{Error, RobotFile};
-use robot_dynamics::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
-use robot_dynamics::doctor::{self, Examination};
+use robot_check::doctor::{self, Examination};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
 
 use crate::Terminal;
 use crate::failure::Failure;

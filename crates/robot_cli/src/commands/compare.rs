@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_build::RobotFile;
-use robot_dynamics::errata::{Comparison, Notation, Options, compare};
+use robot_check::errata::{Comparison, Notation, Options, compare};
 
 use crate::Terminal;
 use crate::failure::Failure;

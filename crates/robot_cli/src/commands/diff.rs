@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use robot_build::{Options as CodeOptions, RobotFile};
-use robot_difference::{Difference, Options, difference};
+use robot_check::difference::{Difference, Options, difference};
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -72,7 +72,7 @@ fn one(
     path: &Path,
     reading: ReadingArguments,
     terminal: &mut Terminal<'_>,
-) -> Result<(robot_dynamics::model::Robot, CodeOptions), Failure> {
+) -> Result<(robot_model::robot::Robot, CodeOptions), Failure> {
     let file = RobotFile::read(path)?;
     let described = reading.read(&file.source, terminal)?;
     let options = CodeOptions { search: true, ..reading.options() };

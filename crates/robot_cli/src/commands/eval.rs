@@ -13,8 +13,8 @@ use robot_build::{
 };
 use robot_codegen::module::Function;
 use robot_codegen::{Interpreter, OutputValues};
-use robot_dynamics::description::Described;
-use robot_dynamics::model::Robot;
+use robot_model::description::Described;
+use robot_model::robot::Robot;
 
 use self::digits::Digits;
 use crate::Terminal;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_build::{Errors, Ownership, RobotFile, robot_inputs};
-use robot_dynamics::description::{self, Format, Options};
+use robot_model::description::{self, Format, Options};
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;

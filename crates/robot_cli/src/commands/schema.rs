@@ -2,7 +2,7 @@
 
 use clap::Args;
 use robot_build::{FunctionKind, MARKER};
-use robot_dynamics::description::shape::{
+use robot_model::description::shape::{
     AXES, Content, IDENTIFIER, Key, LABEL, Presence, ROBOT_FILE, Shape,
 };
 use serde_json::{Map, Value, json};

@@ -3,7 +3,7 @@
 use clap::Args;
 use robot_build::{FrameRef, FunctionKind, functions, snapping};
 use robot_document::words;
-use robot_dynamics::model::{JointKind, Robot};
+use robot_model::robot::{JointKind, Robot};
 
 use crate::Terminal;
 use crate::failure::Failure;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_build::{Pivots, Programs};
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use robot_simulation::plot::motion_figure;
 use robot_simulation::{
     Energies, Motion, RobotProgram, SimulationOptions, State, Table, Torques, simulate,

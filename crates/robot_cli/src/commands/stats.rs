@@ -4,7 +4,7 @@ use clap::Args;
 use robot_build::ablation::{Ablation, ablation};
 use robot_build::{Functions, Options, programs, snapping};
 use robot_codegen::{Counts, FunctionCounts, Module};
-use robot_dynamics::description::Described;
+use robot_model::description::Described;
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;

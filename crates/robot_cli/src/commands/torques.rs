@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 use robot_simulation::plot::shares_figure;
 use robot_simulation::{Shares, Table, Trajectory, shares};
 

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
-use robot_dynamics::diagnostic::Style;
+use robot_model::diagnostic::Style;
 
 use crate::Terminal;
 use crate::delivery::ForceArgument;

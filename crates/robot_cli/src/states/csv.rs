@@ -1,6 +1,6 @@
 //! States from CSV: a header such as `q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz`, then a line each.
 
-use robot_dynamics::diagnostic::quote;
+use robot_model::diagnostic::quote;
 
 use super::{Layout, State};
 use crate::text;

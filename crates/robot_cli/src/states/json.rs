@@ -1,6 +1,6 @@
 //! States from JSON: `[{"q": […], "qd": […], "qdd": […], "wrench": […]}, …]`.
 
-use robot_dynamics::diagnostic::quote;
+use robot_model::diagnostic::quote;
 
 use super::node::Node;
 use super::{Layout, State};

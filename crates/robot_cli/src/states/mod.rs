@@ -4,7 +4,7 @@ mod csv;
 mod json;
 mod node;
 
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 /// The arrays that a state of a robot can have.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@ use super::*;
 
 fn layout() -> Layout {
     let text = include_str!("../../../../robots/planar_2r.toml");
-    let described = robot_dynamics::description::read_toml("planar_2r.toml", text).unwrap();
+    let described = robot_model::description::read_toml("planar_2r.toml", text).unwrap();
     Layout::of(&described.robot)
 }
 

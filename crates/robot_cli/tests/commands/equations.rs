@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use robot_dynamics::description::read_toml;
-use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
+use robot_model::description::read_toml;
+use robot_numeric::{Loads, Mechanism, Wrench};
 use robot_symbolic::Formula;
 use serde_json::{Map, Value};
 
@@ -15,7 +15,7 @@ const QDD: [f64; 5] = [-1.0, 0.5, 0.8, -0.2, 2.0];
 const WRENCH: [f64; 6] = [5.0, -3.0, 20.0, 0.4, 0.7, -0.6];
 
 /// The value of a name of TRTTR1's equations at the state above.
-fn value(robot: &robot_dynamics::model::Robot, name: &str) -> f64 {
+fn value(robot: &robot_model::robot::Robot, name: &str) -> f64 {
     if let Some(parameter) = robot.parameter(name) {
         return parameter.value.as_ref().unwrap().to_f64();
     }

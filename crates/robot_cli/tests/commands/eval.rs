@@ -1,7 +1,7 @@
 //! `eval` against the numeric recursive solver, and what it says of wrong input.
 
-use robot_dynamics::description::read_toml;
-use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
+use robot_model::description::read_toml;
+use robot_numeric::{Loads, Mechanism, Wrench};
 use serde_json::{Value, json};
 
 use crate::{WRIST, complaint, output, robot, run_with};

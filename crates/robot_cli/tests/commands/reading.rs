@@ -79,7 +79,7 @@ fn what_is_waived_is_waived_at_every_command() {
 }
 
 /// A trunk of 5 kg with two legs.
-const WALKER: &str = include_str!("../../../robot_dynamics/tests/broken/urdf_free_base.urdf");
+const WALKER: &str = include_str!("../../../robot_model/tests/broken/urdf_free_base.urdf");
 
 #[test]
 fn a_trunk_that_stands_still_is_a_warning_everywhere() {

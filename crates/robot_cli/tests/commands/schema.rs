@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use robot_dynamics::description::read_toml;
-use robot_dynamics::description::shape::{Content, ROBOT_FILE, Shape};
-use robot_dynamics::diagnostic::code;
+use robot_model::description::read_toml;
+use robot_model::description::shape::{Content, ROBOT_FILE, Shape};
+use robot_model::diagnostic::code;
 use serde_json::Value;
 
 use crate::json_schema::validate;
@@ -62,7 +62,7 @@ fn what_the_reader_takes_is_valid() {
     let pages = examples("docs/robot-file.md").into_iter().chain(examples("README.md"));
     texts.extend(pages.map(|text| ("an example".to_owned(), text)));
     texts.push(("everything.toml".to_owned(), EVERYTHING.to_owned()));
-    let broken = files("crates/robot_dynamics/tests/broken");
+    let broken = files("crates/robot_model/tests/broken");
     // Slips, and what only another figure makes wrong.
     texts.extend(broken.into_iter().filter(|(name, text)| read_toml(name, text).is_ok()));
     assert!(texts.len() >= 25, "{}", texts.len());
@@ -81,7 +81,7 @@ fn wrong_keys_and_kinds_of_values_are_not() {
     let told =
         [code::UNKNOWN_KEY, code::WRONG_TYPE, code::UNKNOWN_WORD, code::WRONG_COUNT, code::FORMAT];
     let mut refused = 0;
-    for (name, text) in files("crates/robot_dynamics/tests/broken") {
+    for (name, text) in files("crates/robot_model/tests/broken") {
         let Err(found) = read_toml(&name, &text) else { continue };
         let codes: BTreeSet<_> = found.iter().map(|one| one.code).collect();
         if codes.contains(code::SYNTAX) {

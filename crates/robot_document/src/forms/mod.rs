@@ -11,11 +11,13 @@ mod recursive;
 mod regrouped;
 mod shapes;
 
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::Robot;
 use robot_dynamics::newton_euler::{Effects, NewtonEuler, newton_euler};
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
+use robot_model::functions::FunctionKind;
+use robot_model::robot::Robot;
+use robot_model::snap;
 use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialError, PolynomialOptions};
 
@@ -167,7 +169,7 @@ pub(crate) const MAX_NODES: usize = 300_000;
 ///
 /// Equations that are too long, with the forms to use instead; symbols that would look alike.
 pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, Error> {
-    options.snap.map(MechanismOptions::check_snap).transpose()?;
+    options.snap.map(snap::check).transpose()?;
     let graph = Graph::limited(MAX_NODES);
     let mut writer = Writer {
         robot,

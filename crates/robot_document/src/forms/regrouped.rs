@@ -1,9 +1,9 @@
 //! The regrouped form: Q = Y(q, q̇, q̈) β, linear in the base parameters.
 
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, StandardParameter};
-use robot_dynamics::functions::FunctionKind;
 use robot_dynamics::mechanism::MechanismFriction;
-use robot_dynamics::model::BaseFrames;
+use robot_model::functions::FunctionKind;
+use robot_model::robot::BaseFrames;
 use robot_symbolic::{Expr, Polynomial};
 
 use super::coefficients::{

@@ -1,7 +1,7 @@
 //! A state with its driving forces, for whoever copies the equations.
 
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
+use robot_model::robot::Robot;
+use robot_numeric::{Loads, Mechanism, Wrench};
 
 use super::{heading, paragraph};
 use crate::document::{Block, Inline, Table};

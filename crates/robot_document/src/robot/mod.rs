@@ -4,7 +4,7 @@ mod check_value;
 mod symbols;
 mod tables;
 
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 use crate::document::{Block, Document, Inline, NumberedEquation};
 use crate::error::Error;

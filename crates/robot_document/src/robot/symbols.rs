@@ -1,6 +1,6 @@
 //! The list of symbols with their units and values.
 
-use robot_dynamics::model::{JointKind, Parameter, Robot};
+use robot_model::robot::{JointKind, Parameter, Robot};
 use robot_symbolic::print::exact_text;
 
 use super::heading;

@@ -1,7 +1,7 @@
 //! The tables of links and masses.
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::model::{Move, Placement, Robot};
+use robot_model::robot::{Move, Placement, Robot};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use super::{heading, paragraph};

@@ -6,8 +6,8 @@ use super::echelon::Row;
 use super::scalar::Scalar;
 use crate::body::{Body, ENTRIES, FIRST_MOMENT, TENSOR};
 use crate::mechanism::MechanismLink;
-use crate::numeric::LINK_PARAMETERS;
 use crate::vector::{Matrix, Vector};
+use robot_model::robot::LINK_PARAMETERS;
 
 /// Angular velocity, then the velocity of the point at the origin.
 const TWIST: usize = 6;

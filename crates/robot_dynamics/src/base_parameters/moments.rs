@@ -8,7 +8,7 @@ use super::regroup::{Form, add};
 use super::scalar::Scalar;
 use crate::body::{Body, ENTRIES, Moments, TENSOR};
 use crate::economical::WorkingFrame;
-use crate::numeric::LINK_PARAMETERS;
+use robot_model::robot::LINK_PARAMETERS;
 
 /// Per tensor of six figures by place: those on the diagonal.
 fn is_diagonal(place: usize) -> bool {

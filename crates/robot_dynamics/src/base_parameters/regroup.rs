@@ -11,7 +11,7 @@ use super::told::DRIVE;
 use crate::body::{FIRST_MOMENT, tensor_place};
 use crate::economical::WorkingFrame;
 use crate::mechanism::{Mechanism, MechanismLink};
-use crate::numeric::LINK_PARAMETERS;
+use robot_model::robot::LINK_PARAMETERS;
 
 /// A linear function of the standard parameters: figures by their places.
 pub(super) type Form<'g> = BTreeMap<usize, Scalar<'g>>;

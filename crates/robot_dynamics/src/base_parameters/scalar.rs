@@ -2,9 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use robot_symbolic::{Expr, Polynomial, PolynomialOptions, View, walk};
-
-use crate::numeric::random::Random;
+use robot_symbolic::{Expr, Polynomial, PolynomialOptions, Random, View, walk};
 
 /// Points at which symbols have seeded values.
 const POINTS: usize = 3;

@@ -1,11 +1,10 @@
 //! Joints that share a coordinate tell less than joints with one each.
 
-use robot_symbolic::{Expr, Number, SymbolId, walk};
+use robot_symbolic::{Expr, Number, Random, SymbolId, walk};
 
 use super::regroup::{Kept, add};
 use super::scalar::Scalar;
 use crate::functions::{Derivation, base_columns};
-use crate::numeric::random::Random;
 
 /// The seed of the states.
 const SEED: u64 = 19_900_402;

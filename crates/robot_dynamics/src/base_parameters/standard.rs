@@ -4,7 +4,7 @@ use robot_symbolic::Expr;
 
 use crate::body::Body;
 use crate::mechanism::{Mechanism, MechanismLink};
-use crate::numeric::LINK_PARAMETERS;
+use robot_model::robot::LINK_PARAMETERS;
 
 /// What is measured of a link or of the drive of its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -13,7 +13,7 @@ pub enum Quantity {
     /// moment h and the tensor I about the origin of the link's frame, in its axes; kg, kg m, kg m².
     Link(usize),
     /// One of the link's ten in frames of Denavit and Hartenberg, of which base parameters may be made
-    /// ([`BaseFrames`](crate::model::BaseFrames)): m, h_x, h_y, h_z, and the second moments
+    /// ([`BaseFrames`](robot_model::robot::BaseFrames)): m, h_x, h_y, h_z, and the second moments
     /// Σ_xx = ∫ x² dm, Σ_xy, Σ_yy, Σ_xz, Σ_yz, Σ_zz.
     Moment(usize),
     /// The drive's inertia reflected to the joint, kg m² or kg.

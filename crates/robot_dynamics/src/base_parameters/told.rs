@@ -24,7 +24,7 @@ use super::joint::{Joint, energy};
 use super::scalar::Scalar;
 use super::standard::Quantity;
 use crate::mechanism::Mechanism;
-use crate::numeric::LINK_PARAMETERS;
+use robot_model::robot::LINK_PARAMETERS;
 
 /// The drive's quantities in the places after the ten of the link.
 pub(super) const DRIVE: [Quantity; 3] =

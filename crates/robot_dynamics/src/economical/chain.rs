@@ -8,8 +8,8 @@ use super::inward::TipWrench;
 use super::plan::{Entry, LinkPlan, Plan};
 use super::rotation::ConstantRotation;
 use crate::mechanism::Mechanism;
-use crate::model::JointKind;
 use crate::vector::{Matrix, Vector};
+use robot_model::robot::JointKind;
 
 /// Residuals may exceed the robot's own mass, first and second moment by no more than this factor,
 /// and working frames lie no farther off than this many of its reaches: beyond, differences of large

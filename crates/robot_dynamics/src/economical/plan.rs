@@ -3,7 +3,7 @@
 //! Every option yields the same torques; they differ in operations. Letters in brackets are those
 //! of the ablation tables in `docs/performance.md`.
 
-use crate::model::Robot;
+use robot_model::robot::Robot;
 
 /// The options for a whole mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]

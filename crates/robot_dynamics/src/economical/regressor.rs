@@ -21,8 +21,8 @@ use super::rotation::Plane;
 use super::spatial::{Ways, Wrench};
 use crate::body::{Body, FIRST_MOMENT, Moments, TENSOR};
 use crate::mechanism::Mechanism;
-use crate::numeric::LINK_PARAMETERS;
 use crate::vector::{Matrix, Vector};
+use robot_model::robot::LINK_PARAMETERS;
 
 /// The places of the parameters that a rotation about z tells from the parent's, but for I_yy.
 const TOLD_BY_ROTATION: [usize; 7] = [1, 2, 4, 5, 7, 8, 9];

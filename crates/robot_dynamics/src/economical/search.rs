@@ -12,8 +12,8 @@ use super::Recursion;
 use super::chain::Base;
 use super::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
-use crate::model::{Parameter, Robot};
 use crate::newton_euler::{self, Effects};
+use robot_model::robot::{Parameter, Robot};
 
 /// A plan must reproduce the torques to this fraction of the largest.
 const TOLERANCE: f64 = 1e-12;

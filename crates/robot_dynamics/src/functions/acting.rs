@@ -7,10 +7,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use robot_symbolic::{Expr, Function as Elementary, SymbolId, View, walk};
+use robot_symbolic::{Expr, Function as Elementary, Random, SymbolId, View, walk};
 
 use super::{Derivation, Function};
-use crate::numeric::random::Random;
 
 /// States at which slopes are taken.
 const STATES: u64 = 3;

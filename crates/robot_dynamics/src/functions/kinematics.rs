@@ -2,11 +2,12 @@
 
 use robot_symbolic::Expr;
 
-use super::{Derivation, FrameRef, Function, FunctionKind, Output, plain};
+use super::{Derivation, Function, FunctionKind, Output, plain};
 use crate::economical::plan::{LinkPlan, Origin, Turn};
 use crate::economical::{Plan, Pose, Recursion};
 use crate::mechanism::MechanismFrame;
 use crate::vector::{Matrix, Vector};
+use robot_model::functions::FrameRef;
 
 /// The poses of all links.
 pub(super) fn forward_kinematics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {

@@ -12,30 +12,29 @@ mod energies;
 mod forward_dynamics;
 mod gravity;
 mod inverse_dynamics;
-mod kind;
 mod kinematics;
 mod mass_matrix;
-mod named;
 mod pivots;
 mod plain;
 mod plans;
 mod regressor;
+mod sampled;
 mod sharing;
+mod singular;
 
-pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
-pub use kind::FunctionKind;
-pub use named::{FrameRef, WrongName, is_of_frame, named, names};
 pub use plans::search_plan;
 pub(crate) use regressor::base_columns;
+pub use singular::undetermined;
 use std::cell::OnceCell;
 
+use robot_model::functions::FunctionKind;
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use crate::economical::{Plan, Recursion};
 use crate::matrix::Pivots;
 use crate::mechanism::{Mechanism, MechanismOptions};
-use crate::model::{JointKind, Parameter, Robot};
 use crate::newton_euler::{self, Effects};
+use robot_model::robot::{JointKind, Parameter, Robot};
 
 /// A function of a robot, or several in one.
 #[derive(Clone, Debug)]

@@ -6,13 +6,11 @@
 //! no mass, where the axes of the first and the last joint come into line. Articulated bodies do not
 //! subtract what they have not added, and keep the digits.
 
-use nalgebra::DMatrix;
+use robot_model::robot::Robot;
+use robot_symbolic::Random;
 
+use super::sampled::{Rows, SampledMassMatrix};
 use super::{Derivation, Function, Output, forward_dynamics, mass_matrix};
-use crate::model::Robot;
-use crate::numeric::from_robot::nominal_value;
-use crate::numeric::random::Random;
-use crate::numeric::{JointKind, Mechanism};
 
 /// Pivots below this part of the diagonal of M are small: two digits of sixteen are lost. Those of the arms
 /// of industry with up to eight joints stay above 0.02 in any posture.
@@ -59,57 +57,14 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
 /// enough, mass matrices are looked at: in postures with joints at right angles, where axes come into line
 /// in most wrists, in others at random, and from the worst of them downhill.
 pub(super) fn may_be_small(robot: &Robot) -> bool {
-    let value = |name: &str| match nominal_value(robot, name) {
-        value if value.is_nan() => 1.0,
-        value => value,
-    };
-    let Ok(mechanism) = Mechanism::from_robot(robot, &value) else { return true };
-    let small = if mechanism.coordinates() < MANY { SMALL } else { SMALL_OF_MANY };
-    !is_bounded(&mechanism, small) && Search::new(&mechanism, small).finds_one()
-}
-
-/// Whether the links' own inertias keep all pivots above a part of the diagonal of M.
-fn is_bounded(mechanism: &Mechanism, part: f64) -> bool {
-    let (mut least, mut most) =
-        (vec![0.0; mechanism.coordinates()], vec![0.0; mechanism.coordinates()]);
-    for link in mechanism.links() {
-        let Some(coordinate) = link.joint.driver() else { continue };
-        let own = match link.joint.kind {
-            JointKind::Prismatic => link.mass,
-            _ => link.joint.axis.dot(&(link.inertia_about_origin() * link.joint.axis)),
-        };
-        let ratio = link.joint.ratio * link.joint.ratio;
-        least[coordinate] += ratio * (own + link.rotor_inertia);
-        most[coordinate] += ratio * link.rotor_inertia;
-    }
-    let travel = reach(mechanism);
-    for outer in mechanism.links() {
-        let mut arm = outer.center_of_mass.norm();
-        let mut next = Some(outer);
-        while let Some(link) = next {
-            if let Some(coordinate) = link.joint.driver() {
-                let felt = match link.joint.kind {
-                    JointKind::Prismatic => outer.mass,
-                    _ => outer.inertia.trace() + outer.mass * arm * arm,
-                };
-                most[coordinate] += link.joint.ratio * link.joint.ratio * felt;
-            }
-            let slides = link.joint.kind == JointKind::Prismatic;
-            arm += link.placement.translation.norm() + if slides { travel } else { 0.0 };
-            next = link.parent.map(|parent| &mechanism.links()[parent]);
-        }
-    }
-    least.iter().zip(&most).all(|(least, most)| *least > 0.0 && *least >= part * most)
-}
-
-/// The sum of the arms, m: how far joints that slide are taken to go.
-fn reach(mechanism: &Mechanism) -> f64 {
-    mechanism.links().iter().map(|link| link.placement.translation.norm()).sum()
+    let matrix = SampledMassMatrix::new(robot);
+    let small = if matrix.order() < MANY { SMALL } else { SMALL_OF_MANY };
+    !matrix.keeps_pivots_above(small) && Search::new(&matrix, small).finds_one()
 }
 
 /// A look for small pivots.
 struct Search<'m> {
-    mechanism: &'m Mechanism,
+    matrix: &'m SampledMassMatrix,
     small: f64,
     /// Mass matrices that may still be looked at.
     left: usize,
@@ -118,9 +73,9 @@ struct Search<'m> {
 }
 
 impl<'m> Search<'m> {
-    fn new(mechanism: &'m Mechanism, small: f64) -> Search<'m> {
-        let n = mechanism.coordinates().max(1);
-        Search { mechanism, small, left: (MAX_WORK / (n * n)).max(LEAST), worst: vec![] }
+    fn new(matrix: &'m SampledMassMatrix, small: f64) -> Search<'m> {
+        let n = matrix.order().max(1);
+        Search { matrix, small, left: (MAX_WORK / (n * n)).max(LEAST), worst: vec![] }
     }
 
     fn finds_one(mut self) -> bool {
@@ -132,7 +87,7 @@ impl<'m> Search<'m> {
 
     /// Postures with a joint or two at right angles and the others anywhere, half of what may be looked at.
     fn look_around(&mut self) {
-        let n = self.mechanism.coordinates();
+        let n = self.matrix.order();
         let mut random = Random::new(SEED);
         let half = self.left / 2;
         let mut q = vec![0.0; n];
@@ -148,7 +103,7 @@ impl<'m> Search<'m> {
                     }
                 }
             }
-            q = random.state(self.mechanism).q;
+            q = self.matrix.posture(&mut random);
             let other = (random.uniform(0.0, n as f64) as usize).min(n.saturating_sub(1));
             if let Some(entry) = q.get_mut(other) {
                 *entry =
@@ -187,25 +142,25 @@ impl<'m> Search<'m> {
     /// The smallest pivot in a posture, each as a part of the diagonal of M.
     fn smallest_part(&mut self, q: &[f64]) -> f64 {
         self.left = self.left.saturating_sub(1);
-        self.mechanism.mass_matrix(q).map_or(1.0, smallest_part)
+        smallest_part(self.matrix.at(q))
     }
 }
 
 /// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 where one is not above 0.
-fn smallest_part(mut matrix: DMatrix<f64>) -> f64 {
-    let diagonal = matrix.diagonal();
+fn smallest_part(mut matrix: Rows) -> f64 {
+    let diagonal: Vec<f64> = (0..matrix.len()).map(|row| matrix[row][row]).collect();
     let mut smallest = 1.0_f64;
-    for pivot in (0..matrix.nrows()).rev() {
-        let value = matrix[(pivot, pivot)];
+    while let Some(pivot_row) = matrix.pop() {
+        let pivot = matrix.len();
+        let value = pivot_row[pivot];
         if value.is_nan() || value <= 0.0 {
             return 0.0;
         }
         smallest = smallest.min(value / diagonal[pivot]);
-        for row in 0..pivot {
-            let factor = matrix[(pivot, row)] / value;
-            for column in 0..=row {
-                let change = factor * matrix[(pivot, column)];
-                matrix[(row, column)] -= change;
+        for (row, entries) in matrix.iter_mut().enumerate() {
+            let factor = pivot_row[row] / value;
+            for (column, entry) in entries.iter_mut().enumerate().take(row + 1) {
+                *entry -= factor * pivot_row[column];
             }
         }
     }

@@ -8,7 +8,7 @@ use super::{Derivation, FunctionKind};
 use crate::economical::search::{self, Found, Objective, Scope};
 use crate::economical::{Recursion, TorqueDerivatives};
 use crate::mechanism::MechanismOptions;
-use crate::model::Robot;
+use robot_model::robot::Robot;
 
 /// Searches the plan under which these functions together need the fewest multiplications and
 /// additions; what they share counts once.
@@ -21,8 +21,8 @@ pub fn search_plan(
     kinds: &[FunctionKind],
 ) -> Option<Found> {
     let scope = Scope {
-        motions: kinds.iter().any(|kind| kind.uses_motions()),
-        composites: kinds.iter().any(|kind| kind.uses_composites()),
+        motions: kinds.iter().any(|kind| uses_motions(*kind)),
+        composites: kinds.iter().any(|kind| uses_composites(*kind)),
         free: kinds.iter().any(|kind| kind.divides_by_mass_matrix()),
     };
     let small_pivots = OnceCell::new();
@@ -60,30 +60,28 @@ fn objective<'g>(
     Objective::of(kinds.iter().copied().flat_map(values).collect())
 }
 
-impl FunctionKind {
-    /// Whether the recursion over motions and forces is part of the function.
-    fn uses_motions(self) -> bool {
-        !matches!(
-            self,
-            FunctionKind::MassMatrix
-                | FunctionKind::Gravity
-                | FunctionKind::ForwardKinematics
-                | FunctionKind::LinkWrenches
-                | FunctionKind::Regressor
-                | FunctionKind::RegressorBase
-                | FunctionKind::BaseParameters
-        )
-    }
+/// Whether the recursion over motions and forces is part of the function.
+fn uses_motions(kind: FunctionKind) -> bool {
+    !matches!(
+        kind,
+        FunctionKind::MassMatrix
+            | FunctionKind::Gravity
+            | FunctionKind::ForwardKinematics
+            | FunctionKind::LinkWrenches
+            | FunctionKind::Regressor
+            | FunctionKind::RegressorBase
+            | FunctionKind::BaseParameters
+    )
+}
 
-    /// Whether composite inertias are part of the function.
-    fn uses_composites(self) -> bool {
-        matches!(
-            self,
-            FunctionKind::MassMatrix
-                | FunctionKind::Gravity
-                | FunctionKind::Energies
-                | FunctionKind::CoriolisMatrix
-                | FunctionKind::InverseDynamicsDerivatives
-        ) || self.divides_by_mass_matrix()
-    }
+/// Whether composite inertias are part of the function.
+fn uses_composites(kind: FunctionKind) -> bool {
+    matches!(
+        kind,
+        FunctionKind::MassMatrix
+            | FunctionKind::Gravity
+            | FunctionKind::Energies
+            | FunctionKind::CoriolisMatrix
+            | FunctionKind::InverseDynamicsDerivatives
+    ) || kind.divides_by_mass_matrix()
 }

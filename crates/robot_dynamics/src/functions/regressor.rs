@@ -10,8 +10,8 @@ use crate::base_parameters::{
 use crate::body::Moments;
 use crate::economical::{self, Column, RegressorColumns};
 use crate::mechanism::MechanismLink;
-use crate::model::BaseFrames;
-use crate::numeric::LINK_PARAMETERS;
+use robot_model::robot::BaseFrames;
+use robot_model::robot::LINK_PARAMETERS;
 
 /// Y with Y π = τ.
 pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {

@@ -1,10 +1,11 @@
 //! The regressor's columns of base parameters, times the base parameters: the driving forces with friction.
 
-use robot_dynamics::base_parameters::out_of_reach;
-use robot_dynamics::functions::{Derivation, FunctionKind};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::model::{BaseFrames, Robot};
-use robot_dynamics::numeric::{self, random::Random};
+use robot_model::functions::FunctionKind;
+use robot_model::functions::out_of_reach;
+use robot_model::robot::{BaseFrames, Robot};
+use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Formula, Graph, Rational};
 
 use crate::common::place::{Layout, Off};
@@ -29,7 +30,7 @@ fn check(robot: &Robot, name: &str, seed: u64) -> usize {
     let columns = output(&derivation, FunctionKind::RegressorBase);
     let values = output(&derivation, FunctionKind::BaseParameters);
     let mut random = Random::new(seed);
-    let solver = numeric::Mechanism::nominal(&robot).unwrap();
+    let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
     for _ in 0..STATES {
         let state = state(&mut random, &solver, &robot);
         let expected = expected(&robot, &solver, FunctionKind::InverseDynamicsFriction, &state);

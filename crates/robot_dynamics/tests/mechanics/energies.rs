@@ -2,7 +2,7 @@
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::numeric::random::Random;
+use robot_numeric::random::Random;
 use robot_symbolic::Graph;
 
 use crate::common::plans::random_plan;

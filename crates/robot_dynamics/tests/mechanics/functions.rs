@@ -1,9 +1,10 @@
 //! Every function that the numeric solver has, under the default plan and plans drawn at random.
 
 use robot_dynamics::economical::Plan;
-use robot_dynamics::functions::{Derivation, FunctionKind, Output};
+use robot_dynamics::functions::{Derivation, Output};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::numeric::{self, random::Random};
+use robot_model::functions::FunctionKind;
+use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Graph};
 
 use crate::common::place::{Layout, Off};
@@ -39,7 +40,7 @@ fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Outpu
     let functions = derivation.functions(kind).into_iter();
     let mut outputs: Vec<_> = functions.flat_map(|function| function.outputs).collect();
     if kind == FunctionKind::Regressor {
-        let inertial = numeric::LINK_PARAMETERS * derivation.robot.links.len();
+        let inertial = robot_model::robot::LINK_PARAMETERS * derivation.robot.links.len();
         for output in &mut outputs {
             let rows = output.values.chunks(output.shape[1]);
             output.values = rows.flat_map(|row| row[..inertial].to_vec()).collect();
@@ -53,7 +54,7 @@ fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Outpu
 fn functions_agree_with_the_numeric_solver() {
     for (name, robot, seed) in robots() {
         let mut random = Random::new(seed);
-        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
         let states: Vec<_> = (0..STATES).map(|_| state(&mut random, &solver, &robot)).collect();
         let graph = Graph::new();
         let usual = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);

@@ -3,6 +3,7 @@
 //! project hold for hundreds of robots (`tests/recursions.rs` and so on) is held here in seconds.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
+mod axes;
 mod base_parameters;
 #[path = "../../../../tests/common/mod.rs"]
 mod common;
@@ -11,9 +12,9 @@ mod functions;
 mod recursions;
 
 use common::with_free_axes;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::random::{Random, Recipe};
-use robot_dynamics::random;
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe};
+use robot_numeric::robots;
 
 /// States at which values are held.
 const STATES: usize = 3;
@@ -26,7 +27,7 @@ const TOLERANCE: f64 = 1e-11;
 fn robots() -> Vec<(String, Robot, u64)> {
     let files = ["trttr1", "scara", "stanford", "puma560"];
     let files = files.map(|name| (name.to_owned(), common::robot(name), 3));
-    let random = |seed: u64, recipe: &Recipe| random::robot(&mut Random::new(seed), recipe);
+    let random = |seed: u64, recipe: &Recipe| robots::robot(&mut Random::new(seed), recipe);
     let chains = (0..8).map(|seed| {
         let recipe = Recipe::serial(1 + seed as usize % 6);
         (format!("chain, seed {seed}"), random(seed, &recipe), seed)
@@ -38,7 +39,7 @@ fn robots() -> Vec<(String, Robot, u64)> {
     });
     let parameters = (2000..2003).map(|seed| {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 4) };
-        let robot = random::parametrised(&random(seed, &recipe));
+        let robot = robots::parametrised(&random(seed, &recipe));
         (format!("parameters, seed {seed}"), robot, seed)
     });
     let free =
@@ -49,11 +50,11 @@ fn robots() -> Vec<(String, Robot, u64)> {
 #[test]
 fn the_robots_have_what_is_to_be_tried() {
     let links: Vec<_> = robots().into_iter().flat_map(|(_, robot, _)| robot.links).collect();
-    let count = |has: fn(&robot_dynamics::model::Link) -> bool| -> usize {
+    let count = |has: fn(&robot_model::robot::Link) -> bool| -> usize {
         links.iter().filter(|link| has(link)).count()
     };
     assert!(count(|link| link.drive.gyroscopic && link.parent.is_some()) > 3);
-    assert!(count(|link| link.joint.kind == robot_dynamics::model::JointKind::Prismatic) > 10);
+    assert!(count(|link| link.joint.kind == robot_model::robot::JointKind::Prismatic) > 10);
     assert!(count(|link| link.joint.ratio.text() != "1") > 3);
     assert!(count(|link| link.friction.coulomb.text() != "0") > 3);
 }

@@ -1,10 +1,10 @@
 //! The paper's iterations and the economical recursion, with and without loads and friction.
 
 use robot_dynamics::economical::{Plan, Recursion};
-use robot_dynamics::functions::FunctionKind;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_dynamics::numeric::{self, random::Random};
+use robot_model::functions::FunctionKind;
+use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Graph};
 
 use crate::common::place::{Layout, Off};
@@ -16,7 +16,7 @@ use crate::{STATES, TOLERANCE, robots};
 fn driving_forces_and_forces_between_links_agree_with_the_numeric_solver() {
     for (name, robot, seed) in robots() {
         let mut random = Random::new(seed);
-        let solver = numeric::Mechanism::nominal(&robot).unwrap();
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
         let graph = Graph::new();
         let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::ROUNDED);
         let plain = newton_euler(&mechanism, Effects { wrench: false, friction: false });

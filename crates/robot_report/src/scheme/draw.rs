@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use robot_document::words;
-use robot_dynamics::model::{JointKind, Robot};
+use robot_model::robot::{JointKind, Robot};
 use robot_symbolic::Formula;
 
 use super::labels::{Rectangle, Room};

@@ -2,8 +2,8 @@
 //! frame, with those too short to be seen drawn longer and joints at one point drawn apart.
 
 use nalgebra::{Matrix3, Vector3};
-use robot_dynamics::model::{Axis, Move, Placement, Robot};
-use robot_dynamics::numeric::{Pose, direction};
+use robot_model::robot::{Axis, Move, Placement, Robot};
+use robot_numeric::{Pose, direction};
 use robot_symbolic::Formula;
 
 use super::view::View;

@@ -10,7 +10,7 @@ mod layout;
 mod symbols;
 mod view;
 
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 use crate::html::Element;
 use layout::{Layout, confusion, layout};
@@ -49,7 +49,7 @@ mod tests {
         paths.sort();
         let read = |path: &std::path::PathBuf| {
             let text = std::fs::read_to_string(path).unwrap();
-            robot_dynamics::description::read_toml("robot.toml", &text).unwrap().robot
+            robot_model::description::read_toml("robot.toml", &text).unwrap().robot
         };
         paths.iter().map(read).collect()
     }

@@ -1,7 +1,7 @@
 //! The direction from which the scheme is seen.
 
 use nalgebra::{Vector2, Vector3};
-use robot_dynamics::model::Robot;
+use robot_model::robot::Robot;
 
 use crate::text;
 
@@ -65,7 +65,7 @@ mod tests {
              joint = {{ type = \"revolute\", axis = \"x\" }}\nmass = 1\n\
              center_of_mass = [0, 0, 1]\ninertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
         );
-        robot_dynamics::description::read_toml("r.toml", &text).unwrap().robot
+        robot_model::description::read_toml("r.toml", &text).unwrap().robot
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The figures of motions and of driving forces.
 
-use robot_dynamics::model::{JointKind, Robot};
+use robot_model::robot::{JointKind, Robot};
 
 use super::{Curve, Figure, Panel};
 use crate::motion::{Energies, Motion};

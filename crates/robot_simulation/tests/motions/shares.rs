@@ -2,7 +2,7 @@
 
 use robot_build::{Functions, Options, Programs, Source};
 use robot_codegen::Interpreter;
-use robot_dynamics::numeric::random::{Random, Recipe};
+use robot_numeric::random::{Random, Recipe};
 use robot_simulation::{
     RobotProgram, Shares, State, Table, TorqueLaw, Torques, Trajectory, plot, shares,
 };
@@ -16,7 +16,7 @@ fn compiled(text: &str, friction: bool, wrench: bool) -> Programs {
     of_robot(robot, friction, wrench)
 }
 
-fn of_robot(robot: robot_dynamics::model::Robot, friction: bool, wrench: bool) -> Programs {
+fn of_robot(robot: robot_model::robot::Robot, friction: bool, wrench: bool) -> Programs {
     let kinds = [RobotProgram::functions(friction), Shares::functions(friction, wrench)].concat();
     let options = Options { functions: Functions::Chosen(kinds), ..Options::default() };
     robot_build::programs_of(robot, "robot", &options).unwrap()
@@ -62,7 +62,7 @@ fn simulated_motions_give_back_their_torques() {
 fn trees_and_joints_that_follow_move_as_well() {
     for seed in 0..8 {
         let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(2 + seed as usize % 4) };
-        let robot = robot_dynamics::random::robot(&mut Random::new(seed), &recipe);
+        let robot = robot_numeric::robots::robot(&mut Random::new(seed), &recipe);
         let count = robot.degrees_of_freedom();
         let programs = of_robot(robot, false, false);
         let texts: Vec<String> = (1..=count)

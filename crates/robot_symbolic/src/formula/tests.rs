@@ -209,8 +209,8 @@ fn random_texts_end_in_an_answer() {
     let mut formulas = 0;
     for seed in 0..20_000 {
         let mut random = Random::new(seed);
-        let length = 1 + random.below(12);
-        let text: String = (0..length).map(|_| TOKENS[random.below(TOKENS.len())]).collect();
+        let length = 1 + random.index(12);
+        let text: String = (0..length).map(|_| TOKENS[random.index(TOKENS.len())]).collect();
         match Formula::parse(&text) {
             Ok(formula) => {
                 formulas += 1;

@@ -1,5 +1,5 @@
 use super::*;
-use crate::random::{self, Kind, Random};
+use crate::random_expressions::{self as random, Kind, Random};
 use crate::{Graph, Rational};
 
 fn of<'g>(graph: &'g Graph, text: &str) -> Polynomial<'g> {
@@ -182,10 +182,10 @@ fn zero_is_found_exactly_where_values_vanish() {
         let a = random::expression(&graph, &mut random, Kind::Trigonometric, 8);
         let kept = Polynomial::of(a, &PolynomialOptions::keeping_angle_sums()).unwrap();
         let mut b = kept.to_expr();
-        if random.below(2) == 0 {
+        if random.index(2) == 0 {
             // sin(u + v) − sin u cos v is cos u sin v, but twice that is not.
             let (u, v) = (random::angle(&graph, &mut random), random::angle(&graph, &mut random));
-            let factor = 1 + random.below(2) as i64;
+            let factor = 1 + random.index(2) as i64;
             b += (u + v).sin() - u.sin() * v.cos() - u.cos() * v.sin() * factor;
         }
         let zero = expands_to_zero(a - b).unwrap();

@@ -1,5 +1,5 @@
 use super::*;
-use crate::random::{self, Kind, Random};
+use crate::random_expressions::{self as random, Kind, Random};
 use crate::{Graph, Number, Polynomial, PolynomialOptions};
 
 fn text(graph: &Graph, source: &str) -> String {

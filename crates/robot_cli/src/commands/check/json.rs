@@ -1,7 +1,7 @@
 //! Diagnostics as JSON; docs/diagnostics describes the document.
 
-use robot_dynamics::diagnostic::{Diagnostic, Diagnostics, Label, Severity, Source, Span};
-use robot_dynamics::doctor::Examination;
+use robot_check::doctor::Examination;
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Label, Severity, Source, Span};
 use serde_json::{Value, json};
 
 use super::Report;

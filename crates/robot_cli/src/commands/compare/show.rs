@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use robot_dynamics::errata::{Comparison, Difference, SlipKind};
+use robot_check::errata::{Comparison, Difference, SlipKind};
 use serde_json::{Value, json};
 
 /// A paragraph for each difference, and a summary.

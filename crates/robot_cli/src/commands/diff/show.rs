@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use robot_difference::{
+use robot_check::difference::{
     Change, Difference, Equation, Item, Property, State, Term, Torque, Torques,
 };
-use robot_dynamics::model::JointKind;
+use robot_model::robot::JointKind;
 use serde_json::{Map, Value, json};
 
 /// A part for each kind of difference.

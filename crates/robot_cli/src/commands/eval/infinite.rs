@@ -1,8 +1,8 @@
 //! Outputs that are not finite, which JSON cannot hold: which entry, at which state, and why.
 
 use robot_codegen::OutputValues;
-use robot_dynamics::model::Robot;
-use robot_dynamics::numeric::Mechanism;
+use robot_model::robot::Robot;
+use robot_numeric::Mechanism;
 
 use crate::states::State;
 

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use robot_build::{Error, Errors, Options, Plan, Source};
-use robot_difference::{Difference, Options as DifferenceOptions, difference};
-use robot_dynamics::diagnostic::{Severity, Style, render};
-use robot_dynamics::doctor;
-use robot_dynamics::model::Robot;
+use robot_check::difference::{Difference, Options as DifferenceOptions, difference};
+use robot_check::doctor;
+use robot_model::diagnostic::{Severity, Style, render};
+use robot_model::robot::Robot;
 
 use crate::commands::diff::show;
 use crate::reading::ReadingArguments;

@@ -130,7 +130,7 @@ fn hostile_text_ends_in_an_error_or_a_formula() {
     for seed in 0..3000 {
         let mut random = Random::new(seed);
         let latex: String =
-            (0..random.below(30)).map(|_| parts[random.below(parts.len())]).collect();
+            (0..random.index(30)).map(|_| parts[random.index(parts.len())]).collect();
         match to_infix(&latex, &names) {
             Ok(infix) => {
                 if let Err(error) = Formula::parse_with_dots(infix.text()) {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::print::default_rank;
-use crate::random::{self, Kind, Random};
+use crate::random_expressions::{self as random, Kind, Random};
 use crate::{Expr, Graph, Polynomial, PolynomialOptions};
 
 const STYLES: [Trigonometry; 3] = [Trigonometry::Named, Trigonometry::Short, Trigonometry::Paper];

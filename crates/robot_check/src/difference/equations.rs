@@ -1,0 +1,141 @@
+//! The terms of the driving forces of two robots.
+
+use std::collections::BTreeMap;
+
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
+use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::quantity::Kind;
+use robot_model::robot::Robot;
+use robot_symbolic::{
+    AngleSums, Expr, Graph, Id, Number, Polynomial, PolynomialError, PolynomialOptions, print,
+};
+
+use crate::difference::{Options, Refusal};
+
+/// What the expansion of one driving force may cost: a fraction of a second.
+const LIMITS: PolynomialOptions = PolynomialOptions {
+    angle_sums: AngleSums::Expand,
+    max_terms: 100_000,
+    max_products: 1_000_000,
+};
+
+/// Driving forces that are too long after which no further one is expanded: joints farther inward have
+/// longer ones.
+const MAX_REFUSED: usize = 3;
+/// Why it is not.
+const FARTHER_OUT: &str =
+    "it is not expanded, for three driving forces farther out are too long already";
+
+/// A driving force whose terms differ.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Equation {
+    /// The driving force, `Q1`.
+    pub name: String,
+    /// The terms that appear, vanish or change; why there are none.
+    pub terms: Result<Vec<Term>, Refusal>,
+}
+
+/// A term that differs: its powers, and its coefficient in either robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Term {
+    /// The powers, `m2*l1*qdd1*cos(q2)`; `1` for a constant.
+    pub powers: String,
+    /// The exact coefficients as text; `None` where the robot does not have the term.
+    pub coefficients: [Option<String>; 2],
+}
+
+/// The driving forces that differ, without friction, with the wrenches of the tips.
+pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation> {
+    let graph = Graph::new();
+    let [of_a, of_b] = &options.code;
+    let (before, after) = (forces(a, &graph, of_a.snap), forces(b, &graph, of_b.snap));
+    let count = before.len().max(after.len());
+    let (mut equations, mut refused) = (vec![], 0);
+    for place in (0..count).rev() {
+        let pair = [before.get(place), after.get(place)].map(Option::<&Expr<'_>>::copied);
+        // Equal expressions of one graph are one node: nothing is to be expanded.
+        if pair[0] == pair[1] {
+            continue;
+        }
+        let terms = match refused {
+            MAX_REFUSED => Err(FARTHER_OUT.to_owned()),
+            _ => terms(pair).map_err(|error| reason(&error)),
+        };
+        refused += usize::from(terms.is_err() && refused < MAX_REFUSED);
+        if terms.as_ref().is_ok_and(Vec::is_empty) {
+            continue;
+        }
+        let name = format!("{}{}", Kind::DrivingForce.name(), place + 1);
+        equations.push(Equation { name, terms });
+    }
+    equations.reverse();
+    equations
+}
+
+fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g>> {
+    let exact = MechanismOptions::EXACT.with_snap(snap, robot);
+    let mechanism = Mechanism::new(robot, graph, &exact);
+    let solution = newton_euler(&mechanism, Effects { wrench: true, friction: false });
+    solution.quantities(Kind::DrivingForce).into_iter().map(|quantity| quantity.value).collect()
+}
+
+/// Why an equation has no terms to compare.
+fn reason(error: &PolynomialError) -> Refusal {
+    match error {
+        PolynomialError::TooManyTerms { limit } => {
+            format!("it is too long: expanded it has more than {limit} terms")
+        }
+        PolynomialError::TooManyProducts { limit } => {
+            format!("it is too long: to expand it takes more than {limit} products of terms")
+        }
+        other => other.to_string(),
+    }
+}
+
+/// Powers of atoms.
+type Powers = Vec<(Id, i32)>;
+
+fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
+    let mut texts: BTreeMap<Powers, (String, [Option<Number>; 2])> = BTreeMap::new();
+    for (side, expr) in pair.into_iter().enumerate() {
+        let Some(expr) = expr else { continue };
+        for term in Polynomial::of(expr, &LIMITS)?.arranged(print::default_rank) {
+            let key = term.factors.iter().map(|(atom, exponent)| (atom.id(), *exponent)).collect();
+            let coefficient = if term.negative { -&term.coefficient } else { term.coefficient };
+            let found = texts.entry(key).or_insert_with(|| (powers(&term.factors), [None, None]));
+            if let Some(place) = found.1.get_mut(side) {
+                *place = Some(coefficient);
+            }
+        }
+    }
+    let differing = texts.into_values().filter(|(_, [before, after])| before != after);
+    Ok(differing
+        .map(|(powers, coefficients)| Term {
+            powers,
+            coefficients: coefficients.map(|one| one.as_ref().map(coefficient)),
+        })
+        .collect())
+}
+
+/// `m2*qd1^2*sin(q2)`
+fn powers(factors: &[(Expr<'_>, i32)]) -> String {
+    let power = |(atom, exponent): &(Expr<'_>, i32)| {
+        let text = print::to_text(*atom).unwrap_or_else(|error| error.to_string());
+        match exponent {
+            1 => text,
+            exponent => format!("{text}^{exponent}"),
+        }
+    };
+    match factors {
+        [] => "1".to_owned(),
+        factors => factors.iter().map(power).collect::<Vec<_>>().join("*"),
+    }
+}
+
+/// `2`, `-1/3`
+fn coefficient(number: &Number) -> String {
+    match number.as_rational() {
+        Some(rational) => print::exact_text(rational),
+        None => number.to_f64().to_string(),
+    }
+}

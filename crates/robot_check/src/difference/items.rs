@@ -1,0 +1,228 @@
+//! What the files of two robots say: parameters, links, joints and frames.
+
+use robot_document::words;
+use robot_model::robot::{Body, Frame, Joint, Link, Move, Parameter, Payload, Placement, Robot};
+use robot_symbolic::{Formula, print};
+
+/// What an item is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ItemKind {
+    /// The robot as a whole.
+    Robot,
+    /// A parameter.
+    Parameter,
+    /// A link.
+    Link,
+    /// A joint.
+    Joint,
+    /// A named frame.
+    Frame,
+}
+
+impl ItemKind {
+    /// The name in text: `parameter`, `link` …
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            ItemKind::Robot => "robot",
+            ItemKind::Parameter => "parameter",
+            ItemKind::Link => "link",
+            ItemKind::Joint => "joint",
+            ItemKind::Frame => "frame",
+        }
+    }
+}
+
+/// A part of a robot, with what is said of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// What it is.
+    pub kind: ItemKind,
+    /// Its name.
+    pub name: String,
+    /// What is said of it: names and values as text, figures exact where they are numbers.
+    pub properties: Vec<(String, String)>,
+}
+
+/// A property that differs; `None` where it is not said of the item.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Property {
+    /// The name: `mass`, `value`.
+    pub name: String,
+    /// The values in either robot.
+    pub values: [Option<String>; 2],
+}
+
+/// An item that came, went or changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// The second robot alone has it.
+    Added(Item),
+    /// The first robot alone has it.
+    Removed(Item),
+    /// Both have it, with other properties.
+    Changed {
+        /// What it is.
+        kind: ItemKind,
+        /// Its name.
+        name: String,
+        /// What differs.
+        properties: Vec<Property>,
+    },
+}
+
+/// What differs, the first robot's in its order, then what came.
+pub(crate) fn changes(a: &Robot, b: &Robot) -> Vec<Change> {
+    let (before, after) = (items(a), items(b));
+    let counterpart = |item: &Item, among: &[Item]| {
+        among.iter().find(|other| other.kind == item.kind && other.name == item.name).cloned()
+    };
+    let first = before.iter().filter_map(|item| match counterpart(item, &after) {
+        None => Some(Change::Removed(item.clone())),
+        Some(other) => changed(item, &other),
+    });
+    let came = after.iter().filter(|item| counterpart(item, &before).is_none());
+    first.chain(came.cloned().map(Change::Added)).collect()
+}
+
+fn changed(a: &Item, b: &Item) -> Option<Change> {
+    let of = |item: &Item, name: &str| {
+        item.properties.iter().find(|(known, _)| known == name).map(|(_, value)| value.clone())
+    };
+    let added = b.properties.iter().filter(|(name, _)| of(a, name).is_none());
+    let all = a
+        .properties
+        .iter()
+        .chain(added)
+        .map(|(name, _)| Property { name: name.clone(), values: [of(a, name), of(b, name)] });
+    let properties: Vec<Property> = all.filter(|one| one.values[0] != one.values[1]).collect();
+    let (kind, name) = (a.kind, a.name.clone());
+    (!properties.is_empty()).then_some(Change::Changed { kind, name, properties })
+}
+
+fn items(robot: &Robot) -> Vec<Item> {
+    // The name of the robot is nothing that may differ.
+    let whole = Item { kind: ItemKind::Robot, name: String::new(), properties: of_robot(robot) };
+    let mut all = vec![whole];
+    all.extend(robot.parameters.iter().map(parameter));
+    all.extend(robot.links.iter().map(|one| link(robot, one)));
+    all.extend(robot.links.iter().map(|one| joint(robot, one)));
+    all.extend(robot.frames.iter().map(|one| frame(robot, one)));
+    all
+}
+
+fn named(name: &str, value: String) -> (String, String) {
+    (name.to_owned(), value)
+}
+
+fn of_robot(robot: &Robot) -> Vec<(String, String)> {
+    let mut properties = vec![named("gravity", vector(&robot.gravity))];
+    let snap = robot.snap.map(|snap| named("angles snapped within", format!("{snap:e} rad")));
+    properties.extend(snap);
+    properties.extend(robot.payload.as_ref().map(|payload| {
+        let Payload { mass, center_of_mass, inertia } = payload;
+        let names = std::iter::once(mass).chain(center_of_mass).chain(inertia);
+        named("payload", names.map(String::as_str).collect::<Vec<_>>().join(", "))
+    }));
+    properties
+}
+
+fn parameter(parameter: &Parameter) -> Item {
+    let value = parameter.value.as_ref().map(|value| named("value", print::exact_text(value)));
+    let unit = parameter.unit.as_ref().map(|unit| named("unit", unit.text.clone()));
+    let properties = value.into_iter().chain(unit).collect();
+    Item { kind: ItemKind::Parameter, name: parameter.name.clone(), properties }
+}
+
+fn link(robot: &Robot, link: &Link) -> Item {
+    let mut properties = vec![
+        named("parent", words::carrier(robot, link.parent).to_owned()),
+        named("placement", placement(&link.placement)),
+    ];
+    for body in &link.bodies {
+        let prefix =
+            if body.name == link.name { String::new() } else { format!("{}: ", body.name) };
+        let of_body = figures(body).into_iter();
+        properties.extend(of_body.map(|(name, value)| (format!("{prefix}{name}"), value)));
+    }
+    Item { kind: ItemKind::Link, name: link.name.clone(), properties }
+}
+
+fn figures(body: &Body) -> Vec<(String, String)> {
+    let inertia = &body.inertia;
+    vec![
+        named("mass", formula(&body.mass)),
+        named("centre of mass", placement(&body.placement)),
+        named("Ixx", formula(&inertia.xx)),
+        named("Iyy", formula(&inertia.yy)),
+        named("Izz", formula(&inertia.zz)),
+        named("Ixy", formula(&inertia.xy)),
+        named("Ixz", formula(&inertia.xz)),
+        named("Iyz", formula(&inertia.yz)),
+    ]
+}
+
+fn joint(robot: &Robot, link: &Link) -> Item {
+    let Link { joint, friction, drive, .. } = link;
+    let Joint { kind, axis, coordinate, ratio, offset, .. } = joint;
+    let mut properties = vec![
+        named("moves", link.name.clone()),
+        named("kind", words::motion(*kind).to_owned()),
+        named("axis", vector(axis)),
+        named("coordinate", format!("q{}", coordinate + 1)),
+        named("ratio", formula(ratio)),
+        named("offset", formula(offset)),
+        named("viscous friction", formula(&friction.viscous)),
+        named("friction per contact force", formula(&friction.coulomb)),
+        named("spindle diameter", formula(&friction.spindle_diameter)),
+        named("dry friction forward", formula(&friction.coulomb_positive)),
+        named("dry friction backward", formula(&friction.coulomb_negative)),
+        named("friction offset", formula(&friction.offset)),
+        named("armature", formula(&drive.armature)),
+        named("rotor inertia", formula(&drive.rotor_inertia)),
+        named("gear ratio", formula(&drive.gear_ratio)),
+        named("gyroscopic rotor", drive.gyroscopic.to_string()),
+    ];
+    properties.extend(friction.smoothing.as_ref().map(|width| named("smoothing", formula(width))));
+    let limits = robot.coordinates.get(*coordinate).and_then(|one| one.limits.as_ref());
+    properties.extend(limits.map(|[low, high]| {
+        named("limits", format!("{} to {}", print::exact_text(low), print::exact_text(high)))
+    }));
+    Item { kind: ItemKind::Joint, name: joint.name.clone(), properties }
+}
+
+fn frame(robot: &Robot, frame: &Frame) -> Item {
+    let mut properties = vec![
+        named("link", words::carrier(robot, frame.link).to_owned()),
+        named("placement", placement(&frame.placement)),
+    ];
+    properties.extend(frame.wrench.as_ref().map(|wrench| {
+        let names: Vec<&str> =
+            wrench.force.iter().chain(&wrench.moment).map(String::as_str).collect();
+        named("wrench", names.join(", "))
+    }));
+    Item { kind: ItemKind::Frame, name: frame.name.clone(), properties }
+}
+
+/// A number exactly, else the text of the file.
+fn formula(formula: &Formula) -> String {
+    let number = formula.as_number();
+    let rational = number.as_ref().and_then(|number| number.as_rational());
+    rational.map_or_else(|| formula.text().to_owned(), print::exact_text)
+}
+
+fn vector(entries: &[Formula; 3]) -> String {
+    format!("({})", entries.each_ref().map(formula).join(", "))
+}
+
+/// The moves that move anything.
+fn placement(placement: &Placement) -> String {
+    let one = |step: &Move| match step {
+        Move::Translate(by) => format!("to {}", vector(by)),
+        Move::Rotate(axis, angle) => {
+            format!("turned about {} by {}", words::axis(*axis), formula(angle))
+        }
+    };
+    let moves: Vec<String> = words::moves(placement).map(one).collect();
+    if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
+}

@@ -1,0 +1,64 @@
+//! The same inertia on several links.
+
+use super::facts::{BodyFacts, Patient};
+use robot_model::diagnostic::{Diagnostic, code};
+
+/// Two modules of an arm may well be alike; three are rare.
+const ALIKE: usize = 3;
+/// Tensors in proportion to the mass differ where masses differ by more than rounding.
+const SAME_MASS: f64 = 0.01;
+/// More places than this are not shown.
+const MAX_SHOWN: usize = 8;
+
+/// Tensors of figures alone are looked at: a parameter that stands on several links says that they
+/// are meant to be alike.
+pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    let bodies = patient.links.iter().flat_map(|link| &link.bodies);
+    let bodies: Vec<&BodyFacts<'_>> = bodies
+        .filter(|body| {
+            let entries = &body.body.inertia.entries();
+            body.has_tensor() && entries.iter().all(|entry| entry.is_constant())
+        })
+        .collect();
+    let mut seen = vec![false; bodies.len()];
+    for first in 0..bodies.len() {
+        let Some(body) = bodies.get(first).filter(|_| seen.get(first) == Some(&false)) else {
+            continue;
+        };
+        let mut group = Vec::new();
+        for (slot, other) in seen.iter_mut().zip(&bodies).skip(first) {
+            if other.body.inertia == body.body.inertia {
+                *slot = true;
+                group.push(*other);
+            }
+        }
+        let differs =
+            |other: &&BodyFacts<'_>| (other.mass - body.mass).abs() > SAME_MASS * body.mass;
+        if group.len() >= ALIKE || group.iter().any(differs) {
+            found.push(copied(&group));
+        }
+    }
+}
+
+fn copied(group: &[&BodyFacts<'_>]) -> Diagnostic {
+    let names: Vec<String> =
+        group.iter().take(MAX_SHOWN).map(|body| format!("`{}`", body.body.name)).collect();
+    let more = match group.len().saturating_sub(MAX_SHOWN) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let message = format!("the same inertia on several links: {}{more}", names.join(", "));
+    let mut diagnostic = Diagnostic::warning(code::COPIED, message);
+    for (index, body) in group.iter().take(MAX_SHOWN).enumerate() {
+        diagnostic = match index {
+            0 => diagnostic.at(body.of_tensor(), "here"),
+            _ => diagnostic.and_at(body.of_tensor(), "and here"),
+        };
+    }
+    diagnostic
+        .because("links that are alike to the last digit are rare; figures copied from one are not")
+        .help(
+            "give each link its own figures; where they are alike indeed, a robot file can make them \
+             parameters, which stand on all of them",
+        )
+}

@@ -1,0 +1,81 @@
+//! Bodies that do not fit the links that they are of.
+
+use nalgebra::Vector3;
+
+use super::facts::{BodyFacts, LinkFacts, Patient};
+use robot_model::diagnostic::significant;
+use robot_model::diagnostic::{Diagnostic, code};
+
+/// A body's parts lie at its edge or nearer, and one of its ends is at the link's origin: the mass
+/// centre is then no farther than the size of the link, nor is the radius of gyration larger. Motors
+/// and housings stand over, and links are often longer than the frames on them tell.
+const TIMES: f64 = 3.0;
+
+pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    let reach = patient.reach();
+    for link in &patient.links {
+        for body in link.bodies.iter().filter(|body| body.is_in_units()) {
+            if let Some(size) = too_wide(link, body) {
+                found.push(wide(body, size));
+            } else if let Some((distance, size)) = too_far(link, body, reach) {
+                found.push(far(body, distance, size));
+            }
+        }
+    }
+}
+
+/// The size of the link where the body's radius of gyration is more than [`TIMES`] that.
+fn too_wide(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<f64> {
+    let size = link.size().max(body.center.norm());
+    let is_wide = body.has_tensor() && size > 0.0 && body.gyration() > TIMES * size;
+    is_wide.then_some(size)
+}
+
+/// Distance of the centre of mass from the box about the origin and the points on the link, and the
+/// size that it is held against: the box's diagonal and the radius of gyration, the robot's reach
+/// where both are 0.
+fn too_far(link: &LinkFacts<'_>, body: &BodyFacts<'_>, reach: f64) -> Option<(f64, f64)> {
+    let (mut low, mut high) = (Vector3::zeros(), Vector3::zeros());
+    for point in &link.points {
+        (low, high) = (low.inf(point), high.sup(point));
+    }
+    let outside = body.center - body.center.sup(&low).inf(&high);
+    let gyration = if body.has_tensor() { body.gyration() } else { 0.0 };
+    let own = (high - low).norm() + link.travel + gyration;
+    let size = if own > 0.0 { own } else { reach };
+    let distance = outside.norm();
+    (size > 0.0 && distance > TIMES * size).then_some((distance, size))
+}
+
+fn wide(body: &BodyFacts<'_>, size: f64) -> Diagnostic {
+    let name = &body.body.name;
+    let message = format!(
+        "the radius of gyration of `{name}` is {} m, and the link is {} m long",
+        significant(body.gyration()),
+        significant(size)
+    );
+    Diagnostic::warning(code::TOO_WIDE, message)
+        .at(body.of_tensor(), "the tensor of a far larger body")
+        .and_at(body.of_mass(), format!("{} kg", significant(body.mass)))
+        .because(format!(
+            "the mass would lie, on the average, more than {TIMES} times as far out as the link reaches"
+        ))
+        .help(
+            "see whether mass and tensor are of the same body, the tensor about its centre of mass and in kg m^2",
+        )
+}
+
+fn far(body: &BodyFacts<'_>, distance: f64, size: f64) -> Diagnostic {
+    let name = &body.body.name;
+    let message = format!(
+        "the centre of mass of `{name}` lies {} m outside of the link",
+        significant(distance)
+    );
+    Diagnostic::warning(code::CENTER_FAR, message)
+        .at(body.of_center(), "in the frame of the link?")
+        .because(format!(
+            "frames and inertia tell of a link of {} m, and a body is at its joint",
+            significant(size)
+        ))
+        .help("give it in m and in the link's own frame, not in that of the base or of a drawing")
+}

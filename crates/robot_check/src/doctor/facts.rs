@@ -1,0 +1,141 @@
+//! The figures of a robot at its nominal values, with their places; NaN where one has none, so that
+//! no comparison with it holds.
+
+use nalgebra::{Matrix3, Vector3};
+
+use robot_model::description::{BodyLocation, Described, LinkLocation, Locations};
+use robot_model::diagnostic::Span;
+use robot_model::robot::{Body, JointKind, Link, Robot};
+use robot_numeric::Evaluation;
+
+/// The robot in numbers.
+pub(super) struct Patient<'d> {
+    pub(super) robot: &'d Robot,
+    pub(super) locations: &'d Locations,
+    /// Base components, m/s².
+    pub(super) gravity: Vector3<f64>,
+    pub(super) links: Vec<LinkFacts<'d>>,
+}
+
+/// A moving link.
+pub(super) struct LinkFacts<'d> {
+    pub(super) link: &'d Link,
+    pub(super) place: &'d LinkLocation,
+    pub(super) bodies: Vec<BodyFacts<'d>>,
+    /// Origins of children and of named frames, link components, m.
+    pub(super) points: Vec<Vector3<f64>>,
+    /// From the parent's origin to this one's at joint position 0, m.
+    pub(super) arm: f64,
+    /// How far a prismatic joint moves the link, m; 0 where that is not known.
+    pub(super) travel: f64,
+}
+
+/// A rigid body.
+pub(super) struct BodyFacts<'d> {
+    pub(super) body: &'d Body,
+    pub(super) place: &'d BodyLocation,
+    /// kg.
+    pub(super) mass: f64,
+    /// Link components, m.
+    pub(super) center: Vector3<f64>,
+    /// About the centre of mass, link axes, kg m².
+    pub(super) tensor: Matrix3<f64>,
+}
+
+impl<'d> Patient<'d> {
+    pub(super) fn new(described: &'d Described) -> Patient<'d> {
+        let Described { robot, locations, .. } = described;
+        let value = |name: &str| robot.nominal_value(name);
+        let at = Evaluation { value: &value };
+        let links = robot.links.iter().zip(&locations.links).enumerate();
+        let links = links.map(|(index, (link, place))| LinkFacts {
+            link,
+            place,
+            bodies: bodies(link, place, &at),
+            points: points(robot, index, &at),
+            arm: at.pose(&link.placement).translation.norm(),
+            travel: travel(robot, link),
+        });
+        Patient { robot, locations, gravity: at.vector(&robot.gravity), links: links.collect() }
+    }
+
+    /// The sum of the arms, m.
+    pub(super) fn reach(&self) -> f64 {
+        self.links.iter().map(|link| link.arm).sum()
+    }
+}
+
+fn bodies<'d>(link: &'d Link, place: &'d LinkLocation, at: &Evaluation<'_>) -> Vec<BodyFacts<'d>> {
+    let bodies = link.bodies.iter().zip(&place.bodies).map(|(body, place)| {
+        let pose = at.pose(&body.placement);
+        BodyFacts {
+            body,
+            place,
+            mass: at.number(&body.mass),
+            center: pose.translation,
+            tensor: pose.rotation * at.tensor(&body.inertia) * pose.rotation.transpose(),
+        }
+    });
+    // What nothing is known to be of, such as a payload that is set at run time.
+    bodies.filter(|body| body.mass != 0.0 || body.tensor.norm() != 0.0).collect()
+}
+
+fn points(robot: &Robot, index: usize, at: &Evaluation<'_>) -> Vec<Vector3<f64>> {
+    let children = robot.links.iter().filter(|link| link.parent == Some(index));
+    let frames = robot.frames.iter().filter(|frame| frame.link == Some(index));
+    let placements = children.map(|link| &link.placement);
+    let placements = placements.chain(frames.map(|frame| &frame.placement));
+    placements.map(|placement| at.pose(placement).translation).collect()
+}
+
+fn travel(robot: &Robot, link: &Link) -> f64 {
+    let limits = robot.coordinates.get(link.joint.coordinate);
+    match limits.and_then(|coordinate| coordinate.limits.as_ref()) {
+        Some([lower, upper]) if link.joint.kind == JointKind::Prismatic => {
+            upper.to_f64() - lower.to_f64()
+        }
+        _ => 0.0,
+    }
+}
+
+impl LinkFacts<'_> {
+    /// The farthest point that something else of the robot marks on the link, or on the way to it
+    /// from its parent, m.
+    pub(super) fn size(&self) -> f64 {
+        let farthest = self.points.iter().map(Vector3::norm).fold(0.0, f64::max);
+        farthest.max(self.arm) + self.travel
+    }
+}
+
+impl BodyFacts<'_> {
+    /// √(∫r² dm / m) about the centre of mass, m: half the trace of the tensor is ∫r² dm.
+    pub(super) fn gyration(&self) -> f64 {
+        (self.tensor.trace() / (2.0 * self.mass)).sqrt()
+    }
+
+    /// Whether there is a tensor to judge: the file does not waive it, and it is not all zeros.
+    pub(super) fn has_tensor(&self) -> bool {
+        !self.place.unchecked && self.mass > 0.0 && self.tensor.trace() > 0.0
+    }
+
+    /// The place of the tensor.
+    pub(super) fn of_tensor(&self) -> &Span {
+        self.place.inertia.as_ref().unwrap_or(&self.place.name)
+    }
+
+    /// The place of the mass.
+    pub(super) fn of_mass(&self) -> &Span {
+        self.place.mass.as_ref().unwrap_or(&self.place.name)
+    }
+
+    /// The place of the centre of mass.
+    pub(super) fn of_center(&self) -> &Span {
+        self.place.center_of_mass.as_ref().unwrap_or(&self.place.name)
+    }
+
+    /// Whether mass, centre of mass and inertia are in likely units; what is not so is told by
+    /// [`super::units`], and nothing else is said of it.
+    pub(super) fn is_in_units(&self) -> bool {
+        !super::units::is_suspect(self)
+    }
+}

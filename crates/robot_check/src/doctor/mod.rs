@@ -1,0 +1,78 @@
+//! The doctor: what a robot file says that is likely a slip.
+//!
+//! The readers refuse what no mechanism can be. What a mechanism can be, but hardly is, is told
+//! here: inertias in kg mm², a tensor about the wrong point, a right angle of four digits. A file per
+//! family of checks; each threshold stands there with its reason, and in the page of the code
+//! (docs/diagnostics). Nothing is ever changed. What depends on a parameter without a nominal value
+//! is passed over.
+
+mod angles;
+mod axes;
+mod copies;
+mod extent;
+mod facts;
+mod motion;
+mod origin;
+mod units;
+
+use facts::Patient;
+use robot_model::description::{self, Described, Options};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity};
+
+/// What is found in a file.
+#[derive(Clone, Debug)]
+pub struct Examination {
+    /// Errors and warnings; where there are errors, those of the reader alone.
+    pub found: Diagnostics,
+    /// How the file was taken where its format leaves a choice: notes.
+    pub choices: Diagnostics,
+}
+
+/// Reads a file and examines the robot that it describes.
+#[must_use]
+pub fn check(name: &str, text: &str, options: &Options) -> Examination {
+    match description::read_with(name, text, options) {
+        Ok(described) => examine(&described),
+        Err(found) => Examination::refused(found),
+    }
+}
+
+impl Examination {
+    /// That of a file which gives no robot.
+    #[must_use]
+    pub fn refused(found: Diagnostics) -> Examination {
+        let choices = Diagnostics::new(found.source().clone(), vec![]);
+        Examination { found, choices }
+    }
+}
+
+/// Examines a robot: the reader's warnings and choices, and those of the checks of this module.
+#[must_use]
+pub fn examine(described: &Described) -> Examination {
+    let Described { warnings, choices, .. } = described;
+    let own = slips(described);
+    let (notes, slips): (Vec<_>, Vec<_>) =
+        own.into_iter().partition(|found| found.severity == Severity::Note);
+    let joined = |of_reader: &Diagnostics, own: Vec<Diagnostic>| {
+        let list = of_reader.iter().cloned().chain(own).collect();
+        Diagnostics::new(of_reader.source().clone(), list)
+    };
+    Examination { found: joined(warnings, slips), choices: joined(choices, notes) }
+}
+
+/// The warnings and notes of this module alone.
+fn slips(described: &Described) -> Vec<Diagnostic> {
+    let patient = Patient::new(described);
+    let mut found = Vec::new();
+    units::check(&patient, &mut found);
+    extent::check(&patient, &mut found);
+    origin::check(&patient, &mut found);
+    copies::check(&patient, &mut found);
+    angles::check(&patient, &mut found);
+    axes::check(&patient, &mut found);
+    motion::check(&patient, &mut found);
+    found
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,112 @@
+//! Gravity that points up, joints that move nothing, bodies without extent.
+
+use super::facts::{LinkFacts, Patient};
+use robot_model::diagnostic::significant;
+use robot_model::diagnostic::{Diagnostic, Span, code};
+use robot_model::robot::JointKind;
+use robot_numeric::Mechanism;
+use robot_numeric::random::Random;
+
+/// A coordinate with less than this part of the largest inertia has none: rounding is a thousand
+/// times smaller, and the smallest joint of an arm has a millionth.
+const NOTHING: f64 = 1e-12;
+/// Postures that are tried: a joint may move nothing in one of them by chance.
+const POSTURES: usize = 3;
+const SEED: u64 = 1;
+
+pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    gravity(patient, found);
+    points(patient, found);
+    idle(patient, found);
+}
+
+fn gravity(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    let gravity = &patient.gravity;
+    let Some(place) =
+        patient.locations.gravity.as_ref().filter(|_| {
+            gravity.z > 0.0 && gravity.z > gravity.x.abs() && gravity.z > gravity.y.abs()
+        })
+    else {
+        return;
+    };
+    let message = format!("gravity points up: {} m/s^2 along z", significant(gravity.z));
+    found.push(
+        Diagnostic::warning(code::GRAVITY_UP, message)
+            .at(place, "the acceleration of gravity, not its opposite")
+            .because("with the sign turned, every torque that holds a link would push it down")
+            .help(
+                "write the vector that points down, [0, 0, -9.81] for a base that stands on the \
+                 floor; it is right as it is where the z axis of the base points down, as on the ceiling",
+            ),
+    );
+}
+
+/// Bodies that rotate, with mass and without moments of inertia.
+fn points(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    for (index, link) in patient.links.iter().enumerate() {
+        let is_point = |link: &LinkFacts<'_>| {
+            link.bodies.iter().all(|body| body.mass > 0.0 && body.tensor.norm() == 0.0)
+        };
+        let Some(body) = link.bodies.first().filter(|_| is_point(link)) else { continue };
+        if !rotates(patient, index) {
+            continue;
+        }
+        let message = format!("`{}` has mass and no moments of inertia", body.body.name);
+        found.push(
+            Diagnostic::warning(code::POINT_MASS, message)
+                .at(body.of_tensor(), "that of a point")
+                .and_at(body.of_mass(), format!("{} kg", significant(body.mass)))
+                .because("zeros are often stand-ins for figures that were not at hand")
+                .help("give the moments of inertia about the centre of mass"),
+        );
+    }
+}
+
+/// Whether a joint turns the link.
+fn rotates(patient: &Patient<'_>, index: usize) -> bool {
+    let mut next = Some(index);
+    while let Some(link) = next.and_then(|index| patient.robot.links.get(index)) {
+        if link.joint.kind == JointKind::Revolute {
+            return true;
+        }
+        next = link.parent;
+    }
+    false
+}
+
+/// Coordinates whose inertia is 0 in every posture.
+fn idle(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    let Ok(mechanism) = Mechanism::nominal(patient.robot) else {
+        return;
+    };
+    let mut random = Random::new(SEED);
+    let mut largest = vec![0.0_f64; mechanism.coordinates()];
+    for _ in 0..POSTURES {
+        let Ok(matrix) = mechanism.mass_matrix(&random.state(&mechanism).q) else {
+            return;
+        };
+        for (largest, own) in largest.iter_mut().zip(matrix.diagonal().iter()) {
+            *largest = largest.max(own.abs());
+        }
+    }
+    let most = largest.iter().copied().fold(0.0, f64::max);
+    for (index, (coordinate, own)) in patient.robot.coordinates.iter().zip(&largest).enumerate() {
+        if *own > NOTHING * most {
+            continue;
+        }
+        let place = place(patient, index);
+        let message = format!("the joint `{}` moves nothing that has mass", coordinate.joint);
+        found.push(
+            Diagnostic::warning(code::MOVES_NOTHING, message)
+                .at(&place, "no inertia about or along its axis")
+                .because("the mass matrix is singular, and forward dynamics has no solution")
+                .help("give mass or inertia to what it moves, or `armature` to its drive"),
+        );
+    }
+}
+
+fn place(patient: &Patient<'_>, coordinate: usize) -> Span {
+    let links = patient.links.iter();
+    let mut moved = links.filter(|link| link.link.joint.coordinate == coordinate);
+    moved.next().map(|link| link.place.joint.clone()).unwrap_or_default()
+}

@@ -1,0 +1,78 @@
+//! Tensors about the origin of the link's frame that are given as about the centre of mass.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::facts::{BodyFacts, LinkFacts, Patient};
+use robot_model::diagnostic::significant;
+use robot_model::diagnostic::{Diagnostic, code};
+use robot_model::physics::{Verdict, judge};
+
+/// A link reaches from its origin to a point that lies so much farther than its centre of mass, or
+/// to nothing that the file knows; of others the two ends are not known.
+const BETWEEN: f64 = 1.2;
+
+pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    for link in &patient.links {
+        let [body] = link.bodies.as_slice() else { continue };
+        if let Some(spread) = about_origin(link, body) {
+            found.push(suspicion(body, spread));
+        }
+    }
+}
+
+/// Standard deviation of the mass along the line from the origin to the centre of mass, and the
+/// largest that it can have, m, where it has more and would not have it if the tensor were about
+/// the origin.
+///
+/// Of a mass between the points a and b of a line, with its centre at c, the variance is at most
+/// (c − a)(b − c) (Bhatia and Davis 2000). The body reaches from the link's origin to the farthest
+/// point on the link, and over both by the radius of the cylinder that has its moment about the
+/// line. About the origin the variance has c² more: a rod from the origin to 2c has c²/3, and seems
+/// to have 4c²/3 where c² is the most.
+fn about_origin(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<[f64; 2]> {
+    let distance = body.center.norm();
+    let far = body.center.amax() > 0.0 && body.has_tensor() && body.is_in_units();
+    let direction = body.center.try_normalize(0.0).filter(|_| far)?;
+    let along = |point: &Vector3<f64>| point.dot(&direction);
+    let reach = link.points.iter().map(along).fold(0.0, f64::max);
+    let is_end = link.points.iter().all(|point| point.norm() == 0.0);
+    if !is_end && reach < BETWEEN * distance {
+        return None;
+    }
+    let end = reach.max(2.0 * distance) + link.travel;
+    let variance = variance(&body.tensor, body.mass, &direction);
+    let axial = (body.tensor * direction).dot(&direction).max(0.0);
+    let radius = (2.0 * axial / body.mass).sqrt();
+    let most = (distance + radius) * (end + radius - distance);
+    let steiner =
+        Matrix3::identity() * body.center.norm_squared() - body.center * body.center.transpose();
+    let shifted = body.tensor - steiner * body.mass;
+    let fits = self::variance(&shifted, body.mass, &direction) <= most;
+    (variance > most && fits && is_possible(&shifted)).then(|| [variance.sqrt(), most.sqrt()])
+}
+
+/// ∫x² dm / m along a direction: half the trace less the moment about it.
+fn variance(tensor: &Matrix3<f64>, mass: f64, direction: &Vector3<f64>) -> f64 {
+    (tensor.trace() / 2.0 - (tensor * direction).dot(direction)) / mass
+}
+
+fn is_possible(tensor: &Matrix3<f64>) -> bool {
+    let entry = |row: usize, column: usize| tensor[(row, column)];
+    let entries = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)];
+    judge(entries) == Verdict::Possible
+}
+
+fn suspicion(body: &BodyFacts<'_>, [spread, most]: [f64; 2]) -> Diagnostic {
+    let name = &body.body.name;
+    let message = format!("the inertia of `{name}` looks as if it were about the frame's origin");
+    Diagnostic::warning(code::ABOUT_ORIGIN, message)
+        .at(body.of_tensor(), "taken about the centre of mass")
+        .and_at(body.of_center(), format!("{} m away", significant(body.center.norm())))
+        .because(format!(
+            "along the link the mass would be spread by {} m, and between its ends it cannot be by \
+             more than {} m; about the origin it would fit",
+            significant(spread),
+            significant(most)
+        ))
+        .help("give the tensor about the centre of mass; a robot file may say `about = \"origin\"`")
+}

@@ -1,0 +1,186 @@
+use super::*;
+use robot_model::diagnostic::code;
+use robot_numeric::random::Random;
+
+fn codes(text: &str) -> Vec<&'static str> {
+    check("arm.toml", text, &Options::default()).found.iter().map(|one| one.code).collect()
+}
+
+/// A link of 0.4 m with these figures, and a hand on it.
+fn arm(figures: &str) -> String {
+    format!(
+        "format = 1\n[robot]\nname = \"arm\"\n\
+         [[link]]\nname = \"rod\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n{figures}\n\
+         [[link]]\nname = \"hand\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n\
+         origin = {{ xyz = [0.4, 0, 0] }}\nmass = 1\ncenter_of_mass = [0.05, 0, 0]\n\
+         inertia = {{ xx = 0.001, yy = 0.002, zz = 0.002 }}\n"
+    )
+}
+
+/// A cylinder of that mass from the origin to (0.4, 0, 0), radius 3 cm, every moment times `scale`,
+/// its tensor about the centre of mass or, wrongly, the origin.
+fn rod(mass: f64, scale: f64, about_origin: bool) -> String {
+    let (length, radius): (f64, f64) = (0.4, 0.03);
+    let axial = mass * radius * radius / 2.0;
+    let steiner = if about_origin { mass * length * length / 4.0 } else { 0.0 };
+    let across = axial / 2.0 + mass * length * length / 12.0 + steiner;
+    let [axial, across] = [axial * scale, across * scale];
+    arm(&format!(
+        "mass = {mass}\ncenter_of_mass = [0.2, 0, 0]\n\
+         inertia = {{ xx = {axial:?}, yy = {across:?}, zz = {across:?} }}"
+    ))
+}
+
+#[test]
+fn a_sound_arm_is_passed() {
+    assert_eq!(codes(&rod(2.0, 1.0, false)), [""; 0]);
+}
+
+#[test]
+fn units_are_told_by_the_ratio_of_inertia_to_mass() {
+    for (scale, unit) in [(1e9, "g mm^2"), (1e6, "kg mm^2"), (1e4, "kg cm^2")] {
+        let found = check("arm.toml", &rod(2.0, scale, false), &Options::default()).found;
+        assert_eq!(found.iter().map(|one| one.code).collect::<Vec<_>>(), [code::UNITS], "{found}");
+        assert!(found.to_string().contains(&format!("in {unit}?")), "{found}");
+    }
+    // Grams for kilograms, with the inertia of the kilograms: denser than anything.
+    let text = rod(2.0, 1.0, false).replace("mass = 2\n", "mass = 2000\n");
+    assert_eq!(codes(&text), [code::UNITS]);
+}
+
+#[test]
+fn a_tensor_about_the_origin_is_told() {
+    assert_eq!(codes(&rod(2.0, 1.0, true)), [code::ABOUT_ORIGIN]);
+    let right = rod(2.0, 1.0, true).replacen("xx =", "about = \"origin\", xx =", 1);
+    assert_eq!(codes(&right), [""; 0]);
+}
+
+#[test]
+fn centres_of_mass_are_looked_for_at_the_link() {
+    let at = |x: &str| rod(2.0, 1.0, false).replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
+    assert_eq!(codes(&at("0.8")), [""; 0]);
+    assert_eq!(codes(&at("20")), [code::CENTER_FAR]);
+    assert_eq!(codes(&at("200")), [code::UNITS]);
+}
+
+#[test]
+fn rounded_right_angles_are_told_from_angles() {
+    let turned = |angle: &str| {
+        rod(2.0, 1.0, false)
+            .replace("xyz = [0.4, 0, 0]", &format!("xyz = [0.4, 0, 0], rpy = [{angle}, 0, 0]"))
+    };
+    for angle in
+        ["1.57", "1.571", "-1.5708", "3.14", "3.1415", "4.712", "1.5707963705062866", "1e-7"]
+    {
+        assert_eq!(codes(&turned(angle)), [code::ANGLE_NEAR], "{angle}");
+    }
+    // Those within the tolerance of snapping are notes; calibrated and plain angles are nothing.
+    for angle in
+        ["1.57079632679", "1.5707963267948966", "1.5712", "1.5", "3", "0.001", "0", "\"pi/2\""]
+    {
+        assert_eq!(codes(&turned(angle)), [""; 0], "{angle}");
+    }
+    let note = check("arm.toml", &turned("1.57079632679"), &Options::default()).choices;
+    assert_eq!(note.iter().map(|one| one.code).collect::<Vec<_>>(), [code::TAKEN_ANGLE]);
+    for angle in ["90", "-180", "45"] {
+        assert_eq!(codes(&turned(angle)), [code::DEGREES], "{angle}");
+    }
+}
+
+#[test]
+fn copies_are_told_and_parameters_are_not() {
+    let link = |name: &str, mass: &str, moment: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"x\" }}\n\
+             origin = {{ xyz = [0.2, 0, 0] }}\nmass = {mass}\ncenter_of_mass = [0.1, 0, 0]\n\
+             inertia = {{ xx = {moment}, yy = {moment}, zz = {moment} }}\n"
+        )
+    };
+    let robot = |links: &[String]| {
+        format!(
+            "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nJ = 0.01\nm = 1\n{}{}",
+            link("first", "\"m\"", "\"J\""),
+            links.concat()
+        )
+    };
+    let same =
+        |names: &[&str]| names.iter().map(|name| link(name, "2", "0.02")).collect::<Vec<_>>();
+    assert_eq!(codes(&robot(&same(&["a", "b"]))), [""; 0]);
+    assert_eq!(codes(&robot(&same(&["a", "b", "c"]))), [code::COPIED]);
+    let masses = [link("a", "2", "0.02"), link("b", "1", "0.02")];
+    assert_eq!(codes(&robot(&masses)), [code::COPIED]);
+    let symbols = ["a", "b", "c"].map(|name| link(name, "2", "\"J\""));
+    assert_eq!(codes(&robot(&symbols)), [""; 0]);
+}
+
+#[test]
+fn what_is_not_known_is_passed_over() {
+    let text = rod(2.0, 1e6, false).replace("mass = 2\n", "mass = \"m\"\n");
+    let text =
+        text.replace("[[link]]\nname = \"rod\"", "[parameters]\nm = {}\n[[link]]\nname = \"rod\"");
+    assert_eq!(codes(&text), [""; 0]);
+}
+
+#[test]
+fn joints_that_move_nothing_are_told() {
+    let text = "format = 1\n[robot]\nname = \"arm\"\n[[link]]\nname = \"a\"\n\
+                joint = { type = \"prismatic\", axis = \"z\" }\nmass = 1\n\
+                center_of_mass = [0, 0, 0]\ninertia = { xx = 0, yy = 0, zz = 0 }\n\
+                [[link]]\nname = \"b\"\njoint = { type = \"revolute\", axis = \"z\" }\n";
+    assert_eq!(codes(&format!("{text}massless = true\n")), [code::MOVES_NOTHING]);
+    let moved = "massless = true\ndrive = { armature = 0.1 }\n";
+    assert_eq!(codes(&format!("{text}{moved}")), [""; 0]);
+    // A point on the axis.
+    let point = "mass = 1\ncenter_of_mass = [0, 0, 1]\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
+    assert_eq!(codes(&format!("{text}{point}")), [code::MOVES_NOTHING, code::POINT_MASS]);
+}
+
+/// A link of that length with a body that lies in `[from, to]` along it, of a rectangular section,
+/// uniform; its tensor about the centre of mass or, wrongly, the origin.
+fn beam(
+    length: f64,
+    [from, to]: [f64; 2],
+    [width, height]: [f64; 2],
+    density: f64,
+    about_origin: bool,
+) -> String {
+    let own = to - from;
+    let (mass, center) = (density * own * width * height, (from + to) / 2.0);
+    let moment = |a: f64, b: f64| mass * (a * a + b * b) / 12.0;
+    let steiner = if about_origin { mass * center * center } else { 0.0 };
+    let (xx, yy, zz) =
+        (moment(width, height), moment(own, height) + steiner, moment(own, width) + steiner);
+    let figures = format!(
+        "mass = {mass:?}\ncenter_of_mass = [{center:?}, 0, 0]\n\
+         inertia = {{ xx = {xx:?}, yy = {yy:?}, zz = {zz:?} }}"
+    );
+    arm(&figures).replace("xyz = [0.4, 0, 0]", &format!("xyz = [{length:?}, 0, 0]"))
+}
+
+/// What is uniform, of matter, and lies between the ends of its link gives no warning, whatever its
+/// shape.
+#[test]
+fn bodies_on_their_links_are_passed() {
+    let mut random = Random::new(5);
+    for round in 0..500 {
+        let length = random.uniform(0.05, 1.5);
+        let section = [random.uniform(0.01, 0.3), random.uniform(0.01, 0.3)];
+        let (first, second) = (random.uniform(0.0, length), random.uniform(0.0, length));
+        let ends = [first.min(second), first.max(second) + 0.001];
+        let text = beam(length, ends, section, random.uniform(200.0, 9000.0), false);
+        let found = check("arm.toml", &text, &Options::default()).found;
+        assert!(found.is_empty(), "seed 5, round {round}:\n{text}\n{found}");
+    }
+}
+
+/// Rods thinner than a seventh of their length.
+#[test]
+fn slender_bodies_with_tensors_about_the_origin_are_told() {
+    let mut random = Random::new(6);
+    for round in 0..200 {
+        let length = random.uniform(0.1, 1.5);
+        let section = [0, 1].map(|_| length * random.uniform(0.01, 1.0 / 7.0));
+        let text = beam(length, [0.0, length], section, random.uniform(200.0, 9000.0), true);
+        assert_eq!(codes(&text), [code::ABOUT_ORIGIN], "seed 6, round {round}:\n{text}");
+    }
+}

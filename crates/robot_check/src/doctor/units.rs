@@ -1,0 +1,111 @@
+//! Figures in other units than kg, m and s.
+
+use std::f64::consts::PI;
+
+use super::facts::{BodyFacts, Patient};
+use robot_model::diagnostic::significant;
+use robot_model::diagnostic::{Diagnostic, Span, code};
+
+/// The radius of gyration of a rod of 10 m is 2.9 m; the largest industrial arms reach 5 m.
+const WIDEST: f64 = 3.0;
+/// kg/m³: osmium, the densest matter.
+const DENSEST: f64 = 22_590.0;
+/// No link of a robot on a fixed base is so long, m; 20 mm taken for m are.
+const LONGEST: f64 = 20.0;
+/// Jupiter's is 24.8 m/s².
+const HEAVIEST: f64 = 30.0;
+
+/// Units in which CAD programs give moments of inertia, in kg m².
+const MOMENTS: &[(&str, f64)] =
+    &[("g m^2", 1e-3), ("kg cm^2", 1e-4), ("kg mm^2", 1e-6), ("g cm^2", 1e-7), ("g mm^2", 1e-9)];
+
+pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
+    for link in &patient.links {
+        if link.arm > LONGEST {
+            let place = link.place.origin.as_ref().unwrap_or(&link.place.name);
+            found.push(long("the frame of", &link.link.name, link.arm, place));
+        }
+        for body in &link.bodies {
+            let (name, distance) = (&body.body.name, body.center.norm());
+            if distance > LONGEST {
+                found.push(long("the centre of mass of", name, distance, body.of_center()));
+            }
+            if !body.has_tensor() {
+                continue;
+            }
+            if body.gyration() > WIDEST {
+                found.push(wide(body, link.size()));
+            } else if density(body) > DENSEST {
+                found.push(dense(body));
+            }
+        }
+    }
+    let gravity = patient.gravity.norm();
+    if gravity > HEAVIEST {
+        let place = patient.locations.gravity.as_ref().unwrap_or(&patient.locations.name);
+        let message = format!("gravity is {} m/s^2", significant(gravity));
+        found.push(
+            Diagnostic::warning(code::UNITS, message)
+                .at(place, "in mm/s^2 or cm/s^2?")
+                .because("on the Earth it is 9.81 m/s^2, on Jupiter 24.8")
+                .help("give it in m/s^2"),
+        );
+    }
+}
+
+/// Whether one of the figures of a body is told here.
+pub(super) fn is_suspect(body: &BodyFacts<'_>) -> bool {
+    let of_tensor = body.gyration() > WIDEST || density(body) > DENSEST;
+    body.center.norm() > LONGEST || (body.has_tensor() && of_tensor)
+}
+
+/// The least density, kg/m³, that some part of the body must have. Of all bodies of a mass and a
+/// bound on density the ball has the least ∫r² dm, 3/5 m R²; so R ≤ √(5/3) times the radius of
+/// gyration.
+fn density(body: &BodyFacts<'_>) -> f64 {
+    let radius = (5.0_f64 / 3.0).sqrt() * body.gyration();
+    body.mass / (4.0 / 3.0 * PI * radius.powi(3))
+}
+
+fn long(what: &str, name: &str, distance: f64, place: &Span) -> Diagnostic {
+    let message = format!("{what} `{name}` is {} m away", significant(distance));
+    Diagnostic::warning(code::UNITS, message)
+        .at(place, "in mm?")
+        .because(format!("no arm has a link of more than {LONGEST} m"))
+        .help("give lengths in m")
+}
+
+fn wide(body: &BodyFacts<'_>, size: f64) -> Diagnostic {
+    let name = &body.body.name;
+    let gyration = body.gyration();
+    // The unit that brings the radius of gyration next to half the link's size.
+    let expected = if size > 0.0 { size.min(1.0) / 2.0 } else { 0.1 };
+    let miss = |factor: f64| (gyration * factor.sqrt() / expected).ln().abs();
+    let unit = MOMENTS.iter().min_by(|a, b| miss(a.1).total_cmp(&miss(b.1)));
+    let (unit, factor) = unit.copied().unwrap_or(("kg mm^2", 1e-6));
+    let message = format!("the radius of gyration of `{name}` is {} m", significant(gyration));
+    Diagnostic::warning(code::UNITS, message)
+        .at(body.of_tensor(), format!("in {unit}?"))
+        .and_at(body.of_mass(), format!("{} kg", significant(body.mass)))
+        .because(format!(
+            "such is the distance at which the mass lies on the average; a rod of 10 m has {WIDEST} m"
+        ))
+        .help(format!("give moments of inertia in kg m^2: those in {unit} times {factor:e}"))
+}
+
+fn dense(body: &BodyFacts<'_>) -> Diagnostic {
+    let name = &body.body.name;
+    let message = format!(
+        "`{name}` is too small for its mass: {} kg with a radius of gyration of {} m",
+        significant(body.mass),
+        significant(body.gyration())
+    );
+    Diagnostic::warning(code::UNITS, message)
+        .at(body.of_mass(), "in g?")
+        .and_at(body.of_tensor(), "in other units than kg m^2, or a stand-in?")
+        .because(format!(
+            "some of it would be denser than {} kg/m^3; osmium, the densest matter, has {DENSEST}",
+            significant(density(body))
+        ))
+        .help("give the mass in kg and the tensor, about the centre of mass, in kg m^2")
+}

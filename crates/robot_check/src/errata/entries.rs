@@ -1,0 +1,400 @@
+//! The equations of a text as ranges of bytes, one entry each.
+
+use std::ops::Range;
+
+use super::printed::Notation;
+use robot_model::diagnostic::{Diagnostic, Span, code, quote};
+
+/// Environments that display equations, without the star.
+const DISPLAYS: [&str; 8] =
+    ["equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath"];
+/// Environments inside of these that only arrange.
+const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
+/// Environments of columns.
+const COLUMNS: [&str; 7] =
+    ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
+
+/// What stands for a left side that is printed in the display before.
+const PHANTOM: &str = r"\phantom{";
+/// Bytes of a left side that `\phantom` holds.
+const LONGEST_LEFT_SIDE: usize = 1000;
+
+/// A printed equation as it stands: `text` is the file's, comments and marks replaced by spaces.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    text: String,
+    /// The first byte in the file.
+    start: usize,
+    /// The number that `\tag` gives.
+    pub(super) number: Option<String>,
+}
+
+/// A part of an entry, and its bytes in the file.
+#[derive(Clone, Debug)]
+pub(super) struct Part<'e> {
+    pub(super) text: &'e str,
+    pub(super) span: Span,
+}
+
+impl Entry {
+    /// What stands on either side of the `=`.
+    pub(super) fn sides(&self) -> Result<(Part<'_>, Part<'_>), Box<Diagnostic>> {
+        let whole = self.part(0..self.text.len());
+        let Some(place) = self.text.find('=') else {
+            let error = Diagnostic::error(code::EXPRESSION, "an equation without `=`");
+            let error = error.at(&whole.trimmed().span, "");
+            return Err(error.help("write `(number) quantity = terms`").into());
+        };
+        let left = self.part(0..place).trimmed();
+        if left.text.is_empty() {
+            return Err(unnamed(&self.part(place..place + 1).span).into());
+        }
+        Ok((left, self.part(place + 1..self.text.len())))
+    }
+
+    fn part(&self, range: Range<usize>) -> Part<'_> {
+        let text = self.text.get(range.clone()).unwrap_or_default();
+        Part { text, span: self.start + range.start..self.start + range.end }
+    }
+}
+
+impl<'e> Part<'e> {
+    fn sub(&self, range: Range<usize>) -> Part<'e> {
+        let text = self.text.get(range.clone()).unwrap_or_default();
+        Part { text, span: self.span.start + range.start..self.span.start + range.end }
+    }
+
+    /// Without marks of alignment and spaces at its ends.
+    fn trimmed(&self) -> Part<'e> {
+        let mark = |c: char| c.is_whitespace() || c == '&';
+        let start = self.text.len() - self.text.trim_start_matches(mark).len();
+        let end = self.text.trim_end_matches(mark).len().max(start);
+        self.sub(start..end)
+    }
+
+    /// The rows of a column, where the part is one.
+    pub(super) fn rows(&self) -> Result<Option<Vec<Part<'e>>>, Box<Diagnostic>> {
+        let Some((name, open, inside)) = environment(self.text, &COLUMNS) else {
+            return Ok(None);
+        };
+        let close = format!(r"\end{{{name}}}");
+        let Some(end) = self.text.get(inside..).and_then(|rest| rest.find(&close)) else {
+            let error = Diagnostic::error(code::EXPRESSION, format!("`{name}` is not closed"));
+            let error = error.at(&self.sub(open..inside).span, "");
+            return Err(error.help(format!("add `{close}`")).into());
+        };
+        let (before, after) = (0..open, inside + end + close.len()..self.text.len());
+        for around in [before, after] {
+            let around = self.sub(around);
+            let bracket = |c: char| " \t\r\n()[].,;&\\".contains(c);
+            let rest = around.text.replace(r"\left", "").replace(r"\right", "").replace(r"\,", "");
+            if !rest.chars().all(bracket) {
+                let error =
+                    Diagnostic::error(code::EXPRESSION, "a column with something beside it");
+                let error = error.at(&around.trimmed().span, "");
+                return Err(error.help("write it into the rows").into());
+            }
+        }
+        let columns = self.sub(inside..inside + end);
+        let mut rows: Vec<Part<'e>> =
+            row_ranges(columns.text).into_iter().map(|range| columns.sub(range)).collect();
+        // A break behind the last row makes no row.
+        if rows.last().is_some_and(|row| row.text.trim().is_empty()) {
+            rows.pop();
+        }
+        Ok(Some(rows))
+    }
+}
+
+/// The error for a left side that is no quantity.
+pub(super) fn unnamed(span: &Span) -> Diagnostic {
+    let message = "expected a quantity on the left, such as `F_l5.x` or `Q1`";
+    let help = "in LaTeX `F_{l_x}^{5}` or `Q_{1}`";
+    Diagnostic::error(code::EXPRESSION, message).at(span, "").help(help)
+}
+
+/// The entries of a text, or what is wrong with its arrangement.
+pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<Diagnostic>>> {
+    match notation {
+        Notation::Text => lines(&without_comments(text, notation)),
+        Notation::Latex => {
+            let text = rejoined(&without_comments(text, notation));
+            let displays = displays(&text);
+            if displays.is_empty() { lines(&text) } else { rows(&text, displays) }
+        }
+    }
+}
+
+/// The text with comments replaced by as many spaces.
+fn without_comments(text: &str, notation: Notation) -> String {
+    let mut clean = String::with_capacity(text.len());
+    for line in text.split_inclusive('\n') {
+        let comment = match notation {
+            Notation::Text => line.trim_start().starts_with('#').then_some(0),
+            Notation::Latex => percent(line),
+        };
+        let end = line.trim_end_matches(['\n', '\r']).len();
+        let comment = comment.unwrap_or(end).min(end);
+        clean.push_str(line.get(..comment).unwrap_or_default());
+        clean.extend(std::iter::repeat_n(' ', end - comment));
+        clean.push_str(line.get(end..).unwrap_or_default());
+    }
+    clean
+}
+
+/// The first percent sign that begins a comment.
+fn percent(line: &str) -> Option<usize> {
+    let bytes = line.as_bytes();
+    let mut escaped = false;
+    bytes.iter().position(|byte| {
+        let found = *byte == b'%' && !escaped;
+        escaped = *byte == b'\\' && !escaped;
+        found
+    })
+}
+
+/// An entry of each line, with the indented lines that follow it.
+fn lines(text: &str) -> Vec<Result<Entry, Box<Diagnostic>>> {
+    let mut ranges: Vec<Range<usize>> = vec![];
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let range = start..start + line.trim_end().len();
+        start += line.len();
+        match ranges.last_mut() {
+            _ if range.is_empty() => {}
+            Some(last) if line.starts_with([' ', '\t']) => last.end = range.end,
+            _ => ranges.push(range),
+        }
+    }
+    ranges.into_iter().map(|range| Ok(entry(text, range))).collect()
+}
+
+/// An entry of some bytes; `\tag` and `\label` are taken out.
+fn entry(text: &str, range: Range<usize>) -> Entry {
+    let own = text.get(range.clone()).unwrap_or_default();
+    let (mut number, mut marks, mut place) = (None, vec![], 0);
+    while let Some(found) = own.get(place..).and_then(|rest| rest.find('\\')) {
+        let start = place + found;
+        place = start + 1;
+        let rest = own.get(place..).unwrap_or_default();
+        let mark = ["tag*{", "tag{", "label{"].into_iter().find(|mark| rest.starts_with(mark));
+        if let Some(mark) = mark {
+            let length = rest.find('}').unwrap_or(rest.len());
+            if mark.starts_with("tag") {
+                let given = rest.get(mark.len()..length).unwrap_or_default();
+                number = Some(quote(given.trim_matches([' ', '(', ')'])));
+            }
+            place = (place + length + 1).min(own.len());
+            marks.push(start..place);
+        }
+    }
+    Entry { text: blanked(own, &marks), start: range.start, number }
+}
+
+/// The text with some ranges, in order, replaced by spaces.
+fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
+    let mut clean = String::with_capacity(text.len());
+    for range in ranges {
+        clean.push_str(text.get(clean.len()..range.start).unwrap_or_default());
+        clean.extend(std::iter::repeat_n(' ', range.end.saturating_sub(clean.len())));
+    }
+    clean.push_str(text.get(clean.len()..).unwrap_or_default());
+    clean
+}
+
+/// The text with equations in one piece that go on in the next display, where `\phantom` with their
+/// left side opens it: what stands between is a line break and spaces.
+fn rejoined(text: &str) -> String {
+    let seams: Vec<Range<usize>> =
+        text.match_indices(PHANTOM).filter_map(|(place, _)| seam(text, place)).collect();
+    let mut whole = blanked(text, &seams);
+    for seam in seams {
+        whole.replace_range(seam.start..seam.start + 2, r"\\");
+    }
+    whole
+}
+
+/// From the end of a display to that of the `\phantom` at `place`, which opens the next.
+fn seam(text: &str, place: usize) -> Option<Range<usize>> {
+    // The last of some text that may hold a word in braces.
+    let word = |end: usize, start: &str| {
+        let text = text.get(..end)?.trim_end();
+        let open = text.len() - text.bytes().rev().take(24).position(|byte| byte == b'\\')? - 1;
+        let name = text.get(open..)?.strip_prefix(start)?.strip_suffix('}')?;
+        Some((open, name))
+    };
+    let (open, name) = word(place, r"\begin{")?;
+    let (end, closed) = word(open, r"\end{")?;
+    (name == closed && DISPLAYS.contains(&name.trim_end_matches('*'))).then_some(())?;
+    let inside = place + PHANTOM.len();
+    let mut depth = 1_usize;
+    let close = text.get(inside..)?.bytes().take(LONGEST_LEFT_SIDE).position(|byte| {
+        match byte {
+            b'{' => depth += 1,
+            b'}' => depth -= 1,
+            _ => {}
+        }
+        depth == 0
+    })?;
+    Some(end..inside + close + 1)
+}
+
+/// What is displayed, or where something is not closed.
+fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
+    let mut found = vec![];
+    let mut place = 0;
+    while let Some(rest) = text.get(place..).filter(|rest| !rest.is_empty()) {
+        let Some((inside, close)) = display(rest) else {
+            // A line break may have its height in brackets behind it.
+            let skipped = if rest.starts_with(r"\\") { 2 } else { 1 };
+            place += rest.chars().take(skipped).map(char::len_utf8).sum::<usize>();
+            continue;
+        };
+        let inside = place + inside;
+        let Some(length) = text.get(inside..).and_then(|rest| rest.find(&close)) else {
+            let error = Diagnostic::error(code::EXPRESSION, "a display that is not closed");
+            let error = error.at(&(place..inside), "").help(format!("add `{close}`"));
+            found.push(Err(error.into()));
+            return found;
+        };
+        found.push(Ok(inside..inside + length));
+        place = inside + length + close.len();
+    }
+    found
+}
+
+/// Where the content of a display begins that opens a text, and what closes it.
+fn display(text: &str) -> Option<(usize, String)> {
+    if text.starts_with(r"\[") {
+        return Some((2, r"\]".to_owned()));
+    }
+    if text.starts_with("$$") {
+        return Some((2, "$$".to_owned()));
+    }
+    let (name, inside) = begins(text, &DISPLAYS)?;
+    Some((inside, format!(r"\end{{{name}}}")))
+}
+
+/// The first of some environments: its name, where it opens, where its content begins.
+fn environment<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize, usize)> {
+    let mut opens = text.match_indices(r"\begin{");
+    opens.find_map(|(open, _)| {
+        let (name, inside) = begins(text.get(open..)?, names)?;
+        Some((name, open, open + inside))
+    })
+}
+
+/// The name of the environment that opens a text, and where its content begins.
+fn begins<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize)> {
+    let rest = text.strip_prefix(r"\begin{")?;
+    let name = rest.get(..rest.bytes().take(16).position(|byte| byte == b'}')?)?;
+    names.contains(&name.trim_end_matches('*')).then_some(())?;
+    let inside = text.len() - rest.len() + name.len() + 1;
+    let argument = text.get(inside..).filter(|rest| rest.starts_with('{'));
+    let known = matches!(name, "alignat" | "alignat*" | "array");
+    let argument = argument.filter(|_| known).and_then(|rest| rest.find('}'));
+    Some((name, inside + argument.map_or(0, |end| end + 1)))
+}
+
+/// An entry of each row with a `=`, with the rows that follow it.
+fn rows(
+    text: &str,
+    displays: Vec<Result<Range<usize>, Box<Diagnostic>>>,
+) -> Vec<Result<Entry, Box<Diagnostic>>> {
+    let mut entries = vec![];
+    for display in displays {
+        let display = match display {
+            Ok(display) => display,
+            Err(error) => {
+                entries.push(Err(error));
+                continue;
+            }
+        };
+        let own = flattened(text.get(display.clone()).unwrap_or_default());
+        let mut ranges: Vec<Range<usize>> = vec![];
+        for row in row_ranges(&own) {
+            let line = own.get(row.clone()).unwrap_or_default();
+            match ranges.last_mut() {
+                _ if line.trim().is_empty() => {}
+                Some(last) if !line.contains('=') => last.end = row.end,
+                _ => ranges.push(row),
+            }
+        }
+        entries.extend(ranges.into_iter().map(|range| {
+            let mut entry = entry(&own, range);
+            entry.start += display.start;
+            Ok(entry)
+        }));
+    }
+    entries
+}
+
+/// A display without what only arranges: environments within it, and heights of line breaks.
+fn flattened(display: &str) -> String {
+    let (mut ranges, mut place) = (vec![], 0);
+    while let Some(found) = display.get(place..).and_then(|rest| rest.find('\\')) {
+        let start = place + found;
+        let rest = display.get(start..).unwrap_or_default();
+        if rest.starts_with(r"\\") {
+            place = start + 2;
+            let end = place + height(rest.get(2..).unwrap_or_default());
+            ranges.push(place..end);
+            place = end;
+            continue;
+        }
+        place = start + 1;
+        let inside = rest.strip_prefix(r"\begin{").or(rest.strip_prefix(r"\end{"));
+        let known = inside.is_some_and(|inside| {
+            let names = ARRANGED.iter().filter_map(|name| inside.strip_prefix(*name));
+            names.into_iter().any(|rest| rest.starts_with(['}', '*']))
+        });
+        if let Some(length) = rest.find('}').filter(|_| known) {
+            place = start + length + 1;
+            ranges.push(start..place);
+        }
+    }
+    blanked(display, &ranges)
+}
+
+/// The ranges between line breaks outside of groups and environments; heights belong to the breaks.
+fn row_ranges(text: &str) -> Vec<Range<usize>> {
+    let mut ranges = vec![];
+    let (mut start, mut place, mut depth) = (0, 0, 0_usize);
+    while let Some(rest) = text.get(place..).filter(|rest| !rest.is_empty()) {
+        let mut length = rest.chars().next().map_or(1, char::len_utf8);
+        if rest.starts_with(r"\begin{") || rest.starts_with('{') {
+            depth += 1;
+            length = rest.find('{').map_or(1, |brace| brace + 1);
+            // The braces of the name close at once.
+            if rest.starts_with('\\') {
+                length = rest.find('}').map_or(rest.len(), |brace| brace + 1);
+            }
+        } else if rest.starts_with(r"\end{") {
+            depth = depth.saturating_sub(1);
+            length = rest.find('}').map_or(rest.len(), |brace| brace + 1);
+        } else if rest.starts_with('}') {
+            depth = depth.saturating_sub(1);
+        } else if rest.starts_with(r"\\") {
+            length = 2 + height(rest.get(2..).unwrap_or_default());
+            if depth == 0 {
+                ranges.push(start..place);
+                start = place + length;
+            }
+        } else if rest.starts_with('\\') {
+            length = 1 + rest.chars().nth(1).map_or(0, char::len_utf8);
+            if rest.starts_with(r"\begin") || rest.starts_with(r"\end") {
+                length = 1;
+            }
+        }
+        place += length;
+    }
+    ranges.push(start..text.len());
+    ranges
+}
+
+/// The length of `*` and `[2pt]` behind a line break.
+fn height(rest: &str) -> usize {
+    let star = usize::from(rest.starts_with('*'));
+    let bracket = rest.get(star..).filter(|rest| rest.starts_with('['));
+    star + bracket.and_then(|rest| rest.find(']')).map_or(0, |end| end + 1)
+}

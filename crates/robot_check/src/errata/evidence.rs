@@ -1,0 +1,142 @@
+//! What speaks against a printed term or for a derived one, without the derivation.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use std::collections::HashMap;
+
+use robot_symbolic::Number;
+
+use super::term::{Key, Term};
+use robot_model::unit::Dimension;
+
+/// Independent evidence about a difference.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Evidence {
+    /// The printed term has a dimension other than its equation's.
+    Dimension {
+        /// The printed term's.
+        printed: Dimension,
+        /// The equation's.
+        expected: Dimension,
+    },
+    /// The derived term stands in other printed equations, as it is.
+    SameTerm(Vec<String>),
+    /// The derived term stands in other printed equations, but for one factor.
+    RelatedTerm {
+        /// The factor by which it differs.
+        factor: String,
+        /// The equations.
+        equations: Vec<String>,
+    },
+    /// The printed term holds a symbol that the robot does not have.
+    UnknownSymbol(String),
+}
+
+/// `not a force but kg m s^-1, for kg m s^-2: a dot is missing`
+impl fmt::Display for Evidence {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Evidence::Dimension { printed, expected } => {
+                let what = match *expected {
+                    Dimension::ACCELERATION => "an acceleration",
+                    Dimension::FORCE => "a force",
+                    Dimension::MOMENT => "a torque",
+                    _ => "of this dimension",
+                };
+                write!(formatter, "not {what} but {printed}, for {expected}")?;
+                let same = (printed.mass, printed.length) == (expected.mass, expected.length);
+                match i16::from(expected.time) - i16::from(printed.time) {
+                    -1 if same => write!(formatter, ": a dot is missing"),
+                    1 if same => write!(formatter, ": a dot too many"),
+                    time if same && time < 0 => write!(formatter, ": {} dots are missing", -time),
+                    time if same => write!(formatter, ": {time} dots too many"),
+                    _ => Ok(()),
+                }
+            }
+            Evidence::SameTerm(equations) => {
+                write!(formatter, "the derived term stands in {}", equations.join(", "))
+            }
+            Evidence::RelatedTerm { factor, equations } => write!(
+                formatter,
+                "the derived term stands, but for the factor {factor}, in {}",
+                equations.join(", ")
+            ),
+            Evidence::UnknownSymbol(symbol) => {
+                write!(formatter, "the robot has no symbol {symbol}")
+            }
+        }
+    }
+}
+
+/// Where a product of factors is printed: the equation, and the number before it.
+type Place = (usize, Number);
+
+/// The terms of all printed equations, to be looked up.
+#[derive(Default)]
+pub(super) struct PrintedTerms {
+    /// The equations' names, `(31) F_l5.x`.
+    names: Vec<String>,
+    whole: HashMap<Key, Vec<Place>>,
+    /// Products without one of their factors; the factor's text.
+    without: HashMap<Key, Vec<(Place, String)>>,
+}
+
+impl PrintedTerms {
+    /// Adds an equation.
+    pub(super) fn insert(&mut self, name: String, terms: &[Term<'_>]) {
+        let equation = self.names.len();
+        self.names.push(name);
+        for term in terms {
+            let place = || (equation, term.coefficient.clone());
+            self.whole.entry(term.key()).or_default().push(place());
+            for (key, factor) in term.without_factor() {
+                self.without.entry(key).or_default().push((place(), factor));
+            }
+        }
+    }
+
+    /// The other printed equations that hold a term, as it is or but for one factor.
+    pub(super) fn support(&self, term: &Term<'_>, own: &str) -> Option<Evidence> {
+        let name = |equation: usize| self.names.get(equation).filter(|name| *name != own);
+        let mut same: Vec<&String> = vec![];
+        for (equation, coefficient) in self.whole.get(&term.key()).into_iter().flatten() {
+            if let Some(name) = name(*equation).filter(|_| *coefficient == term.coefficient)
+                && same.last() != Some(&name)
+            {
+                same.push(name);
+            }
+        }
+        if !same.is_empty() {
+            return Some(Evidence::SameTerm(same.into_iter().cloned().collect()));
+        }
+        let sign = |coefficient: &Number| match coefficient {
+            same if *same == term.coefficient => Some(""),
+            other if *other == -&term.coefficient => Some("-"),
+            _ => None,
+        };
+        let longer = self.without.get(&term.key()).into_iter().flatten();
+        let mut found: Vec<(usize, String)> = longer
+            .filter_map(|((equation, number), factor)| {
+                Some((*equation, format!("{}{factor}", sign(number)?)))
+            })
+            .collect();
+        for (key, factor) in term.without_factor() {
+            let shorter = self.whole.get(&key).into_iter().flatten();
+            found.extend(shorter.filter_map(|(equation, number)| {
+                Some((*equation, format!("{}{factor}", sign(number)?)))
+            }));
+        }
+        found.sort();
+        let mut related: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut last = None;
+        for (equation, factor) in found {
+            if let Some(name) = name(equation).filter(|_| last != Some(equation)) {
+                related.entry(factor).or_default().push(name.clone());
+                last = Some(equation);
+            }
+        }
+        let most = related.into_iter().max_by_key(|(_, equations)| equations.len());
+        most.map(|(factor, equations)| Evidence::RelatedTerm { factor, equations })
+    }
+}

@@ -1,0 +1,323 @@
+//! Errata: published equations against derived ones, term by term.
+//!
+//! Terms have no order and like terms may be printed apart, so equations are compared as sets of
+//! canonical terms. What differs is paired, a printed term with the derived term that it most
+//! resembles, and comes with the kind of slip and with evidence that does not lean on the
+//! derivation: the dimension of the printed term, and the other printed equations in which the
+//! derived term stands.
+
+mod dimension;
+mod entries;
+mod evidence;
+mod printed;
+mod slip;
+mod symbols;
+mod term;
+#[cfg(test)]
+mod tests;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use robot_symbolic::{AngleSums, Expr, Graph, PolynomialOptions, walk};
+
+use dimension::Dimensions;
+pub use evidence::Evidence;
+use evidence::PrintedTerms;
+pub use printed::Notation;
+use printed::{PrintedEquation, read_printed};
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
+use robot_dynamics::newton_euler::{self, Effects};
+use robot_dynamics::quantity::{Kind, Quantity};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code, quote};
+use robot_model::robot::Robot;
+use robot_model::unit::Dimension;
+pub use slip::{Slip, SlipKind};
+use symbols::Symbols;
+use term::Term;
+
+/// What an expansion may cost: a second or two.
+const LIMITS: PolynomialOptions = PolynomialOptions {
+    angle_sums: AngleSums::Expand,
+    max_terms: 500_000,
+    max_products: 4_000_000,
+};
+
+/// Of one equation's wrong terms and derived terms no more pairs than these are tried.
+const MAX_PAIRS: usize = 2_000_000;
+
+/// How equations are compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// How they are written; without this as [`Notation::of`] finds.
+    pub notation: Option<Notation>,
+    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
+    /// for what the robot file says, or 10⁻⁹.
+    pub snap: Option<f64>,
+}
+
+/// A difference between print and derivation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The equation's number in print.
+    pub number: String,
+    /// The quantity: `M_l4.z`.
+    pub quantity: String,
+    /// The line of the equation in the file.
+    pub line: usize,
+    /// The printed term, canonical; `None` where a derived term is not in print.
+    pub printed: Option<String>,
+    /// The derived term, canonical; `None` where a printed term has no counterpart.
+    pub derived: Option<String>,
+    /// For a printed term without counterpart, the derived term that it resembles most.
+    pub nearest: Option<String>,
+    /// In what the printed term differs from the derived one; never empty.
+    pub slips: Vec<Slip>,
+    /// What speaks against the printed term or for the derived one, without the derivation.
+    pub evidence: Vec<Evidence>,
+}
+
+/// What a comparison found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Comparison {
+    /// How many equations were compared.
+    pub equations: usize,
+    /// How many of them only name another quantity.
+    pub names: usize,
+    /// How many terms the others have in print, brackets opened.
+    pub terms: usize,
+    /// Whether the derived equations have the wrenches of the tips: where any printed one has.
+    pub wrench: bool,
+    /// Where they differ, in the order of the print.
+    pub differences: Vec<Difference>,
+}
+
+/// Compares printed equations with the paper's iterations for a robot, without friction, and without
+/// the wrenches of tips where none of the equations has any of their symbols.
+///
+/// An equation is `(number) quantity = terms`, the number left out where there is none. In infix text
+/// it stands on a line, continued by indented lines; `#` begins a comment line. In LaTeX it stands
+/// likewise on a line, or in a display (`equation`, `align` …), all else being prose; a vector may be
+/// a column of three rows.
+///
+/// # Errors
+///
+/// Everything that cannot be read, with its place; quantities that the robot does not have; equations
+/// that are too long to be compared term by term.
+pub fn compare(
+    robot: &Robot,
+    source: &Source,
+    options: &Options,
+) -> Result<Comparison, Diagnostics> {
+    let failed = |errors: Vec<Diagnostic>| Diagnostics::new(source.clone(), errors);
+    let graph = Graph::new();
+    let exact = MechanismOptions::EXACT.with_snap(options.snap, robot);
+    let mechanism = Mechanism::new(robot, &graph, &exact);
+    let quantities = |wrench: bool| -> Vec<Quantity<'_>> {
+        let effects = Effects { wrench, friction: false };
+        let solution = newton_euler::newton_euler(&mechanism, effects);
+        Kind::ALL.iter().flat_map(|kind| solution.quantities(*kind)).collect()
+    };
+    let notation = options.notation.unwrap_or_else(|| Notation::of(&source.text));
+    let symbols = {
+        let quantities = quantities(true);
+        let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
+        let used = walk::symbols(&values).into_iter().map(|symbol| graph.symbol_name(symbol));
+        let names: Vec<_> = quantities.iter().map(|quantity| quantity.symbol).collect();
+        Symbols::of(robot, &names, used.collect())
+    };
+    let printed = read_printed(source, notation, &symbols).map_err(failed)?;
+    let wrench = has_wrench(robot, &printed);
+    let quantities: BTreeMap<String, Quantity<'_>> = quantities(wrench)
+        .into_iter()
+        .map(|quantity| (quantity.symbol.to_string(), quantity))
+        .collect();
+    let unknown: Vec<Diagnostic> = printed
+        .iter()
+        .filter(|equation| !quantities.contains_key(&equation.quantity))
+        .map(|equation| no_quantity(equation, robot))
+        .collect();
+    if !unknown.is_empty() {
+        return Err(failed(unknown));
+    }
+    let compared = expand(&graph, &printed, &quantities).map_err(|error| failed(vec![*error]))?;
+    let lines = Lines::of(&source.text);
+    let found = find(&compared, &Dimensions::of(robot), &lines);
+    let terms = compared.iter().filter(|one| !one.is_name).map(|one| one.print.len()).sum();
+    Ok(Comparison {
+        equations: compared.len(),
+        names: compared.iter().filter(|one| one.is_name).count(),
+        terms,
+        wrench,
+        differences: found.map_err(failed)?,
+    })
+}
+
+/// Whether any equation has a symbol of a tip's wrench.
+fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
+    let tips = robot.tips().flat_map(|(_, wrench)| wrench.force.iter().chain(&wrench.moment));
+    let names: BTreeSet<&str> = tips.map(String::as_str).collect();
+    let terms = printed.iter().flat_map(|equation| &equation.terms);
+    terms.flat_map(robot_symbolic::Formula::symbols).any(|(name, _)| names.contains(name))
+}
+
+fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
+    let message = format!("the robot has no quantity `{}`", quote(&equation.quantity));
+    let (links, last) = (robot.links.len(), robot.degrees_of_freedom());
+    Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(format!(
+        "there are a_c1.x to a_c{links}.z, and F, M_c, F_l and M_l likewise, and Q1 to Q{last}; in \
+         LaTeX a_{{c_x}}^{{1}}, F_{{x}}^{{1}}, M_{{c_x}}^{{1}}, F_{{l_x}}^{{1}}, M_{{l_x}}^{{1}} and Q_{{1}}"
+    ))
+}
+
+/// A printed equation beside the derived one.
+struct Compared<'p, 'g> {
+    equation: &'p PrintedEquation,
+    dimension: Dimension,
+    print: Vec<Term<'g>>,
+    derived: Vec<Term<'g>>,
+    /// Whether the print only names another quantity: its terms are then none of the print.
+    is_name: bool,
+}
+
+/// The terms of every equation, printed and derived.
+fn expand<'p, 'g>(
+    graph: &'g Graph,
+    printed: &'p [PrintedEquation],
+    quantities: &BTreeMap<String, Quantity<'g>>,
+) -> Result<Vec<Compared<'p, 'g>>, Box<Diagnostic>> {
+    let wanted: BTreeSet<&str> =
+        printed.iter().map(|equation| equation.quantity.as_str()).collect();
+    let wanted: Vec<&Quantity<'g>> =
+        wanted.into_iter().filter_map(|name| quantities.get(name)).collect();
+    let values: Vec<Expr<'g>> = wanted.iter().map(|quantity| quantity.value).collect();
+    let derived = term::terms_of(&values, &LIMITS).map_err(|_| {
+        Diagnostic::error(code::LIMIT, "the derived equations are too long to be compared by terms")
+            .help("compare fewer: those of the last joints are the shortest")
+    })?;
+    let derived: BTreeMap<String, Vec<Term<'g>>> =
+        wanted.iter().map(|quantity| quantity.symbol.to_string()).zip(derived).collect();
+    let mut values = vec![];
+    let mut compared = vec![];
+    for equation in printed {
+        let Some(quantity) = quantities.get(&equation.quantity) else { continue };
+        // A right side that is another quantity by name stands for that quantity.
+        let named = match equation.terms.as_slice() {
+            [alone] => quantities.get(alone.text().trim()),
+            _ => None,
+        };
+        let symbols = &mut |name: &str| graph.symbol(name);
+        let first = values.len();
+        values.extend(equation.terms.iter().map(|term| match named {
+            Some(quantity) => quantity.value,
+            None => term.lower(graph, symbols),
+        }));
+        let derived = derived.get(&equation.quantity).cloned().unwrap_or_default();
+        let (dimension, is_name) = (quantity.dimension, named.is_some());
+        let one = Compared { equation, dimension, print: vec![], derived, is_name };
+        compared.push((one, first..values.len()));
+    }
+    let mut terms = term::terms_of(&values, &LIMITS).map_err(|_| {
+        Diagnostic::error(code::LIMIT, "the printed equations are too long to be expanded")
+            .help("compare them in several files")
+    })?;
+    Ok(compared
+        .into_iter()
+        .map(|(one, range)| {
+            let own = terms.get_mut(range).unwrap_or_default();
+            let print = own.iter_mut().flat_map(std::mem::take).collect();
+            Compared { print, ..one }
+        })
+        .collect())
+}
+
+/// All differences, or the equations in which there are too many.
+fn find(
+    compared: &[Compared<'_, '_>],
+    dimensions: &Dimensions,
+    lines: &Lines,
+) -> Result<Vec<Difference>, Vec<Diagnostic>> {
+    let mut index = PrintedTerms::default();
+    for one in compared.iter().filter(|one| !one.is_name) {
+        index.insert(one.name(), &one.print);
+    }
+    let (mut differences, mut errors) = (vec![], vec![]);
+    for one in compared {
+        let (wrong, missing) = term::leftover(&one.print, &one.derived);
+        if wrong.len().saturating_mul(one.derived.len()) > MAX_PAIRS {
+            let message = format!(
+                "{} of {} printed terms are none of the {} that are derived",
+                wrong.len(),
+                one.print.len(),
+                one.derived.len()
+            );
+            let error = Diagnostic::error(code::LIMIT, message).at(&one.equation.span, "");
+            errors.push(error.help("is it an equation of this robot?"));
+            continue;
+        }
+        for (printed, derived) in term::pair(wrong, missing) {
+            let pair = (printed.as_ref(), derived.as_ref());
+            differences.push(one.difference(pair, &index, dimensions, lines));
+        }
+    }
+    if errors.is_empty() { Ok(differences) } else { Err(errors) }
+}
+
+impl<'g> Compared<'_, 'g> {
+    /// `(31) F_l5.x`
+    fn name(&self) -> String {
+        match self.equation.number.as_str() {
+            "" => self.equation.quantity.clone(),
+            number => format!("({number}) {}", self.equation.quantity),
+        }
+    }
+
+    fn difference(
+        &self,
+        (printed, derived): (Option<&Term<'g>>, Option<&Term<'g>>),
+        index: &PrintedTerms,
+        dimensions: &Dimensions,
+        lines: &Lines,
+    ) -> Difference {
+        let mut evidence = vec![];
+        if let Some(term) = printed {
+            match dimensions.of_term(term) {
+                Ok(Some(dimension)) if dimension != self.dimension => evidence
+                    .push(Evidence::Dimension { printed: dimension, expected: self.dimension }),
+                Ok(_) => {}
+                Err(symbol) => evidence.push(Evidence::UnknownSymbol(symbol)),
+            }
+        }
+        if let Some(term) = derived {
+            evidence.extend(index.support(term, &self.name()));
+        }
+        let nearest = match (printed, derived) {
+            (Some(term), None) => term.nearest(&self.derived),
+            _ => None,
+        };
+        Difference {
+            number: self.equation.number.clone(),
+            quantity: self.equation.quantity.clone(),
+            line: lines.at(self.equation.span.start),
+            printed: printed.map(Term::to_string),
+            derived: derived.map(Term::to_string),
+            nearest: nearest.map(Term::to_string),
+            slips: slip::slips(printed, derived),
+            evidence,
+        }
+    }
+}
+
+/// The bytes at which the lines of a text begin.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(text: &str) -> Lines {
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        Lines(std::iter::once(0).chain(ends.map(|(place, _)| place + 1)).collect())
+    }
+
+    /// The line of a byte, from 1.
+    fn at(&self, byte: usize) -> usize {
+        self.0.partition_point(|start| *start <= byte)
+    }
+}

@@ -1,0 +1,312 @@
+//! Reading printed equations: `(number) quantity = terms`, in infix text or in LaTeX.
+
+use std::ops::Range;
+
+use robot_symbolic::formula::latex::to_infix;
+use robot_symbolic::{Formula, ParseError};
+
+use super::entries::{Entry, entries, unnamed};
+use super::symbols::Symbols;
+use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
+
+/// How equations are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Notation {
+    /// Infix text: `M5*l5*qdd1*cos(q2)`, an equation on each line.
+    Text,
+    /// LaTeX: displayed equations, or an equation on each line.
+    Latex,
+}
+
+impl Notation {
+    /// What a text looks like: infix text has no backslash but in comments.
+    #[must_use]
+    pub fn of(text: &str) -> Notation {
+        let mut lines = text.lines().filter(|line| !line.trim_start().starts_with('#'));
+        if lines.any(|line| line.contains('\\')) { Notation::Latex } else { Notation::Text }
+    }
+}
+
+/// A printed equation: one scalar quantity and what the print says it is.
+#[derive(Clone, Debug)]
+pub(super) struct PrintedEquation {
+    /// The equation's number in print, without parentheses; empty where it has none.
+    pub(super) number: String,
+    /// The quantity on the left: `M_l4.z`, `Q1`.
+    pub(super) quantity: String,
+    /// The bytes of the left side.
+    pub(super) span: Span,
+    /// The terms of the right side in printed order, brackets unopened.
+    pub(super) terms: Vec<Formula>,
+}
+
+/// The equations of a text.
+///
+/// In text, comment lines start with `#`, and a line that starts with a space continues the one
+/// before. In LaTeX comments start with `%`; where there are displayed equations, all else is prose.
+///
+/// # Errors
+///
+/// Everything that cannot be read, with its place.
+pub(super) fn read_printed(
+    source: &Source,
+    notation: Notation,
+    symbols: &Symbols,
+) -> Result<Vec<PrintedEquation>, Vec<Diagnostic>> {
+    let mut equations = vec![];
+    let mut errors = vec![];
+    for entry in entries(&source.text, notation) {
+        let read = entry.and_then(|entry| match notation {
+            Notation::Text => read_text(&entry),
+            Notation::Latex => read_latex(&entry, symbols),
+        });
+        match read {
+            Ok(read) => equations.extend(read),
+            Err(error) => errors.push(*error),
+        }
+    }
+    if equations.is_empty() && errors.is_empty() {
+        let error = Diagnostic::error(code::EXPRESSION, "there are no equations here");
+        errors.push(error.help("write `Q1 = …`, or LaTeX in `equation` or `align`"));
+    }
+    if errors.is_empty() { Ok(equations) } else { Err(errors) }
+}
+
+fn read_text(entry: &Entry) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
+    let (left, right) = entry.sides()?;
+    let (number, quantity) = numbered(left.text);
+    if quantity.is_empty() || quantity.contains(char::is_whitespace) {
+        return Err(unnamed(&left.span).into());
+    }
+    let terms = terms(right.text, |span| shifted(&span, right.span.start))?;
+    let number = number.or(entry.number.clone()).unwrap_or_default();
+    complete(vec![PrintedEquation {
+        number,
+        quantity: quantity.to_owned(),
+        span: left.span,
+        terms,
+    }])
+}
+
+fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
+    let (left, right) = entry.sides()?;
+    let (number, latex) = numbered(left.text);
+    let number = number.or(entry.number.clone()).unwrap_or_default();
+    let column = right.rows()?;
+    let quantity = symbols.quantity(latex, column.is_some());
+    let (rows, axes) = match column {
+        None => (vec![right], &[""][..]),
+        Some(rows) => (rows, &[".x", ".y", ".z"][..]),
+    };
+    if rows.len() != axes.len() {
+        let message = format!("this vector has {} rows, not 3", rows.len());
+        let error = Diagnostic::error(code::WRONG_COUNT, message).at(&left.span, "");
+        return Err(error.help("write line breaks between components only").into());
+    }
+    let mut equations = vec![];
+    for (row, axis) in rows.iter().zip(axes) {
+        let end = |c: char| matches!(c, '.' | ',' | ';') || c.is_whitespace();
+        let start = row.span.start;
+        let infix = to_infix(row.text.trim_end_matches(end), &|key| symbols.name(key))
+            .map_err(|error| fault(&error, shifted(&error.span, start)))?;
+        let terms = terms(infix.text(), |span| shifted(&infix.source(&span), start))?;
+        equations.push(PrintedEquation {
+            number: number.clone(),
+            quantity: format!("{quantity}{axis}"),
+            span: left.span.clone(),
+            terms,
+        });
+    }
+    complete(equations)
+}
+
+fn shifted(span: &Span, by: usize) -> Span {
+    span.start + by..span.end + by
+}
+
+/// The number of an equation in parentheses, and the rest of its left side.
+fn numbered(left: &str) -> (Option<String>, &str) {
+    let left = left.trim();
+    match left.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
+        Some((number, rest)) => (Some(quote(number.trim())), rest.trim()),
+        None => (None, left),
+    }
+}
+
+/// The terms of a right side; `place` gives the bytes of the file for bytes of the right side.
+fn terms(right: &str, place: impl Fn(Span) -> Span) -> Result<Vec<Formula>, Box<Diagnostic>> {
+    let mut terms = vec![];
+    for range in split_terms(right) {
+        let text = right.get(range.clone()).unwrap_or_default();
+        let unsigned = text.trim_start();
+        let unsigned = unsigned.strip_prefix('+').unwrap_or(unsigned);
+        let start = range.start + text.len() - unsigned.len();
+        let formula = Formula::parse_with_dots(unsigned.trim_end());
+        terms.push(formula.map_err(|error| fault(&error, place(shifted(&error.span, start))))?);
+    }
+    Ok(terms)
+}
+
+fn fault(error: &ParseError, span: Span) -> Diagnostic {
+    let found = Diagnostic::error(code::EXPRESSION, error.message.as_str()).at(&span, "");
+    match &error.help {
+        Some(help) => found.help(help.as_str()),
+        None => found,
+    }
+}
+
+fn complete(equations: Vec<PrintedEquation>) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
+    match equations.iter().find(|equation| equation.terms.is_empty()) {
+        None => Ok(equations),
+        Some(empty) => {
+            let quantity = quote(&empty.quantity);
+            let message = format!("`{quantity}` has no right side");
+            let error = Diagnostic::error(code::EXPRESSION, message).at(&empty.span, "");
+            Err(error.help("write what it is behind `=`; `0` for nothing").into())
+        }
+    }
+}
+
+/// The summands of a sum: it is cut before each sign outside of brackets that follows an operand.
+fn split_terms(text: &str) -> Vec<Range<usize>> {
+    let bytes = text.as_bytes();
+    let mut ranges = vec![];
+    let (mut depth, mut start, mut place, mut after_operand) = (0_usize, 0, 0, false);
+    while let Some(byte) = bytes.get(place) {
+        let operand = operand_length(bytes, place);
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth = depth.saturating_sub(1),
+            b'+' | b'-' if depth == 0 && after_operand => {
+                ranges.push(start..place);
+                start = place;
+            }
+            _ => {}
+        }
+        if !byte.is_ascii_whitespace() {
+            after_operand = operand > 0 || *byte == b')';
+        }
+        place += operand.max(1);
+    }
+    if !text.get(start..).unwrap_or_default().trim().is_empty() {
+        ranges.push(start..text.len());
+    }
+    ranges
+}
+
+/// The length of the name or number that begins at a byte, the exponent of a number included.
+fn operand_length(bytes: &[u8], start: usize) -> usize {
+    let run = |from: usize, member: fn(&u8) -> bool| {
+        bytes.get(from..).unwrap_or_default().iter().take_while(|byte| member(byte)).count()
+    };
+    let word =
+        |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.') || !byte.is_ascii();
+    match bytes.get(start) {
+        Some(b'0'..=b'9' | b'.') => {
+            let digits = run(start, |byte| byte.is_ascii_digit() || *byte == b'.');
+            let exponent = start + digits;
+            let signed = matches!(bytes.get(exponent), Some(b'e' | b'E'));
+            let sign = usize::from(matches!(bytes.get(exponent + 1), Some(b'+' | b'-')));
+            match run(exponent + 1 + sign, u8::is_ascii_digit) {
+                figures @ 1.. if signed => digits + 1 + sign + figures,
+                _ => digits,
+            }
+        }
+        Some(_) => run(start, word),
+        None => 0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Vec<PrintedEquation>, Vec<Diagnostic>> {
+        let source = Source { name: "printed".to_owned(), text: text.to_owned() };
+        read_printed(&source, Notation::of(text), &Symbols::default())
+    }
+
+    fn texts(equation: &PrintedEquation) -> Vec<&str> {
+        equation.terms.iter().map(Formula::text).collect()
+    }
+
+    #[test]
+    fn entries_continue_and_split_into_terms() {
+        let text = "# head\n(45) M_l2.x = sin(q5)*l6 - q3*(l2 - l3)\n# é \\ more\n  + 2*q4\nQ1 = -1.5e-3*a\n";
+        let equations = read(text).unwrap();
+        assert_eq!(equations.len(), 2);
+        assert_eq!(texts(&equations[0]), ["sin(q5)*l6", "- q3*(l2 - l3)", " 2*q4"]);
+        assert_eq!(equations[0].number, "45");
+        assert_eq!(&text[equations[0].span.clone()], "(45) M_l2.x");
+        assert_eq!((equations[1].number.as_str(), texts(&equations[1])), ("", vec!["-1.5e-3*a"]));
+    }
+
+    #[test]
+    fn every_bad_line_is_reported_at_its_place() {
+        let text = "Q1\nQ2 = a + 2q3\nQ3 =\nQ 4 = q1\n(5) Q5 = a\n  + b c\n";
+        let errors = read(text).unwrap_err();
+        let places: Vec<&str> = errors
+            .iter()
+            .map(|error| &text[error.primary.as_ref().unwrap().span.clone()])
+            .collect();
+        assert_eq!(places, ["Q1", "2q3", "Q3", "Q 4", "b c"]);
+        assert_eq!(read("# nothing\n").unwrap_err().len(), 1);
+    }
+
+    #[test]
+    fn displayed_equations_are_read_and_prose_is_not() {
+        let text = r"Prose with $x = 1$.
+\begin{align*} % Q_9 = 1
+  Q_{1} &= a + \\
+  & \quad + b \tag{7a} \\[2pt]
+  (8) Q_2 &= c - d.
+\end{align*}
+\[ Q_3 = e_1 \]
+\begin{equation}\label{v}
+  F_l^5 = \begin{bmatrix} a \\ b \\ c - 1 \end{bmatrix},
+\end{equation}";
+        let equations = read(text).unwrap();
+        let shown: Vec<(&str, Vec<&str>)> =
+            equations.iter().map(|equation| (equation.number.as_str(), texts(equation))).collect();
+        assert_eq!(shown[0], ("7a", vec!["a", "b"]));
+        assert_eq!(shown[1], ("8", vec!["c", "-d"]));
+        assert_eq!(shown[2], ("", vec!["e1"]));
+        assert_eq!(shown[5].1, ["c", "-1"]);
+        assert!(equations[5].quantity.ends_with(".z"));
+    }
+
+    #[test]
+    fn equations_go_on_in_the_next_display() {
+        let text = r"\begin{align*}
+  Q_{1} &= a
+\end{align*}
+\begin{align*}
+  \phantom{Q_{1}} &\quad {}+ b \\
+  Q_2 &= c
+\end{align*}
+\begin{align*} \phantom{Q_2} - d \end{align*}";
+        let shown: Vec<Vec<String>> = read(text)
+            .unwrap()
+            .iter()
+            .map(|equation| texts(equation).into_iter().map(str::to_owned).collect())
+            .collect();
+        assert_eq!(shown, [["a", "b"], ["c", "-d"]]);
+        // Another environment is another equation.
+        assert_eq!(
+            read(&text.replace("{align*} \\phantom", "{gather} \\phantom")).unwrap_err().len(),
+            1
+        );
+    }
+
+    #[test]
+    fn errors_in_latex_have_their_place() {
+        let text = "\\begin{align}\n Q_1 &= a + \\foo \\\\\n Q_2 &= b \\cdot \\cdot c \\\\ d = \\end{align}\n\\[ Q_3 ";
+        let errors = read(text).unwrap_err();
+        let place =
+            |error: &Diagnostic| text[error.primary.as_ref().unwrap().span.clone()].to_owned();
+        assert_eq!(
+            errors.iter().map(place).collect::<Vec<_>>(),
+            ["\\foo", "\\cdot \\cdot", "d", "\\["]
+        );
+    }
+}

@@ -1,0 +1,97 @@
+//! The symbols and quantities of a robot by their LaTeX.
+
+use std::collections::{BTreeSet, HashMap};
+
+use robot_symbolic::formula::latex::symbol_key;
+use robot_symbolic::print::latex::symbol_latex;
+
+use robot_dynamics::quantity::{Kind, Symbol};
+use robot_model::robot::Robot;
+
+/// Signs over a letter that only say that it is a vector.
+const VECTOR_SIGNS: [&str; 5] = [r"\bar", r"\overline", r"\vec", r"\overrightarrow", r"\widetilde"];
+
+/// The names of a robot by the keys of their LaTeX.
+#[derive(Default)]
+pub(super) struct Symbols {
+    names: HashMap<String, String>,
+    quantities: HashMap<String, String>,
+    vectors: HashMap<String, String>,
+    /// The names that the derived equations have.
+    used: BTreeSet<String>,
+}
+
+impl Symbols {
+    /// Those of a robot: the LaTeX that its file gives, and the spelling of print.
+    pub(super) fn of(robot: &Robot, quantities: &[Symbol], used: BTreeSet<String>) -> Symbols {
+        let mut symbols = Symbols { used, ..Symbols::default() };
+        for parameter in &robot.parameters {
+            symbols.insert(&parameter.name, parameter.latex.as_deref());
+        }
+        for (_, wrench) in robot.tips() {
+            for (name, latex) in wrench.force.iter().chain(&wrench.moment).zip(&wrench.latex) {
+                symbols.insert(name, latex.as_deref());
+            }
+        }
+        for number in 1..=robot.degrees_of_freedom() {
+            for prefix in ["q", "qd", "qdd"] {
+                symbols.insert(&format!("{prefix}{number}"), None);
+            }
+        }
+        for quantity in quantities {
+            symbols.insert_quantity(*quantity);
+        }
+        symbols
+    }
+
+    fn insert(&mut self, name: &str, latex: Option<&str>) {
+        let spelt = symbol_key(&symbol_latex(name));
+        self.names.entry(spelt).or_insert_with(|| name.to_owned());
+        if let Some(latex) = latex {
+            self.names.insert(symbol_key(latex), name.to_owned());
+        }
+    }
+
+    fn insert_quantity(&mut self, symbol: Symbol) {
+        let (name, number) = (symbol.to_string(), symbol.number);
+        if symbol.component.is_some() {
+            let vector = symbol.kind.name();
+            let name = format!("{vector}{number}");
+            let orders = [format!("{vector}^{number}"), format!("{vector}_{number}")];
+            self.vectors.extend(orders.map(|key| (key, name.clone())));
+        }
+        let key = symbol_key(&symbol.latex());
+        if let Some((lower, upper)) = key.split_once('^') {
+            let (letter, index) = lower.split_once('_').unwrap_or((lower, ""));
+            self.quantities.insert(format!("{letter}^{upper}_{index}"), name.clone());
+        }
+        if symbol.kind == Kind::DrivingForce {
+            let others = [format!("Q_m^{number}"), format!(r"\tau_{number}")];
+            self.quantities.extend(others.map(|key| (key, name.clone())));
+        }
+        self.quantities.insert(key, name);
+    }
+
+    /// The name of a symbol on a right side.
+    pub(super) fn name(&self, key: &str) -> Option<String> {
+        let known = self.names.get(key);
+        // `c_2` is a cosine where no equation has a parameter of that name.
+        if let Some(index) = key.strip_prefix("s_").or(key.strip_prefix("c_"))
+            && index.bytes().all(|byte| byte.is_ascii_digit())
+        {
+            return known.filter(|name| self.used.contains(*name)).cloned();
+        }
+        // A power of a symbol of the robot is no quantity.
+        let power = key.split_once('^').is_some_and(|(base, _)| self.names.contains_key(base));
+        known.or_else(|| self.quantities.get(key).filter(|_| !power)).cloned()
+    }
+
+    /// The quantity, or the vector of quantities, that LaTeX on a left side means; text that is no
+    /// quantity's as it is.
+    pub(super) fn quantity(&self, latex: &str, vector: bool) -> String {
+        let plain = |key: String| VECTOR_SIGNS.iter().fold(key, |key, sign| key.replace(sign, ""));
+        let known = if vector { &self.vectors } else { &self.quantities };
+        let key = plain(symbol_key(latex));
+        known.get(&key).cloned().unwrap_or_else(|| latex.trim().to_owned())
+    }
+}

@@ -1,0 +1,264 @@
+use super::*;
+use robot_model::description::read_toml;
+
+fn robot(name: &str) -> Robot {
+    let path = format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    read_toml("robot.toml", &std::fs::read_to_string(path).unwrap()).unwrap().robot
+}
+
+fn compared(robot: &Robot, text: &str) -> Result<Comparison, Diagnostics> {
+    let source = Source { name: "printed".to_owned(), text: text.to_owned() };
+    compare(robot, &source, &Options::default())
+}
+
+/// The second equation of the plane arm, one term a line.
+const TERMS: [&str; 7] = [
+    "- m2*g*r2*sin(q1)*sin(q2)",
+    "+ m2*g*r2*cos(q1)*cos(q2)",
+    "+ m2*l1*r2*sin(q2)*qd1^2",
+    "+ m2*l1*r2*cos(q2)*qdd1",
+    "+ m2*r2^2*qdd1",
+    "+ m2*r2^2*qdd2",
+    "+ I2*(qdd1 + qdd2)",
+];
+
+/// The differences of the equation with its first term that is `from` replaced.
+fn spoilt(from: &str, to: &str) -> Vec<Difference> {
+    let text = TERMS.map(|term| if term == from { to } else { term }).join("\n  ");
+    assert!(TERMS.contains(&from));
+    compared(&robot("planar_2r"), &format!("(2) Q2 = {text}\n")).unwrap().differences
+}
+
+#[test]
+fn right_equations_have_no_differences() {
+    assert_eq!(spoilt(TERMS[0], TERMS[0]), []);
+    // Like terms apart, in any order, an angle sum in place of its expansion.
+    let text = "Q2 = m2*r2^2*(qdd1 + qdd2)/2 + I2*qdd2 + m2*g*r2*cos(q1 + q2) + m2*l1*r2*cos(q2)*qdd1\n  \
+        + m2*r2^2*qdd2/2 + m2*r2^2*qdd1/2 + I2*qdd1 + m2*l1*r2*sin(q2)*qd1^2";
+    let found = compared(&robot("planar_2r"), text).unwrap();
+    assert_eq!((found.equations, found.names, found.differences.len()), (1, 0, 0));
+}
+
+#[test]
+fn every_kind_of_slip_is_told() {
+    let cases = [
+        (3, "", "missing term"),
+        (3, "- m2*l1*r2*cos(q2)*qdd1", "sign"),
+        (3, "+ 2*m2*l1*r2*cos(q2)*qdd1", "coefficient: 2 for 1"),
+        (3, "+ m2*l1*r2*cos(q2)*qd1", "dot: qd1 for qdd1"),
+        (3, "+ m1*l1*r2*cos(q2)*qdd1", "index: m1 for m2"),
+        (3, "+ m2*l1*r2*cos(q1)*qdd1", "index: cos(q1) for cos(q2)"),
+        (3, "+ m2*l1*r2*sin(q2)*qdd1", "function: sin(q2) for cos(q2)"),
+        (2, "+ m2*l1*r2*sin(q2)*qd1^3", "power: qd1^3 for qd1^2"),
+        (2, "+ m2*l1*r2*sin(q2)*qd1*qd2", "index: qd2 for qd1"),
+        (3, "+ m2*l1*r2*qdd1", "missing factor: cos(q2)"),
+        (3, "+ m2*l1*r2*g*cos(q2)*qdd1", "extra factor: g"),
+        (3, "+ I2*l1*r2*cos(q2)*qdd1", "factor: I2 for m2"),
+    ];
+    for (place, wrong, slip) in cases {
+        let found = spoilt(TERMS[place], wrong);
+        assert_eq!(found.len(), 1, "{wrong}: {found:?}");
+        let slips: Vec<String> = found[0].slips.iter().map(Slip::to_string).collect();
+        assert_eq!(slips, [slip], "{wrong}");
+        assert_eq!((found[0].number.as_str(), found[0].line), ("2", 1));
+    }
+    let extra = spoilt(TERMS[6], "+ I2*(qdd1 + qdd2) + m2*l1*r2*cos(q2)*qdd2");
+    assert_eq!((extra.len(), extra[0].slips[0].kind), (1, SlipKind::ExtraTerm));
+    assert_eq!(extra[0].nearest.as_deref(), Some("qdd1*l1*r2*m2*cos(q2)"));
+}
+
+#[test]
+fn like_terms_may_be_printed_apart() {
+    // One of two like terms is right: the other alone is told.
+    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + 2*m2*r2^2*qdd1");
+    let [extra] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(extra.slips[0].kind, SlipKind::ExtraTerm);
+    assert_eq!((extra.printed.as_deref(), &extra.derived), (Some("2*qdd1*r2^2*m2"), &None));
+    // Nothing of this kind is derived, and the sum is nothing.
+    assert_eq!(spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - m1*r1^2*qdd2"), []);
+    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - 2*m1*r1^2*qdd2");
+    assert_eq!(found.len(), 2, "{found:?}");
+}
+
+/// Every term of an equation spoilt in every way: what differs is told, with a slip.
+#[test]
+fn no_difference_is_without_a_slip() {
+    let ways =
+        ["0*({})", "-({})", "2*({})", "({})/2 + ({})/3", "({})*qd2", "({})*m1 + {}", "{} - 3*({})"];
+    for term in TERMS {
+        for way in ways {
+            let bare = term.trim_start_matches("+ ");
+            let found = spoilt(term, &format!("+ {}", way.replace("{}", bare)).replace("+ -", "-"));
+            assert!(!found.is_empty(), "{term}, {way}");
+            for one in found {
+                assert!(!one.slips.is_empty(), "{term}, {way}: {one:?}");
+                assert_ne!(one.printed, one.derived, "{term}, {way}");
+            }
+        }
+    }
+}
+
+/// Of two derived terms that are equally far in their factors the one with the same coefficient is
+/// the printed term's.
+#[test]
+fn a_coefficient_counts_in_what_a_term_resembles() {
+    let others = "m1*g*r1*cos(q1) + m1*r1^2*qdd1 + I1*qdd1 + m2*g*l1*cos(q1) + m2*g*r2*cos(q1 + q2) \
+        + m2*l1^2*qdd1 - m2*l1*r2*sin(q2)*(2*qd1*qd2 + qd2^2) + (m2*r2^2 + I2)*(qdd1 + qdd2)";
+    let slips = |term: &str| -> Vec<String> {
+        let found = compared(&robot("planar_2r"), &format!("Q1 = {others} + {term}")).unwrap();
+        found.differences.iter().flat_map(|one| &one.slips).map(Slip::to_string).collect()
+    };
+    let right = "2*m2*l1*r2*cos(q2)*qdd1 + m2*l1*r2*cos(q2)*qdd2";
+    assert_eq!(slips(right), Vec::<String>::new());
+    let (first, second) = ("2*m2*l1*r2*cos(q2)*q1", "m2*l1*r2*cos(q2)*q1");
+    assert_eq!(slips(first), ["dot: q1 for qdd1", "missing term"]);
+    assert_eq!(slips(second), ["factor: q1 for qdd2", "missing term"]);
+}
+
+#[test]
+fn the_distance_of_terms_counts_factors_and_one_for_the_coefficient() {
+    let graph = Graph::new();
+    let distance = |one: &str, other: &str| {
+        let terms = term::terms_of(&[one, other].map(|text| graph.parse(text).unwrap()), &LIMITS);
+        let terms = terms.unwrap();
+        terms[0][0].distance(&terms[1][0])
+    };
+    let cases = [
+        ("a*b*c", "a*b*c", 0),
+        ("a*b*c", "a*b", 1),
+        ("a*b", "a*b*c", 1),
+        ("a*b", "a*c", 2),
+        ("a^3", "a", 2),
+        ("a", "a^2*b", 2),
+        ("2*a*b", "a*c", 3),
+        ("-a", "a", 1),
+    ];
+    for (one, other, expected) in cases {
+        assert_eq!(distance(one, other), expected, "{one} and {other}");
+    }
+}
+
+#[test]
+fn terms_that_are_no_torque_are_told() {
+    let evidence = |wrong: &str| -> Vec<String> {
+        spoilt(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
+    };
+    let dot = "not a torque but kg m^2 s^-1, for kg m^2 s^-2: a dot is missing";
+    assert_eq!(evidence("+ m2*l1*r2*cos(q2)*qd1"), [dot]);
+    assert_eq!(evidence("+ m2*l1*cos(q2)*qdd1"), ["not a torque but kg m s^-2, for kg m^2 s^-2"]);
+    assert_eq!(evidence("+ k*l1*r2*cos(q2)*qdd1"), ["the robot has no symbol k"]);
+    // Where more than the time is wrong it is not a matter of dots.
+    for (wrong, dimension) in [("qd1", "kg^2 m^2 s^-1"), ("qd1*qdd1", "kg^2 m^2 s^-3")] {
+        let expected = format!("not a torque but {dimension}, for kg m^2 s^-2");
+        assert_eq!(evidence(&format!("+ m1*m2*l1*r2*cos(q2)*{wrong}")), [expected]);
+    }
+    let mut nameless = robot("planar_2r");
+    for parameter in &mut nameless.parameters {
+        parameter.unit = None;
+    }
+    let text = "Q2 = m1*qd1";
+    assert!(
+        compared(&nameless, text).unwrap().differences.iter().all(|one| one.evidence.is_empty())
+    );
+}
+
+#[test]
+fn latex_is_compared_as_text_is() {
+    let robot = robot("trttr1");
+    let text = r"\begin{align}
+  F_{l_y}^5 &= F_{l_y}^6 + M_5 cq_2 \dot{q}_1 + M_5 \ddot q_2 (q_4 + l_4 + l_5) \\ % a slip: one dot
+  &\quad + 2 M_5 \dot q_4 \dot q_2 \tag{31} \\
+  \bar{M}_c^{5} &= \left[\begin{array}{c}
+    - J_x^{*5} (s_5 \ddot q_2 + \dot q_5 c_5 \dot q_2) - c_5 \dot q_2 \dot q_5 (J_y^{*5} - J_z^{*5}) \\
+    J_y^{*5} \ddot q_5 - \cos q_5 \dot q_2^2 J_x^{*5} \sin q_5 + sq_5 \dot q_2^2 J_z^{*5} cq_5 \\
+    J_z^{*5} (c_5 \ddot q_2 - \dot q_5 s_5 \dot q_2) + \dot q_5 \dot q_2 s_5 (J_x^{*5} - J_y^{*5})
+  \end{array}\right]
+\end{align}";
+    let found = compared(&robot, text).unwrap();
+    assert_eq!((found.equations, found.differences.len()), (4, 1), "{found:#?}");
+    assert_eq!(found.differences[0].slips[0].to_string(), "dot: qd1 for qdd1");
+    assert_eq!((found.differences[0].number.as_str(), found.differences[0].line), ("31", 2));
+}
+
+#[test]
+fn errors_show_the_place() {
+    let message = |text: &str| compared(&robot("planar_2r"), text).unwrap_err().to_string();
+    let shown = message("Q1 = m1*\nQ2 = m2 +* g\nQ7 = 0\n");
+    for part in ["printed:1:8", "printed:2:10", "R0302"] {
+        assert!(shown.contains(part), "{shown}");
+    }
+    let shown = message("(4) Q7 = 0\nF_l1.w = 0");
+    for part in ["printed:1:1", "no quantity `Q7`", "a_c1.x to a_c2.z", "F_l1.w"] {
+        assert!(shown.contains(part), "{shown}");
+    }
+    assert!(message("\\[ Q_1 = \\frac{m_1}{ \\]").contains("printed:1:"));
+    let column = "\\begin{bmatrix} 0 \\\\ 0 \\\\ 0 \\end{bmatrix}";
+    for beside in [format!("{column} + m_1"), format!("m_1 {column}")] {
+        let shown = message(&format!("\\[ F_{{1}}^{{1}} = {beside} \\]"));
+        assert!(shown.contains("something beside it"), "{shown}");
+    }
+    assert!(message("").contains("no equations"));
+}
+
+#[test]
+fn equations_without_end_are_refused() {
+    let planar = robot("planar_2r");
+    let long = "Q1 = (m1+m2+l1+r1+r2+g+I1+I2+q1+q2+qd1+qd2)^24";
+    assert!(compared(&planar, long).unwrap_err().to_string().contains("too long"));
+    let deep = format!("Q1 = {}m1{}", "(".repeat(5000), ")".repeat(5000));
+    assert!(compared(&planar, &deep).unwrap_err().to_string().contains("nested"));
+    let many = format!("Q1 = {}", "+ m1*q1".repeat(20_000));
+    assert_eq!(compared(&planar, &many).map(|found| found.terms), Ok(20_000));
+    let strange: String = (0..200_000).map(|index| format!("+ x{index}")).collect();
+    let shown = compared(&planar, &format!("Q1 = {strange}")).unwrap_err().to_string();
+    assert!(shown.contains("is it an equation of this robot"), "{shown}");
+    for part in [
+        "\\begin{split}",
+        "\\tag{",
+        "$$",
+        "\\[",
+        "\\\\[",
+        "\\begin{align}",
+        "Q1=",
+        "{",
+        "\\begin{bmatrix}",
+    ] {
+        let _ = compared(&planar, &part.repeat(10_000));
+        let _ = compared(&planar, &format!("$$Q_1 = {}$$", part.repeat(10_000)));
+    }
+    let parts = [
+        "Q_1",
+        "=",
+        "\\\\",
+        "&",
+        "\\begin{align}",
+        "\\end{align}",
+        "$$",
+        "%",
+        "\n",
+        " ",
+        "m_1",
+        "+",
+        "\\tag{",
+        "}",
+        "{",
+        "é",
+        "\\",
+        "#",
+        "(",
+        ")",
+        "\\begin{bmatrix}",
+        "\\end{bmatrix}",
+        "[",
+        "sin",
+        "1e-3",
+    ];
+    for seed in 0..1000 {
+        let mut random = robot_numeric::robots::Random::new(seed);
+        let text: String =
+            (0..random.index(40)).map(|_| parts[random.index(parts.len())]).collect();
+        if let Err(errors) = compared(&planar, &text) {
+            assert!(!errors.to_string().is_empty(), "seed {seed}");
+        }
+    }
+}

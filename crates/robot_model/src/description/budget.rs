@@ -1,0 +1,90 @@
+//! `[[budget]]`: what generated code may cost.
+
+use super::frames::tables;
+use super::reader::{Named, Reader};
+use super::shape::BUDGET;
+use super::table::{Entry, Table};
+use super::wanted::{function, known};
+use crate::diagnostic::{Diagnostic, Span, code};
+use crate::functions::FunctionKind;
+use crate::robot::Robot;
+
+/// What a function of generated code may cost.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// The name of the function or bundle; `None` for every one that is generated.
+    pub function: Option<String>,
+    /// The most operations of a call: multiplications, additions and divisions.
+    pub max_operations: Option<Limit>,
+    /// The most bytes of stack of a call.
+    pub max_stack: Option<Limit>,
+}
+
+/// A limit with its place in the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Limit {
+    /// The limit.
+    pub value: u64,
+    /// Its place.
+    pub place: Span,
+}
+
+/// Reads every `[[budget]]`; those of bundles name one of the file.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    root: &mut Table<'_>,
+    bundles: &[&str],
+) -> Vec<(Budget, Option<Named>)> {
+    let Some(entry) = root.get("budget") else { return Vec::new() };
+    let tables = tables(reader, &entry, &BUDGET);
+    tables.into_iter().map(|table| budget(reader, table, bundles)).collect()
+}
+
+/// A budget, and the name of its function where it is that of a frame.
+fn budget(
+    reader: &mut Reader<'_>,
+    mut table: Table<'_>,
+    bundles: &[&str],
+) -> (Budget, Option<Named>) {
+    let named = table.get("function").and_then(|entry| function(reader, entry.value, bundles));
+    let max_operations = table.get("max_operations").and_then(|entry| limit(reader, &entry));
+    let max_stack = table.get("max_stack").and_then(|entry| limit(reader, &entry));
+    table.finish(reader);
+    let function = named.as_ref().map(|named| named.name.clone());
+    let is_kind = |named: &Named| FunctionKind::from_name(&named.name).is_some();
+    let of_frame = named.filter(|named| !is_kind(named) && !bundles.contains(&&*named.name));
+    (Budget { function, max_operations, max_stack }, of_frame)
+}
+
+/// The budgets, the functions of frames under their own names; those that the robot lacks are reported.
+pub(super) fn of_robot(
+    reader: &mut Reader<'_>,
+    robot: &Robot,
+    budgets: Vec<(Budget, Option<Named>)>,
+) -> Vec<Budget> {
+    let own = |(budget, named): (Budget, Option<Named>)| match named {
+        None => budget,
+        Some(named) => {
+            let kind = known(reader, robot, &named);
+            let function = kind.map(|kind| kind.full_name(robot)).or(budget.function);
+            Budget { function, ..budget }
+        }
+    };
+    budgets.into_iter().map(own).collect()
+}
+
+/// A whole number that is not negative.
+fn limit(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Limit> {
+    let place = entry.value.span();
+    let number = reader.number(entry.value, "a whole number")?.to_f64();
+    let is_whole = (0.0..=9e15).contains(&number) && number.fract() == 0.0;
+    if !is_whole {
+        reader.report(
+            Diagnostic::error(code::NUMBER, "a limit is a whole number that is not negative")
+                .at(&place, "")
+                .help("count operations in `max_operations`, bytes in `max_stack`"),
+        );
+        return None;
+    }
+    Some(Limit { value: number as u64, place })
+}

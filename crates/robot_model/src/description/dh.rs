@@ -1,0 +1,101 @@
+//! `[dh]`: the joints of a whole arm in one table, a row for each link without a frame of its own.
+
+use super::joint;
+use super::placement::{Convention, Row, convention, row};
+use super::reader::Reader;
+use super::shape::{DH_TABLE, DH_TABLE_ROW};
+use super::table;
+use crate::diagnostic::{Diagnostic, Span, code};
+use crate::robot::JointKind;
+
+/// The rows, given out one by one in the order of the links.
+pub(super) struct Table {
+    convention: Convention,
+    rows: std::vec::IntoIter<LinkRow>,
+    /// The place of `rows`.
+    place: Span,
+    count: usize,
+    taken: usize,
+}
+
+/// A row with what belongs to it.
+pub(super) struct LinkRow {
+    pub(super) convention: Convention,
+    /// `None` for a fixed link.
+    pub(super) kind: Option<JointKind>,
+    pub(super) row: Row,
+    pub(super) place: Span,
+}
+
+/// Reads the table where the file has it.
+pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Option<Table> {
+    let entry = root.get("dh")?;
+    let mut table = reader.table(entry.value, &DH_TABLE)?;
+    // The stand-in for a convention that was wrong: the error is reported.
+    let convention = convention(reader, &mut table).unwrap_or(Convention::Standard);
+    let example = "rows = [{ type = \"revolute\", a = 0, alpha = \"pi/2\", d = 0.5 }]";
+    let rows = table.require(reader, "rows", example);
+    table.finish(reader);
+    let rows = rows?;
+    let values = reader.list(rows.value, "a list of rows `{ a = …, alpha = …, d = … }`")?;
+    let tables = values.iter().filter_map(|value| reader.table(value, &DH_TABLE_ROW));
+    let tables: Vec<_> = tables.collect();
+    let rows: Vec<LinkRow> =
+        tables.into_iter().map(|table| link_row(reader, table, convention)).collect();
+    Some(Table {
+        convention,
+        place: entry.key,
+        count: rows.len(),
+        taken: 0,
+        rows: rows.into_iter(),
+    })
+}
+
+fn link_row(
+    reader: &mut Reader<'_>,
+    mut table: table::Table<'_>,
+    convention: Convention,
+) -> LinkRow {
+    let kind = match table.get("type") {
+        Some(entry) => joint::kind(reader, &entry).unwrap_or_default(),
+        None => Some(JointKind::Revolute),
+    };
+    let place = table.span.clone();
+    let row = row(reader, &mut table);
+    table.finish(reader);
+    LinkRow { convention, kind, row, place }
+}
+
+impl Table {
+    /// The row of the next link; one that says nothing where the rows are used up.
+    pub(super) fn next_row(&mut self) -> LinkRow {
+        self.taken += 1;
+        self.rows.next().unwrap_or_else(|| LinkRow {
+            convention: self.convention,
+            kind: None,
+            row: Row {
+                a: Reader::unknown(),
+                alpha: Reader::unknown(),
+                d: Reader::unknown(),
+                theta: Reader::unknown(),
+            },
+            place: self.place.clone(),
+        })
+    }
+
+    /// Reports rows that no link took, and links that found no row.
+    pub(super) fn finish(self, reader: &mut Reader<'_>) {
+        if self.count == self.taken {
+            return;
+        }
+        let (rows, links) = (self.count, self.taken);
+        let message = format!(
+            "the DH table has {rows} rows, and the links without a frame of their own are {links}"
+        );
+        reader.report(
+            Diagnostic::error(code::WRONG_COUNT, message)
+                .at(&self.place, "this table")
+                .help("give one row for each `[[link]]` that has neither `origin` nor `dh`"),
+        );
+    }
+}

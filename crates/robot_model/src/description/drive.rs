@@ -1,0 +1,175 @@
+//! Friction and drive of a joint.
+
+use robot_symbolic::Formula;
+
+use super::joint::by_kind;
+use super::reader::Reader;
+use super::shape::{DRIVE, FRICTION};
+use super::table::{Entry, Table};
+use super::value::{Quantity, quantity};
+use crate::diagnostic::{Diagnostic, Span, code};
+use crate::robot::{Drive, Friction, JointKind};
+
+/// The signs that a figure may have.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sign {
+    Any,
+    NotNegative,
+    Positive,
+    NotZero,
+}
+
+/// Figures of one table.
+struct Figures<'r, 'f, 'a> {
+    reader: &'r mut Reader<'f>,
+    table: Table<'a>,
+}
+
+impl Figures<'_, '_, '_> {
+    /// Puts the figure of a key into its place where the file has it; the key's place.
+    fn read(
+        &mut self,
+        key: &'static str,
+        target: &mut Formula,
+        what: Quantity,
+        sign: Sign,
+    ) -> Option<Span> {
+        let entry = self.table.get(key)?;
+        *target = self.reader.formula(entry.value, what);
+        let Some(value) = self.reader.known(target) else {
+            return Some(entry.key);
+        };
+        let (wrong, must) = match sign {
+            Sign::Any => (false, ""),
+            Sign::NotNegative => (value < 0.0, "is not negative"),
+            Sign::Positive => (value <= 0.0, "is positive"),
+            Sign::NotZero => (value == 0.0, "is not 0"),
+        };
+        if wrong {
+            let message = format!("{} is {value}", what.what);
+            self.reader.report(
+                Diagnostic::error(code::FRICTION, message)
+                    .at(&entry.value.span(), format!("this figure {must}"))
+                    .help("correct the figure, or leave the key out"),
+            );
+        }
+        Some(entry.key)
+    }
+
+    fn conflict(&mut self, span: &Span, message: &str, help: &str) {
+        let diagnostic = Diagnostic::error(code::CONFLICT, message);
+        self.reader.report(diagnostic.at(span, "").help(help));
+    }
+}
+
+/// Reads `friction`.
+pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind) -> Friction {
+    use Sign::{Any, NotNegative, Positive};
+    let mut friction = Friction::none();
+    let Some(table) = reader.table(entry.value, &FRICTION) else {
+        return friction;
+    };
+    let mut figures = Figures { reader, table };
+    let force = |what| by_kind(what, kind, (1, 2, -2), (1, 1, -2));
+    let viscous = by_kind("the viscous friction", kind, (1, 2, -1), (1, 0, -1));
+    figures.read("viscous", &mut friction.viscous, viscous, NotNegative);
+    let coulomb = quantity("the coefficient of dry friction", 0, 0, 0);
+    let coulomb = figures.read("coulomb", &mut friction.coulomb, coulomb, NotNegative);
+    let diameter = quantity("the spindle diameter", 0, 1, 0);
+    let diameter =
+        figures.read("spindle_diameter", &mut friction.spindle_diameter, diameter, Positive);
+    spindle(&mut figures, kind, coulomb, diameter);
+    let what = force("the dry friction");
+    let positive =
+        figures.read("coulomb_positive", &mut friction.coulomb_positive, what, NotNegative);
+    let negative =
+        figures.read("coulomb_negative", &mut friction.coulomb_negative, what, NotNegative);
+    let (symmetric, other) = match kind {
+        JointKind::Revolute => ("coulomb_torque", "coulomb_force"),
+        JointKind::Prismatic => ("coulomb_force", "coulomb_torque"),
+    };
+    let mut both = Friction::none().coulomb_positive;
+    if let Some(span) = figures.read(symmetric, &mut both, what, NotNegative) {
+        if positive.or(negative).is_some() {
+            let message = format!("`{symmetric}` stands for both directions already");
+            figures.conflict(&span, &message, "keep it, or the two directions");
+        }
+        friction.coulomb_positive = both.clone();
+        friction.coulomb_negative = both;
+    } else if positive.is_some() != negative.is_some() {
+        let message = "dry friction is given for one direction alone";
+        let help = format!("give the other direction too, or `{symmetric}` for both");
+        figures.conflict(&positive.or(negative).unwrap_or_default(), message, &help);
+    }
+    if let Some(entry) = figures.table.get(other) {
+        let message = format!("`{other}` does not fit this joint");
+        figures.conflict(&entry.key, &message, &format!("write `{symmetric}`"));
+    }
+    figures.read("offset", &mut friction.offset, force("the offset"), Any);
+    let width = by_kind("the width of the smooth sign", kind, (0, 0, -1), (0, 1, -1));
+    let mut smoothing = Friction::none().offset;
+    let smooth = figures.read("smoothing", &mut smoothing, width, Positive);
+    friction.smoothing = smooth.map(|_| smoothing);
+    figures.table.finish(figures.reader);
+    friction
+}
+
+/// Equation (5): dry friction of a rotation acts at the spindle's surface.
+fn spindle(
+    figures: &mut Figures<'_, '_, '_>,
+    kind: JointKind,
+    coulomb: Option<Span>,
+    diameter: Option<Span>,
+) {
+    match (kind, coulomb, diameter) {
+        (JointKind::Revolute, Some(span), None) => figures.conflict(
+            &span,
+            "`coulomb` of a revolute joint needs `spindle_diameter`",
+            "add `spindle_diameter`, in m; for a friction torque that does not depend on the \
+             load write `coulomb_torque`",
+        ),
+        (JointKind::Revolute, None, Some(span)) => figures.conflict(
+            &span,
+            "`spindle_diameter` has no effect without `coulomb`",
+            "add `coulomb`, or take it away",
+        ),
+        (JointKind::Prismatic, _, Some(span)) => figures.conflict(
+            &span,
+            "`spindle_diameter` has no effect on a prismatic joint",
+            "take it away",
+        ),
+        _ => {}
+    }
+}
+
+/// Reads `drive`.
+pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind) -> Drive {
+    let mut drive = Drive::none();
+    let Some(table) = reader.table(entry.value, &DRIVE) else {
+        return drive;
+    };
+    let mut figures = Figures { reader, table };
+    let armature = by_kind("the armature", kind, (1, 2, 0), (1, 0, 0));
+    figures.read("armature", &mut drive.armature, armature, Sign::NotNegative);
+    let inertia = quantity("the rotor's inertia", 1, 2, 0);
+    let inertia =
+        figures.read("rotor_inertia", &mut drive.rotor_inertia, inertia, Sign::NotNegative);
+    let ratio = by_kind("the gear ratio", kind, (0, 0, 0), (0, -1, 0));
+    let ratio = figures.read("gear_ratio", &mut drive.gear_ratio, ratio, Sign::NotZero);
+    let gyroscopic = figures.table.get("gyroscopic");
+    if let Some(entry) = &gyroscopic {
+        drive.gyroscopic = figures.reader.boolean(entry.value).unwrap_or_default();
+    }
+    if inertia.is_none() {
+        let lonely = [ratio, gyroscopic.filter(|_| drive.gyroscopic).map(|entry| entry.key)];
+        for span in lonely.into_iter().flatten() {
+            figures.conflict(
+                &span,
+                "this has no effect without `rotor_inertia`",
+                "add `rotor_inertia`, in kg m^2 about the rotor's axis, or take it away",
+            );
+        }
+    }
+    figures.table.finish(figures.reader);
+    drive
+}

@@ -1,0 +1,302 @@
+//! A draft as a robot file in TOML: the links in order with the source's names and figures.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use robot_symbolic::{Formula, Rational};
+
+use super::Lowered;
+use super::draft::{Draft, DraftLink, Mimic, Parent};
+use super::placement::zeros;
+use super::reader::Reader;
+use crate::diagnostic::quote;
+use crate::physics::{Verdict, judge};
+use crate::robot::{Axis, Body, Friction, JointKind, Move, Placement};
+
+/// The draft as text. Frames of the draft must be placed by `xyz` and `rpy`, as those of URDF are.
+pub(super) fn to_toml(lowered: &Lowered, name: &str) -> String {
+    let Lowered { draft, order, .. } = lowered;
+    let file = Path::new(name).file_name().and_then(|name| name.to_str()).unwrap_or(name);
+    let mut text = format!("# Imported from {}.\nformat = 1\n\n[robot]\n", quote(file));
+    line(&mut text, &format!("name = \"{}\"", draft.name.name));
+    line(&mut text, &format!("gravity = {}", vector(&draft.gravity)));
+    let mut standing = vec![false; draft.links.len()];
+    let mut before = None;
+    for index in order {
+        let Some(link) = draft.links.get(*index) else { continue };
+        let on_standing = match link.parent {
+            Parent::Link(parent) => standing.get(parent).copied().unwrap_or_default(),
+            Parent::Base | Parent::Name(_) => true,
+        };
+        let stands = link.joint.kind.is_none() && on_standing;
+        if let Some(slot) = standing.get_mut(*index) {
+            *slot = stands;
+        }
+        push_link(&mut text, draft, link, before, stands);
+        before = Some(*index);
+    }
+    text
+}
+
+fn line(text: &mut String, line: &str) {
+    text.push_str(line);
+    text.push('\n');
+}
+
+/// Writes a link. `before` is the link that was written before it; `stands` says that it is fixed to
+/// the base, so that its mass has no effect.
+fn push_link(
+    text: &mut String,
+    draft: &Draft,
+    link: &DraftLink,
+    before: Option<usize>,
+    stands: bool,
+) {
+    line(text, &format!("\n[[link]]\nname = \"{}\"", link.name.name));
+    let parent = match (&link.parent, before) {
+        (Parent::Link(parent), before) if before != Some(*parent) => {
+            draft.links.get(*parent).map(|parent| parent.name.name.as_str())
+        }
+        (Parent::Base, Some(_)) => Some("base"),
+        _ => None,
+    };
+    if let Some(parent) = parent {
+        line(text, &format!("parent = \"{parent}\""));
+    }
+    line(text, &format!("joint = {}", joint(link)));
+    let [xyz, rpy] = xyz_rpy(&link.before);
+    let xyz = xyz.map(|xyz| format!("xyz = {}", vector(&xyz)));
+    let rpy = rpy.map(|rpy| format!("rpy = {}", angles(&rpy)));
+    let origin: Vec<String> = [xyz, rpy].into_iter().flatten().collect();
+    if !origin.is_empty() {
+        line(text, &format!("origin = {{ {} }}", origin.join(", ")));
+    }
+    let body = link.body.as_ref().filter(|_| !stands);
+    push_body(text, body.map(|(body, _)| body), link.joint.kind.is_some());
+    if link.friction != Friction::none() {
+        line(text, &format!("friction = {}", friction(&link.friction, link.joint.kind)));
+    }
+    if let Some(left_out) = &link.left_out {
+        let figures = friction(left_out, link.joint.kind);
+        line(
+            text,
+            &format!("# friction = {figures}   # in the source, but not part of its torques"),
+        );
+    }
+}
+
+fn push_body(text: &mut String, body: Option<&Body>, moving: bool) {
+    let Some(body) = body else {
+        if moving {
+            line(text, "massless = true");
+        }
+        return;
+    };
+    if Reader::is_zero(&body.mass) {
+        line(text, "massless = true");
+    } else {
+        line(text, &format!("mass = {}", figure(&body.mass)));
+    }
+    let [center, rpy] = xyz_rpy(&body.placement);
+    line(text, &format!("center_of_mass = {}", vector(&center.unwrap_or_else(zeros))));
+    let names = ["xx", "yy", "zz", "xy", "xz", "yz"];
+    let entries = &body.inertia.entries();
+    let mut inertia: Vec<String> = names
+        .iter()
+        .zip(entries)
+        .enumerate()
+        .filter(|(index, (_, entry))| *index < 3 || !Reader::is_zero(entry))
+        .map(|(_, (name, entry))| format!("{name} = {}", figure(entry)))
+        .collect();
+    inertia.extend(rpy.map(|rpy| format!("rpy = {}", angles(&rpy))));
+    let values = entries.map(|entry| entry.evaluate(|_| f64::NAN));
+    if judge(values) != Verdict::Possible {
+        inertia.push("unchecked = true".to_owned());
+    }
+    line(text, &format!("inertia = {{ {} }}", inertia.join(", ")));
+}
+
+fn joint(link: &DraftLink) -> String {
+    let joint = &link.joint;
+    let mut parts = Vec::new();
+    if joint.name.name != link.name.name {
+        parts.push(format!("name = \"{}\"", joint.name.name));
+    }
+    let kind = match joint.kind {
+        Some(JointKind::Revolute) => "revolute",
+        Some(JointKind::Prismatic) => "prismatic",
+        None => "fixed",
+    };
+    parts.push(format!("type = \"{kind}\""));
+    if joint.kind.is_some() {
+        parts.push(format!("axis = {}", axis(&joint.axis)));
+    }
+    if let Some([lower, upper]) = &joint.limits {
+        parts.push(format!("limits = [{}, {}]", number(lower), number(upper)));
+    }
+    if let Some(Mimic { joint, ratio, offset, .. }) = &joint.mimic {
+        let mut mimic = format!("joint = \"{}\", ratio = {}", joint.name, figure(ratio));
+        if !Reader::is_zero(offset) {
+            // Writing to a string does not fail.
+            let _ = write!(mimic, ", offset = {}", figure(offset));
+        }
+        parts.push(format!("mimic = {{ {mimic} }}"));
+    }
+    format!("{{ {} }}", parts.join(", "))
+}
+
+/// `"z"` where the axis is one of the frame, else the vector.
+fn axis(axis: &[Formula; 3]) -> String {
+    let along: Vec<usize> =
+        (0..3).filter(|index| axis.get(*index).is_some_and(|one| !Reader::is_zero(one))).collect();
+    let ([index], Some(letter)) =
+        (along.as_slice(), along.first().and_then(|i| "xyz".get(*i..=*i)))
+    else {
+        return vector(axis);
+    };
+    let negative = axis.get(*index).is_some_and(|one| one.evaluate(|_| f64::NAN) < 0.0);
+    format!("\"{}{letter}\"", if negative { "-" } else { "" })
+}
+
+fn friction(friction: &Friction, kind: Option<JointKind>) -> String {
+    let both = match kind {
+        Some(JointKind::Prismatic) => "coulomb_force",
+        _ => "coulomb_torque",
+    };
+    let figures = [("viscous", &friction.viscous), (both, &friction.coulomb_positive)];
+    let parts: Vec<String> = figures
+        .iter()
+        .filter(|(_, value)| !Reader::is_zero(value))
+        .map(|(name, value)| format!("{name} = {}", figure(value)))
+        .collect();
+    format!("{{ {} }}", parts.join(", "))
+}
+
+/// The translation and the angles of a placement, where they are there.
+fn xyz_rpy(placement: &Placement) -> [Option<[Formula; 3]>; 2] {
+    let (mut xyz, mut rpy) = (None, None);
+    for step in &placement.0 {
+        match step {
+            Move::Translate(by) => xyz = Some(by.clone()),
+            Move::Rotate(axis, angle) => {
+                let [roll, pitch, yaw] = rpy.get_or_insert_with(zeros);
+                let slot = match axis {
+                    Axis::X => roll,
+                    Axis::Y => pitch,
+                    Axis::Z => yaw,
+                };
+                slot.clone_from(angle);
+            }
+        }
+    }
+    [xyz, rpy]
+}
+
+fn vector(vector: &[Formula; 3]) -> String {
+    format!("[{}]", vector.each_ref().map(figure).join(", "))
+}
+
+fn angles(angles: &[Formula; 3]) -> String {
+    format!("[{}]", angles.each_ref().map(angle).join(", "))
+}
+
+/// The angle as a multiple of π/2 where it is one to the last digit of floating point.
+fn angle(angle: &Formula) -> String {
+    const TURNS: &[&str] = &["pi/2", "-pi/2", "pi", "-pi", "3*pi/2", "-3*pi/2", "2*pi", "-2*pi"];
+    let value = angle.evaluate(|_| f64::NAN);
+    let same = |text: &&&str| {
+        Formula::parse(text)
+            .is_ok_and(|turn| turn.evaluate(|_| f64::NAN).to_bits() == value.to_bits())
+    };
+    match TURNS.iter().find(same) {
+        Some(turn) => format!("\"{turn}\""),
+        None => figure(angle),
+    }
+}
+
+/// A figure: a number, or an expression in quotes.
+fn figure(formula: &Formula) -> String {
+    match formula.as_number() {
+        Some(value) => match value.as_rational() {
+            Some(value) => number(value),
+            None => format!("\"{}\"", formula.text()),
+        },
+        None => format!("\"{}\"", formula.text()),
+    }
+}
+
+/// A decimal number of TOML with exactly this value, the shortest where floating point has it.
+fn number(value: &Rational) -> String {
+    if let Some(integer) = value.to_integer().filter(|integer| integer.unsigned_abs() < 1 << 53) {
+        return integer.to_string();
+    }
+    let short = format!("{:?}", value.to_f64());
+    if Rational::from_decimal(&short).as_ref() == Some(value) {
+        return short;
+    }
+    scientific(value)
+}
+
+/// All digits with an exponent.
+fn scientific(value: &Rational) -> String {
+    /// Decimal text has no more places: its digits and its exponent are limited.
+    const MAX_PLACES: usize = 3100;
+    let ten = Rational::integer(10);
+    let mut scaled = value.clone();
+    for places in 0..MAX_PLACES {
+        let (digits, denominator) = scaled.to_digits();
+        if denominator == "1" {
+            let kept = digits.trim_end_matches('0');
+            let zeros = digits.len() - kept.len();
+            return match zeros.checked_sub(places) {
+                Some(zeros) => format!("{kept}e{zeros}"),
+                None => format!("{kept}e-{}", places - zeros),
+            };
+        }
+        scaled = &scaled * &ten;
+    }
+    format!("\"{value}\"")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_exact() {
+        for (text, expected) in [
+            ("0", "0"),
+            ("-12", "-12"),
+            ("4.0", "4"),
+            ("0.350", "0.35"),
+            ("2.375e-06", "2.375e-6"),
+            ("1e300", "1e300"),
+            ("-1e-320", "-1e-320"),
+            ("0.1234567890123456789", "1234567890123456789e-19"),
+            ("98765432109876543210.5", "987654321098765432105e-1"),
+            ("90071992547409930000", "9007199254740993e4"),
+        ] {
+            let value = Rational::from_decimal(text).unwrap();
+            assert_eq!(number(&value), expected);
+            assert_eq!(Rational::from_decimal(expected).as_ref(), Some(&value));
+        }
+    }
+
+    #[test]
+    fn right_angles_are_told_by_their_last_digit() {
+        let text = |text: &str| angle(&Formula::number(&Rational::from_decimal(text).unwrap()));
+        assert_eq!(text("1.5707963267948966"), "\"pi/2\"");
+        assert_eq!(text("-3.141592653589793"), "\"-pi\"");
+        assert_eq!(text("1.57079632679"), "1.57079632679");
+        assert_eq!(text("0"), "0");
+    }
+
+    #[test]
+    fn axes_along_the_frame_are_letters() {
+        let text = |vector: [&str; 3]| {
+            axis(&vector.map(|one| Formula::number(&Rational::from_decimal(one).unwrap())))
+        };
+        assert_eq!(text(["0", "-2", "0"]), "\"-y\"");
+        assert_eq!(text(["0.6", "0", "0.8"]), "[0.6, 0, 0.8]");
+    }
+}

@@ -1,0 +1,42 @@
+//! A base that has mass and carries several branches: most likely it is free to move, and robots here stand
+//! on a fixed one.
+
+use std::collections::BTreeSet;
+
+use robot_symbolic::Formula;
+
+use super::locations::{BodyLocation, Locations};
+use super::reader::Reader;
+use crate::diagnostic::significant;
+use crate::diagnostic::{Diagnostic, code};
+use crate::robot::Robot;
+
+/// Warns of such a base; whether there is one.
+pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Locations) -> bool {
+    let on_base = robot.links.iter().filter(|link| link.parent.is_none());
+    // Branches that one coordinate drives are parts of one mechanism, not legs.
+    let branches: BTreeSet<usize> = on_base.map(|link| link.joint.coordinate).collect();
+    let Some(first) = locations.dropped.first().filter(|_| branches.len() > 1) else {
+        return false;
+    };
+    let masses: Vec<&Formula> = locations.dropped.iter().map(|dropped| &dropped.mass).collect();
+    let known: Option<f64> = masses.into_iter().map(|mass| reader.known(mass)).sum();
+    let mass = known.map_or_else(String::new, |mass| format!(" of {} kg", significant(mass)));
+    let BodyLocation { name, mass: of_mass, inertia, .. } = &first.place;
+    let place = of_mass.as_ref().or(inertia.as_ref()).unwrap_or(name).clone();
+    let message =
+        format!("the base{mass} stands still, and {} branches move on it", branches.len());
+    reader.report(
+        Diagnostic::warning(code::FREE_BASE, message)
+            .at(&place, "has no effect")
+            .because(
+                "the base is fixed here: where it is free, as the trunk of a legged robot, torques and \
+                 accelerations are those of the robot with its trunk held",
+            )
+            .help(
+                "nothing, where the base is bolted down; a free one needs joints of its own to the ground: \
+                 three prismatic and three revolute ones, with massless links between",
+            ),
+    );
+    true
+}

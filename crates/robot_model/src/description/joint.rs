@@ -1,0 +1,255 @@
+//! The joint of a link: its type, axis, limits, and the joint that it follows.
+
+use std::array;
+
+use robot_symbolic::{Formula, Rational};
+use toml::de::DeValue;
+
+use super::draft::{DraftJoint, Mimic};
+use super::locations::LinkLocation;
+use super::names::Kind;
+use super::placement::zero;
+use super::reader::{Named, Reader};
+use super::shape::{AXES, JOINT, JOINT_TYPES, MIMIC};
+use super::table::{Entry, Table, Value};
+use super::value::{Quantity, quantity};
+use crate::diagnostic::{Diagnostic, code};
+use crate::robot::JointKind;
+
+/// Reads `type`: `Some(None)` for a fixed link, `None` for an error.
+pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<JointKind>> {
+    if let DeValue::String(word) = entry.value.get_ref()
+        && let Some(help) = elsewhere(word)
+    {
+        reader.report(
+            Diagnostic::error(code::UNKNOWN_WORD, format!("`{word}` is not a type of joint"))
+                .at(&entry.value.span(), "")
+                .help(help),
+        );
+        return None;
+    }
+    Some(match reader.word(entry.value, "a type of joint", JOINT_TYPES)? {
+        "revolute" => Some(JointKind::Revolute),
+        "prismatic" => Some(JointKind::Prismatic),
+        _ => None,
+    })
+}
+
+/// What to write for a type that other descriptions have.
+fn elsewhere(word: &str) -> Option<&'static str> {
+    match word {
+        "continuous" => Some("write \"revolute\" and leave out `limits`"),
+        "rotation" | "rotational" | "hinge" | "R" => Some("write \"revolute\""),
+        "translation" | "translational" | "linear" | "slide" | "slider" | "P" => {
+            Some("write \"prismatic\"")
+        }
+        "floating" | "free" => Some("only robots on a fixed base are described here"),
+        "planar" => Some("use two prismatic joints and a revolute one, with massless links"),
+        "spherical" | "ball" => Some("use three revolute joints, with massless links"),
+        "cylindrical" | "screw" | "universal" => {
+            Some("use revolute and prismatic joints, with massless links between")
+        }
+        _ => None,
+    }
+}
+
+/// Reads `joint`. `row` is the type that a DH table gives, and `dh` says that a DH row places the
+/// joint, so that its axis is z.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    table: &mut Table<'_>,
+    link: &Named,
+    row: Option<Option<JointKind>>,
+    dh: bool,
+    places: &mut LinkLocation,
+) -> DraftJoint {
+    let mut joint = DraftJoint {
+        // Where the type is wrong, the stand-in lets the rest of the link be checked.
+        kind: row.unwrap_or(Some(JointKind::Revolute)),
+        name: link.clone(),
+        axis: [zero(), zero(), Formula::number(&Rational::ONE)],
+        limits: None,
+        mimic: None,
+    };
+    places.joint = table.span.clone();
+    let entry = if row.is_some() {
+        table.get("joint")
+    } else {
+        let example = "joint = { type = \"revolute\", axis = \"z\" }";
+        table.require(reader, "joint", example)
+    };
+    let Some(entry) = entry else { return joint };
+    places.joint = entry.value.span();
+    let Some(mut table) = reader.table(entry.value, &JOINT) else {
+        return joint;
+    };
+    if row.is_none() {
+        let example = "type = \"revolute\"";
+        match table.require(reader, "type", example).and_then(|entry| kind(reader, &entry)) {
+            Some(kind) => joint.kind = kind,
+            // Nothing can be said of the rest.
+            None => return joint,
+        }
+    }
+    if let Some(entry) = table.get("name") {
+        joint.name = reader.name(entry.value, "a joint", Kind::Label).unwrap_or(joint.name);
+    }
+    if joint.kind.is_some() {
+        moving(reader, &mut table, &mut joint, dh, places);
+    }
+    finish(reader, table, joint.kind, dh || row.is_some());
+    joint
+}
+
+fn moving(
+    reader: &mut Reader<'_>,
+    table: &mut Table<'_>,
+    joint: &mut DraftJoint,
+    dh: bool,
+    places: &mut LinkLocation,
+) {
+    if !dh {
+        let entry = table.require(reader, "axis", "axis = \"z\"");
+        joint.axis = match &entry {
+            Some(entry) => axis(reader, entry.value),
+            None => array::from_fn(|_| Reader::unknown()),
+        };
+        places.axis = entry.map(|entry| entry.value.span());
+    }
+    if let Some(entry) = table.get("limits") {
+        joint.limits = limits(reader, entry.value);
+        places.limits = Some(entry.value.span());
+    }
+    if let Some(entry) = table.get("mimic") {
+        joint.mimic = mimic(reader, entry.value, joint.kind);
+        if let Some(limits) = &places.limits {
+            reader.report(
+                Diagnostic::error(code::CONFLICT, "a joint that follows another has no limits")
+                    .at(limits, "these limits have no effect")
+                    .and_at(&entry.key, "the joint follows another")
+                    .help("put the limits on the joint that leads"),
+            );
+        }
+    }
+}
+
+/// Says of keys that mean nothing on this joint why they do not, and then the unknown ones.
+fn finish(reader: &mut Reader<'_>, mut table: Table<'_>, kind: Option<JointKind>, dh: bool) {
+    let reason = match (kind, dh) {
+        (None, _) => "the joint is fixed",
+        _ => "a DH row has the joint axis z",
+    };
+    let keys: &[&'static str] = match (kind, dh) {
+        (None, _) => &["axis", "limits", "mimic"],
+        (Some(_), true) => &["axis"],
+        (Some(_), false) => &[],
+    };
+    for key in keys {
+        if let Some(entry) = table.get(key) {
+            reader.report(
+                Diagnostic::error(code::CONFLICT, format!("`{key}` has no place here: {reason}"))
+                    .at(&entry.key, "no effect")
+                    .help("take it away"),
+            );
+        }
+    }
+    table.finish(reader);
+}
+
+/// `"x"`, `"-z"`, or a vector of any length but 0.
+fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
+    const EXPECTED: &str = "a joint axis: \"x\", \"-z\" or `[x, y, z]`";
+    let vector = match value.get_ref() {
+        DeValue::Array(_) => {
+            let what = Quantity { what: "a joint axis", dimension: None };
+            let vector = reader.vector(value, what);
+            reader.same_dimension(&vector, what.what, &value.span());
+            vector
+        }
+        DeValue::String(_) => {
+            let Some(word) = reader.word(value, "a joint axis", AXES) else {
+                return array::from_fn(|_| Reader::unknown());
+            };
+            let sign = if word.starts_with('-') { -1 } else { 1 };
+            let component = |name: &str| {
+                let here = word.ends_with(name);
+                Formula::number(&Rational::integer(if here { sign } else { 0 }))
+            };
+            [component("x"), component("y"), component("z")]
+        }
+        _ => {
+            reader.wrong_type(value, EXPECTED);
+            return array::from_fn(|_| Reader::unknown());
+        }
+    };
+    if vector.iter().all(|component| reader.vanishes(component)) {
+        reader.report(
+            Diagnostic::error(code::ZERO_AXIS, "the joint axis is zero")
+                .at(&value.span(), "this vector has no direction")
+                .because("a joint moves about or along a line, and 0 0 0 is none")
+                .help("write a direction such as \"z\" or [0, 0, 1]; its length does not matter"),
+        );
+    }
+    vector
+}
+
+fn limits(reader: &mut Reader<'_>, value: Value<'_>) -> Option<[Rational; 2]> {
+    let entries = reader.entries::<2>(value, "limits as `[lower, upper]`")?;
+    let [lower, upper] = entries.map(|entry| reader.number(entry, "a limit as a number"));
+    let limits = [lower?, upper?];
+    let [lower, upper] = &limits;
+    if lower < upper {
+        return Some(limits);
+    }
+    reader.report(
+        Diagnostic::error(code::LIMITS, "the lower limit is not below the upper one")
+            .at(&value.span(), "expected `[lower, upper]`")
+            .help("swap them, or leave `limits` out for a joint without limits"),
+    );
+    None
+}
+
+fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> Option<Mimic> {
+    // Its dimension is known with the joint that leads.
+    const RATIO: Quantity = Quantity { what: "the ratio", dimension: None };
+    let kind = kind.unwrap_or(JointKind::Revolute);
+    let offset_of_joint = by_kind("the offset", kind, (0, 0, 0), (0, 1, 0));
+    let mut table = reader.table(value, &MIMIC)?;
+    let joint = table
+        .require(reader, "joint", "joint = \"name of the joint that leads\"")
+        .and_then(|entry| reader.name(entry.value, "a joint", Kind::Label));
+    let mut of_ratio = None;
+    let ratio = match table.get("ratio") {
+        Some(entry) => {
+            of_ratio = Some(entry.value.span());
+            let ratio = reader.formula(entry.value, RATIO);
+            if reader.known(&ratio) == Some(0.0) {
+                reader.report(
+                    Diagnostic::error(code::MIMIC, "a joint that follows with ratio 0 is fixed")
+                        .at(&entry.value.span(), "the ratio is 0")
+                        .help("write `type = \"fixed\"`, or the ratio"),
+                );
+            }
+            ratio
+        }
+        None => Formula::number(&Rational::ONE),
+    };
+    let offset = table.get("offset");
+    let offset = offset.map_or_else(zero, |entry| reader.formula(entry.value, offset_of_joint));
+    table.finish(reader);
+    Some(Mimic { joint: joint?, ratio, of_ratio, offset })
+}
+
+/// The quantity with the dimension for a rotation or a translation.
+pub(super) const fn by_kind(
+    what: &'static str,
+    kind: JointKind,
+    rotation: (i8, i8, i8),
+    translation: (i8, i8, i8),
+) -> Quantity {
+    let (mass, length, time) = match kind {
+        JointKind::Revolute => rotation,
+        JointKind::Prismatic => translation,
+    };
+    quantity(what, mass, length, time)
+}

@@ -1,0 +1,114 @@
+//! `[[link]]`: a link with its joint, frame, body, friction and drive.
+
+use super::body;
+use super::dh;
+use super::draft::{DraftLink, Parent};
+use super::drive;
+use super::joint;
+use super::locations::LinkLocation;
+use super::names::Kind;
+use super::placement::{Frames, frames_of_row, of_link};
+use super::reader::{Named, Reader};
+use super::table::Table;
+use crate::diagnostic::{Diagnostic, code};
+use crate::robot::{Drive, Friction};
+
+/// Reads the link at `index` of the file; `None` where it has no name to go by.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    mut table: Table<'_>,
+    index: usize,
+    dh: &mut Option<dh::Table>,
+) -> Option<DraftLink> {
+    let name = table
+        .require(reader, "name", &format!("name = \"{}\"", index + 1))
+        .and_then(|entry| reader.name(entry.value, "a link", Kind::Label));
+    // A stand-in, so that the rest of the link is checked all the same.
+    let named = name.clone().unwrap_or(Named { name: String::new(), span: table.span.clone() });
+    let mut places = LinkLocation { name: named.span.clone(), ..LinkLocation::default() };
+    let parent = parent(reader, &mut table, index, &mut places);
+    let own_frame = table.has("origin") || table.has("dh");
+    let row = dh.as_mut().filter(|_| !own_frame).map(dh::Table::next_row);
+    let is_dh = row.is_some() || table.has("dh");
+    let kind = row.as_ref().map(|row| row.kind);
+    let joint = joint::read(reader, &mut table, &named, kind, is_dh, &mut places);
+    let frames = match row {
+        Some(row) => frames_of_row(row.convention, row.row, row.kind, row.place),
+        None => of_link(reader, &mut table, joint.kind),
+    };
+    let Frames { before, after, place } = frames;
+    places.origin = place;
+    let body = body::read(reader, &mut table, &named, joint.kind.is_some());
+    let (friction, drive) = on_joint(reader, &mut table, joint.kind, &mut places);
+    table.finish(reader);
+    Some(DraftLink {
+        name: name?,
+        parent,
+        joint,
+        before,
+        after,
+        body,
+        friction,
+        left_out: None,
+        drive,
+        places,
+    })
+}
+
+/// `parent`: a name, `base`, or the link before.
+fn parent(
+    reader: &mut Reader<'_>,
+    table: &mut Table<'_>,
+    index: usize,
+    places: &mut LinkLocation,
+) -> Parent {
+    match table.get("parent") {
+        Some(entry) => {
+            places.parent = Some(entry.value.span());
+            named_parent(reader, &entry)
+        }
+        None => index.checked_sub(1).map_or(Parent::Base, Parent::Link),
+    }
+}
+
+/// A parent by name. A wrong name is reported and stands for the base.
+pub(super) fn named_parent(reader: &mut Reader<'_>, entry: &super::table::Entry<'_>) -> Parent {
+    let expected = "the name of a link, or \"base\"";
+    let Some(text) = reader.string(entry.value, expected) else {
+        return Parent::Base;
+    };
+    if text == "base" {
+        return Parent::Base;
+    }
+    Parent::Name(Named { name: text.to_string(), span: entry.value.span() })
+}
+
+fn on_joint(
+    reader: &mut Reader<'_>,
+    table: &mut Table<'_>,
+    kind: Option<crate::robot::JointKind>,
+    places: &mut LinkLocation,
+) -> (Friction, Drive) {
+    let (mut friction, mut drive) = (Friction::none(), Drive::none());
+    let entries = [table.get("friction"), table.get("drive")];
+    let Some(kind) = kind else {
+        for entry in entries.iter().flatten() {
+            reader.report(
+                Diagnostic::error(code::CONFLICT, "a fixed joint has no friction and no drive")
+                    .at(&entry.key, "no effect")
+                    .help("take it away"),
+            );
+        }
+        return (friction, drive);
+    };
+    let [of_friction, of_drive] = entries;
+    if let Some(entry) = of_friction {
+        friction = drive::friction(reader, &entry, kind);
+        places.friction = Some(entry.value.span());
+    }
+    if let Some(entry) = of_drive {
+        drive = drive::drive(reader, &entry, kind);
+        places.drive = Some(entry.value.span());
+    }
+    (friction, drive)
+}

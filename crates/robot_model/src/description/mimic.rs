@@ -1,0 +1,156 @@
+//! Joints that follow others: every chain of followers ends at a joint with a coordinate.
+
+use robot_symbolic::{Formula, Rational};
+
+use super::compute::{product, sum};
+use super::draft::{DraftLink, Mimic};
+use super::placement::zero;
+use super::reader::{Named, Reader};
+use super::value::quantity;
+use crate::diagnostic::{Diagnostic, code, quote};
+use crate::robot::{Coordinate, JointKind};
+
+/// Joint position = `ratio` · q + `offset`.
+pub(super) struct Following {
+    pub(super) coordinate: usize,
+    pub(super) ratio: Formula,
+    pub(super) offset: Formula,
+}
+
+/// How the joint of `link` follows a coordinate; what is wrong with a mimic is reported. `links` are
+/// in order.
+pub(super) fn follow(
+    reader: &mut Reader<'_>,
+    links: &[&DraftLink],
+    coordinates: &[Coordinate],
+    link: &DraftLink,
+) -> Following {
+    check_ratio(reader, links, link);
+    let leader = leader(reader, links, link);
+    let leader = leader.unwrap_or(Leader { name: "", ratio: one(), offset: zero() });
+    let found = coordinates.iter().position(|one| one.joint == leader.name);
+    Following { coordinate: found.unwrap_or_default(), ratio: leader.ratio, offset: leader.offset }
+}
+
+/// Reports a ratio that is not in the position of this joint per position of the one that it follows.
+fn check_ratio(reader: &mut Reader<'_>, links: &[&DraftLink], link: &DraftLink) {
+    let Some(Mimic { joint, ratio, of_ratio: Some(place), .. }) = &link.joint.mimic else {
+        return;
+    };
+    let followed = links.iter().find(|other| other.joint.name.name == joint.name);
+    let kinds = followed.and_then(|followed| link.joint.kind.zip(followed.joint.kind));
+    let length = match kinds {
+        Some((JointKind::Prismatic, JointKind::Revolute)) => 1,
+        Some((JointKind::Revolute, JointKind::Prismatic)) => -1,
+        Some(_) => 0,
+        None => return,
+    };
+    reader.fits(ratio, quantity("the ratio", 0, length, 0), place);
+}
+
+fn one() -> Formula {
+    Formula::number(&Rational::ONE)
+}
+
+struct Leader<'l> {
+    name: &'l str,
+    ratio: Formula,
+    offset: Formula,
+}
+
+/// The joint at the end of the chain, with the chain folded: q = r₁ (r₂ p + o₂) + o₁. A fault is
+/// reported by the link that has it.
+fn leader<'l>(
+    reader: &mut Reader<'_>,
+    links: &[&'l DraftLink],
+    link: &'l DraftLink,
+) -> Option<Leader<'l>> {
+    let Some(mimic) = &link.joint.mimic else {
+        return Some(Leader { name: &link.joint.name.name, ratio: one(), offset: zero() });
+    };
+    let (mut ratio, mut offset) = (mimic.ratio.clone(), mimic.offset.clone());
+    let mut way = vec![link];
+    let mut wanted = &mimic.joint;
+    loop {
+        let next = links.iter().copied().find(|link| link.joint.name.name == wanted.name);
+        let Some(next) = next.filter(|next| next.joint.kind.is_some()) else {
+            // A wrong name within the chain is the fault of the link that has it.
+            if way.len() == 1 {
+                let diagnostic = no_leader(reader, wanted, links);
+                reader.report(diagnostic);
+            }
+            return None;
+        };
+        if way.iter().any(|passed| passed.joint.name == next.joint.name) {
+            let place = |link: &DraftLink| link.joint.name.span.start;
+            let is_first = way.iter().all(|passed| place(passed) >= place(link));
+            if is_first && next.joint.name == link.joint.name {
+                reader.report(circle(&way, wanted));
+            }
+            return None;
+        }
+        let Some(mimic) = &next.joint.mimic else {
+            return Some(Leader { name: &next.joint.name.name, ratio, offset });
+        };
+        let folded = product(&ratio, &mimic.offset)
+            .and_then(|moved| sum(&moved, &offset))
+            .zip(product(&ratio, &mimic.ratio));
+        let Some((folded_offset, folded_ratio)) = folded else {
+            reader.report(
+                Diagnostic::error(code::LIMIT, "the expressions of this chain are too large")
+                    .at(&wanted.span, "one of a chain of joints that follow each other")
+                    .help(
+                        "let the joint follow the one that leads, with the product of the ratios",
+                    ),
+            );
+            return None;
+        };
+        (ratio, offset) = (folded_ratio, folded_offset);
+        way.push(next);
+        wanted = &mimic.joint;
+    }
+}
+
+fn circle(way: &[&DraftLink], wanted: &Named) -> Diagnostic {
+    let [_] = way else {
+        let names: Vec<String> =
+            way.iter().map(|link| format!("`{}`", quote(&link.joint.name.name))).collect();
+        let message = format!("joints follow each other in a circle: {}", names.join(", "));
+        let mut diagnostic = Diagnostic::error(code::MIMIC, message)
+            .at(&wanted.span, "leads back to the first")
+            .because("one of them must move by itself")
+            .help("take `mimic` away from the joint that leads");
+        for link in way.iter().take(8) {
+            if let Some(mimic) = link.joint.mimic.as_ref().filter(|mimic| mimic.joint != *wanted) {
+                diagnostic = diagnostic.and_at(&mimic.joint.span, "");
+            }
+        }
+        return diagnostic;
+    };
+    let name = quote(&wanted.name);
+    Diagnostic::error(code::MIMIC, format!("the joint `{name}` follows itself"))
+        .at(&wanted.span, "its own name")
+        .help("name the joint that leads, or take `mimic` away")
+}
+
+/// No joint of that name moves.
+fn no_leader(reader: &Reader<'_>, wanted: &Named, links: &[&DraftLink]) -> Diagnostic {
+    let name = quote(&wanted.name);
+    if links.iter().any(|link| link.joint.name.name == wanted.name) {
+        return Diagnostic::error(
+            code::MIMIC,
+            format!("the joint `{name}` is fixed and cannot lead"),
+        )
+        .at(&wanted.span, "a fixed joint")
+        .help("let the joint that follows be fixed, too");
+    }
+    let moving = links.iter().filter(|link| link.joint.kind.is_some());
+    let names = moving.map(|link| link.joint.name.name.as_str());
+    let label = match reader.nearest(&wanted.name, names) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "no joint of that name".to_owned(),
+    };
+    Diagnostic::error(code::MIMIC, format!("`{name}` is not a joint of this robot"))
+        .at(&wanted.span, label)
+        .help("name a joint that moves; a joint without a name has the name of its link")
+}

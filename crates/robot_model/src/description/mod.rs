@@ -1,0 +1,304 @@
+//! Robots from files.
+//!
+//! A reader turns the text of a file into a checked [`Robot`] and a side table of places
+//! ([`Locations`]), or into everything that is wrong with it ([`Diagnostics`]). No value is ever
+//! replaced or repaired in silence.
+//!
+//! The way through: `file` lowers the tables of a TOML file, `urdf` the elements of a URDF file, to a
+//! draft whose fixed links are still apart; `tree` puts the links in order; `assemble` merges fixed
+//! links and builds the robot. [`import()`] writes the draft as a robot file in TOML.
+
+mod assemble;
+mod body;
+mod budget;
+mod compute;
+mod defined;
+mod dh;
+mod dimensions;
+mod draft;
+mod drive;
+mod export;
+mod file;
+mod frames;
+mod free_base;
+pub(crate) mod inertia;
+mod joint;
+mod latex;
+mod limits;
+mod link;
+mod locations;
+mod mimic;
+mod names;
+mod options;
+mod parameters;
+mod payload;
+pub(crate) mod placement;
+mod range;
+mod reader;
+pub mod shape;
+mod strings;
+mod syntax;
+mod table;
+mod tree;
+mod urdf;
+mod value;
+mod wanted;
+
+pub use budget::{Budget, Limit};
+pub use limits::{MAX_BUNDLES, MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
+pub use locations::{
+    AngleLocation, BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations,
+    ParameterLocation,
+};
+pub use options::{Format, Options};
+pub use wanted::{Code, check_bundle_name};
+
+use std::path::Path;
+
+use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, code};
+use crate::robot::{Parameter, Robot};
+use draft::Draft;
+use reader::{Named, Reader};
+use wanted::Wanted;
+
+/// What a robot file gives.
+#[derive(Clone, Debug)]
+pub struct Described {
+    /// The robot.
+    pub robot: Robot,
+    /// Where in the file its parts are.
+    pub locations: Locations,
+    /// What looks like a slip, with the source.
+    pub warnings: Diagnostics,
+    /// How the reader took what the format leaves open or what is not part of a robot here: notes,
+    /// for a file that was not written for this program.
+    pub choices: Diagnostics,
+    /// What the file says of the dynamics that is no part of the robot, such as `the friction of 6 joints`.
+    pub left_out: Vec<String>,
+    /// Which functions are generated where the caller names none.
+    pub code: Code,
+    /// What generated code may cost.
+    pub budgets: Vec<Budget>,
+    /// The format of the file.
+    pub format: Format,
+}
+
+/// A description of another format as a robot file.
+#[derive(Clone, Debug)]
+pub struct Import {
+    /// The robot file in TOML.
+    pub toml: String,
+    /// The robot, its warnings and the choices that were made.
+    pub described: Described,
+}
+
+/// Reads a robot file in the format that the name says: `.toml` or `.urdf`; of any other name, in
+/// the one that its text looks like.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn read(name: &str, text: &str) -> Result<Described, Diagnostics> {
+    read_with(name, text, &Options::default())
+}
+
+/// [`read`] with options.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn read_with(name: &str, text: &str, options: &Options) -> Result<Described, Diagnostics> {
+    described(format_of(name, text), name, text, options).map(|(described, _)| described)
+}
+
+/// Reads a robot file in TOML.
+///
+/// `name` is shown in messages, usually the path; `text` is the file's text. A byte order mark and
+/// CRLF line ends are accepted.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn read_toml(name: &str, text: &str) -> Result<Described, Diagnostics> {
+    described(Format::Toml, name, text, &Options::default()).map(|(described, _)| described)
+}
+
+/// Reads a robot from URDF, the description format of ROS.
+///
+/// The base is the root link. Fixed links are merged and their frames kept as named frames; joints
+/// that mimic others share their coordinate. Meshes are never looked for. What the format leaves
+/// open is told in [`Described::choices`].
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn read_urdf(name: &str, text: &str) -> Result<Described, Diagnostics> {
+    described(Format::Urdf, name, text, &Options::default()).map(|(described, _)| described)
+}
+
+/// Writes a description as a robot file in TOML, with the source's names and figures. The robot file
+/// gives the same robot, and the same description always the same text. What is a robot file already
+/// stays as it is.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file, in the order of the places.
+pub fn import(name: &str, text: &str, options: &Options) -> Result<Import, Diagnostics> {
+    let (described, lowered) = described(format_of(name, text), name, text, options)?;
+    let toml = match described.format {
+        Format::Toml => text.to_owned(),
+        Format::Urdf => export::to_toml(&lowered, name),
+    };
+    Ok(Import { toml, described })
+}
+
+/// The bytes of a robot file as text, whatever its format.
+///
+/// # Errors
+///
+/// A file that is too large, or no UTF-8.
+pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
+    if bytes.len() > MAX_BYTES {
+        return Err(too_large(name, bytes.len()));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+        let diagnostic = Diagnostic::error(code::NOT_TEXT, "the file is not UTF-8 text")
+            .at(&(valid..valid), "no UTF-8 from here on")
+            .help("save the file as UTF-8");
+        let source = Source { name: name.to_owned(), text };
+        Diagnostics::new(source, vec![diagnostic])
+    })
+}
+
+/// A file after lowering, its links in order: parents before children.
+#[derive(Clone)]
+struct Lowered {
+    draft: Draft,
+    order: Vec<usize>,
+    parameters: (Vec<Parameter>, Vec<ParameterLocation>),
+    wanted: Wanted,
+    /// With the names of functions of frames, which are looked for when the robot is known.
+    budgets: Vec<(Budget, Option<Named>)>,
+}
+
+fn format_of(name: &str, text: &str) -> Format {
+    let extension = Path::new(name).extension().and_then(|extension| extension.to_str());
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("toml") => Format::Toml,
+        Some("urdf" | "xacro" | "xml") => Format::Urdf,
+        _ if text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).starts_with('<') => {
+            Format::Urdf
+        }
+        _ => Format::Toml,
+    }
+}
+
+fn described(
+    format: Format,
+    name: &str,
+    text: &str,
+    options: &Options,
+) -> Result<(Described, Lowered), Diagnostics> {
+    if text.len() > MAX_BYTES {
+        return Err(too_large(name, text.len()));
+    }
+    let mut reader = Reader::new(text, options);
+    let lowered = match format {
+        Format::Toml => file::lower(&mut reader),
+        Format::Urdf => urdf::lower(&mut reader, options),
+    };
+    let built = lowered.and_then(|lowered| {
+        let built = build(&mut reader, lowered.clone(), format)?;
+        Some((built, lowered))
+    });
+    let source = Source { name: name.to_owned(), text: text.to_owned() };
+    let left_out = std::mem::take(&mut reader.left_out);
+    let (choices, found): (Vec<_>, Vec<_>) =
+        reader.found.into_iter().partition(|found| found.severity == Severity::Note);
+    let found = Diagnostics::new(source.clone(), found);
+    match built {
+        Some((Built { robot, locations, code, budgets }, lowered)) if !found.has_errors() => {
+            let choices = Diagnostics::new(source, choices);
+            let warnings = found;
+            let described =
+                Described { robot, locations, warnings, choices, left_out, code, budgets, format };
+            Ok((described, lowered))
+        }
+        _ => Err(found),
+    }
+}
+
+/// What a lowered file gives.
+struct Built {
+    robot: Robot,
+    locations: Locations,
+    code: Code,
+    budgets: Vec<Budget>,
+}
+
+/// The robot of a lowered file, where nothing is wrong with it.
+fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Built> {
+    let Lowered { draft, order, parameters, wanted, budgets } = lowered;
+    if draft.links.iter().all(|link| link.joint.kind.is_none()) {
+        let last = draft.links.last().map(|link| link.places.joint.clone());
+        let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves")
+            .at(&last.unwrap_or_default(), "");
+        reader.report(diagnostic.help(match format {
+            Format::Toml => "add a `[[link]]` with a revolute or prismatic joint",
+            Format::Urdf => "add a `<joint>` of type revolute, continuous or prismatic",
+        }));
+    }
+    let (robot, mut locations) = assemble::robot(reader, draft, &order, parameters);
+    locations.angles = std::mem::take(&mut reader.angles);
+    // What an error kept from being read may use parameters.
+    if reader.failed() {
+        return None;
+    }
+    range::check(reader, &robot, &locations);
+    let code = wanted.code(reader, &robot);
+    let budgets = budget::of_robot(reader, &robot, budgets);
+    let stands = free_base::check(reader, &robot, &locations);
+    if format == Format::Toml {
+        unused(reader);
+        if !stands {
+            no_effect(reader, &locations);
+        }
+    }
+    Some(Built { robot, locations, code, budgets })
+}
+
+/// Warns of parameters that nothing uses.
+fn unused(reader: &mut Reader<'_>) {
+    let unused: Vec<(String, Span)> = reader
+        .parameters()
+        .iter()
+        .filter(|known| !known.used)
+        .map(|known| (known.name.clone(), known.span.clone()))
+        .collect();
+    for (name, span) in unused {
+        reader.report(
+            Diagnostic::warning(code::UNUSED, format!("the parameter `{name}` is not used"))
+                .at(&span, "")
+                .help("take it away, or see whether a figure should be this parameter"),
+        );
+    }
+}
+
+/// Warns of masses that are fixed to the base.
+fn no_effect(reader: &mut Reader<'_>, locations: &Locations) {
+    for dropped in &locations.dropped {
+        reader.report(dropped.diagnostic());
+    }
+}
+
+/// The source is left out: nobody wants it in a message.
+fn too_large(name: &str, bytes: usize) -> Diagnostics {
+    let message = format!("the file has {bytes} bytes; a robot file has at most {MAX_BYTES}");
+    let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
+        .because("a robot of 64 joints with every figure and a comment takes a tenth of that")
+        .help("leave out what does not describe the robot: meshes, logs, trajectories");
+    let source = Source { name: name.to_owned(), text: String::new() };
+    Diagnostics::new(source, vec![diagnostic])
+}

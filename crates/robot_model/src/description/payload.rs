@@ -1,0 +1,151 @@
+//! `[payload]`: a body that the robot may carry, whose ten figures stay parameters.
+
+use robot_symbolic::{Formula, Rational};
+
+use super::draft::{DraftFrame, DraftLink, DraftPayload, Parent};
+use super::link::named_parent;
+use super::locations::{BodyLocation, ParameterLocation};
+use super::names::Kind;
+use super::reader::{Named, Reader};
+use super::shape::PAYLOAD;
+use super::table::Table;
+use crate::diagnostic::{Diagnostic, Span, code};
+use crate::physics::{Verdict, judge};
+use crate::robot::{Body, Inertia, Link, Move, Parameter, Payload, Placement};
+use crate::unit::Unit;
+
+/// Parameters and their places.
+type Parameters = (Vec<Parameter>, Vec<ParameterLocation>);
+
+/// Reads the table and adds its parameters, which are 0 by default: nothing is carried.
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    root: &mut Table<'_>,
+    links: &[DraftLink],
+    frames: &[DraftFrame],
+    parameters: &mut Parameters,
+) -> Option<DraftPayload> {
+    let entry = root.get("payload")?;
+    let span = entry.key.clone();
+    let mut table = reader.table(entry.value, &PAYLOAD)?;
+    let last = links.len().checked_sub(1).map_or(Parent::Base, Parent::Link);
+    let parent = table.get("parent").map_or(last, |entry| named_parent(reader, &entry));
+    table.finish(reader);
+    let frame = frames
+        .iter()
+        .find(|frame| matches!(&parent, Parent::Name(name) if name.name == frame.name.name));
+    let (parent, placement) = match frame {
+        Some(frame) => (frame.parent.clone(), frame.placement.clone()),
+        None => (parent, Placement::default()),
+    };
+    for mut parameter in figures() {
+        if let Some(value) = reader.options.value(&parameter.name) {
+            parameter.value = Some(value.clone());
+        }
+        let name = &parameter.name;
+        let named = reader.check_name(name, &span, "a parameter of a payload", Kind::Identifier)?;
+        if let Some(diagnostic) = reader.symbols.add(&named) {
+            reader.report(diagnostic.help(format!(
+                "`[payload]` makes parameters `payload_…`: rename your own `{name}`"
+            )));
+        }
+        parameters.0.push(parameter);
+        let place = ParameterLocation { name: span.clone(), ..ParameterLocation::default() };
+        parameters.1.push(place);
+    }
+    check(reader, &parameters.0, &span);
+    Some(DraftPayload { parent, placement, place: span })
+}
+
+/// Reports a mass or a tensor that no body has. Of a mass of 0 any tensor is let pass: nothing is carried.
+fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
+    let Payload { mass, inertia, .. } = names();
+    let value = |name: &String| {
+        let parameter = parameters.iter().find(|parameter| parameter.name == *name);
+        parameter.and_then(|parameter| parameter.value.as_ref()).map_or(0.0, Rational::to_f64)
+    };
+    let severity = reader.options.unphysical();
+    let carried = value(&mass);
+    if carried < 0.0 {
+        let diagnostic = Diagnostic::error(code::MASS, format!("the mass is {carried} kg"));
+        let diagnostic = diagnostic.at(span, format!("`{mass}`")).help("correct the figure");
+        reader.report(diagnostic.graded(severity));
+    }
+    let verdict = judge(inertia.each_ref().map(value));
+    if verdict != Verdict::Possible {
+        let diagnostic = Diagnostic::error(verdict.code(), verdict.message());
+        let diagnostic = diagnostic.at(span, verdict.label()).help("correct the figures");
+        reader.report(diagnostic.graded(severity));
+    }
+}
+
+/// The names of the parameters.
+fn names() -> Payload {
+    let named = |name: &str| format!("payload_{name}");
+    Payload {
+        mass: named("mass"),
+        center_of_mass: ["x", "y", "z"].map(named),
+        inertia: ["xx", "yy", "zz", "xy", "xz", "yz"].map(named),
+    }
+}
+
+/// The parameters in the order of [`names`].
+fn figures() -> Vec<Parameter> {
+    let Payload { mass, center_of_mass, inertia } = names();
+    let parameter = |name: String, unit: &str, doc: &str| Parameter {
+        name,
+        value: Some(Rational::ZERO),
+        unit: Unit::parse(unit).ok(),
+        latex: None,
+        doc: Some(doc.to_owned()),
+    };
+    let mut figures = vec![parameter(mass, "kg", "mass of the payload")];
+    for name in center_of_mass {
+        figures.push(parameter(name, "m", "coordinate of the payload's centre of mass"));
+    }
+    for name in inertia {
+        let doc = "entry of the payload's inertia tensor about its centre of mass";
+        figures.push(parameter(name, "kg m^2", doc));
+    }
+    figures
+}
+
+/// Puts the payload on the link that carries it, `placement` in the link's frame.
+pub(super) fn attach(
+    reader: &mut Reader<'_>,
+    carrier: Option<(&mut Link, &mut Vec<BodyLocation>)>,
+    placement: Placement,
+    place: &Named,
+) -> Option<Payload> {
+    let Some((link, places)) = carrier else {
+        reader.report(
+            Diagnostic::error(code::NO_EFFECT, "the payload is fixed to the base")
+                .at(&place.span, "it would not move")
+                .help("name a link that moves, or a frame on one, as `parent`"),
+        );
+        return None;
+    };
+    // Shares of a mass that may be 0 have no meaning.
+    if link.bodies.iter().all(|body| Reader::is_zero(&body.mass)) {
+        let message = format!("the link `{}` carries a payload and has no mass", link.name);
+        reader.report(
+            Diagnostic::error(code::MASS, message)
+                .at(&place.span, "without the payload nothing is there")
+                .help("give the link its mass, or let a link with mass carry the payload"),
+        );
+        return None;
+    }
+    let payload = names();
+    let symbol = |name: &String| Formula::symbol(name);
+    let [xx, yy, zz, xy, xz, yz] = payload.inertia.each_ref().map(symbol);
+    let center = Move::Translate(payload.center_of_mass.each_ref().map(symbol));
+    link.bodies.push(Body {
+        name: place.name.clone(),
+        mass: symbol(&payload.mass),
+        placement: placement.then(&Placement(vec![center])),
+        inertia: Inertia { xx, yy, zz, xy, xz, yz },
+    });
+    let location = BodyLocation { name: place.span.clone(), ..BodyLocation::default() };
+    places.push(BodyLocation { unchecked: true, ..location });
+    Some(payload)
+}

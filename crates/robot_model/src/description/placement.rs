@@ -1,0 +1,156 @@
+//! Where frames stand: `origin` by xyz and rpy, `dh` by a Denavit–Hartenberg row.
+
+use robot_symbolic::{Formula, Rational};
+
+use super::reader::Reader;
+use super::shape::{CONVENTIONS, DH_ROW, ORIGIN};
+use super::table::{Entry, Table, Value};
+use super::value::{Quantity, quantity};
+use crate::diagnostic::{Diagnostic, Span, code};
+use crate::robot::{Axis, JointKind, Move, Placement};
+
+/// Angles about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll).
+pub(super) const RPY: Quantity = quantity("the angles roll, pitch and yaw", 0, 0, 0);
+
+/// The frames of a joint: before its motion and after it.
+#[derive(Default)]
+pub(super) struct Frames {
+    pub(super) before: Placement,
+    pub(super) after: Placement,
+    /// The place of `origin` or `dh`.
+    pub(super) place: Option<Span>,
+}
+
+/// The two conventions that go by the names of Denavit and Hartenberg.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Convention {
+    /// Joint i moves about or along z of frame i−1: Rz(θ) Tz(d) Tx(a) Rx(α).
+    Standard,
+    /// Joint i moves about or along z of frame i: Rx(α) Tx(a) Rz(θ) Tz(d), α and a of frame i−1.
+    Modified,
+}
+
+/// Angles and lengths of a row.
+pub(super) struct Row {
+    pub(super) a: Formula,
+    pub(super) alpha: Formula,
+    pub(super) d: Formula,
+    pub(super) theta: Formula,
+}
+
+pub(super) fn zero() -> Formula {
+    Formula::number(&Rational::ZERO)
+}
+
+pub(super) fn zeros() -> [Formula; 3] {
+    [zero(), zero(), zero()]
+}
+
+/// Reads `origin` or `dh` of a link. A link with neither has its frame in the parent's.
+pub(super) fn of_link(
+    reader: &mut Reader<'_>,
+    table: &mut Table<'_>,
+    kind: Option<JointKind>,
+) -> Frames {
+    let origin = table.get("origin");
+    match (origin, table.get("dh")) {
+        (Some(origin), Some(dh)) => {
+            reader.report(
+                Diagnostic::error(code::CONFLICT, "the link has both `origin` and `dh`")
+                    .at(&dh.key, "the frame is placed a second time")
+                    .and_at(&origin.key, "placed here already")
+                    .help("keep one of them"),
+            );
+            Frames::default()
+        }
+        (Some(entry), None) => Frames {
+            before: origin_of(reader, entry.value),
+            place: Some(entry.value.span()),
+            ..Frames::default()
+        },
+        (None, Some(entry)) => dh(reader, &entry, kind),
+        (None, None) => Frames::default(),
+    }
+}
+
+/// `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`, each zero where it is left out.
+pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement {
+    let Some(mut table) = reader.table(value, &ORIGIN) else {
+        return Placement::default();
+    };
+    let xyz = table
+        .get("xyz")
+        .map_or_else(zeros, |entry| reader.vector(entry.value, quantity("the origin", 0, 1, 0)));
+    let rpy = table.get("rpy").map_or_else(zeros, |entry| reader.angle_vector(entry.value, RPY));
+    table.finish(reader);
+    without_rests(Placement::from_xyz_rpy(xyz, rpy))
+}
+
+fn dh(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: Option<JointKind>) -> Frames {
+    let Some(mut table) = reader.table(entry.value, &DH_ROW) else {
+        return Frames::default();
+    };
+    let convention = convention(reader, &mut table);
+    let row = row(reader, &mut table);
+    table.finish(reader);
+    match convention {
+        Some(convention) => frames_of_row(convention, row, kind, entry.value.span()),
+        None => Frames::default(),
+    }
+}
+
+/// The convention, which has no default: the two give different robots.
+pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<Convention> {
+    let entry = table.require(reader, "convention", "convention = \"modified\"")?;
+    match reader.word(entry.value, "a DH convention", CONVENTIONS)? {
+        "standard" => Some(Convention::Standard),
+        _ => Some(Convention::Modified),
+    }
+}
+
+/// `a`, `alpha`, `d` and `theta`, each zero where it is left out.
+pub(super) fn row(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Row {
+    let mut figure = |key: &'static str, what: Quantity, is_angle: bool| {
+        let read = if is_angle { Reader::angle } else { Reader::formula };
+        table.get(key).map_or_else(zero, |entry| read(reader, entry.value, what))
+    };
+    Row {
+        a: figure("a", quantity("the length `a`", 0, 1, 0), false),
+        alpha: figure("alpha", quantity("the twist `alpha`", 0, 0, 0), true),
+        d: figure("d", quantity("the offset `d`", 0, 1, 0), false),
+        theta: figure("theta", quantity("the angle `theta`", 0, 0, 0), true),
+    }
+}
+
+/// The frames of a row. All moves about and along z commute with the joint's motion.
+pub(super) fn frames_of_row(
+    convention: Convention,
+    row: Row,
+    kind: Option<JointKind>,
+    place: Span,
+) -> Frames {
+    let Row { a, alpha, d, theta } = row;
+    let rotate_z = Move::Rotate(Axis::Z, theta);
+    let shift_z = Move::Translate([zero(), zero(), d]);
+    let shift_x = Move::Translate([a, zero(), zero()]);
+    let rotate_x = Move::Rotate(Axis::X, alpha);
+    let moves = match convention {
+        Convention::Standard => vec![rotate_z, shift_z, shift_x, rotate_x],
+        Convention::Modified => vec![rotate_x, shift_x, rotate_z, shift_z],
+    };
+    let moves = without_rests(Placement(moves));
+    let (before, after) = match (convention, kind) {
+        (Convention::Standard, Some(_)) => (Placement::default(), moves),
+        _ => (moves, Placement::default()),
+    };
+    Frames { before, after, place: Some(place) }
+}
+
+/// The placement without the moves that move nothing.
+pub(super) fn without_rests(placement: Placement) -> Placement {
+    let moves = placement.0.into_iter().filter(|step| match step {
+        Move::Translate(vector) => !vector.iter().all(Reader::is_zero),
+        Move::Rotate(_, angle) => !Reader::is_zero(angle),
+    });
+    Placement(moves.collect())
+}

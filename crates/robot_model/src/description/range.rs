@@ -1,0 +1,178 @@
+//! Figures that are too large or too small to compute with.
+//!
+//! Torques are products of masses, squared lengths and more; beyond these bounds such products could
+//! leave the range of floating point, and the figures would have no meaning for a robot anyway.
+
+use robot_symbolic::Formula;
+
+use super::locations::{BodyLocation, LinkLocation, Locations};
+use super::reader::Reader;
+use crate::diagnostic::significant;
+use crate::diagnostic::{Diagnostic, Span, code};
+use crate::robot::{Body, Drive, Friction, Joint, Link, Move, Placement, Robot};
+
+/// The largest figure, in SI units: the Sun has 2e30 kg.
+const LARGEST: f64 = 1e30;
+/// The least mass, kg, largest entry of a tensor, kg m², and whatever else is a divisor.
+const LEAST: f64 = 1e-100;
+/// The largest angle, rad: of larger ones rounding leaves less than ten digits within a turn.
+const ANGLE: f64 = 1e6;
+
+/// Reports all figures that are out of range at the nominal values of the parameters.
+pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Locations) {
+    let mut range = Range { reader };
+    let of_gravity = locations.gravity.as_ref().unwrap_or(&locations.name);
+    range.all(&robot.gravity, "gravity", of_gravity);
+    for (link, place) in robot.links.iter().zip(&locations.links) {
+        range.link(link, place);
+    }
+    for (frame, place) in robot.frames.iter().zip(&locations.frames) {
+        let at = place.origin.as_ref().unwrap_or(&place.name);
+        range.placement(&frame.placement, &format!("the place of `{}`", frame.name), at);
+    }
+}
+
+struct Range<'r, 'a> {
+    reader: &'r mut Reader<'a>,
+}
+
+impl Range<'_, '_> {
+    fn link(&mut self, link: &Link, place: &LinkLocation) {
+        let at = place.origin.as_ref().unwrap_or(&place.name);
+        self.placement(&link.placement, &format!("the place of `{}`", link.name), at);
+        self.joint(&link.joint, place);
+        let of_friction = place.friction.as_ref().unwrap_or(&place.joint);
+        self.friction(&link.friction, &link.joint.name, of_friction);
+        let Drive { armature, rotor_inertia, gear_ratio, .. } = &link.drive;
+        let of_drive = place.drive.as_ref().unwrap_or(&place.joint);
+        let what = format!("the drive of `{}`", link.joint.name);
+        self.all([armature, rotor_inertia, gear_ratio], &what, of_drive);
+        for (body, place) in link.bodies.iter().zip(&place.bodies) {
+            self.body(body, place);
+        }
+    }
+
+    fn joint(&mut self, joint: &Joint, place: &LinkLocation) {
+        let at = place.axis.as_ref().unwrap_or(&place.joint);
+        self.axis(&joint.axis, &joint.name, at);
+        let what = format!("the ratio of `{}`", joint.name);
+        self.all([&joint.ratio], &what, &place.joint);
+        self.divisor([&joint.ratio], &what, &place.joint);
+        self.all([&joint.offset], &format!("the offset of `{}`", joint.name), &place.joint);
+    }
+
+    /// Axes of numbers may have any length; those of expressions are normalized where they are
+    /// computed. What is hidden by the other components cannot be normalized at all.
+    fn axis(&mut self, axis: &[Formula; 3], joint: &str, at: &Span) {
+        let known = axis.each_ref().map(|component| self.reader.known(component));
+        let [Some(x), Some(y), Some(z)] = known.map(|known| known.map(f64::abs)) else { return };
+        let largest = x.max(y).max(z);
+        let is_exact =
+            axis.iter().all(|one| one.as_number().is_some_and(|n| n.as_rational().is_some()));
+        if !is_exact && !(LEAST..=1.0 / LEAST).contains(&largest) {
+            let message =
+                format!("the axis of `{joint}` has a component of {}", significant(largest));
+            self.reader.report(
+                Diagnostic::error(code::NUMBER, message)
+                    .at(at, "its square is beyond the range of numbers")
+                    .help("give the direction with a length near 1"),
+            );
+        }
+        let hidden = [x, y, z].into_iter().find(|one| *one != 0.0 && one / largest < LEAST);
+        if let Some(hidden) = hidden {
+            let message = format!(
+                "the axis of `{joint}` has components of {} and {}",
+                significant(hidden),
+                significant(largest)
+            );
+            self.reader.report(
+                Diagnostic::error(code::NUMBER, message)
+                    .at(at, "nothing that is computed shows the smaller one")
+                    .help("write 0 for what is 0"),
+            );
+        }
+    }
+
+    fn friction(&mut self, friction: &Friction, joint: &str, at: &Span) {
+        let what = format!("the friction of `{joint}`");
+        let Friction { viscous, coulomb, spindle_diameter, offset, .. } = friction;
+        let Friction { coulomb_positive, coulomb_negative, smoothing, .. } = friction;
+        let figures =
+            [viscous, coulomb, spindle_diameter, offset, coulomb_positive, coulomb_negative];
+        self.all(figures.into_iter().chain(smoothing), &what, at);
+        self.divisor(smoothing, &what, at);
+    }
+
+    fn body(&mut self, body: &Body, place: &BodyLocation) {
+        let BodyLocation { name, mass, center_of_mass, inertia, .. } = place;
+        let of_mass = mass.as_ref().unwrap_or(name);
+        let what = format!("the mass of `{}`", body.name);
+        self.all([&body.mass], &what, of_mass);
+        self.divisor([&body.mass], &what, of_mass);
+        let what = format!("the centre of mass of `{}`", body.name);
+        self.placement(&body.placement, &what, center_of_mass.as_ref().unwrap_or(name));
+        let what = format!("the inertia of `{}`", body.name);
+        let of_inertia = inertia.as_ref().unwrap_or(name);
+        self.all(body.inertia.entries(), &what, of_inertia);
+        self.divisor(body.inertia.entries(), &what, of_inertia);
+    }
+
+    fn placement(&mut self, Placement(moves): &Placement, what: &str, at: &Span) {
+        for step in moves {
+            match step {
+                Move::Translate(by) => self.all(by, what, at),
+                Move::Rotate(_, angle) => {
+                    let known = self.reader.known(angle).filter(|angle| angle.abs() > ANGLE);
+                    if let Some(angle) = known {
+                        let message = format!("{what} has an angle of {} rad", significant(angle));
+                        self.reader.report(
+                            Diagnostic::error(code::NUMBER, message)
+                                .at(at, format!("angles up to {ANGLE:e} rad are taken"))
+                                .because("rounding leaves too little of a larger one within a turn")
+                                .help("give the angle within a turn"),
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// Reports the first figure that is too large.
+    fn all<'f>(&mut self, figures: impl IntoIterator<Item = &'f Formula>, what: &str, at: &Span) {
+        let known = figures.into_iter().filter_map(|figure| self.reader.known(figure));
+        if let Some(value) = known.into_iter().find(|value| value.abs() > LARGEST) {
+            self.reader.report(
+                Diagnostic::error(
+                    code::NUMBER,
+                    format!("{what} has a figure of {}", significant(value)),
+                )
+                .at(at, format!("magnitudes up to {LARGEST:e} are taken"))
+                .because("products of larger figures are beyond the range of numbers")
+                .help("give the figure in SI units"),
+            );
+        }
+    }
+
+    /// Reports figures of which the largest, a divisor somewhere, is too small.
+    fn divisor<'f>(
+        &mut self,
+        figures: impl IntoIterator<Item = &'f Formula>,
+        what: &str,
+        at: &Span,
+    ) {
+        let known: Option<Vec<f64>> =
+            figures.into_iter().map(|figure| self.reader.known(figure)).collect();
+        let largest = known.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+        if largest != 0.0 && largest < LEAST {
+            let message = format!("{what} has a figure of {}", significant(largest));
+            self.reader.report(
+                Diagnostic::error(code::NUMBER, message)
+                    .at(at, format!("magnitudes from {LEAST:e} are taken"))
+                    .because(
+                        "products and quotients of smaller figures are beyond the range of numbers",
+                    )
+                    .help("give the figure in SI units, or 0"),
+            );
+        }
+    }
+}

@@ -1,0 +1,416 @@
+//! What the tables of a robot file hold: the one list of its keys.
+//!
+//! The reader asks a table for no key that its shape does not have, and the JSON schema of the
+//! format is made of the same shapes.
+
+use crate::functions::ALL_FUNCTIONS;
+use crate::robot::BaseFrames;
+
+/// A table of the file.
+#[derive(Debug)]
+pub struct Shape {
+    /// What it is, as messages say it: `a joint`.
+    pub what: &'static str,
+    /// What it is for.
+    pub doc: &'static str,
+    /// Its keys.
+    pub keys: &'static [Key],
+}
+
+/// A key of a table.
+#[derive(Debug)]
+pub struct Key {
+    /// The key.
+    pub name: &'static str,
+    /// What stands behind it.
+    pub content: Content,
+    /// Whether it must be there.
+    pub presence: Presence,
+    /// What it is for.
+    pub doc: &'static str,
+}
+
+/// Whether a key must be there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presence {
+    /// In every table.
+    Needed,
+    /// That depends on other keys.
+    Depends,
+    /// It may be left out.
+    Optional,
+}
+
+/// What stands behind a key.
+#[derive(Clone, Copy, Debug)]
+pub enum Content {
+    /// The number of the format.
+    Format,
+    /// A number, or an expression over the parameters.
+    Figure,
+    /// Three figures.
+    Vector,
+    /// A word for an axis, or three figures.
+    Axis,
+    /// A number.
+    Number,
+    /// Two numbers.
+    Limits,
+    /// A whole number that is not negative.
+    Whole,
+    /// The name of a function of generated code, or of a bundle of the file.
+    Function,
+    /// A list of functions; a word for all of them where that is said.
+    Functions(Option<&'static str>),
+    /// A table whose keys are identifiers, behind each a list of functions.
+    Bundles,
+    /// `true` or `false`.
+    Boolean,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A text for people.
+    Text,
+    /// Products of powers of SI units.
+    Unit,
+    /// LaTeX of a symbol.
+    Latex,
+    /// A name that may be a variable in code.
+    Identifier,
+    /// A name of a link, joint or frame.
+    Label,
+    /// A name of a link, or `base`.
+    Parent,
+    /// Names of the three components of a force or moment.
+    Components(&'static Shape),
+    /// A table.
+    Table(&'static Shape),
+    /// A list of tables.
+    List(&'static Shape),
+    /// A table, or a list of them.
+    OneOrMany(&'static Shape),
+    /// A table whose keys are identifiers; behind each a number, or a table of this shape.
+    Parameters(&'static Shape),
+}
+
+use Content::{
+    Axis, Boolean, Bundles, Components, Figure, Format, Function, Functions, Identifier, Label,
+    Latex, Limits, List, Number, OneOrMany, Parameters, Parent, Table, Text, Unit, Vector, Whole,
+    Word,
+};
+
+/// Types of joints.
+pub const JOINT_TYPES: &[&str] = &["revolute", "prismatic", "fixed"];
+/// Words for joint axes.
+pub const AXES: &[&str] = &["x", "y", "z", "-x", "-y", "-z"];
+/// Conventions of Denavit–Hartenberg rows.
+pub const CONVENTIONS: &[&str] = &["standard", "modified"];
+/// Points that a tensor is about.
+pub const POINTS: &[&str] = &["center_of_mass", "origin"];
+
+/// Frames of base parameters.
+pub const BASE_FRAMES: &[&str] = &[BaseFrames::File.name(), BaseFrames::DenavitHartenberg.name()];
+
+/// Names that may be variables in code, as a regular expression.
+pub const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]{0,63}$";
+/// Names of links, joints and frames, as a regular expression.
+pub const LABEL: &str = "^[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}$";
+
+const fn needed(name: &'static str, content: Content, doc: &'static str) -> Key {
+    Key { name, content, presence: Presence::Needed, doc }
+}
+
+const fn depends(name: &'static str, content: Content, doc: &'static str) -> Key {
+    Key { name, content, presence: Presence::Depends, doc }
+}
+
+const fn key(name: &'static str, content: Content, doc: &'static str) -> Key {
+    Key { name, content, presence: Presence::Optional, doc }
+}
+
+/// The whole file.
+pub static ROBOT_FILE: Shape = Shape {
+    what: "a robot file",
+    doc: "A robot with a fixed base. Units are SI and radians.",
+    keys: &[
+        needed("format", Format, "The format of the file: 1."),
+        key(
+            "parameters",
+            Parameters(&PARAMETER),
+            "Symbols of the equations, fields of `Parameters` in code.",
+        ),
+        needed("robot", Table(&ROBOT), "The robot as a whole."),
+        key("dh", Table(&DH_TABLE), "Denavit-Hartenberg rows of a whole arm."),
+        needed("link", List(&LINK), "The links, each moved by a joint."),
+        key("tip", OneOrMany(&TIP), "Frames that exert a wrench on their surroundings."),
+        key("frame", OneOrMany(&FRAME), "Named frames."),
+        key("payload", Table(&PAYLOAD), "A body that the robot may carry, set at run time."),
+        key("code", Table(&CODE), "Which functions are generated where the caller names none."),
+        key("budget", OneOrMany(&BUDGET), "What generated code may cost."),
+    ],
+};
+
+/// `[robot]`.
+pub static ROBOT: Shape = Shape {
+    what: "[robot]",
+    doc: "The robot as a whole.",
+    keys: &[
+        needed("name", Identifier, "An identifier."),
+        key("description", Text, "Source of the figures, remarks."),
+        key(
+            "gravity",
+            Vector,
+            "Acceleration of gravity in the base frame, m/s^2; it points down. [0, 0, -9.81] where it is left out.",
+        ),
+        key(
+            "snap",
+            Number,
+            "Constant angles within this many radians of a multiple of pi/2 become that multiple; 1e-9 where it is left out.",
+        ),
+        key(
+            "base_frames",
+            Word(BASE_FRAMES),
+            "Over which parameters of links the base parameters are: first moments and inertia tensors in the file's frames, which is so where it is left out, or first and second moments in frames of Denavit and Hartenberg.",
+        ),
+    ],
+};
+
+/// A parameter with more than its value.
+pub static PARAMETER: Shape = Shape {
+    what: "a parameter",
+    doc: "A symbol that stays a parameter of equations and code.",
+    keys: &[
+        key("value", Number, "The nominal value."),
+        key(
+            "unit",
+            Unit,
+            "Products of powers of 1 rad kg m s Hz N Pa J W, such as \"kg m^2\" or \"N s/m\".",
+        ),
+        key("latex", Latex, "How LaTeX prints the symbol."),
+        key("doc", Text, "What it is."),
+    ],
+};
+
+/// `[dh]`.
+pub static DH_TABLE: Shape = Shape {
+    what: "a DH table",
+    doc: "A row for each link that has neither `origin` nor `dh`.",
+    keys: &[
+        needed("convention", Word(CONVENTIONS), CONVENTION_DOC),
+        needed("rows", List(&DH_TABLE_ROW), "The rows, in the order of the links."),
+    ],
+};
+
+const CONVENTION_DOC: &str = "\"standard\" is Rz(theta) Tz(d) Tx(a) Rx(alpha), \"modified\" is Rx(alpha) Tx(a) Rz(theta) Tz(d).";
+const A: Key = key("a", Figure, "Length along x, m.");
+const ALPHA: Key = key("alpha", Figure, "Angle about x, rad.");
+const D: Key = key("d", Figure, "Length along z, m; a prismatic joint adds to it.");
+const THETA: Key = key("theta", Figure, "Angle about z, rad; a revolute joint adds to it.");
+
+/// A row of `[dh]`.
+pub static DH_TABLE_ROW: Shape = Shape {
+    what: "a DH row",
+    doc: "A joint; figures are 0 where they are left out.",
+    keys: &[key("type", Word(JOINT_TYPES), "Revolute where it is left out."), A, ALPHA, D, THETA],
+};
+
+/// `dh` of a link.
+pub static DH_ROW: Shape = Shape {
+    what: "a DH row",
+    doc: "The frame of a link; figures are 0 where they are left out.",
+    keys: &[needed("convention", Word(CONVENTIONS), CONVENTION_DOC), A, ALPHA, D, THETA],
+};
+
+/// `[[link]]`.
+pub static LINK: Shape = Shape {
+    what: "a link",
+    doc: "A link and the joint that moves it.",
+    keys: &[
+        needed("name", Label, "Letters, digits, `_`, `-`, `.`; not `base`."),
+        key("parent", Parent, "The link before where it is left out, the base for the first."),
+        depends("joint", Table(&JOINT), "The joint between the link and its parent."),
+        key("origin", Table(&ORIGIN), "The frame at joint position 0 in the parent's frame."),
+        key("dh", Table(&DH_ROW), "A Denavit-Hartenberg row in place of `origin`."),
+        key("massless", Boolean, "Lets a moving link have no mass."),
+        key("mass", Figure, "Above 0, kg."),
+        depends("center_of_mass", Vector, "In the link's frame, m."),
+        depends("inertia", Table(&INERTIA), "The inertia tensor."),
+        key("friction", Table(&FRICTION), "Friction in the joint."),
+        key("drive", Table(&DRIVE), "Inertia of the drive."),
+    ],
+};
+
+/// `joint`.
+pub static JOINT: Shape = Shape {
+    what: "a joint",
+    doc: "The joint between a link and its parent.",
+    keys: &[
+        depends(
+            "type",
+            Word(JOINT_TYPES),
+            "What motion it allows; the row's where a DH table has one.",
+        ),
+        key("name", Label, "The link's where it is left out."),
+        depends("axis", Axis, "Its direction in the link's frame, of any length but 0."),
+        key("limits", Limits, "Lower and upper, rad or m; they bound test states."),
+        key("mimic", Table(&MIMIC), "The joint follows another."),
+    ],
+};
+
+/// `mimic`.
+pub static MIMIC: Shape = Shape {
+    what: "a mimic",
+    doc: "Position = ratio * that of the joint + offset.",
+    keys: &[
+        needed("joint", Label, "The joint that leads."),
+        key("ratio", Figure, "1 where it is left out."),
+        key("offset", Figure, "0 where it is left out, rad or m."),
+    ],
+};
+
+/// `origin`.
+pub static ORIGIN: Shape = Shape {
+    what: "an origin",
+    doc: "A frame in another.",
+    keys: &[
+        key("xyz", Vector, "Its origin, m."),
+        key(
+            "rpy",
+            Vector,
+            "Its axes: roll, pitch, yaw about fixed axes, R = Rz(yaw) Ry(pitch) Rx(roll), rad.",
+        ),
+    ],
+};
+
+/// `inertia`.
+pub static INERTIA: Shape = Shape {
+    what: "an inertia",
+    doc: "Entries of the tensor, kg m^2; products are entries, xy = -int xy dm.",
+    keys: &[
+        key("unchecked", Boolean, "Takes a tensor that no body has."),
+        depends("xx", Figure, "Moment about x."),
+        depends("yy", Figure, "Moment about y."),
+        depends("zz", Figure, "Moment about z."),
+        key("xy", Figure, "Entry (1, 2)."),
+        key("xz", Figure, "Entry (1, 3)."),
+        key("yz", Figure, "Entry (2, 3)."),
+        key("rpy", Vector, "The axes of the tensor, turned from the link's, rad."),
+        key(
+            "about",
+            Word(POINTS),
+            "The point that the tensor is about; the centre of mass where it is left out.",
+        ),
+    ],
+};
+
+/// `friction`.
+pub static FRICTION: Shape = Shape {
+    what: "a friction",
+    doc: "Friction in a joint.",
+    keys: &[
+        key("viscous", Figure, "b, N m s/rad or N s/m."),
+        key("coulomb", Figure, "c: friction force per contact force across the axis."),
+        key("spindle_diameter", Figure, "Of a revolute joint with `coulomb`, m."),
+        key("coulomb_positive", Figure, "Constant dry friction for positive velocities, N m or N."),
+        key("coulomb_negative", Figure, "The same for negative velocities, a positive figure."),
+        key("coulomb_torque", Figure, "Constant dry friction of a revolute joint, N m."),
+        key("coulomb_force", Figure, "Constant dry friction of a prismatic joint, N."),
+        key("offset", Figure, "A constant, N m or N."),
+        key("smoothing", Figure, "Width v of the smooth sign tanh(qd / v), rad/s or m/s."),
+    ],
+};
+
+/// `drive`.
+pub static DRIVE: Shape = Shape {
+    what: "a drive",
+    doc: "Inertia of a drive.",
+    keys: &[
+        key("armature", Figure, "Inertia already reflected to the joint, kg m^2 or kg."),
+        key("rotor_inertia", Figure, "Of the rotor about its own axis, kg m^2."),
+        key(
+            "gear_ratio",
+            Figure,
+            "Rotor turns per joint turn N; the reflected inertia is N^2 times the rotor's.",
+        ),
+        key("gyroscopic", Boolean, "Adds the gyroscopic moments of the rotor."),
+    ],
+};
+
+/// `[tip]`, `[[tip]]`.
+pub static TIP: Shape = Shape {
+    what: "a tip",
+    doc: "A named frame that exerts a wrench on its surroundings.",
+    keys: &[
+        depends("name", Label, "A single tip may do without."),
+        key("parent", Parent, "The last link where it is left out."),
+        key("origin", Table(&ORIGIN), "The frame in the parent's."),
+        key("wrench", Table(&WRENCH), "Names of the components."),
+    ],
+};
+
+/// `[[frame]]`.
+pub static FRAME: Shape = Shape {
+    what: "a frame",
+    doc: "A named frame.",
+    keys: &[
+        needed("name", Label, "Its name."),
+        needed("parent", Parent, "The link that carries it."),
+        key("origin", Table(&ORIGIN), "The frame in the parent's."),
+    ],
+};
+
+/// `[payload]`.
+pub static PAYLOAD: Shape = Shape {
+    what: "a payload",
+    doc: "A body that the robot may carry, whose figures are set at run time.",
+    keys: &[key("parent", Parent, "A link, tip or frame; the last link where it is left out.")],
+};
+
+/// `[code]`.
+pub static CODE: Shape = Shape {
+    what: "[code]",
+    doc: "Which functions are generated where the caller names none.",
+    keys: &[
+        key(
+            "functions",
+            Functions(Some(ALL_FUNCTIONS)),
+            "Functions, each by itself; \"all\" for all that the robot has.",
+        ),
+        key("bundles", Bundles, "Functions in one call that shares their work, by its name."),
+    ],
+};
+
+/// `[[budget]]`.
+pub static BUDGET: Shape = Shape {
+    what: "a budget",
+    doc: "What generated code may cost; a function that costs more breaks the build.",
+    keys: &[
+        key("function", Function, "Every one that is generated where it is left out."),
+        key("max_operations", Whole, "Multiplications, additions and divisions of a call."),
+        key("max_stack", Whole, "Bytes of stack of a call."),
+    ],
+};
+
+/// `wrench`.
+pub static WRENCH: Shape = Shape {
+    what: "a wrench",
+    doc: "Names of the components, in the tip's axes, the moment about its origin.",
+    keys: &[
+        needed("force", Components(&COMPONENT), "Force, N."),
+        needed("moment", Components(&COMPONENT), "Moment, N m."),
+    ],
+};
+
+/// A component of a wrench with its LaTeX.
+pub static COMPONENT: Shape = Shape {
+    what: "a component of a wrench",
+    doc: "A component of a wrench.",
+    keys: &[needed("name", Identifier, "Its name."), key("latex", Latex, "How LaTeX prints it.")],
+};
+
+impl Shape {
+    /// The key of that name.
+    #[must_use]
+    pub fn key(&self, name: &str) -> Option<&'static Key> {
+        self.keys.iter().find(|key| key.name == name)
+    }
+}

@@ -1,0 +1,349 @@
+//! `<joint>`: its type, links, place, axis, limits, and the joint that it mimics.
+
+use robot_symbolic::{Formula, Rational};
+
+use super::super::placement::zero;
+use super::super::reader::Reader;
+use super::element::{Attribute, Element};
+use super::name::{self, Name};
+use super::number::{formulas, numbers};
+use super::origin::{self, Origin};
+use crate::diagnostic::significant;
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+use crate::robot::JointKind;
+
+/// A joint as the file has it.
+pub(super) struct UrdfJoint<'a> {
+    pub(super) name: Name<'a>,
+    pub(super) tag: Span,
+    /// `None` for a fixed one.
+    pub(super) kind: Option<JointKind>,
+    pub(super) is_continuous: bool,
+    pub(super) parent: Attribute<'a>,
+    pub(super) child: Attribute<'a>,
+    pub(super) origin: Origin,
+    pub(super) axis: [Formula; 3],
+    pub(super) of_axis: Option<Span>,
+    pub(super) limits: Option<[Rational; 2]>,
+    pub(super) of_limits: Option<Span>,
+    pub(super) mimic: Option<UrdfMimic<'a>>,
+    pub(super) dynamics: Option<Dynamics>,
+    pub(super) unread: Vec<Unread>,
+}
+
+/// An attribute of `<limit>` that is not used.
+pub(super) struct Unread {
+    pub(super) name: &'static str,
+    /// The value.
+    pub(super) span: Span,
+}
+
+/// Joint position = `multiplier` × that of `joint` + `offset`.
+pub(super) struct UrdfMimic<'a> {
+    pub(super) joint: Attribute<'a>,
+    pub(super) multiplier: Formula,
+    pub(super) offset: Formula,
+}
+
+/// Friction of a joint.
+pub(super) struct Dynamics {
+    /// N m s/rad or N s/m.
+    pub(super) damping: Formula,
+    /// N m or N.
+    pub(super) friction: Formula,
+    pub(super) span: Span,
+}
+
+impl Dynamics {
+    /// The figures in a line.
+    pub(super) fn figures(&self) -> String {
+        format!("damping {}, friction {}", self.damping, self.friction)
+    }
+}
+
+/// Reads a joint; `None` where something that others need is wrong.
+pub(super) fn read<'a>(
+    reader: &mut Reader<'_>,
+    element: &Element<'a, '_>,
+) -> Option<UrdfJoint<'a>> {
+    let name = element.require(reader, "name", "joint_1");
+    let name = name.and_then(|attribute| name::label(reader, &attribute, "a joint"));
+    let kind = element.require(reader, "type", "revolute");
+    let kind = kind.and_then(|attribute| kind_of(reader, &attribute));
+    let parent = end(reader, element, "parent");
+    let child = end(reader, element, "child");
+    let origin = origin::read(reader, element);
+    let moving = match kind {
+        Some(Some((_, has_limits))) => Some(moving(reader, element, has_limits)),
+        _ => None,
+    };
+    let Moving { axis, of_axis, limits, of_limits, mimic, dynamics, unread } =
+        moving.unwrap_or_default();
+    Some(UrdfJoint {
+        name: name?,
+        tag: element.tag(),
+        kind: kind?.map(|(kind, _)| kind),
+        is_continuous: matches!(kind, Some(Some((_, false)))),
+        parent: parent?,
+        child: child?,
+        origin: origin?,
+        axis,
+        of_axis,
+        limits,
+        of_limits,
+        mimic,
+        dynamics,
+        unread,
+    })
+}
+
+/// `Some(None)` for a fixed joint; whether a moving one has limits.
+#[allow(clippy::option_option, reason = "no type, no motion, a motion")]
+fn kind_of(
+    reader: &mut Reader<'_>,
+    attribute: &Attribute<'_>,
+) -> Option<Option<(JointKind, bool)>> {
+    const TYPES: &[&str] = &["revolute", "continuous", "prismatic", "fixed"];
+    let word = attribute.text;
+    let message = format!("`{}` is not a type of joint that is read", quote(word));
+    let diagnostic = Diagnostic::error(code::UNKNOWN_WORD, message);
+    let diagnostic = match word {
+        "revolute" => return Some(Some((JointKind::Revolute, true))),
+        "continuous" => return Some(Some((JointKind::Revolute, false))),
+        "prismatic" => return Some(Some((JointKind::Prismatic, true))),
+        "fixed" => return Some(None),
+        "floating" => diagnostic
+            .at(&attribute.span, "six degrees of freedom")
+            .because("only robots on a fixed base are described here")
+            .help("write \"fixed\" for a base that stands still"),
+        "planar" => diagnostic.at(&attribute.span, "three degrees of freedom").help(
+            "write two prismatic joints and a continuous one, with links of no mass between \
+                 (and allow massless links)",
+        ),
+        "spherical" | "ball" => diagnostic.at(&attribute.span, "three degrees of freedom").help(
+            "write three revolute joints, with links of no mass between (and allow massless links)",
+        ),
+        _ => {
+            let label = match reader.nearest(word, TYPES.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "not a type of joint".to_owned(),
+            };
+            diagnostic
+                .at(&attribute.span, label)
+                .help("use one of `revolute`, `continuous`, `prismatic` and `fixed`")
+        }
+    };
+    reader.report(diagnostic);
+    None
+}
+
+/// `<parent link="…"/>` or `<child link="…"/>`.
+fn end<'a>(
+    reader: &mut Reader<'_>,
+    element: &Element<'a, '_>,
+    name: &str,
+) -> Option<Attribute<'a>> {
+    let example = format!("<{name} link=\"…\"/>");
+    let element = element.require_child(reader, name, &example)?;
+    element.require(reader, "link", "name of a link")
+}
+
+/// What a moving joint has.
+struct Moving<'a> {
+    axis: [Formula; 3],
+    of_axis: Option<Span>,
+    limits: Option<[Rational; 2]>,
+    of_limits: Option<Span>,
+    mimic: Option<UrdfMimic<'a>>,
+    dynamics: Option<Dynamics>,
+    unread: Vec<Unread>,
+}
+
+/// The axis that URDF gives to a joint without one: x.
+impl Default for Moving<'_> {
+    fn default() -> Self {
+        Moving {
+            axis: [Formula::number(&Rational::ONE), zero(), zero()],
+            of_axis: None,
+            limits: None,
+            of_limits: None,
+            mimic: None,
+            dynamics: None,
+            unread: Vec::new(),
+        }
+    }
+}
+
+fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bool) -> Moving<'a> {
+    let mut moving = Moving::default();
+    match element.child(reader, "axis") {
+        Some(axis) => {
+            let attribute = axis.require(reader, "xyz", "0 0 1");
+            if let Some(attribute) = attribute {
+                if let Some(vector) = direction(reader, &attribute) {
+                    moving.axis = vector;
+                }
+                moving.of_axis = Some(attribute.span);
+            }
+        }
+        None => reader.report(
+            Diagnostic::note(code::TAKEN_DEFAULT, "a joint without axis has the axis x")
+                .at(&element.tag(), "`<axis>` is missing here")
+                .because("URDF says so"),
+        ),
+    }
+    if let Some(limit) = element.child(reader, "limit") {
+        if has_limits {
+            (moving.limits, moving.of_limits) = limits(reader, &limit);
+        }
+        moving.unread = unread(reader, &limit);
+    }
+    moving.mimic = element.child(reader, "mimic").and_then(|mimic| follows(reader, &mimic));
+    let dynamics = element.child(reader, "dynamics");
+    moving.dynamics = dynamics.and_then(|dynamics| friction(reader, &dynamics));
+    moving
+}
+
+/// What a limit says of forces and rates, which have no part in the motion; a negative one is a slip.
+fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
+    const NAMES: [&str; 5] = ["effort", "velocity", "acceleration", "deceleration", "jerk"];
+    let mut unread = Vec::new();
+    for name in NAMES {
+        let Some(attribute) = element.attribute(name) else { continue };
+        let value = attribute.text.trim().parse::<f64>().ok();
+        if let Some(value) = value.filter(|value| *value < 0.0) {
+            let message = format!("the limit of {name} is {value}");
+            reader.report(
+                Diagnostic::warning(code::LIMIT_SIGN, message)
+                    .at(&attribute.span, "below 0")
+                    .because("the limit is one of the magnitude, in both directions")
+                    .help("correct the figure; nothing here depends on it"),
+            );
+        }
+        unread.push(Unread { name, span: attribute.span });
+    }
+    unread
+}
+
+/// An axis of any length but 0.
+fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Formula; 3]> {
+    /// Rounded figures, 0.707 for √½, are of unit length.
+    const ROUNDED: f64 = 1e-3;
+    let numbers = numbers::<3>(reader, attribute, "a joint axis", "0 0 1")?;
+    if numbers.iter().all(Rational::is_zero) {
+        reader.report(
+            Diagnostic::error(code::ZERO_AXIS, "the joint axis is zero")
+                .at(&attribute.span, "this vector has no direction")
+                .because("a joint moves about or along a line, and 0 0 0 is none")
+                .help("write a direction such as \"0 0 1\""),
+        );
+        return None;
+    }
+    let length =
+        numbers.each_ref().map(Rational::to_f64).iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
+    if (length - 1.0).abs() > ROUNDED {
+        let message = format!("the joint axis has the length {}", significant(length));
+        reader.report(
+            Diagnostic::warning(code::AXIS_LENGTH, message)
+                .at(&attribute.span, "its direction is taken")
+                .because("URDF asks for a unit vector; programs differ in what they make of others")
+                .help("write the vector with length 1"),
+        );
+    }
+    Some(numbers.each_ref().map(Formula::number))
+}
+
+/// Lower and upper limit, 0 where one is left out, as URDF says; none where both are the same.
+fn limits(
+    reader: &mut Reader<'_>,
+    element: &Element<'_, '_>,
+) -> (Option<[Rational; 2]>, Option<Span>) {
+    let attributes = [element.attribute("lower"), element.attribute("upper")];
+    if attributes.iter().all(Option::is_none) {
+        return (None, None);
+    }
+    // Infinite limits are written where there are none.
+    let infinite = |attribute: &Option<Attribute<'_>>| {
+        attribute.as_ref().is_some_and(|attribute| {
+            let text = attribute.text.trim().trim_start_matches(['+', '-']);
+            text.eq_ignore_ascii_case("inf") || text.eq_ignore_ascii_case("infinity")
+        })
+    };
+    if attributes.iter().any(infinite) {
+        return (None, None);
+    }
+    let mut limit = |attribute: &Option<Attribute<'_>>| match attribute {
+        Some(attribute) => {
+            numbers::<1>(reader, attribute, "a limit", "1.57").map(|[number]| number)
+        }
+        None => Some(Rational::ZERO),
+    };
+    let [Some(lower), Some(upper)] = attributes.each_ref().map(&mut limit) else {
+        return (None, None);
+    };
+    let span = element.span();
+    if lower < upper {
+        return (Some([lower, upper]), Some(span));
+    }
+    let equal = lower == upper;
+    reader.report(if equal {
+        Diagnostic::note(code::LEFT_OUT, "limits that leave no room are taken for none")
+            .at(&span, "lower and upper limit are the same")
+    } else {
+        Diagnostic::error(code::LIMITS, "the lower limit is not below the upper one")
+            .at(&span, "")
+            .help("swap them, or write \"continuous\" for a joint without limits")
+    });
+    (None, None)
+}
+
+fn follows<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>) -> Option<UrdfMimic<'a>> {
+    let joint = element.require(reader, "joint", "name of the joint that leads");
+    let mut figure = |name: &str, what: &str, missing: Rational| match element.attribute(name) {
+        Some(attribute) => {
+            let [number] = numbers::<1>(reader, &attribute, what, "1")?;
+            Some((number, Some(attribute.span)))
+        }
+        None => Some((missing, None)),
+    };
+    let multiplier = figure("multiplier", "the multiplier", Rational::ONE);
+    let offset = figure("offset", "the offset", Rational::ZERO);
+    let ((multiplier, span), (offset, _)) = (multiplier?, offset?);
+    if multiplier.is_zero() {
+        reader.report(
+            Diagnostic::error(code::MIMIC, "a joint that follows with multiplier 0 is fixed")
+                .at(&span.unwrap_or(element.tag()), "the multiplier is 0")
+                .help("write the type \"fixed\", or the multiplier"),
+        );
+    }
+    Some(UrdfMimic {
+        joint: joint?,
+        multiplier: Formula::number(&multiplier),
+        offset: Formula::number(&offset),
+    })
+}
+
+fn friction(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Dynamics> {
+    let mut figure = |name: &str| {
+        let Some(attribute) = element.attribute(name) else {
+            return Some(zero());
+        };
+        let [figure] = formulas::<1>(reader, &attribute, &format!("the {name}"), "0.1")?;
+        let value = figure.evaluate(|_| f64::NAN);
+        if value < 0.0 {
+            let message = format!("the {name} is {value}");
+            reader.report(
+                Diagnostic::error(code::FRICTION, message)
+                    .at(&attribute.span, "this figure is not negative")
+                    .help("correct the figure, or leave it out"),
+            );
+        }
+        Some(figure)
+    };
+    let (damping, friction) = (figure("damping"), figure("friction"));
+    let (damping, friction) = (damping?, friction?);
+    if Reader::is_zero(&damping) && Reader::is_zero(&friction) {
+        return None;
+    }
+    Some(Dynamics { damping, friction, span: element.span() })
+}

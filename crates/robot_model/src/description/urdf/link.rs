@@ -1,0 +1,107 @@
+//! `<link>`: its name and its `<inertial>`.
+
+use robot_symbolic::Formula;
+use roxmltree::Node;
+
+use super::super::locations::BodyLocation;
+use super::super::reader::Reader;
+use super::element::{Attribute, Element, LINK};
+use super::name::{self, Name};
+use super::number::formulas;
+use super::origin;
+use crate::diagnostic::{Severity, Span};
+use crate::robot::{Body, Inertia};
+
+/// A link as the file has it.
+pub(super) struct UrdfLink<'a> {
+    pub(super) name: Name<'a>,
+    /// The element's tag.
+    pub(super) tag: Span,
+    pub(super) inertial: Option<Inertial>,
+    /// Whether something in the element is wrong, so that what is missing may be there.
+    pub(super) is_spoilt: bool,
+}
+
+/// An `<inertial>`, every figure known.
+pub(super) struct Inertial {
+    /// Placed in the link's frame.
+    pub(super) body: Body,
+    pub(super) place: BodyLocation,
+    pub(super) mass: f64,
+    /// xx, yy, zz, xy, xz, yz about the centre of mass, axes of the body's placement.
+    pub(super) tensor: [f64; 6],
+}
+
+impl Inertial {
+    /// Whether it says that there is nothing.
+    pub(super) fn is_empty(&self) -> bool {
+        self.mass == 0.0 && self.tensor.iter().all(|entry| *entry == 0.0)
+    }
+}
+
+/// Reads a link; `None` where its name is wrong or missing.
+pub(super) fn read<'a>(reader: &mut Reader<'_>, node: Node<'a, '_>) -> Option<UrdfLink<'a>> {
+    let before = reader.found.len();
+    let element = &Element::new(reader, node, &LINK);
+    let attribute = element.require(reader, "name", "link_1");
+    let name = attribute.and_then(|attribute| name::label(reader, &attribute, "a link"));
+    let inertial = element.child(reader, "inertial");
+    let inertial = inertial.and_then(|inertial| body(reader, &inertial, name.as_ref()));
+    let found = reader.found.get(before..).unwrap_or_default();
+    let is_spoilt = found.iter().any(|found| found.severity == Severity::Error);
+    Some(UrdfLink { name: name?, tag: element.tag(), inertial, is_spoilt })
+}
+
+fn body(
+    reader: &mut Reader<'_>,
+    element: &Element<'_, '_>,
+    name: Option<&Name<'_>>,
+) -> Option<Inertial> {
+    let origin = origin::read(reader, element);
+    let mass = mass(reader, element);
+    let inertia = element.require_child(
+        reader,
+        "inertia",
+        "<inertia ixx=\"…\" ixy=\"0\" ixz=\"0\" iyy=\"…\" iyz=\"0\" izz=\"…\"/>",
+    );
+    let tensor = inertia.and_then(|inertia| Some((tensor(reader, &inertia)?, inertia.span())));
+    let (origin, (mass, of_mass), (inertia, of_inertia), name) = (origin?, mass?, tensor?, name?);
+    let number = |formula: &Formula| formula.evaluate(|_| f64::NAN);
+    let Inertia { xx, yy, zz, xy, xz, yz } = &inertia;
+    let values = [xx, yy, zz, xy, xz, yz].map(number);
+    let place = BodyLocation {
+        name: name.named.span.clone(),
+        mass: Some(of_mass),
+        center_of_mass: origin.xyz,
+        inertia: Some(of_inertia),
+        unchecked: false,
+    };
+    Some(Inertial {
+        mass: number(&mass),
+        tensor: values,
+        body: Body { name: name.named.name.clone(), mass, placement: origin.placement, inertia },
+        place,
+    })
+}
+
+fn mass(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<(Formula, Span)> {
+    let element = element.require_child(reader, "mass", "<mass value=\"…\"/>")?;
+    let attribute = element.require(reader, "value", "1.5")?;
+    let [mass] = formulas::<1>(reader, &attribute, "the mass", "1.5")?;
+    Some((mass, attribute.span))
+}
+
+/// Products of inertia are entries of the tensor, as here.
+fn tensor(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Inertia> {
+    let names = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
+    let attributes = names.map(|name| element.require(reader, name, "0"));
+    let mut entry = |attribute: &Option<Attribute<'_>>| {
+        let [entry] = formulas::<1>(reader, attribute.as_ref()?, "a moment of inertia", "0.01")?;
+        Some(entry)
+    };
+    let entries = attributes.each_ref().map(&mut entry);
+    let [Some(xx), Some(yy), Some(zz), Some(xy), Some(xz), Some(yz)] = entries else {
+        return None;
+    };
+    Some(Inertia { xx, yy, zz, xy, xz, yz })
+}

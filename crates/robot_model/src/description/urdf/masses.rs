@@ -1,0 +1,234 @@
+//! Masses and inertias: what no body can be, and how grave it is.
+//!
+//! A file that was not written for this program cannot say that a figure is meant as it is. What
+//! cannot be is an error all the same, with two exceptions, which published figures need:
+//!
+//! - principal moments that break the triangle inequality by no more than [`PUBLISHED`] of the
+//!   largest are a warning: measured moments are so;
+//! - a massless link with a moment of inertia about its joint axis alone is a warning where the joint
+//!   stands on the base and turns about a vertical axis: nothing else of the link acts.
+
+use robot_symbolic::Formula;
+
+use super::super::draft::{Draft, DraftLink, Parent};
+use super::super::options::Options;
+use super::super::reader::Reader;
+use super::link::{Inertial, UrdfLink};
+use crate::diagnostic::significant;
+use crate::diagnostic::{Diagnostic, Severity, Span, code};
+use crate::physics::{Verdict, judge};
+use crate::robot::{Axis, JointKind, Move, Placement};
+use crate::space::{
+    IDENTITY, Matrix, Vector, apply, cross, direction, dot, product, rotation_about, transpose,
+};
+
+/// The part of the largest moment by which measured moments break the triangle inequality.
+const PUBLISHED: f64 = 0.1;
+
+/// Gives the links of the draft their bodies and reports what is wrong with them. `sources` holds
+/// the link of the file for each link of the draft.
+pub(super) fn add(
+    reader: &mut Reader<'_>,
+    draft: &mut Draft,
+    order: &[usize],
+    sources: &[&UrdfLink<'_>],
+    options: &Options,
+) {
+    let mut carriers: Vec<Option<usize>> = vec![None; draft.links.len()];
+    // What moves with each link that moves: whether there is any mass or inertia.
+    let mut moved = vec![false; draft.links.len()];
+    for index in order {
+        let (Some(link), Some(source)) = (draft.links.get(*index), sources.get(*index)) else {
+            continue;
+        };
+        let carrier = match (link.joint.kind, &link.parent) {
+            (Some(_), _) => Some(*index),
+            (None, Parent::Link(parent)) => carriers.get(*parent).copied().flatten(),
+            (None, _) => None,
+        };
+        if let Some(slot) = carriers.get_mut(*index) {
+            *slot = carrier;
+        }
+        let Some(inertial) = &source.inertial else { continue };
+        if let Some(carrier) = carrier {
+            let own = carrier == *index;
+            let vertical = if own { vertical_axis(draft, *index) } else { None };
+            judge_body(reader, inertial, own, vertical, options);
+            if let Some(slot) = moved.get_mut(carrier) {
+                *slot |= !inertial.is_empty();
+            }
+        }
+        if let Some(link) = draft.links.get_mut(*index).filter(|_| !inertial.is_empty()) {
+            link.body = Some((inertial.body.clone(), inertial.place.clone()));
+        }
+    }
+    for index in order {
+        let (Some(link), Some(source)) = (draft.links.get(*index), sources.get(*index)) else {
+            continue;
+        };
+        let missing = link.joint.kind.is_some() && !moved.get(*index).copied().unwrap_or(true);
+        if missing && !source.is_spoilt {
+            reader.report(massless(source, options));
+        }
+    }
+}
+
+/// A moving link with nothing to move.
+fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
+    let name = &link.name.named.name;
+    let (place, label): (&Span, _) = match &link.inertial {
+        Some(Inertial { place, .. }) => {
+            (place.mass.as_ref().unwrap_or(&place.name), "the mass is 0")
+        }
+        None => (&link.tag, "`<inertial>` is missing here"),
+    };
+    let mut diagnostic = Diagnostic::error(code::MASS, format!("the link `{name}` has no mass"))
+        .at(place, label)
+        .because("a link without mass falls out of the equations in silence")
+        .help("add its `<inertial>`; where it has no mass indeed, read it with `--allow-massless`");
+    if options.allow_massless {
+        diagnostic.severity = Severity::Warning;
+        diagnostic.help = None;
+    }
+    diagnostic
+}
+
+/// Reports what no body can be. `own` says that the body is of the moving link itself; `vertical`
+/// is its joint axis where nothing but the moment about it acts.
+fn judge_body(
+    reader: &mut Reader<'_>,
+    inertial: &Inertial,
+    own: bool,
+    vertical: Option<Vector>,
+    options: &Options,
+) {
+    let of_mass = inertial.place.mass.clone().unwrap_or_default();
+    let of_tensor = inertial.place.inertia.clone().unwrap_or_default();
+    if inertial.mass < 0.0 {
+        reader.report(
+            Diagnostic::error(code::MASS, format!("the mass is {} kg", inertial.mass))
+                .at(&of_mass, "below 0")
+                .because("no body has such a mass, and the equations become singular or unstable")
+                .help("correct the figure"),
+        );
+    }
+    if inertial.mass == 0.0 && !inertial.is_empty() {
+        let moment = vertical.and_then(|axis| alone_about(inertial, &axis));
+        if let Some(moment) = moment {
+            reader.report(alone_acts(&of_mass, moment));
+            return;
+        }
+        let mut diagnostic = Diagnostic::error(
+            code::MASS,
+            "a body of mass 0 has moments of inertia",
+        )
+        .at(&of_mass, "the mass is 0")
+        .because("a moment of inertia is a sum of masses times squares")
+        .help("give the mass; where the figures are meant so, read it with `--allow-massless`");
+        if options.allow_massless || !own {
+            diagnostic.severity = Severity::Warning;
+        }
+        reader.report(diagnostic);
+    }
+    let verdict = judge(inertial.tensor);
+    let mut diagnostic = Diagnostic::error(verdict.code(), verdict.message());
+    let excess = match verdict {
+        Verdict::Possible => return,
+        Verdict::Negative(_) => {
+            diagnostic = diagnostic
+                .because("a moment of inertia is a sum of masses times squares")
+                .help("see that products of inertia have the tensor's sign and that all are in kg m^2");
+            f64::INFINITY
+        }
+        Verdict::Triangle(_, excess) => {
+            diagnostic = diagnostic.because(format!(
+                "x² + y² ≤ (y² + z²) + (z² + x²) for every part of a body; here it is broken by {} % of \
+                 the largest moment, and figures as they are measured and rounded break it by less than {} %",
+                significant((excess * 1000.0).round() / 10.0),
+                PUBLISHED * 100.0
+            ));
+            diagnostic = diagnostic.help(
+                "correct the figures; where they are published so, read it with `--allow-unphysical`",
+            );
+            excess
+        }
+    };
+    if options.allow_unphysical || excess <= PUBLISHED {
+        diagnostic.severity = Severity::Warning;
+    }
+    reader.report(diagnostic.at(&of_tensor, verdict.label()));
+}
+
+fn alone_acts(of_mass: &Span, moment: f64) -> Diagnostic {
+    Diagnostic::warning(code::MASS, "a moving link has mass 0")
+        .at(of_mass, "the mass is 0")
+        .because(format!(
+            "the joint stands on the base and turns about a vertical axis, so that of its link nothing \
+             acts but the moment of inertia about the axis, which is {} kg m^2",
+            significant(moment)
+        ))
+        .help("give the mass and the other moments, if they are known: forces in the joint need them")
+}
+
+/// The joint axis of a link, in its frame, where it stands on the base and is along gravity.
+fn vertical_axis(draft: &Draft, index: usize) -> Option<Vector> {
+    let link = draft.links.get(index)?;
+    if link.joint.kind != Some(JointKind::Revolute) {
+        return None;
+    }
+    let mut rotation = rotation(&link.before);
+    let mut below: &DraftLink = link;
+    // Fixed links between the base and the joint; a link's parents are fewer than the links.
+    for _ in 0..draft.links.len() {
+        let Parent::Link(parent) = below.parent else { break };
+        below = draft.links.get(parent)?;
+        if below.joint.kind.is_some() {
+            return None;
+        }
+        rotation = product(&self::rotation(&below.before), &rotation);
+    }
+    let axis = direction(&vector(&link.joint.axis));
+    let gravity = vector(&draft.gravity);
+    if gravity == [0.0; 3] {
+        return None;
+    }
+    let across = cross(&apply(&rotation, &axis), &direction(&gravity));
+    let is_vertical = dot(&across, &across).sqrt() < 1e-6;
+    is_vertical.then_some(axis)
+}
+
+/// The moment about the axis where the tensor has no other.
+fn alone_about(inertial: &Inertial, axis: &Vector) -> Option<f64> {
+    let [xx, yy, zz, xy, xz, yz] = inertial.tensor;
+    let turn = rotation(&inertial.body.placement);
+    let own = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    let tensor = product(&turn, &product(&own, &transpose(&turn)));
+    let moment = dot(axis, &apply(&tensor, axis));
+    let mut rest = 0.0_f64;
+    for (row, a) in tensor.iter().zip(axis) {
+        for (entry, b) in row.iter().zip(axis) {
+            rest = rest.hypot(entry - a * b * moment);
+        }
+    }
+    (moment > 0.0 && rest <= 1e-6 * moment).then_some(moment)
+}
+
+fn vector(formulas: &[Formula; 3]) -> Vector {
+    formulas.each_ref().map(|formula| formula.evaluate(|_| f64::NAN))
+}
+
+/// The rotation of a placement without symbols.
+fn rotation(placement: &Placement) -> Matrix {
+    let turn = |step: &Move| match step {
+        Move::Translate(_) => IDENTITY,
+        Move::Rotate(axis, angle) => {
+            let axis = match axis {
+                Axis::X => 0,
+                Axis::Y => 1,
+                Axis::Z => 2,
+            };
+            rotation_about(axis, angle.evaluate(|_| f64::NAN))
+        }
+    };
+    placement.0.iter().fold(IDENTITY, |rotation, step| product(&rotation, &turn(step)))
+}

@@ -1,0 +1,128 @@
+//! URDF, the description format of ROS, to a draft.
+//!
+//! Read are the links with their inertials and the joints; shapes, materials, controllers and the
+//! like say nothing of the motion. No other file is ever looked for.
+
+mod connect;
+mod element;
+mod guard;
+mod joint;
+mod link;
+mod masses;
+mod name;
+mod number;
+mod origin;
+mod report;
+mod unread;
+mod xml;
+
+use robot_symbolic::{Formula, Rational};
+use roxmltree::Node;
+
+use super::draft::Draft;
+use super::limits::MAX_LINKS;
+use super::options::Options;
+use super::placement::zero;
+use super::reader::{Named, Reader};
+use super::wanted::Wanted;
+use super::{Lowered, tree};
+use crate::diagnostic::{Diagnostic, code, quote};
+use crate::robot::BaseFrames;
+use element::{Element, JOINT, ROBOT};
+use joint::UrdfJoint;
+use link::UrdfLink;
+
+/// The acceleration of gravity in the base frame, of which URDF says nothing, in cm/s².
+const GRAVITY: i64 = -981;
+
+/// Lowers the text of a file; what is wrong with it, and the choices made, are reported.
+pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowered> {
+    let document = xml::parse(reader)?;
+    let root = root(reader, document.root_element())?;
+    let name = root.require(reader, "name", "arm");
+    let name = name.and_then(|attribute| name::identifier(reader, &attribute));
+    let (links, joints) = parts(reader, &root)?;
+    let connected = connect::connect(reader, &links, &joints, options.friction)?;
+    // A stand-in, so that the rest is checked all the same.
+    let named = name.clone().unwrap_or(Named { name: String::new(), span: root.tag() });
+    let down = Rational::new(GRAVITY, 100).unwrap_or(Rational::ZERO);
+    let mut draft = Draft {
+        name: named,
+        description: None,
+        gravity: [zero(), zero(), Formula::number(&down)],
+        gravity_place: None,
+        snap: None,
+        base_frames: BaseFrames::File,
+        links: connected.links,
+        frames: Vec::new(),
+        payload: None,
+    };
+    let order = tree::order(reader, &mut draft)?;
+    let sources: Vec<&UrdfLink<'_>> =
+        connected.sources.iter().filter_map(|index| links.get(*index)).collect();
+    masses::add(reader, &mut draft, &order, &sources, options);
+    report::choices(reader, &root, &draft, &order, &joints, options);
+    name?;
+    let parameters = (Vec::new(), Vec::new());
+    Some(Lowered { draft, order, parameters, wanted: Wanted::default(), budgets: Vec::new() })
+}
+
+/// The root element, where it is that of URDF.
+fn root<'a, 'i>(reader: &mut Reader<'_>, node: Node<'a, 'i>) -> Option<Element<'a, 'i>> {
+    let name = node.tag_name().name();
+    let place = element::tag(node);
+    if name == ROBOT.name {
+        return Some(Element::new(reader, node, &ROBOT));
+    }
+    let diagnostic = match name {
+        "sdf" | "mujoco" | "mujocoinclude" | "model" | "COLLADA" | "launch" => {
+            let message = format!("the file is not URDF: its first element is `<{name}>`");
+            Diagnostic::error(code::FORMAT, message).at(&place, "").help("convert it to URDF")
+        }
+        _ => {
+            let message = format!("the first element is `<{}>`", quote(name));
+            let near = reader.nearest(name, [ROBOT.name].into_iter());
+            let label = if near.is_some() { "did you mean `robot`?" } else { "not a robot" };
+            Diagnostic::error(code::UNKNOWN_KEY, message)
+                .at(&place, label)
+                .help("a robot is described in `<robot name=\"arm\"> … </robot>`")
+        }
+    };
+    reader.report(diagnostic);
+    None
+}
+
+/// Links and joints; `None` where there are none, too many, or some without what others need.
+fn parts<'a>(
+    reader: &mut Reader<'_>,
+    root: &Element<'a, '_>,
+) -> Option<(Vec<UrdfLink<'a>>, Vec<UrdfJoint<'a>>)> {
+    let (links, joints): (Vec<_>, Vec<_>) =
+        (root.nodes("link").collect(), root.nodes("joint").collect());
+    let most = links.len().max(joints.len());
+    if most > MAX_LINKS {
+        let message = format!("{most} links or joints; at most {MAX_LINKS}");
+        let diagnostic = Diagnostic::error(code::LIMIT, message).at(&root.tag(), "");
+        reader.report(diagnostic.help("describe one robot in a file"));
+        return None;
+    }
+    if links.is_empty() {
+        reader.report(
+            Diagnostic::error(code::MISSING_KEY, "the robot has no links")
+                .at(&root.tag(), "`<link>` is missing here")
+                .help("add the links and joints of the robot"),
+        );
+    }
+    let read_links: Vec<UrdfLink<'a>> =
+        links.iter().filter_map(|node| link::read(reader, *node)).collect();
+    let read_joints: Vec<UrdfJoint<'a>> = joints
+        .iter()
+        .filter_map(|node| {
+            let element = Element::new(reader, *node, &JOINT);
+            joint::read(reader, &element)
+        })
+        .collect();
+    let complete =
+        !links.is_empty() && read_links.len() == links.len() && read_joints.len() == joints.len();
+    complete.then_some((read_links, read_joints))
+}

@@ -1,0 +1,55 @@
+//! `<origin xyz="…" rpy="…"/>`.
+
+use robot_symbolic::Formula;
+
+use super::super::locations::AngleLocation;
+use super::super::placement::{without_rests, zeros};
+use super::super::reader::Reader;
+use super::element::Element;
+use super::number::{formulas, words};
+use crate::diagnostic::Span;
+use crate::robot::Placement;
+
+/// A place with its spans.
+#[derive(Default)]
+pub(super) struct Origin {
+    pub(super) placement: Placement,
+    /// The element.
+    pub(super) span: Option<Span>,
+    /// The coordinates.
+    pub(super) xyz: Option<Span>,
+}
+
+/// The `<origin>` of an element; at the parent's origin, with its axes, where there is none. Angles
+/// are about fixed axes, R = Rz(yaw) Ry(pitch) Rx(roll).
+pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Origin> {
+    let Some(element) = of.child(reader, "origin") else {
+        return Some(Origin::default());
+    };
+    let attributes = [element.attribute("xyz"), element.attribute("rpy")];
+    let mut vectors = [Some(zeros()), Some(zeros())];
+    let examples = [("the origin", "0 0 0.1"), ("the angles roll, pitch and yaw", "0 0 1.57")];
+    for ((vector, attribute), (what, example)) in vectors.iter_mut().zip(&attributes).zip(examples)
+    {
+        if let Some(attribute) = attribute {
+            *vector = formulas::<3>(reader, attribute, what, example);
+        }
+    }
+    let [Some(xyz), Some(rpy)] = vectors else {
+        return None;
+    };
+    let [of_xyz, of_rpy] = attributes;
+    let places = of_rpy.map(|attribute| words(reader, &attribute)).unwrap_or_default();
+    let angles = rpy.iter().zip(places);
+    let angles = angles.map(|(value, (_, place))| AngleLocation { value: value.clone(), place });
+    reader.angles.extend(angles);
+    Some(Origin {
+        placement: placement(xyz, rpy),
+        span: Some(element.span()),
+        xyz: of_xyz.map(|attribute| attribute.span),
+    })
+}
+
+fn placement(xyz: [Formula; 3], rpy: [Formula; 3]) -> Placement {
+    without_rests(Placement::from_xyz_rpy(xyz, rpy))
+}

@@ -1,0 +1,203 @@
+//! `[code]`: which functions are generated where the caller names none.
+
+use std::collections::BTreeSet;
+
+use toml::de::DeValue;
+
+use super::limits::MAX_BUNDLES;
+use super::names::{Kind, Registry, is_identifier, reserved};
+use super::reader::{Named, Reader};
+use super::shape::CODE;
+use super::table::{Entry, Table, Value};
+use crate::diagnostic::{Diagnostic, Span, code, quote};
+use crate::functions::{self, ALL_FUNCTIONS, Bundle, FunctionKind, Functions, is_of_frame};
+use crate::robot::Robot;
+
+/// Which functions a file wants to be generated.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Code {
+    /// The functions, each by itself; where only bundles are named, none.
+    pub functions: Functions,
+    /// Functions in one call.
+    pub bundles: Vec<Bundle>,
+}
+
+/// The same as the file has it: names of functions, which may be those of the robot's frames.
+#[derive(Clone, Default)]
+pub(super) struct Wanted {
+    /// `None` where the file has no `functions`.
+    functions: Option<Vec<Named>>,
+    bundles: Vec<(String, Vec<Named>)>,
+}
+
+/// Whether a bundle may have a name.
+///
+/// # Errors
+///
+/// Why it may not, as the end of a sentence.
+pub fn check_bundle_name(name: &str) -> Result<(), String> {
+    if !is_identifier(name) {
+        return Err("names are letters, digits and `_`, the first not a digit".to_owned());
+    }
+    let owner = reserved(name).or_else(|| Bundle::owner_of(name).map(str::to_owned));
+    owner.map_or(Ok(()), |owner| Err(format!("this is {owner}")))
+}
+
+/// Reads the table.
+pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
+    let mut wanted = Wanted::default();
+    let Some(entry) = root.get("code") else { return wanted };
+    let Some(mut table) = reader.table(entry.value, &CODE) else { return wanted };
+    if let Some(entry) = table.get("functions") {
+        wanted.functions = Some(names(reader, entry.value, &[ALL_FUNCTIONS]));
+    }
+    if let Some(entry) = table.get("bundles") {
+        wanted.bundles(reader, &entry);
+    }
+    table.finish(reader);
+    wanted
+}
+
+/// Reads a list of functions, in which some further words may stand.
+fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Vec<Named> {
+    let expected = "a list of functions, such as `[\"mass_matrix\", \"bias\"]`";
+    let Some(entries) = reader.list(value, expected) else { return Vec::new() };
+    if entries.is_empty() {
+        reader.report(
+            Diagnostic::error(code::WRONG_COUNT, "0 functions are named here")
+                .at(&value.span(), "at least one is needed")
+                .help("name each function once, or leave the key out"),
+        );
+    }
+    let (mut names, mut seen) = (Vec::new(), BTreeSet::new());
+    for entry in entries {
+        let Some(named) = function(reader, entry, more) else { continue };
+        if !seen.insert(named.name.clone()) {
+            let message = format!("`{}` is named twice", quote(&named.name));
+            reader.report(
+                Diagnostic::error(code::DUPLICATE, message)
+                    .at(&named.span, "again here")
+                    .help("name each function once"),
+            );
+        }
+        names.push(named);
+    }
+    names
+}
+
+/// Reads the name of a function or one of some further words. One of the functions of a frame is looked
+/// for when the robot is known.
+pub(super) fn function(reader: &mut Reader<'_>, value: Value<'_>, more: &[&str]) -> Option<Named> {
+    let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
+    let words: Vec<&str> = kinds.chain(more.iter().copied()).collect();
+    let of_frame = match value.get_ref() {
+        DeValue::String(text) => is_of_frame(text),
+        _ => false,
+    };
+    let name = match of_frame {
+        true => reader.string(value, "a function")?.to_string(),
+        false => reader.word(value, "a function", &words)?.to_owned(),
+    };
+    Some(Named { name, span: value.span() })
+}
+
+/// The function of a name, where the robot has it.
+pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Option<FunctionKind> {
+    let diagnostic = match functions::named(robot, &named.name) {
+        Ok(kind) => {
+            let Some(why) = kind.missing_in(robot) else { return Some(kind) };
+            let message = format!("{} has no function `{}`", robot.name, kind.name());
+            Diagnostic::error(code::LACKING, message).because(why).help("or take it from the list")
+        }
+        Err(wrong) => {
+            let near = wrong.near.as_ref().map(|near| format!(" Did you mean `{near}`?"));
+            let message = format!("`{}` is not a function of this robot", quote(&named.name));
+            let help = match wrong.several {
+                true => wrong.to_string(),
+                false => format!(
+                    "functions of frames are `jacobian_` and `jacobian_dot_qd_` with the name of a \
+                     frame or a moving link behind.{}",
+                    near.unwrap_or_default()
+                ),
+            };
+            Diagnostic::error(code::LACKING, message).help(help)
+        }
+    };
+    reader.report(diagnostic.at(&named.span, ""));
+    None
+}
+
+impl Wanted {
+    /// Reads `bundles`.
+    fn bundles(&mut self, reader: &mut Reader<'_>, entry: &Entry<'_>) {
+        let DeValue::Table(keys) = entry.value.get_ref() else {
+            let expected = "bundles as a table, `{ dynamics = [\"mass_matrix\", \"bias\"] }`";
+            return reader.wrong_type(entry.value, expected);
+        };
+        if keys.len() > MAX_BUNDLES {
+            let message = format!("{} bundles; at most {MAX_BUNDLES}", keys.len());
+            let diagnostic = Diagnostic::error(code::LIMIT, message).at(&entry.key, "this table");
+            return reader.report(diagnostic.help("put more functions into one bundle"));
+        }
+        let mut names = Registry::new("bundle");
+        for (key, value) in keys {
+            let named = bundle_name(reader, key.get_ref(), &key.span(), &mut names);
+            let functions = self::names(reader, value, &[]);
+            if let Some(Named { name, .. }) = named {
+                self.bundles.push((name, functions));
+            }
+        }
+    }
+
+    /// The names of the bundles.
+    pub(super) fn bundle_names(&self) -> Vec<&str> {
+        self.bundles.iter().map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// The functions of the robot; those that it lacks are reported.
+    pub(super) fn code(&self, reader: &mut Reader<'_>, robot: &Robot) -> Code {
+        let mut all = |names: &[Named]| -> Vec<FunctionKind> {
+            let names = names.iter().filter(|named| named.name != ALL_FUNCTIONS);
+            names.filter_map(|named| known(reader, robot, named)).collect()
+        };
+        let functions = self.functions.as_ref().map(|names| {
+            let kinds = all(names);
+            match names.iter().any(|named| named.name == ALL_FUNCTIONS) {
+                true => Functions::All,
+                false => Functions::Chosen(kinds),
+            }
+        });
+        let bundle = |(name, names): &(String, Vec<Named>)| Bundle {
+            name: name.clone(),
+            functions: all(names),
+        };
+        let bundles = self.bundles.iter().map(bundle).collect();
+        Code { functions: functions.unwrap_or_default(), bundles }
+    }
+}
+
+fn bundle_name(
+    reader: &mut Reader<'_>,
+    name: &str,
+    span: &Span,
+    names: &mut Registry,
+) -> Option<Named> {
+    let named = reader.check_name(name, span, "a bundle", Kind::Identifier)?;
+    if let Some(owner) = Bundle::owner_of(name) {
+        let message = format!("`{name}` cannot name a bundle");
+        let diagnostic = Diagnostic::error(code::RESERVED, message);
+        reader.report(
+            diagnostic
+                .at(span, format!("this is {owner}"))
+                .help("choose another name, such as `dynamics`"),
+        );
+        return None;
+    }
+    match names.add(&named) {
+        Some(diagnostic) => {
+            reader.report(diagnostic);
+            None
+        }
+        None => Some(named),
+    }
+}

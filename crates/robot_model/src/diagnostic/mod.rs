@@ -1,0 +1,255 @@
+//! What is wrong with a robot file: the place, the reason and the remedy.
+//!
+//! Every reader collects [`Diagnostic`]s and goes on, so that a file's errors are reported all at
+//! once, in the order of their places.
+
+pub mod code;
+mod render;
+
+use std::fmt;
+use std::ops::Range;
+
+pub use render::{Style, render};
+
+/// Bytes of a source text.
+pub type Span = Range<usize>;
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// The file gives no robot.
+    Error,
+    /// The file gives a robot, but perhaps not the one that was meant.
+    Warning,
+    /// The file gives a robot; this is how it was taken where the format leaves a choice.
+    Note,
+}
+
+/// Bytes of the source with what is to be said about them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// The bytes; empty at a place where something is missing.
+    pub span: Span,
+    /// The remark; may be empty.
+    pub text: String,
+}
+
+/// One thing that is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// A stable code of the table [`code::TABLE`], such as `R0101`.
+    pub code: &'static str,
+    /// Error, warning or note.
+    pub severity: Severity,
+    /// What is wrong, in one line.
+    pub message: String,
+    /// The offending text; `None` where it is the file as a whole.
+    pub primary: Option<Label>,
+    /// Other places that matter, such as a first definition.
+    pub secondary: Vec<Label>,
+    /// Why it matters.
+    pub why: Option<String>,
+    /// What to do.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// An error without a place as yet.
+    #[must_use]
+    pub fn error(code: &'static str, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            code,
+            severity: Severity::Error,
+            message: message.into(),
+            primary: None,
+            secondary: Vec::new(),
+            why: None,
+            help: None,
+        }
+    }
+
+    /// A warning without a place as yet.
+    #[must_use]
+    pub fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
+    }
+
+    /// A note without a place as yet.
+    #[must_use]
+    pub fn note(code: &'static str, message: impl Into<String>) -> Diagnostic {
+        Diagnostic { severity: Severity::Note, ..Diagnostic::error(code, message) }
+    }
+
+    /// The same, so grave.
+    #[must_use]
+    pub fn graded(self, severity: Severity) -> Diagnostic {
+        Diagnostic { severity, ..self }
+    }
+
+    /// The offending text.
+    #[must_use]
+    pub fn at(mut self, span: &Span, text: impl Into<String>) -> Diagnostic {
+        self.primary = Some(Label { span: span.clone(), text: text.into() });
+        self
+    }
+
+    /// Another place that matters.
+    #[must_use]
+    pub fn and_at(mut self, span: &Span, text: impl Into<String>) -> Diagnostic {
+        self.secondary.push(Label { span: span.clone(), text: text.into() });
+        self
+    }
+
+    /// Why it matters.
+    #[must_use]
+    pub fn because(mut self, why: impl Into<String>) -> Diagnostic {
+        self.why = Some(why.into());
+        self
+    }
+
+    /// What to do.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+/// A text and the name under which it is shown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
+    /// The name, usually a path.
+    pub name: String,
+    /// The text.
+    pub text: String,
+}
+
+impl Source {
+    /// Line and column, both from 1, of a byte; a column is a character, a tab is one.
+    #[must_use]
+    pub fn position(&self, byte: usize) -> (usize, usize) {
+        let mut byte = byte.min(self.text.len());
+        while !self.text.is_char_boundary(byte) {
+            byte -= 1;
+        }
+        let before = self.text.get(..byte).unwrap_or_default();
+        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.bytes().filter(|byte| *byte == b'\n').count() + 1;
+        let column = before.get(start..).unwrap_or_default().chars().count() + 1;
+        (line, column)
+    }
+}
+
+/// Everything that was found in one source, in the order of the places.
+///
+/// As an error it displays every diagnostic with `file:line:column` and the offending text
+/// underlined.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostics {
+    source: Source,
+    list: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// Diagnostics of a source, sorted by place; those without a place come first.
+    #[must_use]
+    pub fn new(source: Source, mut list: Vec<Diagnostic>) -> Diagnostics {
+        let place = |diagnostic: &Diagnostic| {
+            let span = diagnostic.primary.as_ref().map(|label| &label.span);
+            span.map(|span| (span.start, span.end))
+        };
+        list.sort_by(|a, b| (place(a), a.code).cmp(&(place(b), b.code)));
+        list.dedup();
+        Diagnostics { source, list }
+    }
+
+    /// The source.
+    #[must_use]
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// The diagnostics in order.
+    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.list.iter()
+    }
+
+    /// The number of diagnostics.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Whether one of them is an error.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    /// All of them as text, each with its excerpt of the source, then how many there are.
+    #[must_use]
+    pub fn render(&self, style: Style) -> String {
+        render::render_all(&self.source, &self.list, style)
+    }
+}
+
+/// The plain rendering.
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.render(Style::Plain))
+    }
+}
+
+impl std::error::Error for Diagnostics {}
+
+/// Text of a file as a message may hold it: on one line, without control characters, its middle
+/// left out where it is long.
+#[must_use]
+pub fn quote(text: &str) -> String {
+    const HEAD: usize = 40;
+    const TAIL: usize = 10;
+    let escape = |part: &str| -> String {
+        part.chars()
+            .flat_map(|character| {
+                let plain = !character.is_control() && !is_invisible(character);
+                let escaped = (!plain).then(|| character.escape_unicode());
+                let plain = plain.then_some(character);
+                escaped.into_iter().flatten().chain(plain)
+            })
+            .collect()
+    };
+    let length = text.chars().count();
+    if length <= HEAD + TAIL {
+        return escape(text);
+    }
+    let head: String = text.chars().take(HEAD).collect();
+    let tail: String = text.chars().skip(length - TAIL).collect();
+    format!("{}…{}", escape(&head), escape(&tail))
+}
+
+/// Characters that show nothing or reorder what is around them.
+#[must_use]
+pub fn is_invisible(character: char) -> bool {
+    matches!(character,
+        '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+        | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
+}
+
+/// Six significant digits.
+#[must_use]
+pub fn significant(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    if rounded != 0.0 && !(1e-4..1e6).contains(&rounded.abs()) {
+        return format!("{rounded:e}");
+    }
+    rounded.to_string()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,105 @@
+use super::*;
+
+fn source(text: &str) -> Source {
+    Source { name: "arm.toml".to_owned(), text: text.to_owned() }
+}
+
+fn shown(text: &str, span: Span) -> String {
+    let diagnostic = Diagnostic::error(code::NUMBER, "wrong").at(&span, "here");
+    render(&source(text), &diagnostic, Style::Plain)
+}
+
+#[test]
+fn the_offending_text_is_underlined_in_its_line() {
+    let text = "a = 1\nmass = nan # kg\nb = 2\n";
+    let expected = "\
+error[R0301]: wrong
+ --> arm.toml:2:8
+  |
+2 | mass = nan # kg
+  |        ^^^ here";
+    assert_eq!(shown(text, 13..16), expected);
+}
+
+#[test]
+fn tabs_line_ends_and_wide_characters_keep_their_columns() {
+    let text = "\ta = \"é中\"\r\n\tmass\t= nan\r\n";
+    let start = text.find("nan").unwrap();
+    let rendered = shown(text, start..start + 3);
+    assert!(rendered.contains("arm.toml:2:9\n"), "{rendered}");
+    let lines: Vec<&str> = rendered.lines().collect();
+    let column = |line: &str, text: &str| line.find(text).unwrap();
+    assert_eq!(column(lines[3], "nan"), column(lines[4], "^^^"), "{rendered}");
+    assert!(!rendered.contains(['\r', '␍']), "{rendered:?}");
+}
+
+#[test]
+fn a_long_line_is_cut_around_the_place() {
+    let text = format!("a = \"{}\" # {}\n", "x".repeat(500_000), "y".repeat(500_000));
+    let rendered = shown(&text, 250_000..250_003);
+    assert!(rendered.len() < 1000, "{}", rendered.len());
+    assert!(rendered.contains("arm.toml:1:250001\n"), "{rendered}");
+    assert!(rendered.contains("^^^ here"), "{rendered}");
+}
+
+#[test]
+fn places_out_of_the_text_are_brought_in() {
+    for span in [0..0, 2..2, 3..3, 7..9, 1..900, 900..900] {
+        assert!(shown("aé\n", span.clone()).contains("arm.toml:"), "{span:?}");
+    }
+    assert!(shown("", 0..0).contains("arm.toml:1:1"));
+}
+
+#[test]
+fn diagnostics_come_in_the_order_of_their_places() {
+    let at = |start: usize| Diagnostic::error(code::NAME, "n").at(&(start..start + 1), "");
+    let whole = Diagnostic::warning(code::SYNTAX, "whole");
+    let list = vec![at(3), at(1), whole.clone(), at(2), at(1)];
+    let found = Diagnostics::new(source("abcdef"), list);
+    let order: Vec<_> = found.iter().cloned().collect();
+    assert_eq!(order, [whole, at(1), at(2), at(3)]);
+    assert!(found.has_errors());
+    assert!(found.to_string().ends_with("\n\narm.toml: 3 errors, 1 warning\n"));
+}
+
+#[test]
+fn many_diagnostics_are_counted() {
+    let text = "x\n".repeat(500);
+    let list =
+        (0..500).map(|line| Diagnostic::error(code::NAME, "n").at(&(2 * line..2 * line + 1), ""));
+    let rendered = Diagnostics::new(source(&text), list.collect()).to_string();
+    assert_eq!(rendered.matches("error[").count(), 40);
+    assert!(rendered.ends_with("arm.toml: 500 errors (460 more not shown)\n"));
+}
+
+#[test]
+fn quotes_show_what_cannot_be_seen() {
+    assert_eq!(quote("l_1 é"), "l_1 é");
+    assert_eq!(quote("a\u{202e}\n\u{0}"), "a\\u{202e}\\u{a}\\u{0}");
+    let long = quote(&"x".repeat(1000));
+    assert_eq!(long.chars().count(), 51);
+}
+
+#[test]
+fn positions_are_counted_from_one() {
+    let source = source("ab\r\né\tx");
+    assert_eq!(source.position(0), (1, 1));
+    assert_eq!(source.position(4), (2, 1));
+    assert_eq!(source.position(5), (2, 1));
+    assert_eq!(source.position(7), (2, 3));
+    assert_eq!(source.position(999), (2, 4));
+}
+
+#[test]
+fn codes_are_unique_and_in_order() {
+    let codes: Vec<_> = code::TABLE.iter().map(|(code, _)| code).collect();
+    assert!(codes.is_sorted());
+    assert!(codes.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+#[test]
+fn digits_are_few() {
+    assert_eq!(significant(0.1 + 0.2), "0.3");
+    assert_eq!(significant(1.234_567_8e-7), "1.23457e-7");
+    assert_eq!(significant(0.0), "0");
+}

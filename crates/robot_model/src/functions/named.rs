@@ -1,0 +1,211 @@
+//! Functions by their names: the one list of what can be asked for, and the way from a name to a function.
+
+use std::fmt;
+
+use robot_symbolic::nearest_word;
+
+use super::{ALL_FUNCTIONS, FunctionKind};
+use crate::diagnostic::quote;
+use crate::robot::Robot;
+
+/// A frame whose Jacobian can be asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum FrameRef {
+    /// A named frame, an index into [`Robot::frames`].
+    Named(usize),
+    /// The frame of a moving link as `forward_kinematics` has it, an index into [`Robot::links`].
+    Link(usize),
+}
+
+impl FrameRef {
+    /// The name that the robot file gives the frame or the link; `None` where the robot has no such frame.
+    #[must_use]
+    pub fn name(self, robot: &Robot) -> Option<&str> {
+        match self {
+            FrameRef::Named(index) => Some(robot.frames.get(index)?.name.as_str()),
+            FrameRef::Link(index) => Some(robot.links.get(index)?.name.as_str()),
+        }
+    }
+
+    /// All frames of a robot: the named ones, then those of the links.
+    fn of(robot: &Robot) -> impl Iterator<Item = FrameRef> {
+        let named = (0..robot.frames.len()).map(FrameRef::Named);
+        named.chain((0..robot.links.len()).map(FrameRef::Link))
+    }
+
+    /// The frames of the functions that are asked for by a kind alone: the named frames; where there is
+    /// none, those of the last link of each branch.
+    #[must_use]
+    pub fn usual(robot: &Robot) -> Vec<FrameRef> {
+        if !robot.frames.is_empty() {
+            return (0..robot.frames.len()).map(FrameRef::Named).collect();
+        }
+        let is_last = |index: &usize| robot.links.iter().all(|link| link.parent != Some(*index));
+        (0..robot.links.len()).filter(is_last).map(FrameRef::Link).collect()
+    }
+}
+
+/// What stands behind the kind in the names of the functions of each frame: the frame's name in lower
+/// case as an identifier, made unique where several frames would have the same.
+pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
+    let frames: Vec<(FrameRef, String)> =
+        FrameRef::of(robot).map(|frame| (frame, identifier(frame, robot))).collect();
+    let mut found: Vec<(FrameRef, String)> = vec![];
+    for (frame, name) in &frames {
+        let mut suffix = match frame {
+            FrameRef::Named(index) => {
+                let is_same = |(other, same): &&(FrameRef, String)| {
+                    matches!(other, FrameRef::Named(_)) && same == name
+                };
+                match frames.iter().filter(is_same).count() {
+                    1 => name.clone(),
+                    _ => format!("{name}_{}", index + 1),
+                }
+            }
+            FrameRef::Link(_) => name.clone(),
+        };
+        // `jacobian_dot_qd…` is the other kind's.
+        if suffix == "dot_qd" || suffix.starts_with("dot_qd_") {
+            suffix = format!("frame_{suffix}");
+        }
+        let of_others = |suffix: &String| {
+            found.iter().any(|(_, other)| other == suffix)
+                || frames.iter().any(|(other, name)| {
+                    matches!(other, FrameRef::Named(_)) && other != frame && name == suffix
+                })
+        };
+        while of_others(&suffix) {
+            suffix.push_str(match frame {
+                FrameRef::Named(_) => "_frame",
+                FrameRef::Link(_) => "_link",
+            });
+        }
+        found.push((*frame, suffix));
+    }
+    found
+}
+
+/// The name with everything that cannot stand in an identifier replaced.
+fn identifier(frame: FrameRef, robot: &Robot) -> String {
+    let fits = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+    frame.name(robot).unwrap_or_default().chars().map(fits).collect()
+}
+
+/// The names of all functions that can be asked for of a robot, each with what it is of: the kinds that
+/// the robot has, then the functions of single frames: of named ones, then of moving links.
+#[must_use]
+pub fn names(robot: &Robot) -> Vec<(String, FunctionKind)> {
+    let kinds = FunctionKind::of(robot);
+    let mut names: Vec<(String, FunctionKind)> =
+        kinds.iter().map(|kind| (kind.name().to_owned(), *kind)).collect();
+    let suffixes = suffixes(robot);
+    for kind in [FunctionKind::Jacobian, FunctionKind::JacobianDotQd] {
+        let one = |(frame, suffix): &(FrameRef, String)| {
+            Some((format!("{}_{suffix}", kind.name()), kind.of_frame(*frame)?))
+        };
+        names.extend(suffixes.iter().filter_map(one));
+    }
+    names
+}
+
+/// Whether a name is that of a function of one frame, if of any: which frames there are the robot says.
+#[must_use]
+pub fn is_of_frame(name: &str) -> bool {
+    FunctionKind::from_name(name).is_none() && name.starts_with("jacobian_")
+}
+
+/// The function of a name: that of a kind, whether the robot has it or not, or the kind with that of a
+/// frame or a moving link behind it, as the file has it or as in the function's name. Where a frame and
+/// a link have the same name, the frame is meant.
+///
+/// # Errors
+///
+/// A name of no function of this robot; one that several frames have once it is an identifier.
+pub fn named(robot: &Robot, name: &str) -> Result<FunctionKind, WrongName> {
+    if let Some(kind) = FunctionKind::from_name(name) {
+        return Ok(kind);
+    }
+    let known = names(robot);
+    if let Some((_, kind)) = known.iter().find(|(known, _)| known == name) {
+        return Ok(*kind);
+    }
+    // The longer name first: `jacobian_dot_qd_tool` is hardly a Jacobian of `dot_qd_tool`.
+    for kind in [FunctionKind::JacobianDotQd, FunctionKind::Jacobian] {
+        let rest = name.strip_prefix(kind.name()).and_then(|rest| rest.strip_prefix('_'));
+        let Some(rest) = rest else { continue };
+        let exact = FrameRef::of(robot).find(|frame| frame.name(robot) == Some(rest));
+        if let Some(kind) = exact.and_then(|frame| kind.of_frame(frame)) {
+            return Ok(kind);
+        }
+        let is_alike = |frame: &FrameRef| identifier(*frame, robot) == rest.to_lowercase();
+        let alike: Vec<FrameRef> = FrameRef::of(robot).filter(is_alike).collect();
+        match alike.as_slice() {
+            [] => {}
+            [frame] => return kind.of_frame(*frame).ok_or_else(|| unknown(name, &known)),
+            several => {
+                let of = several.iter().filter_map(|frame| kind.of_frame(*frame));
+                return Err(WrongName {
+                    name: name.to_owned(),
+                    near: None,
+                    known: of.map(|kind| kind.full_name(robot)).collect(),
+                    several: true,
+                });
+            }
+        }
+    }
+    Err(unknown(name, &known))
+}
+
+fn unknown(name: &str, known: &[(String, FunctionKind)]) -> WrongName {
+    let names = known.iter().map(|(name, _)| name.as_str()).chain([ALL_FUNCTIONS]);
+    WrongName {
+        name: name.to_owned(),
+        near: nearest_word(name, names).map(str::to_owned),
+        known: shown(known),
+        several: false,
+    }
+}
+
+/// The names in messages: the kinds, and of single frames no more than a message can hold.
+fn shown(known: &[(String, FunctionKind)]) -> Vec<String> {
+    const MOST: usize = 24;
+    let of_frame = |kind: &FunctionKind| kind.frame().is_some();
+    let (frames, kinds): (Vec<_>, Vec<_>) = known.iter().partition(|(_, kind)| of_frame(kind));
+    let name = |(name, _): &(String, FunctionKind)| name.clone();
+    let mut shown: Vec<String> = kinds.into_iter().map(name).collect();
+    shown.extend(frames.iter().take(MOST).copied().map(name));
+    if frames.len() > MOST {
+        shown.push("… (`robot-symbolic show` lists all)".to_owned());
+    }
+    shown
+}
+
+/// A name that is no function's, or not of one alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrongName {
+    /// The name.
+    pub name: String,
+    /// A function that may be meant.
+    pub near: Option<String>,
+    /// The functions that there are, or those that the name may mean.
+    pub known: Vec<String>,
+    /// Whether the name may mean several.
+    pub several: bool,
+}
+
+impl fmt::Display for WrongName {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = quote(&self.name);
+        if self.several {
+            let names = self.known.join("`, `");
+            return write!(formatter, "`{name}` may be several functions: choose one of `{names}`");
+        }
+        write!(formatter, "there is no function `{name}`.")?;
+        if let Some(near) = &self.near {
+            write!(formatter, " Did you mean `{near}`?")?;
+        }
+        write!(formatter, " There are {}.", self.known.join(", "))
+    }
+}
+
+impl std::error::Error for WrongName {}

@@ -1,0 +1,44 @@
+//! Why a robot has no base parameters.
+
+use crate::robot::{BaseFrames, Link, Move, Placement, Robot};
+
+/// Why the base parameters of a robot cannot be found: its joints share coordinates, and lengths,
+/// angles, gravity or ratios are parameters, so that the rank at states with given figures proves
+/// nothing; or they are to be over frames of Denavit and Hartenberg, and a joint axis is a parameter.
+#[must_use]
+pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
+    let is_free = |link: &Link| link.joint.axis.iter().any(|axis| axis.symbols().next().is_some());
+    if robot.base_frames == BaseFrames::DenavitHartenberg && robot.links.iter().any(is_free) {
+        return Some(
+            "a joint axis depends on parameters, and frames of Denavit and Hartenberg are along it; take \
+             base_frames = \"file\", or give the axis figures",
+        );
+    }
+    (has_shared_coordinates(robot) && has_free_geometry(robot)).then_some(
+        "joints share a coordinate, and lengths, axes, gravity or ratios are parameters; give them \
+         figures",
+    )
+}
+
+/// Whether a coordinate moves several joints, or a joint not at all.
+#[must_use]
+pub fn has_shared_coordinates(robot: &Robot) -> bool {
+    let one = robot_symbolic::Formula::number(&robot_symbolic::Rational::ONE);
+    robot.links.len() != robot.coordinates.len()
+        || robot.links.iter().any(|link| link.joint.ratio != one)
+}
+
+fn has_free_geometry(robot: &Robot) -> bool {
+    let of_move = |step: &Move| match step {
+        Move::Translate(by) => by.iter().any(|formula| formula.symbols().next().is_some()),
+        Move::Rotate(_, angle) => angle.symbols().next().is_some(),
+    };
+    let of_placement = |Placement(steps): &Placement| steps.iter().any(of_move);
+    robot.gravity.iter().any(|formula| formula.symbols().next().is_some())
+        || robot.links.iter().any(|link| {
+            let joint = &link.joint;
+            let mut figures = joint.axis.iter().chain([&joint.ratio, &joint.offset]);
+            of_placement(&link.placement)
+                || figures.any(|formula| formula.symbols().next().is_some())
+        })
+}

@@ -1,0 +1,14 @@
+//! What a robot is, and how it is read.
+//!
+//! A robot file is read by [`description`] into a checked [`robot::Robot`], whose values are formulas
+//! with [`unit`]s; what is wrong with it is a [`diagnostic`] with a place, a reason and a remedy.
+//! [`functions`] names what can be derived from a robot. Nothing here knows how.
+
+pub mod description;
+pub mod diagnostic;
+pub mod functions;
+pub mod physics;
+pub mod robot;
+pub mod snap;
+mod space;
+pub mod unit;

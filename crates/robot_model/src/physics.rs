@@ -1,0 +1,112 @@
+//! What no body can be: principal moments of inertia and what is wrong with them.
+
+use crate::diagnostic::{code, significant};
+use crate::space::eigenvalues;
+
+/// Figures are rounded: this part of the largest principal moment is no violation.
+pub(crate) const TOLERANCE: f64 = 1e-3;
+
+/// What is to be said of an inertia tensor. Principal moments ascend, kg m².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// Some body has it; all zeros are a point mass.
+    Possible,
+    /// A principal moment is negative.
+    Negative([f64; 3]),
+    /// The largest moment exceeds the sum of the others, by this part of itself.
+    Triangle([f64; 3], f64),
+}
+
+/// Judges the tensor `[xx, yy, zz, xy, xz, yz]` about the centre of mass.
+#[must_use]
+pub fn judge(tensor: [f64; 6]) -> Verdict {
+    let Some(moments) = principal_moments(tensor) else {
+        return Verdict::Possible;
+    };
+    let [least, middle, largest] = moments;
+    let [xx, yy, zz, ..] = tensor;
+    let tolerance = TOLERANCE * largest.abs();
+    if least < -tolerance || xx.min(yy).min(zz) < 0.0 {
+        return Verdict::Negative(moments);
+    }
+    if largest > least + middle + tolerance {
+        return Verdict::Triangle(moments, 1.0 - (least + middle) / largest);
+    }
+    Verdict::Possible
+}
+
+impl Verdict {
+    /// The code of the fault.
+    pub(crate) fn code(&self) -> &'static str {
+        match self {
+            Verdict::Triangle(..) => code::INERTIA_TRIANGLE,
+            Verdict::Possible | Verdict::Negative(_) => code::INERTIA_SIGN,
+        }
+    }
+
+    /// The fault in a line.
+    pub(crate) fn message(&self) -> &'static str {
+        match self {
+            Verdict::Possible => "the inertia is that of a body",
+            Verdict::Negative(_) => "no body has this inertia: a principal moment is negative",
+            Verdict::Triangle(..) => {
+                "no body has this inertia: one principal moment exceeds the sum of the others"
+            }
+        }
+    }
+
+    /// The figures for the place.
+    pub(crate) fn label(&self) -> String {
+        match self {
+            Verdict::Possible => String::new(),
+            Verdict::Negative(moments) | Verdict::Triangle(moments, _) => {
+                format!("principal moments {} kg m^2", moments.map(significant).join(", "))
+            }
+        }
+    }
+}
+
+/// The eigenvalues of the tensor `[xx, yy, zz, xy, xz, yz]` in ascending order; `None` where all
+/// entries are 0.
+pub(crate) fn principal_moments(tensor: [f64; 6]) -> Option<[f64; 3]> {
+    // Scaled, so that no square overflows.
+    let scale = tensor.iter().fold(0.0_f64, |scale, entry| scale.max(entry.abs()));
+    if scale == 0.0 {
+        return None;
+    }
+    let [xx, yy, zz, xy, xz, yz] = tensor.map(|entry| entry / scale);
+    let moments = eigenvalues([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+    Some(moments.map(|moment| moment * scale))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn principal_moments_are_eigenvalues() {
+        assert_eq!(principal_moments([0.0; 6]), None);
+        let moments = principal_moments([2.0, 2.0, 5.0, 1.0, 0.0, 0.0]).unwrap();
+        for (found, expected) in moments.iter().zip([1.0, 3.0, 5.0]) {
+            assert!((found - expected).abs() < 1e-14, "{moments:?}");
+        }
+        let [least, ..] = principal_moments([1e300, 1e300, 1e300, 2e300, 0.0, 0.0]).unwrap();
+        assert!((least + 1e300).abs() < 1e286);
+    }
+
+    #[test]
+    fn bodies_are_told_from_what_is_none() {
+        let verdict = |tensor| judge(tensor);
+        for tensor in [[0.0; 6], [1.0, 2.0, 3.0, 0.0, 0.0, 0.0], [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]] {
+            assert_eq!(verdict(tensor), Verdict::Possible, "{tensor:?}");
+        }
+        // Rounded to three digits, a flat plate of 1/3 and 2/3 exceeds by 0.1 %.
+        assert_eq!(verdict([0.333, 0.333, 0.6666, 0.0, 0.0, 0.0]), Verdict::Possible);
+        assert!(matches!(verdict([1.0, 1.0, 1.0, 1.5, 0.0, 0.0]), Verdict::Negative(_)));
+        assert!(matches!(verdict([-1e-9, 1.0, 1.0, 0.0, 0.0, 0.0]), Verdict::Negative(_)));
+        let Verdict::Triangle(_, excess) = verdict([1.0, 1.0, 4.0, 0.0, 0.0, 0.0]) else {
+            panic!("a triangle inequality is broken");
+        };
+        assert!((excess - 0.5).abs() < 1e-14, "{excess}");
+    }
+}

@@ -1,0 +1,25 @@
+//! Which constant angles are taken for multiples of π/2.
+
+/// The tolerance where neither a caller nor the robot file gives one, rad.
+pub const DEFAULT: f64 = 1e-9;
+
+/// The largest tolerance, rad.
+pub const MAX: f64 = 0.1;
+
+/// Checks a tolerance.
+///
+/// # Errors
+///
+/// A tolerance below 0 or above [`MAX`], and NaN.
+pub fn check(tolerance: f64) -> Result<f64, InvalidSnap> {
+    if (0.0..=MAX).contains(&tolerance) {
+        Ok(tolerance)
+    } else {
+        Err(InvalidSnap(tolerance.to_string()))
+    }
+}
+
+/// An invalid snapping tolerance, as given.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the snapping tolerance {0} is no angle in radians between 0 and {MAX}")]
+pub struct InvalidSnap(String);

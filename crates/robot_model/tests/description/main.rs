@@ -1,0 +1,32 @@
+//! The reader of robot files: what files mean, and what is said of broken ones.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod broken;
+mod dh;
+mod hostile;
+#[path = "../hostility/mod.rs"]
+mod hostility;
+mod meaning;
+mod pages;
+
+use robot_model::description::{Described, read_toml};
+use robot_model::diagnostic::Diagnostics;
+
+/// A file with that text after its head.
+fn arm(text: &str) -> String {
+    format!("format = 1\n\n[robot]\nname = \"arm\"\n{text}")
+}
+
+/// Reads a file that must be right.
+fn read(text: &str) -> Described {
+    read_toml("arm.toml", text).unwrap_or_else(|found| panic!("{text}\n{found}"))
+}
+
+/// The errors of a file that must be wrong.
+fn errors(text: &str) -> Diagnostics {
+    match read_toml("arm.toml", text) {
+        Ok(_) => panic!("no error in\n{}", text.chars().take(2000).collect::<String>()),
+        Err(found) => found,
+    }
+}

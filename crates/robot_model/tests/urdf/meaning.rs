@@ -1,0 +1,231 @@
+//! What files mean.
+
+use robot_model::description::{Format, Options, read};
+use robot_model::diagnostic::{Diagnostics, code};
+use robot_model::robot::{JointKind, Robot};
+use robot_numeric::Mechanism;
+
+use crate::text::{BODY, one_link};
+use crate::{codes, errors, read_taking};
+
+fn torques(robot: &Robot, q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> {
+    let mechanism = Mechanism::nominal(robot).unwrap();
+    mechanism.inverse_dynamics(q, qd, qdd).unwrap().iter().copied().collect()
+}
+
+fn has(found: &Diagnostics, code: &str, words: &str) -> bool {
+    found.iter().any(|one| one.code == code && format!("{one:?}").contains(words))
+}
+
+/// Three links one behind the other, each of one kilogram at its origin with moments of 1.
+fn chain(joints: [&str; 3]) -> String {
+    let body = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" \
+                iyz=\"0\" izz=\"1\"/></inertial>";
+    let mut text = "<robot name=\"arm\"><link name=\"0\"/>".to_owned();
+    for (index, joint) in joints.iter().enumerate() {
+        let child = index + 1;
+        text += &format!(
+            "<link name=\"{child}\">{body}</link><joint name=\"j{child}\" {joint}\
+             <parent link=\"{index}\"/><child link=\"{child}\"/></joint>"
+        );
+    }
+    text + "</robot>"
+}
+
+#[test]
+fn the_format_is_told_by_the_name_or_the_text() {
+    let urdf = one_link(BODY, "<axis xyz=\"0 0 1\"/>");
+    for name in ["a.urdf", "a.URDF", "a.xml", "folder.toml/a", "-"] {
+        assert_eq!(read(name, &urdf).unwrap().format, Format::Urdf, "{name}");
+    }
+    let toml = "format = 1\n[robot]\nname = \"a\"\n[[link]]\nname = \"1\"\nmassless = true\n\
+                joint = { type = \"revolute\", axis = \"z\" }\n";
+    for name in ["a.toml", "a", "-"] {
+        assert_eq!(read(name, toml).unwrap().format, Format::Toml, "{name}");
+    }
+    assert_eq!(codes(&read("a.urdf", toml).unwrap_err()), [code::SYNTAX]);
+    assert_eq!(codes(&read("a.toml", &urdf).unwrap_err())[0], code::SYNTAX);
+}
+
+#[test]
+fn joints_have_their_kinds() {
+    let text = chain([
+        "type=\"continuous\"><axis xyz=\"0 0 1\"/><limit lower=\"1\" upper=\"2\"/>",
+        "type=\"revolute\"><axis xyz=\"0 0 1\"/><limit upper=\"2\" effort=\"nan\"/>",
+        "type=\"prismatic\"><limit lower=\"-inf\" upper=\"inf\"/>",
+    ]);
+    let described = crate::read(&text);
+    let robot = &described.robot;
+    let kinds: Vec<_> = robot.coordinates.iter().map(|one| one.kind).collect();
+    assert_eq!(kinds, [JointKind::Revolute, JointKind::Revolute, JointKind::Prismatic]);
+    let limits: Vec<bool> = robot.coordinates.iter().map(|one| one.limits.is_some()).collect();
+    assert_eq!(limits, [false, true, false]);
+    // A prismatic joint without an axis moves along x.
+    assert_eq!(
+        robot.links[2].joint.axis.each_ref().map(|one| one.text().to_owned()),
+        ["1", "0", "0"]
+    );
+    assert!(has(&described.choices, code::TAKEN_DEFAULT, "axis x"));
+    assert!(has(&described.choices, code::TAKEN_COORDINATE, "without limits"));
+    assert!(described.warnings.is_empty(), "{}", described.warnings);
+}
+
+#[test]
+fn floating_and_planar_joints_are_refused() {
+    for (kind, words) in
+        [("floating", "fixed base"), ("planar", "prismatic"), ("revolve", "revolute")]
+    {
+        let text = one_link(BODY, "").replace("\"revolute\"", &format!("\"{kind}\""));
+        let found = errors(&text);
+        assert_eq!(codes(&found), [code::UNKNOWN_WORD], "{found}");
+        assert!(found.to_string().contains(words), "{found}");
+    }
+}
+
+#[test]
+fn chains_of_joints_that_follow_are_folded() {
+    // j2 = −3 j1 + 0.5, j3 = 2 j2 + 0.25 = −6 j1 + 1.25
+    let text = chain([
+        "type=\"revolute\"><axis xyz=\"0 0 1\"/>",
+        "type=\"revolute\"><axis xyz=\"0 0 1\"/><mimic joint=\"j1\" multiplier=\"-3\" offset=\"0.5\"/>",
+        "type=\"revolute\"><axis xyz=\"0 0 1\"/><mimic joint=\"j2\" multiplier=\"2\" offset=\"0.25\"/>",
+    ]);
+    let described = crate::read(&text);
+    let robot = &described.robot;
+    assert_eq!(robot.degrees_of_freedom(), 1);
+    let last = &robot.links[2].joint;
+    assert_eq!((last.ratio.text(), last.offset.text()), ("-6", "1.25"));
+    // All about one axis: velocities 1, 1 − 3 and 1 − 3 − 6, torque 1 + 2² + 8².
+    let found = torques(robot, &[0.3], &[0.2], &[1.0]);
+    assert!((found[0] - 69.0).abs() < 1e-12, "{found:?}");
+    assert!(has(&described.choices, code::TAKEN_COORDINATE, "no coordinate of its own"));
+}
+
+#[test]
+fn friction_is_apart_unless_it_is_asked_for() {
+    let joint = "<axis xyz=\"0 0 1\"/><dynamics damping=\"5\" friction=\"3\"/>";
+    let text = one_link(BODY, joint);
+    let described = crate::read(&text);
+    assert!(!described.robot.has_friction());
+    assert!(has(&described.choices, code::LEFT_OUT, "damping 5, friction 3"));
+    let options = Options { friction: true, ..Options::default() };
+    let friction = read_taking(&text, &options).robot.links[0].friction.clone();
+    let figures = [&friction.viscous, &friction.coulomb_positive, &friction.coulomb_negative];
+    assert_eq!(figures.map(|figure| figure.text().to_owned()), ["5", "3", "3"]);
+}
+
+#[test]
+fn names_become_names_of_robot_files() {
+    let text = one_link(BODY, "<axis xyz=\"0 0 1\"/>")
+        .replace("link=\"ground\"", "link=\"the base/1\"")
+        .replace("<link name=\"ground\"", "<link name=\"the base/1\"")
+        .replace("<robot name=\"arm\"", "<robot name=\"7-arm\"")
+        .replace("joint name=\"joint\"", "joint name=\"-é\"");
+    let described = crate::read(&text);
+    assert_eq!(described.robot.name, "robot_7_arm");
+    assert_eq!(described.robot.frames[0].name, "the_base_1");
+    assert_eq!(described.robot.coordinates[0].joint, "_-_");
+    let renamed = described.choices.iter().filter(|one| one.code == code::TAKEN_NAME).count();
+    assert_eq!(renamed, 3, "{}", described.choices);
+    let text = one_link(BODY, "").replace("robot name=\"arm\"", "robot name=\"fn\"");
+    assert_eq!(crate::read(&text).robot.name, "fn_robot");
+    // Names that become one are refused, and so is what hides something.
+    let text = one_link(BODY, "").replace("ground", "a b").replace("\"arm\"", "\"a/b\"");
+    assert_eq!(codes(&errors(&text)), [code::DUPLICATE]);
+    let text = one_link(BODY, "").replace("ground", "a\u{202e}b");
+    assert_eq!(codes(&errors(&text)), [code::NAME]);
+}
+
+#[test]
+fn a_base_may_have_the_name_base() {
+    let text = one_link(BODY, "").replace("ground", "base");
+    let described = crate::read(&text);
+    assert!(described.robot.frames.is_empty());
+    assert!(!has(&described.choices, code::TAKEN_NAME, ""));
+    // A fixed link of the name behind another base is something else.
+    let text = text
+        .replace("<robot name=\"arm\">", "<robot name=\"arm\"><link name=\"world\"/>")
+        .replace(
+            "</robot>",
+            "<joint name=\"j\" type=\"fixed\"><parent link=\"world\"/><child link=\"base\"/></joint></robot>",
+        );
+    let described = crate::read(&text);
+    let names: Vec<_> = described.robot.frames.iter().map(|frame| frame.name.as_str()).collect();
+    assert_eq!(names, ["world", "base_frame"]);
+}
+
+#[test]
+fn massless_links_need_a_waiver() {
+    let zero = BODY
+        .replace("\"2\"", "\"0\"")
+        .replace("0.02", "0")
+        .replace("0.03", "0")
+        .replace("0.04", "0");
+    let waiver = Options { allow_massless: true, ..Options::default() };
+    for body in ["", &zero] {
+        let text = one_link(body, "<axis xyz=\"1 0 0\"/>");
+        assert_eq!(codes(&errors(&text)), [code::MASS], "{body}");
+        let described = read_taking(&text, &waiver);
+        assert_eq!(codes(&described.warnings), [code::MASS]);
+        assert!(described.robot.links[0].bodies.is_empty());
+    }
+    // Mass that is fixed to the link moves with it.
+    let text = one_link("", "<axis xyz=\"0 0 1\"/>").replace(
+        "</robot>",
+        &format!(
+            "<link name=\"tool\">{BODY}</link><joint name=\"j\" type=\"fixed\"><parent link=\"arm\"/>\
+             <child link=\"tool\"/></joint></robot>"
+        ),
+    );
+    assert_eq!(torques(&crate::read(&text).robot, &[0.0], &[0.0], &[1.0]), [0.04]);
+}
+
+#[test]
+fn a_moment_alone_is_enough_about_a_vertical_axis_on_the_base() {
+    let body = |figures: &str| {
+        format!(
+            "<inertial><mass value=\"0\"/><inertia {figures} ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
+        )
+    };
+    let about_z = body("ixx=\"0\" iyy=\"0\" izz=\"0.35\"");
+    let described = crate::read(&one_link(&about_z, "<axis xyz=\"0 0 1\"/>"));
+    assert_eq!(codes(&described.warnings), [code::MASS]);
+    assert_eq!(torques(&described.robot, &[0.0], &[0.0], &[2.0]), [0.7]);
+    // The same where the joint is not vertical, or other moments are given, is no body.
+    for (figures, axis) in [
+        ("ixx=\"0.35\" iyy=\"0\" izz=\"0\"", "1 0 0"),
+        ("ixx=\"0.1\" iyy=\"0\" izz=\"0.35\"", "0 0 1"),
+    ] {
+        let text = one_link(&body(figures), &format!("<axis xyz=\"{axis}\"/>"));
+        assert_eq!(codes(&errors(&text))[0], code::MASS, "{figures}");
+    }
+}
+
+#[test]
+fn triangle_inequalities_are_graded() {
+    let text = |izz: &str| one_link(&BODY.replace("0.04", izz), "<axis xyz=\"1 0 0\"/>");
+    assert!(crate::read(&text("0.05")).warnings.is_empty());
+    let described = crate::read(&text("0.0555"));
+    assert_eq!(codes(&described.warnings), [code::INERTIA_TRIANGLE]);
+    assert_eq!(codes(&errors(&text("0.056"))), [code::INERTIA_TRIANGLE]);
+    let waiver = Options { allow_unphysical: true, ..Options::default() };
+    assert_eq!(codes(&read_taking(&text("0.5"), &waiver).warnings), [code::INERTIA_TRIANGLE]);
+    assert_eq!(codes(&errors(&text("-0.04"))), [code::INERTIA_SIGN]);
+}
+
+#[test]
+fn places_point_at_the_text() {
+    let text = one_link(BODY, "<axis xyz=\"0  0 1\"/><limit lower=\"0\" upper=\"1\"/>");
+    let locations = crate::read(&text).locations;
+    let shown = |span: &std::ops::Range<usize>| &text[span.clone()];
+    assert_eq!(shown(&locations.name), "arm");
+    let link = &locations.links[0];
+    assert_eq!(shown(&link.name), "arm");
+    assert_eq!(shown(&link.joint), "<joint");
+    assert_eq!(shown(link.parent.as_ref().unwrap()), "ground");
+    assert_eq!(shown(link.axis.as_ref().unwrap()), "0  0 1");
+    assert_eq!(shown(link.limits.as_ref().unwrap()), "<limit lower=\"0\" upper=\"1\"/>");
+    assert_eq!(shown(link.bodies[0].mass.as_ref().unwrap()), "2");
+    assert_eq!(shown(link.bodies[0].center_of_mass.as_ref().unwrap()), "0 0 0.1");
+    assert!(shown(link.bodies[0].inertia.as_ref().unwrap()).starts_with("<inertia ixx"));
+}

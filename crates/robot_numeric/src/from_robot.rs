@@ -1,0 +1,209 @@
+//! From the checked robot to numbers: every formula evaluated in floating point at once.
+
+use nalgebra::{Matrix3, Vector3};
+use robot_symbolic::Formula;
+
+use super::error::NumericError;
+use super::friction::{Friction, Sign};
+use super::mechanism::{Frame, Joint, JointKind, Link, Mechanism};
+use super::pose::{Pose, rotation_about};
+use robot_model::robot;
+
+impl Mechanism {
+    /// The robot with its parameters at the values that `value` gives by name.
+    ///
+    /// Links and frames keep the order of [`robot::Robot`]; gyroscopic rotors follow the links, each
+    /// as a link of its own without mass that turns with its joint's coordinate.
+    ///
+    /// # Errors
+    ///
+    /// [`NumericError::Mechanism`] with every fault found; a parameter without a value (NaN) is one
+    /// wherever it is used.
+    pub fn from_robot(
+        robot: &robot::Robot,
+        value: &dyn Fn(&str) -> f64,
+    ) -> Result<Self, NumericError> {
+        let at = Evaluation { value };
+        let mut links: Vec<Link> = robot.links.iter().map(|link| at.link(link)).collect();
+        for link in &robot.links {
+            if let (true, Some(carrier)) = (link.drive.gyroscopic, link.parent) {
+                let rotor = at.rotor(link, carrier);
+                take_from(&mut links[carrier], &rotor);
+                links.push(rotor);
+            }
+        }
+        Mechanism::new(
+            at.vector(&robot.gravity),
+            links,
+            robot.frames.iter().map(|frame| at.frame(frame)).collect(),
+        )
+    }
+
+    /// The robot with its parameters at their nominal values.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Mechanism::from_robot`]; where parameters have no nominal value,
+    /// [`NumericError::WithoutValues`] in their place.
+    pub fn nominal(robot: &robot::Robot) -> Result<Self, NumericError> {
+        Mechanism::from_robot(robot, &|name| robot.nominal_value(name)).map_err(|error| {
+            let without = robot.parameters.iter().filter(|parameter| parameter.value.is_none());
+            let names: Vec<String> = without.map(|parameter| parameter.name.clone()).collect();
+            if names.is_empty() { error } else { NumericError::WithoutValues(names) }
+        })
+    }
+}
+
+/// Takes the locked rotor out of its carrier's inertia, of which the file has it as a part.
+fn take_from(carrier: &mut Link, rotor: &Link) {
+    let rotation = rotor.placement.rotation;
+    carrier.inertia -= rotation * rotor.inertia * rotation.transpose();
+}
+
+/// The vector scaled to length 1; one that is very long or short is scaled first, so that no square
+/// leaves the range of numbers.
+#[must_use]
+pub fn direction(vector: Vector3<f64>) -> Vector3<f64> {
+    let largest = vector.amax();
+    let vector = if (1e-100..=1e100).contains(&largest) { vector } else { vector / largest };
+    vector.normalize()
+}
+
+/// Formulas in numbers.
+#[derive(Clone, Copy)]
+pub struct Evaluation<'v> {
+    /// The values of parameters by name.
+    pub value: &'v dyn Fn(&str) -> f64,
+}
+
+impl Evaluation<'_> {
+    /// The value of a formula.
+    #[must_use]
+    pub fn number(&self, formula: &Formula) -> f64 {
+        formula.evaluate(self.value)
+    }
+
+    /// The vector of three formulas.
+    #[must_use]
+    pub fn vector(&self, [x, y, z]: &[Formula; 3]) -> Vector3<f64> {
+        Vector3::new(self.number(x), self.number(y), self.number(z))
+    }
+
+    /// The pose that the steps of a placement add up to.
+    #[must_use]
+    pub fn pose(&self, placement: &robot::Placement) -> Pose {
+        placement.0.iter().fold(Pose::identity(), |pose, step| {
+            let mut next = Pose::identity();
+            match step {
+                robot::Move::Translate(by) => next.translation = self.vector(by),
+                robot::Move::Rotate(axis, angle) => {
+                    let axis = match axis {
+                        robot::Axis::X => Vector3::x(),
+                        robot::Axis::Y => Vector3::y(),
+                        robot::Axis::Z => Vector3::z(),
+                    };
+                    next.rotation = rotation_about(&axis, self.number(angle));
+                }
+            }
+            pose.then(&next)
+        })
+    }
+
+    fn link(&self, link: &robot::Link) -> Link {
+        let joint = &link.joint;
+        let joint = Joint {
+            kind: match joint.kind {
+                robot::JointKind::Revolute => JointKind::Revolute,
+                robot::JointKind::Prismatic => JointKind::Prismatic,
+            },
+            axis: direction(self.vector(&joint.axis)),
+            coordinate: joint.coordinate,
+            ratio: self.number(&joint.ratio),
+            offset: self.number(&joint.offset),
+        };
+        let (mass, centre, inertia) = self.bodies(&link.bodies);
+        let drive = &link.drive;
+        let turns = self.number(&drive.gear_ratio);
+        // A gyroscopic rotor with a carrier that moves is a link of its own.
+        let locked = drive.gyroscopic && link.parent.is_some();
+        let reflected =
+            if locked { 0.0 } else { turns * turns * self.number(&drive.rotor_inertia) };
+        Link {
+            rotor_inertia: self.number(&drive.armature) + reflected,
+            friction: self.friction(&link.friction),
+            ..Link::new(link.parent, self.pose(&link.placement), joint, mass, centre, inertia)
+        }
+    }
+
+    /// The rotor of a joint: it turns about the joint axis, N times as fast as the joint, and has
+    /// inertia about that axis alone.
+    fn rotor(&self, link: &robot::Link, carrier: usize) -> Link {
+        let (joint, drive) = (&link.joint, &link.drive);
+        let turns = self.number(&drive.gear_ratio);
+        let axis = direction(self.vector(&joint.axis));
+        let motion = Joint {
+            kind: JointKind::Revolute,
+            axis,
+            coordinate: joint.coordinate,
+            ratio: turns * self.number(&joint.ratio),
+            offset: 0.0,
+        };
+        let inertia = axis * axis.transpose() * self.number(&drive.rotor_inertia);
+        let placement = self.pose(&link.placement);
+        Link::new(Some(carrier), placement, motion, 0.0, Vector3::zeros(), inertia)
+    }
+
+    /// Mass, centre of mass and central inertia of rigidly connected bodies.
+    fn bodies(&self, bodies: &[robot::Body]) -> (f64, Vector3<f64>, Matrix3<f64>) {
+        let parts: Vec<_> = bodies
+            .iter()
+            .map(|body| {
+                let pose = self.pose(&body.placement);
+                let turned = pose.rotation * self.tensor(&body.inertia) * pose.rotation.transpose();
+                (self.number(&body.mass), pose.translation, turned)
+            })
+            .collect();
+        let mass: f64 = parts.iter().map(|part| part.0).sum();
+        let moment: Vector3<f64> = parts.iter().map(|part| part.1 * part.0).sum();
+        let centre = match (parts.as_slice(), mass == 0.0) {
+            ([single], _) => single.1,
+            (_, true) => Vector3::zeros(),
+            (_, false) => moment / mass,
+        };
+        let inertia = parts.iter().map(|(mass, own_centre, inertia)| {
+            let arm = own_centre - centre;
+            inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
+        });
+        (mass, centre, inertia.sum())
+    }
+
+    /// The tensor in its own axes.
+    /// The tensor of an inertia.
+    #[must_use]
+    pub fn tensor(&self, inertia: &robot::Inertia) -> Matrix3<f64> {
+        let robot::Inertia { xx, yy, zz, xy, xz, yz } = inertia;
+        let [xx, yy, zz, xy, xz, yz] = [xx, yy, zz, xy, xz, yz].map(|entry| self.number(entry));
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+
+    fn friction(&self, friction: &robot::Friction) -> Friction {
+        Friction {
+            viscous: self.number(&friction.viscous),
+            coulomb: self.number(&friction.coulomb),
+            spindle_diameter: self.number(&friction.spindle_diameter),
+            constant: [
+                self.number(&friction.coulomb_positive),
+                self.number(&friction.coulomb_negative),
+            ],
+            offset: self.number(&friction.offset),
+            sign: match &friction.smoothing {
+                Some(width) => Sign::Smooth(self.number(width)),
+                None => Sign::Exact,
+            },
+        }
+    }
+
+    fn frame(&self, frame: &robot::Frame) -> Frame {
+        Frame { link: frame.link, placement: self.pose(&frame.placement) }
+    }
+}

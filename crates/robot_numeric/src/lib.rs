@@ -1,0 +1,69 @@
+//! The numeric recursive solver: rigid-body dynamics in 6-D spatial vectors on numbers from the
+//! start, after R. Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008.
+//!
+//! It shares nothing with the symbolic derivations of this project, so that it can judge them: the
+//! project's tests hold every generated function against it. It is written for trust, not for
+//! speed.
+//!
+//! # Conventions
+//!
+//! - SI units, radians. Frames are right-handed. Gravity is the acceleration of gravity in the base
+//!   frame: it points down.
+//! - The frame of a link is its joint frame ([`Link::placement`] in the frame of the parent), moved
+//!   by the joint about or along an axis through its origin.
+//! - Inertia tensors are about the centre of mass, in the axes of the link frame.
+//! - A wrench is what a frame exerts on its surroundings ([`Wrench`]).
+//! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), friction and wrenches only where they are asked for.
+//! - q, q̇, q̈ and τ are slices over the coordinates; matrices have a row for each torque or
+//!   acceleration.
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::{Matrix3, Vector3};
+//! use crate::{Joint, Link, Mechanism, Pose};
+//!
+//! // A pendulum: a point mass of 2 kg, half a metre from a horizontal axis.
+//! let bob = Vector3::new(0.5, 0.0, 0.0);
+//! let joint = Joint::revolute(Vector3::y(), 0);
+//! let link = Link::new(None, Pose::identity(), joint, 2.0, bob, Matrix3::zeros());
+//! let pendulum = Mechanism::new(Vector3::new(0.0, 0.0, -9.81), vec![link], vec![])?;
+//!
+//! let torque = pendulum.inverse_dynamics(&[0.0], &[0.0], &[0.0])?;
+//! assert!((torque[0] + 2.0 * 9.81 * 0.5).abs() < 1e-12);
+//! # Ok::<(), crate::NumericError>(())
+//! ```
+
+mod coriolis;
+mod derivatives;
+mod energy;
+mod error;
+mod forward_dynamics;
+mod friction;
+mod from_robot;
+mod jacobian;
+mod kinematics;
+mod mass_matrix;
+mod mechanism;
+mod newton_euler;
+mod pose;
+pub mod random;
+mod regressor;
+pub mod robots;
+mod scalar;
+mod singular;
+mod spatial;
+mod validate;
+
+pub use derivatives::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
+pub use energy::Energies;
+pub use error::{Fault, Mismatch, NumericError};
+pub use friction::{Friction, Sign};
+pub use from_robot::{Evaluation, direction};
+pub use kinematics::Placements;
+pub use mechanism::{Frame, Joint, JointKind, Link, Mechanism, Wrench};
+pub use newton_euler::{LinkDynamics, Loads};
+pub use pose::Pose;
+pub use regressor::DRIVE_PARAMETERS;
+pub use scalar::Number;
+pub use singular::undetermined;
