@@ -1,8 +1,13 @@
 //! What judges robots and equations.
 //!
 //! [`doctor`] looks for likely slips in robot files, [`errata`] compares published equations with the
-//! derived ones, [`difference`] tells in what two robots differ.
+//! derived ones, [`difference`] tells in what two robots differ, [`accuracy`] holds programs against the numeric
+//! solver, and [`check_value`] is a state for whoever copies equations.
 
+pub mod accuracy;
+mod check_value;
 pub mod difference;
 pub mod doctor;
 pub mod errata;
+
+pub use check_value::check_value;

@@ -1,10 +1,6 @@
 //! What stands behind the code: what the compiler made of it, and what the numeric solver says.
 
-use robot_build::Programs;
-use robot_codegen::Interpreter;
 use robot_evidence::{Evidence, Module};
-use robot_numeric::Mechanism;
-use robot_numeric::random::Random;
 
 use crate::html::{Element, Node, element, holding};
 use crate::table::Table;
@@ -24,6 +20,15 @@ pub enum Compiled {
         /// Why.
         reason: String,
     },
+}
+
+/// How far the programs are off an independent solver.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accuracy {
+    /// The states at which they were compared, in words.
+    pub states: String,
+    /// The worst relative error of each function.
+    pub worst: Vec<(String, f64)>,
 }
 
 /// The evidence of the object files.
@@ -81,26 +86,19 @@ fn profile(module: &Module) -> Element {
     table.build()
 }
 
-/// States at which the program is held against the numeric solver.
-const STATES: usize = 1000;
-/// Their seed.
-const SEED: u64 = 61;
-
 /// The program's results against those of the numeric solver.
-pub(crate) fn accuracy(programs: &Programs) -> Vec<Node> {
-    match worst(programs) {
-        Ok(worst) => {
+pub(crate) fn accuracy(accuracy: &Result<Accuracy, String>) -> Vec<Node> {
+    match accuracy {
+        Ok(Accuracy { states, worst }) => {
             let caption = format!(
-                "Straight-line programs against the numeric solver at {STATES} random states (seed \
-                 {SEED}; angles in ±π, distances in ±0.5 m, velocities in ±2, accelerations in ±5), \
-                 nominal parameters: the largest difference in a component as a share of the largest \
-                 component of the result"
+                "Straight-line programs against the numeric solver at {states}: the largest difference \
+                 in a component as a share of the largest component of the result"
             );
             let mut table = Table::new(&caption, ["Function", "Worst error"]);
             for (function, error) in worst {
                 table.row(
                     "",
-                    holding("code", function),
+                    holding("code", function.as_str()),
                     [format!("{error:.1e}").replace('-', "−")],
                 );
             }
@@ -111,48 +109,4 @@ pub(crate) fn accuracy(programs: &Programs) -> Vec<Node> {
             vec![element("p").class("note").with(words).into()]
         }
     }
-}
-
-/// The worst relative error of each function.
-fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
-    let mechanism = Mechanism::nominal(&programs.robot).map_err(|error| error.to_string())?;
-    let interpreter = Interpreter::new(&programs.module, &[]).map_err(|error| error.to_string())?;
-    let call = |function: &str, inputs: &[(&str, &[f64])]| -> Result<Vec<f64>, String> {
-        let outputs = interpreter.call(function, inputs).map_err(|error| error.to_string())?;
-        Ok(outputs.into_iter().flat_map(|output| output.values).collect())
-    };
-    let mut random = Random::new(SEED);
-    let mut errors =
-        [("inverse_dynamics", 0.0f64), ("mass_matrix", 0.0), ("forward_dynamics", 0.0)];
-    for _ in 0..STATES {
-        let state = random.state(&mechanism);
-        let [q, qd, qdd, tau] = [&state.q, &state.qd, &state.qdd, &state.tau].map(Vec::as_slice);
-        let failed = |error: robot_numeric::NumericError| error.to_string();
-        let torques = mechanism.inverse_dynamics(q, qd, qdd).map_err(failed)?;
-        let masses = mechanism.mass_matrix(q).map_err(failed)?;
-        let rates = mechanism.forward_dynamics(q, qd, tau, &[]).map_err(failed)?;
-        let found = [
-            (call("inverse_dynamics", &[("q", q), ("qd", qd), ("qdd", qdd)])?, torques.as_slice()),
-            // Symmetric, so that its columns are its rows.
-            (call("mass_matrix", &[("q", q)])?, masses.as_slice()),
-            (call("forward_dynamics", &[("q", q), ("qd", qd), ("tau", tau)])?, rates.as_slice()),
-        ];
-        for ((_, error), (values, expected)) in errors.iter_mut().zip(&found) {
-            *error = error.max(difference(values, expected));
-        }
-    }
-    Ok(errors.to_vec())
-}
-
-/// The largest difference as a share of the largest expected value.
-fn difference(values: &[f64], expected: &[f64]) -> f64 {
-    let size = expected.iter().fold(0.0f64, |size, value| size.max(value.abs()));
-    let pairs = values.iter().zip(expected);
-    let largest = pairs.map(|(value, expected)| (value - expected).abs());
-    let largest =
-        largest.fold(0.0, |largest, one| if one.is_nan() { f64::NAN } else { one.max(largest) });
-    if values.len() != expected.len() || largest.is_nan() {
-        return f64::INFINITY;
-    }
-    if size > 0.0 { largest / size } else { largest }
 }

@@ -24,7 +24,7 @@ mod tables;
 mod text;
 
 pub use error::{Error, MOST_COORDINATES, presentable};
-pub use evidence::Compiled;
+pub use evidence::{Accuracy, Compiled};
 
 use robot_build::ablation::ablation;
 use robot_build::{Errors, FunctionKind, Functions, Options, Programs, Source, programs};
@@ -45,6 +45,8 @@ pub struct Input<'a> {
     pub options: &'a Options,
     /// What the compiler made of the code.
     pub compiled: &'a Compiled,
+    /// Holds the programs against an independent solver, or says why it cannot.
+    pub judge: fn(&Programs) -> Result<Accuracy, String>,
 }
 
 /// The function whose costs are taken apart.
@@ -174,7 +176,7 @@ fn costs(input: &Input<'_>, programs: &Programs) -> Result<Section, Errors> {
 }
 
 fn evidence(input: &Input<'_>, programs: &Programs) -> Section {
-    let mut body = evidence::accuracy(programs);
+    let mut body = evidence::accuracy(&(input.judge)(programs));
     body.extend(evidence::compiled(input.compiled));
     Section { id: "evidence", title: "Evidence", body }
 }

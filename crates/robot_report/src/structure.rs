@@ -11,8 +11,7 @@ use std::collections::BTreeMap;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
 use robot_model::robot::Robot;
-use robot_numeric::random::Random;
-use robot_symbolic::{Expr, Graph, SymbolId, walk};
+use robot_symbolic::{Expr, Graph, Random, SymbolId, walk};
 
 use crate::html::{Element, element, holding};
 use crate::text;

@@ -4,14 +4,14 @@
 
 use std::collections::BTreeSet;
 
-use robot_build::{Options, Source};
-use robot_report::{Compiled, Input, MOST_COORDINATES, reloading, report};
+use robot_build::{Options, Programs, Source};
+use robot_report::{Accuracy, Compiled, Input, MOST_COORDINATES, reloading, report};
 use roxmltree::{Document, Node, ParsingOptions};
 
 fn page(name: &str, text: &str) -> String {
     let source = Source { name: name.to_owned(), text: text.to_owned() };
     let compiled = Compiled::Unread { reason: "a test.".to_owned() };
-    let input = Input { source: &source, options: &Options::default(), compiled: &compiled };
+    let input = Input { source: &source, options: &Options::default(), compiled: &compiled, judge };
     report(&input).unwrap()
 }
 
@@ -43,11 +43,17 @@ fn chain(joints: usize) -> String {
     format!("format = 1\n[robot]\nname = \"chain\"\n{links}")
 }
 
+fn judge(programs: &Programs) -> Result<Accuracy, String> {
+    let worst = robot_check::accuracy::worst(programs)?;
+    let worst = worst.into_iter().map(|(function, error)| (function.to_owned(), error)).collect();
+    Ok(Accuracy { states: robot_check::accuracy::states(), worst })
+}
+
 #[test]
 fn robots_too_long_for_a_page_are_refused() {
     let source = Source { name: "chain.toml".to_owned(), text: chain(MOST_COORDINATES + 1) };
     let compiled = Compiled::Unread { reason: "a test.".to_owned() };
-    let input = Input { source: &source, options: &Options::default(), compiled: &compiled };
+    let input = Input { source: &source, options: &Options::default(), compiled: &compiled, judge };
     let message = report(&input).unwrap_err().to_string();
     assert!(message.starts_with("chain has 25 coordinates"), "{message}");
     assert_eq!(reloading(&input).unwrap_err().to_string(), message);
@@ -177,7 +183,8 @@ fn hostile_names_are_errors() {
     for (text, reason) in [(hostile("link"), "cannot name"), (turned, "U+202E")] {
         let source = Source { name: "swing.toml".to_owned(), text };
         let compiled = Compiled::Unread { reason: String::new() };
-        let input = Input { source: &source, options: &Options::default(), compiled: &compiled };
+        let input =
+            Input { source: &source, options: &Options::default(), compiled: &compiled, judge };
         let message = report(&input).unwrap_err().to_string();
         assert!(message.contains(reason), "{message}");
     }
@@ -209,7 +216,8 @@ fn a_page_that_reloads_itself_is_the_same_page() {
         let source = Source { name: "planar_2r.toml".to_owned(), text: text.to_owned() };
         let compiled = Compiled::Unread { reason: "a test.".to_owned() };
         let options = Options::default();
-        reloading(&Input { source: &source, options: &options, compiled: &compiled }).unwrap()
+        reloading(&Input { source: &source, options: &options, compiled: &compiled, judge })
+            .unwrap()
     };
     let found = of(text);
     assert_eq!(found.still, page("planar_2r.toml", text));

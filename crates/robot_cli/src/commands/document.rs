@@ -85,7 +85,9 @@ impl Arguments {
         let robot = self.robot.read(terminal)?.robot;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
-        let document = robot_document::robot::document(&robot, &options, &forms).map_err(failed)?;
+        let check = robot_check::check_value(&robot, options.friction);
+        let document = robot_document::robot::document(&robot, &options, &forms, check.as_ref());
+        let document = document.map_err(failed)?;
         let usual = Page::with_columns(self.columns);
         let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
         let (comment, shown) = match self.format() {

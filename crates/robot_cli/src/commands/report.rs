@@ -1,9 +1,9 @@
 //! `report`: a page about a robot.
 
 use clap::Args;
-use robot_build::{Options, Source, planned};
+use robot_build::{Options, Programs, Source, planned};
 use robot_evidence::{Compiler, Profile, prove};
-use robot_report::{Compiled, Input, presentable, report};
+use robot_report::{Accuracy, Compiled, Input, presentable, report};
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;
@@ -51,8 +51,15 @@ impl Arguments {
         } else {
             compiled(source, options)?
         };
-        Ok(report(&Input { source, options, compiled: &compiled })?)
+        Ok(report(&Input { source, options, compiled: &compiled, judge })?)
     }
+}
+
+/// How far the programs are off the numeric solver.
+pub(crate) fn judge(programs: &Programs) -> Result<Accuracy, String> {
+    let worst = robot_check::accuracy::worst(programs)?;
+    let worst = worst.into_iter().map(|(function, error)| (function.to_owned(), error)).collect();
+    Ok(Accuracy { states: robot_check::accuracy::states(), worst })
 }
 
 /// What the compiler makes of the usual functions.

@@ -1,48 +1,37 @@
 //! A state with its driving forces, for whoever copies the equations.
 
-use robot_model::robot::Robot;
-use robot_numeric::{Loads, Mechanism, Wrench};
-
 use super::{heading, paragraph};
 use crate::document::{Block, Inline, Table};
 use crate::error::Error;
-use crate::forms::EquationOptions;
 use crate::math::Math;
 use crate::notation::Notation;
 
-/// Positions, velocities and accelerations of the check state, taken in turn.
-const STATE: [[&str; 7]; 3] = [
-    ["0.3", "-0.5", "0.7", "0.4", "-0.6", "0.2", "0.9"],
-    ["0.8", "0.5", "-0.4", "1.1", "0.6", "-0.9", "0.7"],
-    ["-0.2", "1.3", "0.6", "-0.7", "0.9", "1.2", "-0.5"],
-];
-/// The wrench of each tip, N and N m.
-const WRENCH: [&str; 6] = ["3", "-2", "5", "0.4", "0.7", "-0.3"];
+/// A state and its joint torques, found without the equations. Numbers of the state are as they are printed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckValue {
+    /// Joint positions, rad or m.
+    pub positions: Vec<&'static str>,
+    /// Joint velocities, rad/s or m/s.
+    pub velocities: Vec<&'static str>,
+    /// Joint accelerations, rad/s² or m/s².
+    pub accelerations: Vec<&'static str>,
+    /// The wrench that each tip exerts on its surroundings: force, N, then moment, N m.
+    pub wrench: [&'static str; 6],
+    /// The generalized driving forces, N m or N.
+    pub forces: Vec<f64>,
+}
 
-/// The driving forces at a state, by a numeric solver that shares nothing with the equations. Robots
-/// whose parameters have no values have none.
+/// The check value as a table.
 pub(super) fn blocks(
-    robot: &Robot,
-    options: &EquationOptions,
+    value: &CheckValue,
+    has_tip: bool,
     notation: &Notation,
 ) -> Result<Vec<Block>, Error> {
-    let count = robot.degrees_of_freedom();
-    let value = |text: &str| text.parse::<f64>().unwrap_or_default();
-    let [q, qd, qdd] =
-        STATE.map(|row| row.iter().cycle().take(count).copied().collect::<Vec<&str>>());
-    let numbers = |texts: &[&str]| texts.iter().map(|text| value(text)).collect::<Vec<f64>>();
-    let [fx, fy, fz, mx, my, mz] = WRENCH.map(value);
-    let wrench = || Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() };
-    let loads =
-        Loads { wrenches: robot.tips().map(|_| wrench()).collect(), friction: options.friction };
-    let Ok(mechanism) = Mechanism::nominal(robot) else { return Ok(vec![]) };
-    let found =
-        mechanism.inverse_dynamics_with(&numbers(&q), &numbers(&qd), &numbers(&qdd), &loads);
-    let Ok(forces) = found else { return Ok(vec![]) };
+    let CheckValue { positions, velocities, accelerations, wrench, forces } = value;
     let mut rows = vec![];
     for (index, force) in forces.iter().enumerate() {
         let mut row = vec![vec![Inline::Math(Math::integer(index + 1))]];
-        for texts in [&q, &qd, &qdd] {
+        for texts in [positions, velocities, accelerations] {
             row.push(texts.get(index).map(|text| number(text)).into_iter().collect());
         }
         row.push(vec![number(&format!("{force:.8}"))]);
@@ -61,11 +50,11 @@ pub(super) fn blocks(
              computed by a numeric solver, not from the equations.",
         ),
     ];
-    if robot.tips().next().is_some() {
+    if has_tip {
         blocks.push(paragraph(&format!(
             "Each tip exerts the force ({}) N and the moment ({}) N m.",
-            WRENCH[..3].join(", "),
-            WRENCH[3..].join(", ")
+            wrench[..3].join(", "),
+            wrench[3..].join(", ")
         )));
     }
     let caption = "State and driving forces, SI units.".to_owned();

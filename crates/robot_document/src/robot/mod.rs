@@ -10,8 +10,9 @@ use crate::document::{Block, Document, Inline, NumberedEquation};
 use crate::error::Error;
 use crate::forms::{EquationOptions, Equations, Form, equations};
 use crate::math::Math;
+pub use check_value::CheckValue;
 
-/// The document of a robot with its equations in several forms.
+/// The document of a robot with its equations in several forms, and the check value where there is one.
 ///
 /// # Errors
 ///
@@ -20,6 +21,7 @@ pub fn document(
     robot: &Robot,
     options: &EquationOptions,
     forms: &[Form],
+    check: Option<&CheckValue>,
 ) -> Result<Document, Error> {
     let mut parts = vec![];
     for form in forms {
@@ -38,7 +40,10 @@ pub fn document(
         blocks.extend(equation_blocks(*form, part));
     }
     blocks.extend(symbols::blocks(robot, &parts)?);
-    blocks.extend(check_value::blocks(robot, options, &first.notation)?);
+    if let Some(check) = check {
+        let has_tip = robot.tips().next().is_some();
+        blocks.extend(check_value::blocks(check, has_tip, &first.notation)?);
+    }
     Ok(Document { title: format!("Equations of motion of {}", robot.name), blocks })
 }
 

@@ -1,9 +1,8 @@
 //! Where the joints of the scheme are drawn: the offsets of the robot file at rest, in the base
 //! frame, with those too short to be seen drawn longer and joints at one point drawn apart.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use robot_model::robot::{Axis, Move, Placement, Robot};
-use robot_numeric::{Pose, direction};
 use robot_symbolic::Formula;
 
 use super::view::View;
@@ -62,7 +61,7 @@ pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
     let mut layout = Layout { links: vec![], frames: vec![] };
     for link in &robot.links {
         let axis = link.joint.axis.each_ref().map(|part| value(robot, part));
-        let axis = direction(axis.into());
+        let axis = direction(&axis.into());
         let place = layout.place(robot, view, scale, link.parent, &link.placement, axis);
         layout.links.push(place);
     }
@@ -201,14 +200,19 @@ impl Walk {
     }
 }
 
+/// The unit vector along a vector of any length.
+fn direction(axis: &Vector3<f64>) -> Vector3<f64> {
+    (axis / axis.amax()).normalize()
+}
+
 /// The rotation about a coordinate axis.
 fn turn(axis: Axis, angle: f64) -> Matrix3<f64> {
-    let rpy = match axis {
-        Axis::X => [angle, 0.0, 0.0],
-        Axis::Y => [0.0, angle, 0.0],
-        Axis::Z => [0.0, 0.0, angle],
+    let axis = match axis {
+        Axis::X => Vector3::x_axis(),
+        Axis::Y => Vector3::y_axis(),
+        Axis::Z => Vector3::z_axis(),
     };
-    Pose::from_xyz_rpy([0.0; 3], rpy).rotation
+    Rotation3::from_axis_angle(&axis, angle).into_inner()
 }
 
 /// How ill a layout is seen from its view: joints on top of each other or of links, and pieces seen

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use robot_build::{Options, Output, Ownership, Source, Writer};
 use robot_report::{Compiled, Input, Reloading, reloading};
 
+use crate::commands::report::judge;
 use crate::failure::Failure;
 
 /// A page that reloads itself, and the picture beside it that tells it when.
@@ -37,7 +38,7 @@ impl Page {
         let reason = "no compiler was started while the file was watched.".to_owned();
         let compiled = Compiled::Unread { reason };
         let Reloading { page, stamp, still } =
-            reloading(&Input { source, options, compiled: &compiled })?;
+            reloading(&Input { source, options, compiled: &compiled, judge })?;
         self.writer.write(&[marked(&self.path, &page), marked(&self.picture(), &stamp)])?;
         self.still = Some(still);
         Ok(())

@@ -1,0 +1,68 @@
+//! Programs against the numeric solver.
+
+use robot_build::Programs;
+use robot_codegen::Interpreter;
+use robot_numeric::random::Random;
+use robot_numeric::{Mechanism, NumericError};
+
+/// States at which the program is held against the numeric solver.
+const STATES: usize = 1000;
+/// Their seed.
+const SEED: u64 = 61;
+
+/// The states, in words.
+#[must_use]
+pub fn states() -> String {
+    format!(
+        "{STATES} random states (seed {SEED}; angles in ±π, distances in ±0.5 m, velocities in ±2, \
+         accelerations in ±5), nominal parameters"
+    )
+}
+
+/// The largest difference of each function in a component, as a share of the largest component of the result.
+///
+/// # Errors
+///
+/// Why the programs could not be held against the solver: parameters without values, a function that is missing.
+pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
+    let mechanism = Mechanism::nominal(&programs.robot).map_err(|error| error.to_string())?;
+    let interpreter = Interpreter::new(&programs.module, &[]).map_err(|error| error.to_string())?;
+    let call = |function: &str, inputs: &[(&str, &[f64])]| -> Result<Vec<f64>, String> {
+        let outputs = interpreter.call(function, inputs).map_err(|error| error.to_string())?;
+        Ok(outputs.into_iter().flat_map(|output| output.values).collect())
+    };
+    let mut random = Random::new(SEED);
+    let mut errors =
+        [("inverse_dynamics", 0.0f64), ("mass_matrix", 0.0), ("forward_dynamics", 0.0)];
+    for _ in 0..STATES {
+        let state = random.state(&mechanism);
+        let [q, qd, qdd, tau] = [&state.q, &state.qd, &state.qdd, &state.tau].map(Vec::as_slice);
+        let failed = |error: NumericError| error.to_string();
+        let torques = mechanism.inverse_dynamics(q, qd, qdd).map_err(failed)?;
+        let masses = mechanism.mass_matrix(q).map_err(failed)?;
+        let rates = mechanism.forward_dynamics(q, qd, tau, &[]).map_err(failed)?;
+        let found = [
+            (call("inverse_dynamics", &[("q", q), ("qd", qd), ("qdd", qdd)])?, torques.as_slice()),
+            // Symmetric, so that its columns are its rows.
+            (call("mass_matrix", &[("q", q)])?, masses.as_slice()),
+            (call("forward_dynamics", &[("q", q), ("qd", qd), ("tau", tau)])?, rates.as_slice()),
+        ];
+        for ((_, error), (values, expected)) in errors.iter_mut().zip(&found) {
+            *error = error.max(difference(values, expected));
+        }
+    }
+    Ok(errors.to_vec())
+}
+
+/// The largest difference as a share of the largest expected value.
+fn difference(values: &[f64], expected: &[f64]) -> f64 {
+    let size = expected.iter().fold(0.0f64, |size, value| size.max(value.abs()));
+    let pairs = values.iter().zip(expected);
+    let largest = pairs.map(|(value, expected)| (value - expected).abs());
+    let largest =
+        largest.fold(0.0, |largest, one| if one.is_nan() { f64::NAN } else { one.max(largest) });
+    if values.len() != expected.len() || largest.is_nan() {
+        return f64::INFINITY;
+    }
+    if size > 0.0 { largest / size } else { largest }
+}

@@ -1,0 +1,33 @@
+//! A state with its joint torques, for whoever copies the equations.
+
+use robot_document::robot::CheckValue;
+use robot_model::robot::Robot;
+use robot_numeric::{Loads, Mechanism, Wrench};
+
+/// Positions, velocities and accelerations of the check state, taken in turn.
+const STATE: [[&str; 7]; 3] = [
+    ["0.3", "-0.5", "0.7", "0.4", "-0.6", "0.2", "0.9"],
+    ["0.8", "0.5", "-0.4", "1.1", "0.6", "-0.9", "0.7"],
+    ["-0.2", "1.3", "0.6", "-0.7", "0.9", "1.2", "-0.5"],
+];
+/// The wrench of each tip, N and N m.
+const WRENCH: [&str; 6] = ["3", "-2", "5", "0.4", "0.7", "-0.3"];
+
+/// The joint torques at a state, by the numeric solver, which shares nothing with the equations, with or without
+/// friction. `None` where parameters have no values.
+#[must_use]
+pub fn check_value(robot: &Robot, friction: bool) -> Option<CheckValue> {
+    let count = robot.degrees_of_freedom();
+    let number = |text: &&str| text.parse::<f64>().unwrap_or_default();
+    let [positions, velocities, accelerations] =
+        STATE.map(|row| row.into_iter().cycle().take(count).collect::<Vec<&str>>());
+    let numbers = |texts: &[&str]| texts.iter().map(number).collect::<Vec<f64>>();
+    let [fx, fy, fz, mx, my, mz] = WRENCH.each_ref().map(number);
+    let wrench = Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() };
+    let loads = Loads { wrenches: robot.tips().map(|_| wrench.clone()).collect(), friction };
+    let mechanism = Mechanism::nominal(robot).ok()?;
+    let (q, qd, qdd) = (numbers(&positions), numbers(&velocities), numbers(&accelerations));
+    let forces = mechanism.inverse_dynamics_with(&q, &qd, &qdd, &loads).ok()?;
+    let forces = forces.iter().copied().collect();
+    Some(CheckValue { positions, velocities, accelerations, wrench: WRENCH, forces })
+}
