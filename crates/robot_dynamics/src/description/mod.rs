@@ -59,6 +59,7 @@ use std::path::Path;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, code};
 use crate::model::{Parameter, Robot};
 use draft::Draft;
+pub(crate) use reader::is_finite;
 use reader::{Named, Reader};
 use wanted::Wanted;
 
