@@ -23,7 +23,7 @@ pub(crate) enum Failure {
     Shown,
     /// As the failure, with the code 2: a comparison keeps 1 for what differs.
     Refused(Box<Failure>),
-    /// A stream.
+    /// Standard output, which cannot be written.
     Stream(io::Error),
 }
 
@@ -88,7 +88,9 @@ impl Failure {
             }
             // Whoever reads the output has seen enough.
             Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
-            Failure::Stream(error) => (vec![format!("error: {error}")], 1),
+            Failure::Stream(error) => {
+                (vec![format!("error: cannot write the results: {error}")], 2)
+            }
         };
         for message in messages {
             // Nobody is listening where this fails.
