@@ -78,7 +78,10 @@ impl Failure {
     /// Shows what is wrong; gives the exit code.
     pub(crate) fn report(&self, terminal: &mut Terminal<'_>) -> u8 {
         let (messages, code) = match self {
-            Failure::Robot(errors) => (robot_messages(errors, terminal.colours), 1),
+            Failure::Robot(errors) => {
+                let code = if errors.as_slice().iter().all(is_of_options) { 2 } else { 1 };
+                (robot_messages(errors, terminal.colours), code)
+            }
             Failure::Input(messages) => (shown(messages), 1),
             Failure::Usage(messages) => (shown(messages), 2),
             Failure::Shown => (vec![], 1),
@@ -98,6 +101,19 @@ impl Failure {
         }
         code
     }
+}
+
+/// Whether the command line is what is wrong: the same in a file would have a place.
+fn is_of_options(error: &Error) -> bool {
+    matches!(
+        error,
+        Error::Batch { .. }
+            | Error::Bundle { .. }
+            | Error::FunctionName(_)
+            | Error::NoFunctions
+            | Error::ParallelWithoutBatch
+            | Error::Snap(_)
+    )
 }
 
 fn robot_messages(errors: &Errors, colours: bool) -> Vec<String> {
