@@ -61,7 +61,12 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     for _ in 0..POSTURES {
         let here = mechanism.undetermined(&random.state(&mechanism).q).unwrap_or_default();
         let known = found.take().unwrap_or_else(|| here.clone());
-        found = Some(known.into_iter().filter(|index| here.contains(index)).collect());
+        let both: Vec<usize> = known.into_iter().filter(|index| here.contains(index)).collect();
+        // Regular in one posture is enough, and builds ask.
+        if both.is_empty() {
+            return both;
+        }
+        found = Some(both);
     }
     found.unwrap_or_default()
 }
