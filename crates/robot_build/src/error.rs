@@ -7,6 +7,8 @@ use robot_model::diagnostic::{Diagnostics, quote};
 use robot_model::functions::WrongName;
 use robot_model::snap::InvalidSnap;
 
+use crate::paths::shown;
+
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -87,7 +89,7 @@ pub enum Error {
         limit: usize,
     },
     /// A file that cannot be read or written.
-    #[error("cannot {action} {}: {reason}", path.display())]
+    #[error("cannot {action} {}: {reason}", shown(path))]
     File {
         /// What was tried.
         action: &'static str,
@@ -99,7 +101,8 @@ pub enum Error {
     /// An output that is an input.
     #[error(
         "{} is not written: it is the input {}, which an output never replaces; choose another name",
-        path.display(), input.display()
+        shown(path),
+        shown(input)
     )]
     IsInput {
         /// The output.
@@ -108,7 +111,7 @@ pub enum Error {
         input: PathBuf,
     },
     /// An output in whose place is a file that this program did not write.
-    #[error("{} is not replaced: it {reason}; {remedy}", path.display())]
+    #[error("{} is not replaced: it {reason}; {remedy}", shown(path))]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -121,7 +124,8 @@ pub enum Error {
     #[error(
         "{} lies outside of the package {}; a build reads what belongs to the package: move the file \
          there, or allow it with `allow_outside(true)`",
-        path.display(), package.display()
+        shown(path),
+        shown(package)
     )]
     Outside {
         /// The file, symbolic links followed.
@@ -138,7 +142,10 @@ pub enum Error {
         remedy: &'static str,
     },
     /// A pinned plan that is stale or no plan.
-    #[error("{}: {reason}; run `robot-symbolic search {robot}` again, or remove the file", path.display())]
+    #[error(
+        "{}: {reason}; run `robot-symbolic search {robot}` again, or remove the file",
+        shown(path)
+    )]
     Pin {
         /// The file of the pin.
         path: PathBuf,
@@ -177,7 +184,7 @@ pub enum Error {
 }
 
 /// The names of joints.
-fn quoted(names: &[String]) -> String {
+pub(crate) fn quoted(names: &[String]) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 

@@ -51,7 +51,7 @@ pub use error::{Error, Errors};
 pub use files::{File, MARKER, Output, Ownership, Staleness, Writer, staleness};
 pub use generate::{Generated, generate};
 pub use options::{DEFAULT_BATCH, DEFAULT_FUNCTIONS, Options, functions_named, kinds_named};
-pub use paths::RobotFile;
+pub use paths::{RobotFile, shown};
 pub use pin::{pin_path, pin_text, robot_inputs};
 pub use pivots::{Pivot, Pivots};
 pub use problems::Problem;
@@ -59,9 +59,10 @@ pub use programs::{Programs, planned, programs, programs_of, read, read_with};
 pub use robot_codegen::Trigonometry;
 pub use robot_codegen::backend::rust::{Scalar, identifier};
 pub use robot_dynamics::economical::Plan;
-pub use robot_model::diagnostic::Source;
+pub use robot_model::diagnostic::{Source, visible};
 pub use robot_model::functions::{
     self, ALL_FUNCTIONS, Bundle, FrameRef, FunctionKind, Functions, WrongName,
 };
 pub use robot_model::robot::{BaseFrames, Robot};
+pub use singular::{Unsolvable, unsolvable};
 pub use snapping::{Snapping, snapping};

@@ -11,6 +11,7 @@ use robot_model::robot::{BaseFrames, Robot};
 use robot_model::snap;
 
 use crate::error::{Error, Errors};
+use crate::singular::unsolvable;
 
 /// The functions that are generated where none are chosen, as far as the robot has them.
 pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
@@ -129,7 +130,12 @@ impl Options {
         let functions = match &self.functions {
             Functions::Usual if !self.bundles.is_empty() => vec![],
             Functions::Usual => DEFAULT_FUNCTIONS.into_iter().filter(has).collect(),
-            Functions::All => FunctionKind::of(robot),
+            Functions::All => {
+                let mut all = FunctionKind::of(robot);
+                let lacking = unsolvable(robot, self).map_or(vec![], |lacking| lacking.functions);
+                all.retain(|kind| !lacking.contains(kind));
+                all
+            }
             Functions::Chosen(chosen) => once(chosen, robot),
         };
         let of_bundle = |bundle: &Bundle| {

@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use robot_model::description::{self, MAX_BYTES};
-use robot_model::diagnostic::{Source, quote};
+use robot_model::diagnostic::{Source, visible};
 
 use crate::error::{Error, Errors};
 
@@ -56,7 +56,7 @@ impl RobotFile {
         if name.chars().any(char::is_control) {
             // Cargo reads a build script's output line by line.
             let reason = "its path has control characters; rename it";
-            return Err(Errors::from(cannot_read(Path::new(&quote(&name)), reason)));
+            return Err(Errors::from(cannot_read(given, reason)));
         }
         let mut bytes = vec![];
         let file = std::fs::File::open(&path).map_err(failed)?;
@@ -81,11 +81,17 @@ pub(crate) fn robot_files(package: &Path, folder: &Path) -> Result<Vec<PathBuf>,
     Ok(files)
 }
 
+/// A path as messages show it: see [`visible`].
+#[must_use]
+pub fn shown(path: &Path) -> String {
+    visible(&path.to_string_lossy())
+}
+
 fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {
     path.canonicalize().map_err(|error| {
         let reason = match error.kind() {
             std::io::ErrorKind::NotFound => {
-                format!("there is no such file (looked for {})", path.display())
+                format!("there is no such file (looked for {})", shown(path))
             }
             _ => error.to_string(),
         };

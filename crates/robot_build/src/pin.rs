@@ -37,12 +37,14 @@ pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
 /// The text of a pin of what a search found for a robot.
 #[must_use]
 pub fn pin_text(robot: &Robot, found: &Found) -> String {
-    let pin = Pin {
+    let mut pin = Pin {
         fingerprint: fingerprint(robot),
+        digest: String::new(),
         measure: found.measure,
         operations: found.operations,
         plan: found.plan.clone(),
     };
+    pin.digest = digest(&pin.content());
     format!("# {MARKER}\n{}", pin.to_text())
 }
 
@@ -53,7 +55,7 @@ impl RobotFile {
     /// # Errors
     ///
     /// [`Error::Pin`]: a pin that is stale, made for other [mechanics](mechanics()) than the file's; one that
-    /// cannot be read. Where there is a pin, also everything that is wrong with the robot file.
+    /// was edited; one that cannot be read. Where there is a pin, also everything that is wrong with the robot file.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
         // A link that leads nowhere is there.
@@ -65,6 +67,11 @@ impl RobotFile {
             Errors::from(Error::Pin { path: pin_path(Path::new(&robot)), robot, reason })
         };
         let pin = read_pin(&path).map_err(failed)?;
+        if pin.digest != digest(&pin.content()) {
+            return Err(failed(
+                "the pinned plan was edited: it is not what a search wrote".to_owned(),
+            ));
+        }
         let robot = crate::read_with(&self.source, options)?.robot;
         if pin.fingerprint != fingerprint(&robot) {
             return Err(failed(format!(
@@ -95,7 +102,11 @@ fn read_pin(path: &Path) -> Result<Pin, String> {
 }
 
 fn fingerprint(robot: &Robot) -> String {
-    Sha256::digest(mechanics(robot).as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+    digest(&mechanics(robot))
+}
+
+fn digest(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]
@@ -170,11 +181,17 @@ mod tests {
         for part in ["stale", "took 7 operations", &remedy] {
             assert!(error.contains(part), "{part} is not in {error}");
         }
-        let earlier = pin_text(&robot, &found).replace("format = 2", "format = 1");
-        std::fs::write(pin_path(&path), earlier).unwrap();
-        let error = changed.with_pin(&options).unwrap_err().to_string();
-        assert!(error.contains("format 1") && error.contains(&remedy), "{error}");
-        std::fs::write(pin_path(&path), "format = 3").unwrap();
+        for format in [1, 2] {
+            let earlier =
+                pin_text(&robot, &found).replace("format = 3", &format!("format = {format}"));
+            std::fs::write(pin_path(&path), earlier).unwrap();
+            let error = changed.with_pin(&options).unwrap_err().to_string();
+            assert!(
+                error.contains(&format!("format {format}")) && error.contains(&remedy),
+                "{error}"
+            );
+        }
+        std::fs::write(pin_path(&path), "format = 4").unwrap();
         assert!(changed.with_pin(&options).is_err());
         std::fs::remove_dir_all(&folder).unwrap();
     }

@@ -110,7 +110,8 @@ pub(crate) fn programs_under(
         return Err(Errors::from(Error::Plan { name: name.to_owned() }));
     }
     let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
-    let specification = specification::module(&derivation, &functions, &bundles);
+    let more = specification::not_generated(&robot, options, &functions, &bundles);
+    let specification = specification::module(&derivation, &functions, &bundles, &more);
     if graph.is_full() {
         return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit }));
     }

@@ -1,11 +1,59 @@
-//! What is said where code cannot be made as the mass matrix is singular in every posture.
+//! Robots whose mass matrix is singular in every posture: what they lack, and what is said of it.
+
+use std::fmt;
 
 use robot_codegen::Error as CodeError;
 use robot_dynamics::functions::undetermined;
-use robot_model::functions::{Bundle, FunctionKind};
+use robot_model::functions::{Bundle, FunctionKind, Functions};
 use robot_model::robot::Robot;
 
-use crate::error::{Error, Errors};
+use crate::error::{Error, Errors, quoted};
+use crate::options::Options;
+use crate::programs::programs_of;
+
+/// The functions that a robot lacks as its mass matrix is singular in every posture, whatever the values of
+/// its parameters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unsolvable {
+    /// The functions: those that solve with the mass matrix.
+    pub functions: Vec<FunctionKind>,
+    /// The joints whose accelerations no driving forces determine.
+    pub joints: Vec<String>,
+}
+
+/// What the robot lacks, and why, on one line.
+impl fmt::Display for Unsolvable {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = self.functions.iter().map(|kind| kind.name()).collect();
+        write!(
+            formatter,
+            "the robot has no {}: the mass matrix is singular in every posture, and no driving forces \
+             determine the accelerations of {}",
+            names.join(", "),
+            quoted(&self.joints)
+        )
+    }
+}
+
+/// The functions that a robot lacks as its mass matrix is singular in every posture; `None` where it is not.
+#[must_use]
+pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
+    // At the nominal values alone it may be singular by chance: the derivation decides.
+    if undetermined(robot).is_empty() {
+        return None;
+    }
+    let functions = Functions::Chosen(vec![FunctionKind::ForwardDynamics]);
+    let (bundles, search) = (vec![], false);
+    let options = Options { functions, bundles, search, ..options.clone() };
+    let errors = programs_of(robot.clone(), &robot.name, &options).err()?;
+    let joints = errors.as_slice().iter().find_map(|error| match error {
+        Error::Singular { joints, .. } => Some(joints.clone()),
+        _ => None,
+    })?;
+    let mut functions = FunctionKind::of(robot);
+    functions.retain(|kind| kind.divides_by_mass_matrix());
+    Some(Unsolvable { functions, joints })
+}
 
 /// The errors of the code generator, with a division by zero told by its cause.
 pub(crate) fn told(

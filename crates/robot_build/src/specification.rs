@@ -7,19 +7,22 @@ use robot_model::functions::{Bundle, FunctionKind};
 use robot_model::robot::{Parameter, Robot};
 
 use crate::conventions::CONVENTIONS;
+use crate::options::Options;
+use crate::singular::unsolvable;
 
-/// The module of a robot.
+/// The module of a robot; `more` are the functions that it could have besides.
 pub(crate) fn module<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[FunctionKind],
     bundles: &[Bundle],
+    more: &[FunctionKind],
 ) -> ModuleSpec<'g> {
     let robot = derivation.robot;
     // A graph that is full holds nothing of use: the caller says so.
     let is_full = || derivation.mechanism.graph.is_full();
     ModuleSpec {
         name: robot.name.to_lowercase(),
-        doc: module_doc(robot, &not_generated(robot, functions, bundles)),
+        doc: module_doc(robot, more),
         parameters: robot.parameters.iter().map(parameter).collect(),
         functions: functions
             .iter()
@@ -34,7 +37,7 @@ pub(crate) fn module<'g>(
 /// The module of the pivots of the mass matrix alone.
 pub(crate) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
     let functions = vec![function(derivation.pivots())];
-    ModuleSpec { functions, ..module(derivation, &[], &[]) }
+    ModuleSpec { functions, ..module(derivation, &[], &[], &[]) }
 }
 
 /// The robot, what the file says about it, the conventions, and what else there is.
@@ -61,15 +64,22 @@ fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
 }
 
 /// The functions that the robot has and the module does not, in a bundle either.
-fn not_generated(
+pub(crate) fn not_generated(
     robot: &Robot,
+    options: &Options,
     functions: &[FunctionKind],
     bundles: &[Bundle],
 ) -> Vec<FunctionKind> {
     let bundled =
         |kind: &FunctionKind| bundles.iter().any(|bundle| bundle.functions.contains(kind));
     let mut more = FunctionKind::of(robot);
-    more.retain(|kind| !functions.contains(kind) && !bundled(kind));
+    let chosen = |kind: &FunctionKind| functions.contains(kind) || bundled(kind);
+    more.retain(|kind| !chosen(kind));
+    // Whoever chose one that solves with the mass matrix is told elsewhere that it is singular.
+    let mut solving = FunctionKind::ALL.iter().filter(|kind| kind.divides_by_mass_matrix());
+    if !solving.any(chosen) && unsolvable(robot, options).is_some() {
+        more.retain(|kind| !kind.divides_by_mass_matrix());
+    }
     more
 }
 

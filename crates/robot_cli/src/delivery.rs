@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{File, Output, Ownership, Staleness, Writer, staleness};
+use robot_build::{File, Output, Ownership, Staleness, Writer, shown, staleness};
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -31,7 +31,7 @@ impl ForceArgument {
 /// Where a command that makes one text puts it.
 #[derive(Args)]
 pub(crate) struct OutputArguments {
-    /// The file to write; standard output without this
+    /// The file to write; standard output without this, or where it is `-`
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
     /// Compare the file with what would be written, and write nothing
@@ -39,6 +39,11 @@ pub(crate) struct OutputArguments {
     check: bool,
     #[command(flatten)]
     force: ForceArgument,
+}
+
+/// The file of an output; none where standard output is asked for by `-`.
+pub(crate) fn file_of(path: Option<&Path>) -> Option<&Path> {
+    path.filter(|path| path.as_os_str() != "-")
 }
 
 /// Where one text goes, which has been found to be free for it.
@@ -65,7 +70,11 @@ impl OutputArguments {
         ownership: Ownership,
         inputs: impl IntoIterator<Item = PathBuf>,
     ) -> Result<Delivery<'_>, Failure> {
-        let path = self.output.as_deref();
+        let path = file_of(self.output.as_deref());
+        if self.check && path.is_none() {
+            let message = "--check compares a file, and `-` is standard output; name a file";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let delivery =
             Delivery { path, check: self.check, writer: self.force.writer(inputs), ownership };
         delivery.opened()
@@ -75,7 +84,8 @@ impl OutputArguments {
 impl<'a> Delivery<'a> {
     /// The place of a text with the mark of this program, which is never compared.
     pub(crate) fn open(path: Option<&'a Path>, writer: Writer) -> Result<Delivery<'a>, Failure> {
-        Delivery { path, check: false, writer, ownership: Ownership::Marked }.opened()
+        Delivery { path: file_of(path), check: false, writer, ownership: Ownership::Marked }
+            .opened()
     }
 
     fn opened(self) -> Result<Delivery<'a>, Failure> {
@@ -96,9 +106,18 @@ impl<'a> Delivery<'a> {
         let ownership = self.ownership;
         let output = Output { path: path.to_owned(), bytes: text.as_bytes(), ownership };
         if self.writer.write(&[output])? > 0 {
-            writeln!(terminal.errors, "wrote {}", path.display())?;
+            writeln!(terminal.errors, "wrote {}", shown(path))?;
         }
         Ok(())
+    }
+}
+
+/// Prints what an exit code sums up, which stands where whoever reads the print has seen enough.
+pub(crate) fn answered(text: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    let output = &mut terminal.output;
+    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
     }
 }
 
@@ -110,13 +129,18 @@ pub(crate) fn deliver_folder(
     writer: &Writer,
     terminal: &mut Terminal<'_>,
 ) -> Result<(), Failure> {
+    if file_of(Some(folder)).is_none() {
+        let message = "these are several files, which standard output does not take; name a folder \
+                       (`./-` for one of the name `-`)";
+        return Err(Failure::Usage(vec![message.to_owned()]));
+    }
     if check {
         return up_to_date(files.iter().map(|file| (file.path_in(folder), file.text.as_str())));
     }
     let (changed, all) = (writer.write_folder(folder, files)?, files.len());
     let count = if changed == all { String::new() } else { format!("{changed} of ") };
     if changed > 0 {
-        writeln!(terminal.errors, "wrote {}: {count}{all} files", folder.display())?;
+        writeln!(terminal.errors, "wrote {}: {count}{all} files", shown(folder))?;
     }
     Ok(())
 }
@@ -127,9 +151,9 @@ fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a str)>) -> Result
     for (path, text) in files {
         match staleness(&path, text)? {
             None => {}
-            Some(Staleness::Missing) => stale.push(format!("{} is missing", path.display())),
+            Some(Staleness::Missing) => stale.push(format!("{} is missing", shown(&path))),
             Some(Staleness::Differs { line }) => {
-                stale.push(format!("{}:{line} is out of date", path.display()));
+                stale.push(format!("{}:{line} is out of date", shown(&path)));
             }
         }
     }

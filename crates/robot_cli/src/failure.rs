@@ -23,7 +23,7 @@ pub(crate) enum Failure {
     Shown,
     /// As the failure, with the code 2: a comparison keeps 1 for what differs.
     Refused(Box<Failure>),
-    /// A stream.
+    /// Standard output, which cannot be written.
     Stream(io::Error),
 }
 
@@ -78,7 +78,10 @@ impl Failure {
     /// Shows what is wrong; gives the exit code.
     pub(crate) fn report(&self, terminal: &mut Terminal<'_>) -> u8 {
         let (messages, code) = match self {
-            Failure::Robot(errors) => (robot_messages(errors, terminal.colours), 1),
+            Failure::Robot(errors) => {
+                let code = if errors.as_slice().iter().all(is_of_options) { 2 } else { 1 };
+                (robot_messages(errors, terminal.colours), code)
+            }
             Failure::Input(messages) => (shown(messages), 1),
             Failure::Usage(messages) => (shown(messages), 2),
             Failure::Shown => (vec![], 1),
@@ -88,7 +91,9 @@ impl Failure {
             }
             // Whoever reads the output has seen enough.
             Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
-            Failure::Stream(error) => (vec![format!("error: {error}")], 1),
+            Failure::Stream(error) => {
+                (vec![format!("error: cannot write the results: {error}")], 2)
+            }
         };
         for message in messages {
             // Nobody is listening where this fails.
@@ -96,6 +101,19 @@ impl Failure {
         }
         code
     }
+}
+
+/// Whether the command line is what is wrong: the same in a file would have a place.
+fn is_of_options(error: &Error) -> bool {
+    matches!(
+        error,
+        Error::Batch { .. }
+            | Error::Bundle { .. }
+            | Error::FunctionName(_)
+            | Error::NoFunctions
+            | Error::ParallelWithoutBatch
+            | Error::Snap(_)
+    )
 }
 
 fn robot_messages(errors: &Errors, colours: bool) -> Vec<String> {

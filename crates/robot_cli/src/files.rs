@@ -3,6 +3,8 @@
 use std::io::Read;
 use std::path::Path;
 
+use robot_build::shown;
+
 use crate::Terminal;
 use crate::failure::Failure;
 
@@ -11,10 +13,11 @@ const MAX_BYTES: u64 = 1 << 28;
 
 /// The name of a file as messages show it, and its text; `-` is standard input.
 pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, String), Failure> {
-    let (mut name, mut bytes) = (path.display().to_string(), vec![]);
+    let (mut name, mut bytes) = (shown(path), vec![]);
     if name == "-" {
         name = "standard input".to_owned();
-        (&mut *terminal.input).take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+        let read = (&mut *terminal.input).take(MAX_BYTES + 1).read_to_end(&mut bytes);
+        read.map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
     } else {
         let read = std::fs::File::open(path)
             .and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));

@@ -1,6 +1,7 @@
 //! Which equations a command prints, and in which form.
 
 use clap::{Args, ValueEnum};
+use robot_build::shown;
 use robot_document::{Error, Form};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
@@ -143,7 +144,7 @@ pub(crate) fn no_effect(option: &str) -> String {
 
 /// What is wrong with the equations of a robot file.
 pub(crate) fn failed(robot: &RobotArgument, error: &Error) -> Failure {
-    Failure::input(format!("{}: {error}", robot.path().display()))
+    Failure::input(format!("{}: {error}", shown(robot.path())))
 }
 
 /// The quantities of those names, each once.

@@ -1,7 +1,7 @@
 //! Whether and how a command takes friction into account.
 
 use clap::Args;
-use robot_build::FunctionKind;
+use robot_build::{FunctionKind, shown};
 use robot_model::robot::{Friction, Robot};
 use robot_symbolic::Formula;
 
@@ -12,7 +12,7 @@ use crate::robot::RobotArgument;
 pub(crate) fn has_friction(file: &RobotArgument, robot: &Robot) -> Result<(), Failure> {
     match FunctionKind::InverseDynamicsFriction.missing_in(robot) {
         None => Ok(()),
-        Some(why) => Err(Failure::input(format!("{}: --friction: {why}", file.path().display()))),
+        Some(why) => Err(Failure::input(format!("{}: --friction: {why}", shown(file.path())))),
     }
 }
 

@@ -13,6 +13,7 @@ mod format;
 mod forms;
 mod friction;
 mod function;
+mod messages;
 mod motion;
 mod plan;
 mod progress;
@@ -31,6 +32,7 @@ use clap::error::ErrorKind;
 
 use commands::Command;
 use failure::Failure;
+use messages::Messages;
 
 /// The name of the command.
 const NAME: &str = "robot-symbolic";
@@ -51,7 +53,7 @@ Exit codes, of every command:
   0  done
   1  the robot file or another input is wrong, or the answer is no: a checked file is out of date, a
      claim does not hold, two things differ
-  2  the command line is wrong; of `compare` and `diff` any input
+  2  the command line is wrong, or standard output cannot be written; of `compare` and `diff` any input
 
 Results go to standard output, messages to standard error. Colours appear on a terminal only, and not where
 the variable NO_COLOR is set."
@@ -83,22 +85,22 @@ pub fn colours(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
 }
 
 /// Runs the command; the first argument is its own name. Gives the exit code: 0 done, 1 an input is
-/// wrong or the answer is no, 2 the command line is wrong.
+/// wrong or the answer is no, 2 the command line is wrong or the output cannot be written.
 pub fn run(
     arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     terminal: &mut Terminal<'_>,
 ) -> u8 {
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
-        Err(error) => return usage(&error, terminal),
-    };
-    // Messages that nobody hears are no reason to leave the work undone.
-    let mut errors = Messages(&mut *terminal.errors);
+    let mut errors =
+        Messages { stream: &mut *terminal.errors, commands: terminal.colours || terminal.progress };
     let terminal = &mut Terminal {
         input: &mut *terminal.input,
         output: &mut *terminal.output,
         errors: &mut errors,
         ..*terminal
+    };
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error, terminal),
     };
     let command = cli.command.unwrap_or_default();
     let result = command.run(terminal).and_then(|()| Ok(terminal.output.flush()?));
@@ -118,19 +120,4 @@ fn usage(error: &clap::Error, terminal: &mut Terminal<'_>) -> u8 {
     // Nobody is listening where this fails.
     let _ = write!(terminal.errors, "{error}");
     2
-}
-
-/// Standard error: what cannot be written there is dropped.
-struct Messages<'a>(&'a mut dyn Write);
-
-impl Write for Messages<'_> {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        let _ = self.0.write_all(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        let _ = self.0.flush();
-        Ok(())
-    }
 }

@@ -1,6 +1,6 @@
 //! What commands about motions make of a robot file.
 
-use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
+use robot_build::{FunctionKind, Functions, Options, Programs, programs_of, shown};
 use robot_model::robot::Robot;
 
 use crate::Terminal;
@@ -38,5 +38,5 @@ pub(crate) fn programs(
     options: Options,
 ) -> Result<Programs, Failure> {
     let options = Options { functions: Functions::Chosen(functions), ..options };
-    Ok(programs_of(robot, &file.path().display().to_string(), &options)?)
+    Ok(programs_of(robot, &shown(file.path()), &options)?)
 }

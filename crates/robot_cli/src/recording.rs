@@ -6,6 +6,7 @@ use robot_build::{Output, Ownership, Writer};
 use robot_simulation::plot::Figure;
 
 use crate::Terminal;
+use crate::delivery::file_of;
 use crate::failure::Failure;
 
 /// A path that says what picture to write.
@@ -39,6 +40,7 @@ impl<'a> Recording<'a> {
         plot: Option<&'a Path>,
         writer: Writer,
     ) -> Result<Recording<'a>, Failure> {
+        let table = file_of(table);
         let outputs: Vec<(&Path, Ownership)> = table
             .map(|path| (path, TABLE))
             .into_iter()

@@ -17,6 +17,7 @@ use crate::failure::Failure;
 use crate::function::{FunctionName, bundles, functions};
 use crate::plan::pinned_or_searched;
 use crate::reading::ReadingArguments;
+use crate::text;
 
 /// The robot file.
 #[derive(Args)]
@@ -177,13 +178,15 @@ impl From<TrigonometryName> for Trigonometry {
 }
 
 impl CodeArguments {
-    /// The options for code.
+    /// The options for code; tells of functions that the robot lacks where all are wanted.
     pub(crate) fn options(
         &self,
         file: &RobotArgument,
-        robot: &Robot,
+        described: &Described,
         trigonometry: TrigonometryName,
+        terminal: &mut Terminal<'_>,
     ) -> Result<Options, Failure> {
+        let robot = &described.robot;
         let scalar = match self.scalar {
             ScalarName::F64 => Scalar::F64,
             ScalarName::F32 => Scalar::F32,
@@ -195,7 +198,7 @@ impl CodeArguments {
         let &CodeArguments { generic, batch, parallel, fused, .. } = self;
         let batch = batch.map(|states| states.unwrap_or(DEFAULT_BATCH));
         let trigonometry = trigonometry.into();
-        Ok(Options {
+        let options = Options {
             functions,
             bundles: self.bundles.bundles(robot)?,
             scalar,
@@ -205,6 +208,12 @@ impl CodeArguments {
             fused,
             trigonometry,
             ..file.code_options()?
-        })
+        };
+        let of_file = options.functions == Functions::Usual && options.bundles.is_empty();
+        let wanted = if of_file { &described.code.functions } else { &options.functions };
+        if *wanted == Functions::All {
+            text::lacking(robot, &options, terminal)?;
+        }
+        Ok(options)
     }
 }

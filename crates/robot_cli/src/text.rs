@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use robot_build::Snapping;
+use robot_build::{Options, Robot, Snapping, unsolvable};
 use robot_dynamics::mechanism::Snap;
 use robot_model::diagnostic::{Diagnostics, Style, quote};
 use robot_symbolic::nearest_word;
@@ -27,6 +27,18 @@ pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> R
     if !warnings.is_empty() {
         let style = if terminal.colours { Style::Terminal } else { Style::Plain };
         writeln!(terminal.errors, "{}", warnings.render(style).trim_end())?;
+    }
+    Ok(())
+}
+
+/// Shows which functions the robot lacks as no driving forces determine all of its accelerations.
+pub(crate) fn lacking(
+    robot: &Robot,
+    options: &Options,
+    terminal: &mut Terminal<'_>,
+) -> Result<(), Failure> {
+    if let Some(lacking) = unsolvable(robot, options) {
+        writeln!(terminal.errors, "note: {}: {lacking}", robot.name)?;
     }
     Ok(())
 }

@@ -3,11 +3,16 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use robot_build::visible;
+
 use crate::error::Error;
 use crate::probe::{CRATE, Probe, ROOT_FILE};
 
 /// Lines of the compiler's messages that are shown.
 const SHOWN_LINES: usize = 12;
+
+/// What the compiler says of a processor that it does not know.
+const UNKNOWN_CPU: &str = "is not a recognized processor";
 
 /// How the code is compiled: as Cargo does by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +63,15 @@ impl Compiler {
     pub fn description(&self) -> Result<String, Error> {
         let output = self.run(Command::new(self.path()).arg("-vV"))?;
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        if !output.status.success() || !text.lines().any(|line| line.starts_with("host: ")) {
+            let said = String::from_utf8_lossy(&output.stderr);
+            let line =
+                said.lines().chain(text.lines()).map(str::trim).find(|line| !line.is_empty());
+            let line =
+                line.map(|line| format!(" and says `{}`", visible(line))).unwrap_or_default();
+            let answer = format!("ends with {}{line}", output.status);
+            return Err(Error::OtherProgram { path: self.path(), answer });
+        }
         let version = text.lines().next().unwrap_or_default();
         let host = text.lines().find_map(|line| line.strip_prefix("host: ")).unwrap_or_default();
         let target = self.target.as_deref().unwrap_or(host);
@@ -95,7 +109,9 @@ impl Compiler {
         }
         command.args(["--emit=obj", "--out-dir"]).arg(folder.path());
         let output = self.run(command.arg(folder.path().join(ROOT_FILE)))?;
-        if !output.status.success() {
+        // A processor that it does not know it may ignore.
+        let is_ignored = String::from_utf8_lossy(&output.stderr).contains(UNKNOWN_CPU);
+        if !output.status.success() || is_ignored {
             return Err(self.refused(&output, folder.path()));
         }
         Ok(std::fs::read(folder.path().join(CRATE).with_extension("o"))?)
@@ -116,12 +132,46 @@ impl Compiler {
     fn refused(&self, output: &Output, folder: &Path) -> Error {
         let messages =
             String::from_utf8_lossy(&output.stderr).replace(&*folder.to_string_lossy(), "");
-        let lines: Vec<&str> = messages.lines().take(SHOWN_LINES).collect();
+        let mut lines: Vec<&str> = messages.lines().collect();
+        lines.dedup();
+        let is_error = |line: &&&str| line.starts_with("error") || line.contains(UNKNOWN_CPU);
+        let first = lines.iter().find(is_error).or(lines.first()).copied().unwrap_or_default();
+        let first = if first.is_empty() { output.status.to_string() } else { first.to_owned() };
+        let advice = self.advice(&messages);
+        lines.truncate(SHOWN_LINES);
         Error::Compiler {
             path: self.path(),
             target: self.target.clone().unwrap_or_else(|| "this machine".to_owned()),
+            first,
+            advice,
             messages: lines.join("\n"),
         }
+    }
+
+    /// What to do about messages of a known cause.
+    fn advice(&self, messages: &str) -> Option<String> {
+        let target = self.target.as_deref();
+        if let Some(cpu) = self.cpu.as_deref().filter(|_| messages.contains(UNKNOWN_CPU)) {
+            let of = target.map(|target| format!(" --target {target}")).unwrap_or_default();
+            return Some(format!(
+                "--target-cpu {cpu} is not a processor of the target: `rustc --print target-cpus{of}` lists them"
+            ));
+        }
+        let target = target?;
+        if messages.contains("could not find specification for target") {
+            return Some(format!(
+                "--target {target} is not a target: `rustc --print target-list` lists them"
+            ));
+        }
+        if messages.contains("can't find crate for `core`") {
+            return Some(format!("install the target: `rustup target add {target}`"));
+        }
+        messages.contains("can't find crate for `std`").then(|| {
+            format!(
+                "{target} has no standard library, or it is not installed (`rustup target add {target}`): \
+                 `--trigonometry polynomial` needs none"
+            )
+        })
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use robot_build::shown;
+
 /// Why there is no evidence.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -13,7 +15,7 @@ pub enum Error {
     #[error(
         "cannot start the compiler {}: {reason}; prove compiles the generated code and needs `rustc`: \
          install Rust (https://rustup.rs), or name the compiler by --rustc or the variable RUSTC",
-        path.display()
+        shown(path)
     )]
     NoCompiler {
         /// What was started.
@@ -21,17 +23,32 @@ pub enum Error {
         /// What the system says.
         reason: String,
     },
-    /// A compiler that gives no object file.
+    /// A program that is not a Rust compiler.
     #[error(
-        "{} refuses the generated code for {target}; a target is installed by `rustup target add`, and \
-         one without a standard library needs the polynomials, `--trigonometry polynomial`:\n{messages}",
-        path.display()
+        "{} is not a Rust compiler: asked for its version it {answer}; name the compiler by --rustc or the \
+         variable RUSTC",
+        shown(path)
+    )]
+    OtherProgram {
+        /// What was started.
+        path: PathBuf,
+        /// What it did instead, and its first line.
+        answer: String,
+    },
+    /// A compiler that gives no object file, or not the one that was asked for.
+    #[error(
+        "{} does not compile the generated code for {target}: {first}{}\n{messages}",
+        shown(path), advice.as_ref().map(|advice| format!("; {advice}")).unwrap_or_default()
     )]
     Compiler {
         /// The compiler.
         path: PathBuf,
         /// The target.
         target: String,
+        /// The first line of what it says is wrong.
+        first: String,
+        /// What to do, where the cause is known.
+        advice: Option<String>,
         /// What it says.
         messages: String,
     },

@@ -66,4 +66,3 @@ pub use newton_euler::{LinkDynamics, Loads};
 pub use pose::Pose;
 pub use regressor::DRIVE_PARAMETERS;
 pub use scalar::Number;
-pub use singular::undetermined;

@@ -4,16 +4,11 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::error::NumericError;
 use super::mechanism::Mechanism;
-use super::random::Random;
-use robot_model::robot::Robot;
 
 /// A motion with less than this part of the largest inertia has none: rounding is a thousand times smaller.
 const NOTHING: f64 = 1e-13;
 /// A coordinate with less than this part in a motion has none in it.
 const SHARE: f64 = 1e-4;
-/// Postures that are tried: a robot may be singular in one of them by chance.
-const POSTURES: usize = 3;
-const SEED: u64 = 1;
 
 impl Mechanism {
     /// The coordinates, from 0, whose accelerations the driving forces do not determine at q, as the mass
@@ -49,19 +44,4 @@ impl Mechanism {
         found.sort_unstable();
         Ok(found)
     }
-}
-
-/// The coordinates, from 0, whose accelerations no driving forces determine in any posture, at the nominal
-/// parameters; none where the mass matrix is regular somewhere, or a parameter has no nominal value.
-#[must_use]
-pub fn undetermined(robot: &Robot) -> Vec<usize> {
-    let Ok(mechanism) = Mechanism::nominal(robot) else { return Vec::new() };
-    let mut random = Random::new(SEED);
-    let mut found: Option<Vec<usize>> = None;
-    for _ in 0..POSTURES {
-        let here = mechanism.undetermined(&random.state(&mechanism).q).unwrap_or_default();
-        let known = found.take().unwrap_or_else(|| here.clone());
-        found = Some(known.into_iter().filter(|index| here.contains(index)).collect());
-    }
-    found.unwrap_or_default()
 }

@@ -27,7 +27,9 @@ pub use error::{Error, MOST_COORDINATES, presentable};
 pub use evidence::{Accuracy, Compiled};
 
 use robot_build::ablation::ablation;
-use robot_build::{Errors, FunctionKind, Functions, Options, Programs, Source, programs};
+use robot_build::{
+    Errors, FunctionKind, Functions, Options, Programs, Source, Unsolvable, programs, unsolvable,
+};
 use robot_model::robot::Robot;
 
 use formula::Symbols;
@@ -105,8 +107,12 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
     let robot = robot_build::read_with(input.source, input.options)?.robot;
     presentable(&robot)?;
     let symbols = Symbols::of(&robot);
-    let functions = FUNCTIONS.into_iter().filter(|kind| kind.missing_in(&robot).is_none());
-    let functions = Functions::Chosen(functions.collect());
+    let lacking = unsolvable(&robot, input.options);
+    let has = |kind: &FunctionKind| {
+        let lacks = lacking.iter().any(|lacking| lacking.functions.contains(kind));
+        !lacks && kind.missing_in(&robot).is_none()
+    };
+    let functions = Functions::Chosen(FUNCTIONS.into_iter().filter(has).collect());
     let programs = programs(input.source, &Options { functions, ..input.options.clone() })?;
     let sections = vec![
         kinematics(&robot),
@@ -123,7 +129,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
             title: "Driving forces by cause",
             body: motion::torques(&programs),
         },
-        costs(input, &programs)?,
+        costs(input, &programs, lacking.as_ref())?,
         evidence(input, &programs),
     ];
     Ok((robot, sections))
@@ -163,10 +169,15 @@ fn structure(robot: &Robot) -> Section {
     Section { id: "structure", title: "Structure of the equations", body }
 }
 
-fn costs(input: &Input<'_>, programs: &Programs) -> Result<Section, Errors> {
+fn costs(
+    input: &Input<'_>,
+    programs: &Programs,
+    lacking: Option<&Unsolvable>,
+) -> Result<Section, Errors> {
     let functions = Functions::Chosen(vec![FUNCTION]);
     let ablation = ablation(input.source, &Options { functions, ..input.options.clone() })?;
     let parts = [
+        lacking.map(|lacking| holding("p", format!("Note: {lacking}.")).class("note")),
         Some(costs::functions(&programs.module)),
         costs::passes(&programs.module, FUNCTION.name()),
         costs::options(&ablation, FUNCTION.name()),

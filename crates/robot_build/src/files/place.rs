@@ -51,6 +51,12 @@ fn is_stream(path: &Path) -> bool {
         })
 }
 
+/// Whether a file is the system's view of itself, which looks like a file and is none that could be replaced.
+pub(super) fn is_of_system(path: &Path) -> bool {
+    let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    cfg!(target_os = "linux") && ["/proc", "/sys"].iter().any(|folder| path.starts_with(folder))
+}
+
 /// The folder in which a path lies.
 pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {

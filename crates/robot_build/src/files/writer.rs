@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::File;
 use super::marker::{beginning, first_line, is_marked};
-use super::place::{Place, folder_of, is_same, place};
+use super::place::{Place, folder_of, is_of_system, is_same, place};
 use super::staging::{Staged, remove_leftovers};
 use crate::error::{Error, Errors};
 
@@ -223,6 +223,11 @@ impl Writer {
             Place::Folder(_) => Err(is_folder()),
             Place::Free(_) if names_folder(path) => Err(is_folder()),
             Place::Free(target) => Ok(Target::Free(target)),
+            Place::Regular(target, _) if is_of_system(&target) => {
+                let reason =
+                    "it is a file of the system, which nothing replaces; name another".to_owned();
+                Err(Error::File { action: "write", path: path.to_owned(), reason })
+            }
             Place::Regular(target, metadata) => Ok(Target::Regular(target, metadata)),
             Place::Stream => Ok(Target::Stream),
         }

@@ -7,6 +7,7 @@ use robot_symbolic::{Formula, ParseError};
 
 use super::entries::{Entry, entries, unnamed};
 use super::symbols::Symbols;
+use robot_model::description::is_finite;
 use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
 
 /// How equations are written.
@@ -141,8 +142,15 @@ fn terms(right: &str, place: impl Fn(Span) -> Span) -> Result<Vec<Formula>, Box<
         let unsigned = text.trim_start();
         let unsigned = unsigned.strip_prefix('+').unwrap_or(unsigned);
         let start = range.start + text.len() - unsigned.len();
-        let formula = Formula::parse_with_dots(unsigned.trim_end());
-        terms.push(formula.map_err(|error| fault(&error, place(shifted(&error.span, start))))?);
+        let formula = Formula::parse_with_dots(unsigned.trim_end())
+            .map_err(|error| fault(&error, place(shifted(&error.span, start))))?;
+        if !is_finite(&formula) {
+            let span = place(start..start + unsigned.trim_end().len());
+            let error = Diagnostic::error(code::NUMBER, "the term has no finite value");
+            let help = "look for a division by zero, a root of a negative number, or an overflow";
+            return Err(error.at(&span, "this is not a number").help(help).into());
+        }
+        terms.push(formula);
     }
     Ok(terms)
 }

@@ -40,6 +40,22 @@ fn right_equations_have_no_differences() {
 }
 
 #[test]
+fn terms_without_a_value_are_errors_at_their_place() {
+    let robot = robot("planar_2r");
+    for term in ["m1/0*qdd1", "0/0", "sqrt(-1)*qdd1", "I2/(q1 - q1)"] {
+        let text = format!("Q1 = I2*qdd2 - {term}\n");
+        let errors = compared(&robot, &text).unwrap_err();
+        let found: Vec<_> = errors.iter().collect();
+        assert_eq!((found.len(), found[0].code), (1, code::NUMBER), "{term}");
+        let place = &found[0].primary.as_ref().unwrap().span;
+        assert_eq!(&text[place.clone()], format!("- {term}"));
+    }
+    let latex = r"$ Q_1 = I_2 \ddot q_2 + \frac{m_1}{0} \ddot q_1 $".replace('$', "");
+    let errors = compared(&robot, latex.trim()).unwrap_err();
+    assert!(errors.to_string().contains("the term has no finite value"), "{errors}");
+}
+
+#[test]
 fn every_kind_of_slip_is_told() {
     let cases = [
         (3, "", "missing term"),

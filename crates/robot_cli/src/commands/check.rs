@@ -10,6 +10,7 @@ use robot_check::doctor::{self, Examination};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
 
 use crate::Terminal;
+use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::format::Format;
 use crate::plan::is_of_pin;
@@ -84,7 +85,7 @@ impl Arguments {
                     show(report, terminal)?;
                 }
             }
-            Format::Json => writeln!(terminal.output, "{:#}", json::document(&reports))?,
+            Format::Json => answered(&format!("{:#}\n", json::document(&reports)), terminal)?,
         }
         let count = |severity| reports.iter().map(|report| report.count(severity)).sum::<usize>();
         let denied = self.deny == Some(Deny::Warnings) && count(Severity::Warning) > 0;
@@ -166,7 +167,7 @@ fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         writeln!(terminal.errors, "note[{code}]: {name}:{line}:{column}: {message}")?;
     }
     if found.is_empty() {
-        writeln!(terminal.output, "{name}: no errors, no warnings")?;
+        answered(&format!("{name}: no errors, no warnings\n"), terminal)?;
     } else {
         let style = if terminal.colours { Style::Terminal } else { Style::Plain };
         writeln!(terminal.errors, "{}", found.render(style).trim_end())?;

@@ -9,6 +9,7 @@ use robot_build::RobotFile;
 use robot_check::errata::{Comparison, Notation, Options, compare};
 
 use crate::Terminal;
+use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::robot::RobotArgument;
 
@@ -59,7 +60,7 @@ impl Arguments {
             Format::Json => show::json(&comparison),
             Format::Markdown => show::markdown(&comparison),
         };
-        terminal.output.write_all(shown.as_bytes())?;
+        answered(&shown, terminal)?;
         if comparison.differences.is_empty() { Ok(()) } else { Err(Failure::Shown) }
     }
 

@@ -2,7 +2,6 @@
 
 pub(crate) mod show;
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -10,11 +9,15 @@ use robot_build::{Options as CodeOptions, RobotFile};
 use robot_check::difference::{Difference, Options, difference};
 
 use crate::Terminal;
+use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::format::Format;
 use crate::plan::pinned_or_searched;
 use crate::progress::watched;
 use crate::reading::ReadingArguments;
+
+/// The most states at which torques are compared: of a long robot a minute's work.
+const MOST_STATES: i64 = 100_000;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -37,9 +40,9 @@ pub(crate) struct Arguments {
     /// The seed of the states at which torques are compared
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// How many states are drawn
-    #[arg(long, default_value = "1000")]
-    states: NonZeroUsize,
+    /// How many states are drawn, at most 100000
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=MOST_STATES))]
+    states: u32,
     /// How many terms of each equation text shows at most
     #[arg(long, default_value_t = 20)]
     terms: usize,
@@ -55,14 +58,14 @@ impl Arguments {
             Format::Text => show::text(&found, self.terms),
             Format::Json => show::json(&found),
         };
-        terminal.output.write_all(shown.as_bytes())?;
+        answered(&shown, terminal)?;
         if found.is_none() { Ok(()) } else { Err(Failure::Shown) }
     }
 
     fn difference(&self, terminal: &mut Terminal<'_>) -> Result<Difference, Failure> {
         let (a, of_a) = one(&self.a, self.reading, terminal)?;
         let (b, of_b) = one(&self.b, self.reading, terminal)?;
-        let options = Options { code: [of_a, of_b], seed: self.seed, states: self.states.get() };
+        let options = Options { code: [of_a, of_b], seed: self.seed, states: self.states as usize };
         Ok(watched("comparing", terminal, || difference(&a, &b, &options)))
     }
 }

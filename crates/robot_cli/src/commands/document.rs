@@ -41,7 +41,7 @@ pub(crate) struct Arguments {
     /// The width of a column, such as 8.5cm; without this what fits A4
     #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true)]
     width: Option<f64>,
-    /// The file to write; without this the document is printed
+    /// The file to write; standard output without this, or where it is `-`
     #[arg(short, long, value_name = "FILE", value_parser = source_path)]
     output: Option<PathBuf>,
     #[command(flatten)]

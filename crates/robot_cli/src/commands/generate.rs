@@ -37,8 +37,8 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output.open(self.robot.inputs())?;
         let source = self.robot.source()?;
-        let robot = self.robot.read(terminal)?.robot;
-        let mut options = self.code.options(&self.robot, &robot, self.trigonometry)?;
+        let robot = self.robot.read(terminal)?;
+        let mut options = self.code.options(&self.robot, &robot, self.trigonometry, terminal)?;
         options.runtime.clone_from(&self.runtime);
         let generated = watched("generating", terminal, || generate(&source, &options))?;
         output.deliver(&generated.code, terminal)

@@ -41,8 +41,8 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = self.robot.source()?;
-        let robot = self.robot.read(terminal)?.robot;
-        let options = self.code.options(&self.robot, &robot, self.trigonometry)?;
+        let robot = self.robot.read(terminal)?;
+        let options = self.code.options(&self.robot, &robot, self.trigonometry, terminal)?;
         let files = watched("generating", terminal, || package::package(&source, &options))?;
         let writer = self.force.writer(self.robot.inputs());
         deliver_folder(&self.output, &files, self.check, &writer, terminal)

@@ -7,6 +7,7 @@ use robot_evidence::{Compiler, Evidence, Figures, Module, Profile, prove};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
+use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::format::Format;
 use crate::progress::watched;
@@ -63,8 +64,8 @@ enum ProfileName {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let robot = self.robot.read(terminal)?.robot;
-        let options = self.code.options(&self.robot, &robot, self.trigonometry)?;
+        let robot = self.robot.read(terminal)?;
+        let options = self.code.options(&self.robot, &robot, self.trigonometry, terminal)?;
         let compiler = Compiler {
             rustc: self.rustc.clone(),
             target: self.target.clone(),
@@ -81,15 +82,14 @@ impl Arguments {
         let modules = watched("compiling", terminal, compiled).map_err(failed)?;
         match self.format {
             Format::Text => {
-                writeln!(terminal.output, "{description}")?;
-                for module in &modules {
-                    write!(terminal.output, "\n{}", text_of(module))?;
-                }
+                let tables = modules.iter().map(|module| format!("\n{}", text_of(module)));
+                let tables: String = tables.collect();
+                answered(&format!("{description}\n{tables}"), terminal)?;
             }
             Format::Json => {
                 let modules: Vec<Value> = modules.iter().map(json_of).collect();
                 let shown = json!({ "compiler": description, "profiles": modules });
-                writeln!(terminal.output, "{shown:#}")?;
+                answered(&format!("{shown:#}\n"), terminal)?;
             }
         }
         let broken: Vec<String> = modules.iter().flat_map(violations).collect();

@@ -10,6 +10,7 @@ use crate::delivery::OutputArguments;
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
+use crate::text;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -40,6 +41,7 @@ impl Arguments {
         // Read first, so that warnings are shown and no compiler starts for a page that cannot be.
         let robot = self.robot.read(terminal)?.robot;
         presentable(&robot)?;
+        text::lacking(&robot, &options, terminal)?;
         let source = self.robot.source()?;
         let page = watched("writing", terminal, || self.page(&source, &planned(&robot, &options)))?;
         output.deliver(&page, terminal)

@@ -3,7 +3,7 @@
 use std::time::SystemTime;
 
 use clap::Args;
-use robot_build::{Output, Ownership, pin_path, pin_text, snapping};
+use robot_build::{Output, Ownership, pin_path, pin_text, shown, snapping};
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::economical::{Plan, plan::LinkPlan};
 use robot_dynamics::mechanism::MechanismOptions;
@@ -44,12 +44,13 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let path = pin_path(self.robot.path());
-        let writer = self.force.writer([self.robot.path().to_owned()]);
+        let remedy = "move it away, or have it replaced with --force";
+        let writer = self.force.writer([self.robot.path().to_owned()]).remedy(remedy);
         if !self.dry_run {
             if path.exists() && !path.is_file() {
                 return Err(Failure::input(format!(
                     "{}: a plan is pinned in a regular file, which this is not; move it away",
-                    path.display()
+                    shown(&path)
                 )));
             }
             writer.check(&[(&path, Ownership::Marked)])?;
@@ -90,7 +91,7 @@ impl Arguments {
         }
         writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
-            writeln!(terminal.output, "\npinned in {}", path.display())?;
+            writeln!(terminal.output, "\npinned in {}", shown(&path))?;
         }
         Ok(())
     }
@@ -105,7 +106,7 @@ impl Arguments {
                 terminal.errors,
                 "warning: the time of {} cannot be set: {error}\n  a build that made code before there was a plan \
                  sees the plan at the next change of the file",
-                path.display()
+                shown(path)
             )?;
         }
         Ok(())

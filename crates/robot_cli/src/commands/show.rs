@@ -1,7 +1,7 @@
 //! `show`: what a robot file says.
 
 use clap::Args;
-use robot_build::{FrameRef, FunctionKind, functions, snapping};
+use robot_build::{FrameRef, FunctionKind, Options, functions, snapping, unsolvable};
 use robot_document::words;
 use robot_model::robot::{JointKind, Robot};
 
@@ -82,10 +82,15 @@ fn parameters(robot: &Robot) -> Vec<Vec<String>> {
     rows
 }
 
+/// Why there is no forward dynamics.
+const SINGULAR: &str = "the mass matrix is singular in every posture";
+
 fn functions(robot: &Robot) -> Vec<Vec<String>> {
     let mut rows = vec![row(["function", ""])];
+    let lacking = unsolvable(robot, &Options::default()).map_or(vec![], |found| found.functions);
     for kind in FunctionKind::ALL {
-        rows.push(row([kind.name(), kind.missing_in(robot).unwrap_or("yes")]));
+        let singular = lacking.contains(kind).then_some(SINGULAR);
+        rows.push(row([kind.name(), kind.missing_in(robot).or(singular).unwrap_or("yes")]));
     }
     for (name, kind) in functions::names(robot) {
         let what = match kind.frame() {

@@ -11,7 +11,7 @@ use robot_simulation::{
 };
 
 use crate::Terminal;
-use crate::delivery::ForceArgument;
+use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
 use crate::files;
 use crate::friction::FrictionArguments;
@@ -64,7 +64,7 @@ pub(crate) struct Arguments {
     friction: FrictionArguments,
     #[command(flatten)]
     settings: Settings,
-    /// The CSV file to write; without this standard output
+    /// The CSV file to write; standard output without this, or where it is `-`
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// A plot to write, .svg or .png: q, qd, torques and energies over time
@@ -95,7 +95,7 @@ impl Arguments {
             motion_figure(&programs.robot, &motion, &energies, conserved)
         };
         recording.write(&motion.table(&energies).csv(), figure, terminal)?;
-        if self.output.is_some() {
+        if file_of(self.output.as_deref()).is_some() {
             writeln!(terminal.output, "{}", summary(&motion, &energies))?;
         }
         Ok(())

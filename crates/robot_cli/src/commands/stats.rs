@@ -62,6 +62,9 @@ impl Arguments {
             (names, bundles) => (functions(names, &robot)?, bundles),
         };
         let options = Options { functions, bundles, ..self.robot.options(terminal)? };
+        if options.functions == Functions::All {
+            text::lacking(&robot, &options, terminal)?;
+        }
         if self.options {
             let counted = watched("counting", terminal, || ablation(&source, &options))?;
             return self.show(&ablated(&counted), terminal);

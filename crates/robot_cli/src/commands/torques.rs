@@ -60,7 +60,7 @@ pub(crate) struct Arguments {
     friction: FrictionArguments,
     #[command(flatten)]
     settings: Settings,
-    /// The CSV file to write; without this standard output
+    /// The CSV file to write; standard output without this, or where it is `-`
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// A plot to write, .svg or .png: the shares of each torque over time

@@ -11,7 +11,7 @@ use clap::Args;
 use robot_model::diagnostic::Style;
 
 use crate::Terminal;
-use crate::delivery::ForceArgument;
+use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
@@ -56,6 +56,10 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         // A name that is wrong from the start is not waited for.
         self.robot.source()?;
+        if self.report.is_some() && file_of(self.report.as_deref()).is_none() {
+            let message = "--report is a file that is written anew at each save; name one";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let writer = self.force.writer(self.robot.inputs());
         let page = self.report.clone().map(|path| Page::open(path, writer)).transpose()?;
         ctrlc::set_handler(|| OVER.store(true, Ordering::Relaxed))

@@ -158,3 +158,15 @@ fn every_difference_of_the_paper_has_one_grade_and_the_grade_its_reason() {
     );
     assert!(document.contains(&summary), "{summary}");
 }
+
+#[test]
+fn a_term_without_a_value_is_a_wrong_input() {
+    let path = crate::folder("compare-value").join("printed");
+    let path = path.to_str().unwrap();
+    for term in ["1/0", "m2/(q1 - q1)"] {
+        std::fs::write(path, format!("Q1 = m1*g\n  + {term}*qdd1\n")).unwrap();
+        let shown = complaint(2, &["compare", &robot("planar_2r"), path], "");
+        assert!(shown.contains("the term has no finite value"), "{shown}");
+        assert!(shown.contains("printed:2:"), "{shown}");
+    }
+}

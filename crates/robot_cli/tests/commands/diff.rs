@@ -40,3 +40,12 @@ fn wrong_files_are_no_difference() {
     assert!(complaint(2, &["diff", &robot("planar_2r"), "nowhere.toml"], "").contains("nowhere"));
     assert!(complaint(2, &["diff", &robot("planar_2r")], "").contains("<B>"));
 }
+
+#[test]
+fn states_are_limited() {
+    for states in ["0", "100001", "18446744073709551615"] {
+        let file = robot("planar_2r");
+        let shown = complaint(2, &["diff", &file, &file, "--states", states], "");
+        assert!(shown.contains("--states"), "{shown}");
+    }
+}

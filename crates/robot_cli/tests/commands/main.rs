@@ -25,6 +25,7 @@ mod report;
 mod schema;
 mod shell;
 mod simulate;
+mod singular;
 mod stats;
 mod usage;
 mod watch;

@@ -290,3 +290,134 @@ fn messages_that_nobody_hears_do_not_end_the_work() {
     assert!(Path::new(&plan).exists());
     assert_eq!(run_with(&["--version"], b"").code, 0);
 }
+
+/// A disk that is full, or a reader that has seen enough.
+struct Broken(std::io::ErrorKind);
+
+impl std::io::Write for Broken {
+    fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+        Err(self.0.into())
+    }
+    fn flush(&mut self) -> std::io::Result<()> {
+        Err(self.0.into())
+    }
+}
+
+/// The exit code of a command whose output cannot be written.
+fn broken(arguments: &[&str], kind: std::io::ErrorKind) -> u8 {
+    let (mut input, mut output, mut errors) = (&b""[..], Broken(kind), vec![]);
+    let mut terminal = robot_cli::Terminal {
+        input: &mut input,
+        output: &mut output,
+        errors: &mut errors,
+        colours: false,
+        progress: false,
+    };
+    robot_cli::run(
+        std::iter::once("robot-symbolic").chain(arguments.iter().copied()),
+        &mut terminal,
+    )
+}
+
+/// The code of what cannot be written is none of an answer, and a reader that leaves changes no answer.
+#[test]
+fn output_that_cannot_be_written_is_no_answer() {
+    use std::io::ErrorKind::{BrokenPipe, StorageFull};
+    let printed = folder("outputs-answers").join("printed");
+    fs::write(&printed, "Q2 = 0\n").unwrap();
+    let (arm, scara) = (robot("planar_2r"), robot("scara"));
+    let differ = ["compare", &arm, printed.to_str().unwrap()];
+    let others = ["diff", &arm, &scara, "--states", "1"];
+    let same = ["diff", &arm, &arm, "--states", "1"];
+    for (arguments, answer) in [(&differ[..], 1), (&others, 1), (&same, 0)] {
+        assert_eq!(run(arguments).code, answer, "{arguments:?}");
+        assert_eq!(broken(arguments, BrokenPipe), answer, "{arguments:?}");
+        assert_eq!(broken(arguments, StorageFull), 2, "{arguments:?}");
+    }
+    for arguments in [&["show", &arm][..], &["stats", &arm], &["--help"], &["--version"]] {
+        assert_eq!(broken(arguments, StorageFull), 2, "{arguments:?}");
+        assert_eq!(broken(arguments, BrokenPipe), 0, "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_dash_is_standard_output() {
+    let inputs = Inputs::new("outputs-dash");
+    let [mut printed, mut refused] = [0, 0];
+    for (line, _) in READERS {
+        let outcome = inputs.run(line, &["-"]);
+        let to_stdout = line.ends_with(" -o") && !line.starts_with("crate");
+        if to_stdout {
+            let without = line.strip_suffix(" -o").unwrap();
+            assert_eq!(outcome.code, 0, "{line}: {}", outcome.errors);
+            assert_eq!(outcome.output, inputs.run(without, &[]).output, "{line}");
+            printed += 1;
+        } else {
+            assert_eq!(
+                (outcome.code, outcome.output.as_str()),
+                (2, ""),
+                "{line}: {}",
+                outcome.errors
+            );
+            refused += 1;
+        }
+        assert!(!Path::new("-").exists(), "{line}");
+    }
+    assert!(printed >= 7 && refused >= 3, "{printed} {refused}");
+    let shown = complaint(2, &["generate", &robot("planar_2r"), "-o", "-", "--check"], "");
+    assert!(shown.contains("name a file"), "{shown}");
+}
+
+#[test]
+fn advice_is_what_the_command_takes() {
+    let inputs = Inputs::new("outputs-advice");
+    fs::write(inputs.path("arm.plan"), "my own notes\n").unwrap();
+    let shown = inputs.run("search @arm.toml", &[]);
+    assert_eq!(shown.code, 1);
+    assert!(
+        shown.errors.contains("move it away, or have it replaced with --force"),
+        "{}",
+        shown.errors
+    );
+    assert!(!shown.errors.contains("another name"), "{}", shown.errors);
+    if cfg!(target_os = "linux") {
+        for force in [&[][..], &["--force"]] {
+            let status = ["generate", &robot("planar_2r"), "-o", "/proc/self/status"];
+            let shown = complaint(1, &[&status[..], force].concat(), "");
+            assert!(
+                shown.contains("a file of the system") && !shown.contains("--force"),
+                "{shown}"
+            );
+        }
+    }
+}
+
+/// A terminal obeys control characters: names and texts from elsewhere are shown without.
+#[test]
+fn messages_have_no_control_characters() {
+    let folder = folder("outputs-control");
+    let name = format!("{}/a\u{1b}[31m\nb\r\u{202e}.toml", folder.to_str().unwrap());
+    let is_clean = |shown: &str| {
+        let controls = shown.chars().filter(|one| one.is_control() && *one != '\n').count();
+        assert_eq!((controls, shown.contains("\nb")), (0, false), "{shown:?}");
+    };
+    let (arm, out) = (robot("planar_2r"), format!("{name}/out"));
+    for (code, arguments) in [
+        (1, &["show", &name][..]),
+        (1, &["check", &name]),
+        (2, &["diff", &arm, &name]),
+        (2, &["compare", &arm, &name]),
+        (1, &["eval", &arm, "--function", "bias", "--states", &name]),
+        (1, &["generate", &arm, "-o", &name, "--check"]),
+        (1, &["crate", &arm, "-o", &name, "--check"]),
+        (1, &["prove", &arm, "--rustc", &name]),
+        (2, &["stats", &arm, "--function", "a\u{1b}b"]),
+    ] {
+        let shown = complaint(code, arguments, "");
+        assert!(shown.contains("\\u{1b}"), "{arguments:?}: {shown}");
+        is_clean(&shown);
+    }
+    let wrote = run(&["generate", &arm, "-o", &out]);
+    assert_eq!(wrote.code, 0, "{}", wrote.errors);
+    is_clean(&wrote.errors);
+}

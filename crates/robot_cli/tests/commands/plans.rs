@@ -98,12 +98,39 @@ fn a_stale_plan_is_a_warning_where_nothing_is_built_and_an_error_where_code_is()
     output(&["generate", &arm], "");
 }
 
+/// Any form of the recursion gives the same torques, but not the same operations, which the plan states.
+#[test]
+fn an_edited_plan_is_refused_where_code_is_made() {
+    let arm = pinned("plans_edited");
+    let plan = arm.replace(".toml", ".plan");
+    let text = std::fs::read_to_string(&plan).unwrap();
+    let edits = [
+        ("operations = 4", "operations = 1"),
+        ("free = \"zero\"", "free = \"still\""),
+        ("fingerprint = \"", "fingerprint = \"0"),
+        ("digest = \"", "digest = \"0"),
+        ("operations = 4", "unit_length = [0, 0]\noperations = 4"),
+    ];
+    let remedy = format!("run `robot-symbolic search {arm}` again");
+    for (from, to) in edits {
+        assert!(text.contains(from), "{from} is not in {text}");
+        std::fs::write(&plan, text.replacen(from, to, 1)).unwrap();
+        let refused = complaint(1, &["generate", &arm], "");
+        assert!(refused.contains("was edited") && refused.contains(&remedy), "{to}: {refused}");
+        let warned = run(&["stats", &arm]);
+        assert!(warned.code == 0 && warned.errors.starts_with("warning: "), "{}", warned.errors);
+    }
+    // Remarks and blank lines are no part of the plan.
+    std::fs::write(&plan, text.replace("\n", "\n# a remark\n\n")).unwrap();
+    output(&["generate", &arm], "");
+}
+
 #[test]
 fn a_plan_of_an_earlier_version_names_the_remedy() {
     let arm = pinned("plans_earlier");
     let plan = arm.replace(".toml", ".plan");
     let text = std::fs::read_to_string(&plan).unwrap();
-    std::fs::write(&plan, text.replace("format = 2", "format = 1")).unwrap();
+    std::fs::write(&plan, text.replace("format = 3", "format = 1")).unwrap();
     let remedy = format!("run `robot-symbolic search {arm}` again");
     let refused = complaint(1, &["generate", &arm], "");
     assert!(refused.contains("format 1") && refused.contains(&remedy), "{refused}");

@@ -38,6 +38,25 @@ fn evidence_is_shown_as_text_and_as_json() {
 fn without_a_compiler_there_is_no_evidence() {
     let shown = complaint(1, &["prove", &robot("planar_2r"), "--rustc", "/nowhere/rustc"], "");
     assert!(shown.contains("/nowhere/rustc") && shown.contains("rustup.rs"), "{shown}");
-    let shown = complaint(1, &["prove", &robot("planar_2r"), "--target", "no-such-target"], "");
-    assert!(shown.contains("no-such-target") && shown.contains("rustup target add"), "{shown}");
+}
+
+#[test]
+fn what_the_compiler_refuses_is_told_by_its_option() {
+    let file = robot("planar_2r");
+    let failed = |arguments: &[&str]| {
+        let function = ["prove", &file, "--function", "gravity", "--profile", "release"];
+        complaint(1, &[&function[..], arguments].concat(), "")
+    };
+    let shown = failed(&["--target", "no-such-target"]);
+    assert!(shown.contains("--target no-such-target is not a target"), "{shown}");
+    let shown = failed(&["--target-cpu", "foo"]);
+    let first = shown.lines().next().unwrap();
+    assert!(first.contains("'foo' is not a recognized processor"), "{shown}");
+    assert!(first.contains("--target-cpu foo") && first.contains("target-cpus"), "{shown}");
+    assert!(!shown.contains("rustup target add"), "{shown}");
+    for program in ["/bin/false", "/bin/echo", "/bin/cat"] {
+        let shown = failed(&["--rustc", program]);
+        assert!(shown.contains(&format!("{program} is not a Rust compiler")), "{shown}");
+        assert!(shown.contains("--rustc") && shown.lines().count() == 1, "{shown}");
+    }
 }

@@ -13,6 +13,8 @@ pub struct Pin {
     /// Identifies the [mechanics](super::mechanics()) that the plan was searched for; a pin with another is
     /// stale.
     pub fingerprint: String,
+    /// Identifies the rest of the pin, [`Pin::content`]; a pin with another was edited.
+    pub digest: String,
     /// What the search minimised.
     pub measure: Measure,
     /// The multiplications and additions of inverse dynamics under the plan.
@@ -27,7 +29,7 @@ pub struct Pin {
 pub struct PinError(String);
 
 /// The format that is written and read.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// The names of options that are on or off, with access to each.
 type Flag = (&'static str, fn(&mut LinkPlan) -> &mut bool);
@@ -89,10 +91,20 @@ impl Pin {
              # `robot-symbolic search`; after a change of the robot's mechanics, run it again.\n",
         );
         // Writing to a string does not fail.
-        let _ = writeln!(text, "format = {FORMAT}\nfingerprint = \"{}\"", self.fingerprint);
+        let _ = writeln!(text, "format = {FORMAT}\ndigest = \"{}\"", self.digest);
+        text.push_str(&self.content());
+        text
+    }
+
+    /// What the search found and for what, as [`Pin::to_text`] writes it: all but the remarks, the format and
+    /// the digest.
+    #[must_use]
+    pub fn content(&self) -> String {
+        let mut text = format!("fingerprint = \"{}\"\n", self.fingerprint);
         if self.measure == Measure::Instructions {
             text.push_str("measure = \"instructions\"\n");
         }
+        // Writing to a string does not fail.
         let _ = writeln!(text, "operations = {}", self.operations);
         if let Some((link, component)) = self.plan.unit_length {
             let _ = writeln!(text, "unit_length = [{link}, {component}]");
@@ -113,12 +125,10 @@ impl Pin {
         let RawFormat { format } = read(text)?;
         match format {
             FORMAT => {}
-            1 => {
-                return Err(PinError(
-                    "the pinned plan is of format 1, which earlier versions wrote and which went stale with any \
-                     edit of the robot file"
-                        .to_owned(),
-                ));
+            1 | 2 => {
+                return Err(PinError(format!(
+                    "the pinned plan is of format {format}, which earlier versions wrote; expected {FORMAT}"
+                )));
             }
             other => {
                 return Err(PinError(format!(
@@ -131,6 +141,7 @@ impl Pin {
         let unit_length = raw.unit_length.map(|[link, component]| (link, component));
         Ok(Pin {
             fingerprint: raw.fingerprint,
+            digest: raw.digest,
             measure: raw
                 .measure
                 .as_deref()
@@ -190,6 +201,7 @@ struct RawPin {
     #[serde(rename = "format")]
     _format: u32,
     fingerprint: String,
+    digest: String,
     /// Operations where it is not said.
     measure: Option<String>,
     operations: usize,
@@ -260,7 +272,9 @@ mod tests {
         });
         let plan = Plan { links: links.collect(), unit_length: Some((3, 1)) };
         let fingerprint = "ab12".to_owned();
-        let pin = Pin { fingerprint, measure: Measure::Operations, operations: 239, plan };
+        let digest = "cd34".to_owned();
+        let pin = Pin { fingerprint, digest, measure: Measure::Operations, operations: 239, plan };
+        assert!(pin.to_text().ends_with(&pin.content()) && !pin.content().contains("cd34"));
         assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin.clone()));
         let pin = Pin { measure: Measure::Instructions, ..pin };
         assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin));
@@ -270,14 +284,16 @@ mod tests {
     fn other_text_is_no_pin() {
         let pin = Pin {
             fingerprint: String::new(),
+            digest: String::new(),
             measure: Measure::Operations,
             operations: 0,
             plan: Plan { links: vec![LinkPlan::BASIC], unit_length: None },
         };
         let text = pin.to_text();
         for (good, bad) in [
-            ("format = 2", "format = 3"),
-            ("format = 2", "format = 1"),
+            ("format = 3", "format = 4"),
+            ("format = 3", "format = 1"),
+            ("format = 3", "format = 2"),
             ("next_normal", "next_norm"),
             ("options = []", "options = [\"colum\"]"),
             ("operations", "operation"),
@@ -287,9 +303,11 @@ mod tests {
             assert!(!error.to_string().is_empty());
         }
         // Another format may have other keys; its number is what is wrong with it.
-        let other = Pin::from_text("format = 3\nplan = \"cheap\"").unwrap_err().to_string();
-        assert!(other.contains("format 3") && other.contains("expected 2"), "{other}");
-        let earlier = Pin::from_text(&text.replacen("format = 2", "format = 1", 1)).unwrap_err();
-        assert!(earlier.to_string().contains("earlier version"), "{earlier}");
+        let other = Pin::from_text("format = 4\nplan = \"cheap\"").unwrap_err().to_string();
+        assert!(other.contains("format 4") && other.contains("expected 3"), "{other}");
+        for format in ["format = 1", "format = 2"] {
+            let earlier = Pin::from_text(&text.replacen("format = 3", format, 1)).unwrap_err();
+            assert!(earlier.to_string().contains("earlier version"), "{earlier}");
+        }
     }
 }

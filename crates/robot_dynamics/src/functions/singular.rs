@@ -26,6 +26,10 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     for _ in 0..POSTURES {
         let here = of_matrix(matrix.at(&matrix.posture(&mut random)));
         found.retain(|coordinate| here.contains(coordinate));
+        // Regular in one posture is enough, and builds ask.
+        if found.is_empty() {
+            break;
+        }
     }
     found
 }

@@ -49,6 +49,14 @@ fn budget(
     let named = table.get("function").and_then(|entry| function(reader, entry.value, bundles));
     let max_operations = table.get("max_operations").and_then(|entry| limit(reader, &entry));
     let max_stack = table.get("max_stack").and_then(|entry| limit(reader, &entry));
+    // A misspelt key is told by itself.
+    if table.len() == usize::from(table.has("function")) {
+        reader.report(
+            Diagnostic::error(code::MISSING_KEY, "the budget limits nothing")
+                .at(&table.span, "neither `max_operations` nor `max_stack` is here")
+                .help("give it `max_operations` or `max_stack`, or remove it"),
+        );
+    }
     table.finish(reader);
     let function = named.as_ref().map(|named| named.name.clone());
     let is_kind = |named: &Named| FunctionKind::from_name(&named.name).is_some();

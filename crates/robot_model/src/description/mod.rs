@@ -58,6 +58,7 @@ use std::path::Path;
 use crate::diagnostic::{Diagnostic, Diagnostics, Severity, Source, Span, code};
 use crate::robot::{Parameter, Robot};
 use draft::Draft;
+pub use reader::is_finite;
 use reader::{Named, Reader};
 use wanted::Wanted;
 

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use robot_symbolic::{Expr, Formula, Graph, Number, Rational, nearest_word, walk};
+use robot_symbolic::{Formula, Graph, Id, Number, Rational, nearest_word, walk};
 
 use super::locations::AngleLocation;
 use super::names::{Registry, is_coordinate};
@@ -195,9 +195,25 @@ fn unbounded(formula: &Formula) -> Option<&'static str> {
     if formula.is_constant() {
         return None;
     }
+    (!is_finite(formula)).then_some("this is not a number")
+}
+
+/// Whether every part of the formula that is a constant is a finite number, as none is in `1/(x - x)`.
+#[must_use]
+pub fn is_finite(formula: &Formula) -> bool {
     let graph = Graph::new();
     let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
-    let is_finite = |part: &Expr<'_>| part.as_number().is_none_or(|one| one.to_f64().is_finite());
-    let all = walk::reachable(&[expr]).iter().all(is_finite);
-    (!all).then_some("this is not a number")
+    let parts = walk::reachable(&[expr]);
+    let values = walk::evaluate(&parts, |_| 1.0);
+    // Operands come before what they are operands of.
+    let mut constants: BTreeSet<Id> = BTreeSet::new();
+    for (part, value) in parts.iter().zip(values) {
+        let is_constant = part.as_symbol().is_none()
+            && part.operands().iter().all(|operand| constants.contains(&operand.id()));
+        if is_constant && !value.is_finite() {
+            return false;
+        }
+        constants.extend(is_constant.then(|| part.id()));
+    }
+    true
 }

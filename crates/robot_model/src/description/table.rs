@@ -44,6 +44,11 @@ impl<'a> Table<'a> {
         self.keys.get_key_value(key).map(|(key, value)| Entry { key: key.span(), value })
     }
 
+    /// How many keys there are, known or not.
+    pub(super) fn len(&self) -> usize {
+        self.keys.len()
+    }
+
     /// Whether the key is there, without making it known.
     pub(super) fn has(&self, key: &str) -> bool {
         self.keys.contains_key(key)

@@ -214,23 +214,25 @@ impl std::error::Error for Diagnostics {}
 pub fn quote(text: &str) -> String {
     const HEAD: usize = 40;
     const TAIL: usize = 10;
-    let escape = |part: &str| -> String {
-        part.chars()
-            .flat_map(|character| {
-                let plain = !character.is_control() && !is_invisible(character);
-                let escaped = (!plain).then(|| character.escape_unicode());
-                let plain = plain.then_some(character);
-                escaped.into_iter().flatten().chain(plain)
-            })
-            .collect()
-    };
     let length = text.chars().count();
     if length <= HEAD + TAIL {
-        return escape(text);
+        return visible(text);
     }
     let head: String = text.chars().take(HEAD).collect();
     let tail: String = text.chars().skip(length - TAIL).collect();
-    format!("{}…{}", escape(&head), escape(&tail))
+    format!("{}…{}", visible(&head), visible(&tail))
+}
+
+/// Text from elsewhere, such as the name of a file, as a message may hold it: on one line, and without control
+/// characters, which a terminal would obey.
+#[must_use]
+pub fn visible(text: &str) -> String {
+    let one = |character: char| {
+        let plain = !character.is_control() && !is_invisible(character);
+        let escaped = (!plain).then(|| character.escape_unicode());
+        escaped.into_iter().flatten().chain(plain.then_some(character))
+    };
+    text.chars().flat_map(one).collect()
 }
 
 /// Characters that show nothing or reorder what is around them.

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use robot_build::{Options, Output, Ownership, Source, Writer};
+use robot_build::{Options, Output, Ownership, Source, Writer, shown};
 use robot_report::{Compiled, Input, Reloading, reloading};
 
 use crate::commands::report::judge;
@@ -49,9 +49,8 @@ impl Page {
         let Some(still) = &self.still else { return Ok(()) };
         self.writer.write(&[marked(&self.path, still)])?;
         let picture = self.picture();
-        std::fs::remove_file(&picture).map_err(|error| {
-            Failure::input(format!("cannot remove {}: {error}", picture.display()))
-        })
+        std::fs::remove_file(&picture)
+            .map_err(|error| Failure::input(format!("cannot remove {}: {error}", shown(&picture))))
     }
 }
 

@@ -1,0 +1,77 @@
+//! Standard error as messages reach it: whatever text they hold, a terminal obeys none of it.
+
+use std::fmt::Write as _;
+use std::io::Write;
+
+/// Standard error. Control characters are written as escapes, but for ends of lines, tabs, and on a terminal
+/// this program's own commands; what cannot be written is dropped, for messages that nobody hears are no reason
+/// to leave the work undone.
+pub(crate) struct Messages<'a> {
+    pub(crate) stream: &'a mut dyn Write,
+    /// Whether colours and lines of progress are shown.
+    pub(crate) commands: bool,
+}
+
+impl Write for Messages<'_> {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let text = String::from_utf8_lossy(bytes);
+        let _ = self.stream.write_all(escaped(&text, self.commands).as_bytes());
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        let _ = self.stream.flush();
+        Ok(())
+    }
+}
+
+/// The text without what a terminal would obey.
+fn escaped(text: &str, commands: bool) -> String {
+    let mut shown = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(character) = rest.chars().next() {
+        let length = match own_command(rest).filter(|_| commands) {
+            Some(length) => length,
+            None => character.len_utf8(),
+        };
+        let (taken, after) = rest.split_at(length);
+        if length == character.len_utf8()
+            && character.is_control()
+            && !matches!(character, '\n' | '\t')
+        {
+            // Writing to a string does not fail.
+            let _ = write!(shown, "{}", character.escape_unicode());
+        } else {
+            shown.push_str(taken);
+        }
+        rest = after;
+    }
+    shown
+}
+
+/// The length of a command of this program that the text begins with: a color, or the line begun anew.
+fn own_command(text: &str) -> Option<usize> {
+    const ANEW: &str = "\r\x1b[K";
+    if text.starts_with(ANEW) {
+        return Some(ANEW.len());
+    }
+    let parameters = text.strip_prefix("\x1b[")?;
+    let end = parameters.find(|c: char| !matches!(c, '0'..='9' | ';'))?;
+    parameters[end..].starts_with('m').then_some("\x1b[".len() + end + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_terminal_obeys_no_text_of_messages() {
+        let text = "a\x1b]0;title\x07 \x1b[2J\u{9b}31m\r\0 é\tb\n";
+        let plain = "a\\u{1b}]0;title\\u{7} \\u{1b}[2J\\u{9b}31m\\u{d}\\u{0} é\tb\n";
+        assert_eq!(escaped(text, false), plain);
+        assert_eq!(escaped(text, true), plain);
+        let own = "\x1b[1;31merror\x1b[0m\r\x1b[K1 s";
+        assert_eq!(escaped(own, true), own);
+        assert_eq!(escaped(own, false), "\\u{1b}[1;31merror\\u{1b}[0m\\u{d}\\u{1b}[K1 s");
+    }
+}
