@@ -2,17 +2,17 @@
 
 use clap::Args;
 use robot_build::FunctionKind;
+use robot_dynamics::diagnostic::number;
 use robot_dynamics::model::{Friction, Robot};
 use robot_symbolic::Formula;
 
 use crate::failure::Failure;
-use crate::robot::RobotArgument;
 
 /// That the robot has friction, which a command was asked to take into account.
-pub(crate) fn has_friction(file: &RobotArgument, robot: &Robot) -> Result<(), Failure> {
+pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
     match FunctionKind::InverseDynamicsFriction.missing_in(robot) {
         None => Ok(()),
-        Some(why) => Err(Failure::input(format!("{}: --friction: {why}", file.path().display()))),
+        Some(why) => Err(Failure::input(format!("{file}: --friction: {why}"))),
     }
 }
 
@@ -42,7 +42,8 @@ impl FrictionArguments {
         let formula = Formula::parse(&width.to_string()).ok().filter(|_| width > 0.0);
         let Some(formula) = formula else {
             return Err(Failure::Usage(vec![format!(
-                "--smoothing is {width}; it must be a positive velocity"
+                "--smoothing is {}; it must be a positive velocity",
+                number(width)
             )]));
         };
         for link in &mut robot.links {

@@ -126,6 +126,16 @@ impl Dynamics for RobotProgram<'_> {
         }
     }
 
+    /// Where dry friction can hold joints, what they show of inertia may be none.
+    fn check(&self, state: &State) -> Result<(), Cause> {
+        match self.wrong_pivot(state) {
+            Some(pivot) if pivot.digits == 0 && self.dry_friction().is_none() => {
+                Err(Cause::Other(format!("there are no accelerations: {pivot}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn dry_friction(&self) -> Option<&dyn DryFriction> {
         let friction = self.friction.as_ref()?;
         friction.can_stick.contains(&true).then_some(self)

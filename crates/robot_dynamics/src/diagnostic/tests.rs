@@ -96,3 +96,20 @@ fn codes_are_unique_and_in_order() {
     assert!(codes.is_sorted());
     assert!(codes.windows(2).all(|pair| pair[0] != pair[1]));
 }
+
+#[test]
+fn numbers_are_short_and_read_back() {
+    for (value, expected) in [
+        (5.0, "5"),
+        (0.01, "0.01"),
+        (-0.0, "-0"),
+        (1e-300, "1e-300"),
+        (-2.5e300, "-2.5e300"),
+        (1e16, "1e16"),
+        (123456.75, "123456.75"),
+        (f64::NAN, "NaN"),
+        (f64::INFINITY, "inf"),
+    ] {
+        assert_eq!(number(value), expected);
+    }
+}
