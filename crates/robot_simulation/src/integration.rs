@@ -19,6 +19,8 @@ const SMALLEST_STEP: f64 = 1e-14;
 const SMALLEST_PIECE: f64 = 1e-12;
 /// The steps after which it is asked how far they led.
 const WATCHED: usize = 5000;
+/// Squares of larger numbers are beyond the range of numbers.
+const LARGE: f64 = 1e150;
 /// The most events that follow each other without a time between them.
 const MAX_EVENTS: usize = 100;
 
@@ -267,8 +269,10 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         };
         let all = named("qd", state.qd).chain(named("qdd", qdd));
         match all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) {
-            Some((name, value)) => Cause::Large(format!("{name} = {}", number(value))),
-            None => Cause::StepSize,
+            Some((name, value)) if value.abs() > LARGE => {
+                Cause::Large(format!("{name} = {}", number(value)))
+            }
+            _ => Cause::StepSize,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The interpreted program of a robot as dynamics.
 
-use robot_build::{FunctionKind, Pivot, Pivots, Programs};
+use robot_build::{FunctionKind, Pivot, Pivots, Programs, Trigonometry, too_large_angle};
 use robot_codegen::Interpreter;
 use robot_dynamics::model::{Friction, JointKind, Robot};
 use robot_symbolic::Formula;
@@ -119,6 +119,9 @@ impl Dynamics for RobotProgram<'_> {
         };
         if found.iter().all(|entry| entry.is_finite()) {
             return Ok(found);
+        }
+        if let Some(angle) = too_large_angle(self.robot, &state.q, Trigonometry::default()) {
+            return Err(Cause::Other(angle));
         }
         match self.wrong_pivot(state) {
             Some(pivot) => Err(Cause::Other(format!("there are no accelerations: {pivot}"))),

@@ -153,6 +153,7 @@ impl Arguments {
                 state,
                 &outputs,
                 digits,
+                Trigonometry::from(self.trigonometry),
             ));
             results.push(outputs);
         }

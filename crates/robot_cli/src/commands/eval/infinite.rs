@@ -1,5 +1,6 @@
 //! Outputs that are not finite, which JSON cannot hold: which entry, at which state, and why.
 
+use robot_build::{Trigonometry, too_large_angle};
 use robot_codegen::OutputValues;
 use robot_dynamics::diagnostic::number;
 use robot_dynamics::model::Robot;
@@ -15,6 +16,7 @@ pub(super) fn messages(
     state: &State,
     outputs: &[OutputValues],
     digits: &Digits,
+    trigonometry: Trigonometry,
 ) -> Vec<String> {
     let wrong =
         outputs.iter().filter(|output| output.values.iter().any(|value| !value.is_finite()));
@@ -24,8 +26,10 @@ pub(super) fn messages(
     }
     // The eigenvectors of a singular matrix tell every coordinate; where it is not quite singular, its
     // pivots tell one.
-    let why = digits.matter().then(|| singular(robot, settings, state)).flatten();
-    let why = why.or_else(|| digits.singular(state));
+    let of_matrix = || digits.matter().then(|| singular(robot, settings, state)).flatten();
+    let angle = state.array("q").and_then(|q| too_large_angle(robot, q, trigonometry));
+    let angle = angle.map(|why| format!("{why}, or --trigonometry standard"));
+    let why = angle.or_else(of_matrix).or_else(|| digits.singular(state));
     let why =
         why.unwrap_or_else(|| "look at the size of the parameters and of the state".to_owned());
     let message = |output: &&OutputValues| {
