@@ -26,6 +26,7 @@
 //! `robot-symbolic` give the same code.
 
 pub mod ablation;
+mod angles;
 pub mod budget;
 mod builder;
 mod cargo;
@@ -45,6 +46,7 @@ mod singular;
 pub mod snapping;
 mod specification;
 
+pub use angles::too_large_angle;
 pub use builder::{Builder, compile};
 pub use conventions::CONVENTIONS;
 pub use error::{Error, Errors};

@@ -22,10 +22,8 @@ const DIGITS: f64 = 15.0;
 /// The pivot of a coordinate is the inertia that its joint shows where the joints farther out are free.
 #[derive(Clone, Debug)]
 pub struct Pivots {
-    module: Module,
+    interpreter: Interpreter<'static>,
     joints: Vec<String>,
-    given: Vec<(String, f64)>,
-    trigonometry: Trigonometry,
 }
 
 /// A pivot at a state that leaves forward dynamics few digits or none.
@@ -36,7 +34,8 @@ pub struct Pivot {
     /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, where the state
     /// has no accelerations.
     pub part: f64,
-    /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15.
+    /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15. With 0 the
+    /// pivot is rounding alone, and the state has no accelerations.
     pub digits: u32,
 }
 
@@ -46,7 +45,7 @@ impl Pivots {
     ///
     /// # Errors
     ///
-    /// A robot too large for code.
+    /// A robot too large for code; parameters without a value.
     pub fn new(robot: &Robot, options: &Options, given: &[(&str, f64)]) -> Result<Pivots, Errors> {
         let (name, limit) = (&robot.name, MAX_NODES);
         let graph = Graph::limited(limit);
@@ -58,18 +57,18 @@ impl Pivots {
         }
         let module = Module::compile(&specification, &robot_codegen::Options::none())
             .map_err(|errors| Errors::of_code(name, &errors))?;
-        Ok(Pivots {
-            module,
-            joints: robot.coordinates.iter().map(|coordinate| coordinate.joint.clone()).collect(),
-            given: given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
-            trigonometry: Trigonometry::Standard,
-        })
+        let interpreter = Interpreter::owned(module, given)
+            .map_err(|errors| Errors::of_code(name, &errors))?
+            .with_trigonometry(Trigonometry::Standard);
+        let joints = robot.coordinates.iter().map(|coordinate| coordinate.joint.clone()).collect();
+        Ok(Pivots { interpreter, joints })
     }
 
     /// The same with sines and cosines from elsewhere than the standard library.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
-        Pivots { trigonometry, ..self }
+        let interpreter = self.interpreter.with_trigonometry(trigonometry);
+        Pivots { interpreter, ..self }
     }
 
     /// The smallest pivot at positions, where it is below 10⁻⁸ of the joint's entry on the diagonal of M or
@@ -77,13 +76,9 @@ impl Pivots {
     ///
     /// # Errors
     ///
-    /// Parameters without a value; positions of another number.
+    /// Positions of another number.
     pub fn smallest(&self, q: &[f64]) -> Result<Option<Pivot>, robot_codegen::Errors> {
-        let given: Vec<(&str, f64)> =
-            self.given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
-        let interpreter =
-            Interpreter::new(&self.module, &given)?.with_trigonometry(self.trigonometry);
-        let values = interpreter.call_rounded("pivots", &[("q", q)])?;
+        let values = self.interpreter.call_rounded("pivots", &[("q", q)])?;
         let (pivots, diagonal) = values.split_at(values.len() / 2);
         let found = pivots.iter().zip(diagonal).zip(&self.joints).map(|((pivot, whole), joint)| {
             let part = pivot.value / whole.value.abs();
@@ -104,10 +99,10 @@ impl Pivots {
 }
 
 impl Pivot {
-    /// Whether there are no accelerations, for the pivot is not above 0 and finite.
+    /// Whether there are no accelerations, for the pivot is not above 0 and finite, or is rounding alone.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
-        !(self.part > 0.0 && self.part.is_finite())
+        !(self.part > 0.0 && self.part.is_finite()) || self.digits == 0
     }
 }
 
@@ -115,6 +110,14 @@ impl Pivot {
 impl fmt::Display for Pivot {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Pivot { joint, part, digits } = self;
+        if *digits == 0 && part.is_finite() && *part != 0.0 {
+            return write!(
+                formatter,
+                "the mass matrix is singular to within rounding: what the joint `{joint}` shows of inertia \
+                 where the joints farther out are free is rounding alone, and so are the accelerations; look \
+                 at the masses and moments of inertia, and at the posture"
+            );
+        }
         if self.is_wrong() && *part <= -SMALL {
             return write!(
                 formatter,

@@ -1,18 +1,18 @@
 //! Whether and how a command takes friction into account.
 
 use clap::Args;
-use robot_build::{FunctionKind, shown};
+use robot_build::FunctionKind;
+use robot_model::diagnostic::number;
 use robot_model::robot::{Friction, Robot};
 use robot_symbolic::Formula;
 
 use crate::failure::Failure;
-use crate::robot::RobotArgument;
 
 /// That the robot has friction, which a command was asked to take into account.
-pub(crate) fn has_friction(file: &RobotArgument, robot: &Robot) -> Result<(), Failure> {
+pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
     match FunctionKind::InverseDynamicsFriction.missing_in(robot) {
         None => Ok(()),
-        Some(why) => Err(Failure::input(format!("{}: --friction: {why}", shown(file.path())))),
+        Some(why) => Err(Failure::input(format!("{file}: --friction: {why}"))),
     }
 }
 
@@ -42,7 +42,8 @@ impl FrictionArguments {
         let formula = Formula::parse(&width.to_string()).ok().filter(|_| width > 0.0);
         let Some(formula) = formula else {
             return Err(Failure::Usage(vec![format!(
-                "--smoothing is {width}; it must be a positive velocity"
+                "--smoothing is {}; it must be a positive velocity",
+                number(width)
             )]));
         };
         for link in &mut robot.links {

@@ -1,17 +1,17 @@
 //! What commands about motions make of a robot file.
 
-use robot_build::{FunctionKind, Functions, Options, Programs, programs_of, shown};
+use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
 use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::friction::{FrictionArguments, has_friction};
-use crate::robot::RobotArgument;
+use crate::robot::OpenRobot;
 use crate::settings::Settings;
 
 /// The robot, all its parameters known and its friction as it is asked for.
 pub(crate) fn robot(
-    file: &RobotArgument,
+    file: &OpenRobot<'_>,
     settings: &Settings,
     friction: &FrictionArguments,
     terminal: &mut Terminal<'_>,
@@ -24,7 +24,7 @@ pub(crate) fn robot(
     settings.check(file, &described, terminal)?;
     let mut robot = described.robot;
     if friction.is_wanted() {
-        has_friction(file, &robot)?;
+        has_friction(&file.source().name, &robot)?;
     }
     friction.smooth(&mut robot)?;
     Ok(robot)
@@ -32,11 +32,11 @@ pub(crate) fn robot(
 
 /// The programs of its functions, under options of the file's.
 pub(crate) fn programs(
-    file: &RobotArgument,
+    file: &OpenRobot<'_>,
     robot: Robot,
     functions: Vec<FunctionKind>,
     options: Options,
 ) -> Result<Programs, Failure> {
     let options = Options { functions: Functions::Chosen(functions), ..options };
-    Ok(programs_of(robot, &shown(file.path()), &options)?)
+    Ok(programs_of(robot, &file.source().name, &options)?)
 }

@@ -56,12 +56,14 @@ impl RobotArgument {
         Ok(RobotFile::read(&self.file)?.source)
     }
 
+    /// The file, read once for all that a command makes of it.
+    pub(crate) fn open(&self) -> Result<OpenRobot<'_>, Failure> {
+        Ok(OpenRobot { argument: self, file: RobotFile::read(&self.file)? })
+    }
+
     /// The robot; warnings are shown.
     pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
-        let mut described = self.reading.read(&self.source()?, terminal)?;
-        let robot = &mut described.robot;
-        robot.base_frames = self.base_frames.unwrap_or(robot.base_frames);
-        Ok(described)
+        self.open()?.read(terminal)
     }
 
     /// The snapping tolerance, rad, where one is given.
@@ -69,10 +71,9 @@ impl RobotArgument {
         self.snap
     }
 
-    /// The default options of commands that compute, with the snapping tolerance and the pinned plan; where
-    /// none is pinned or the pin is stale, which is warned of, the cheapest form is searched.
+    /// Those of [`OpenRobot::options`].
     pub(crate) fn options(&self, terminal: &mut Terminal<'_>) -> Result<Options, Failure> {
-        pinned_or_searched(&RobotFile::read(&self.file)?, self.unpinned(), terminal)
+        self.open()?.options(terminal)
     }
 
     /// The same of commands that make code, which refuse a stale pin as builds do.
@@ -97,6 +98,43 @@ impl RobotArgument {
     /// The path of the file.
     pub(crate) fn path(&self) -> &std::path::Path {
         &self.file
+    }
+}
+
+/// A robot file that was read.
+pub(crate) struct OpenRobot<'a> {
+    argument: &'a RobotArgument,
+    file: RobotFile,
+}
+
+impl OpenRobot<'_> {
+    /// The text.
+    pub(crate) fn source(&self) -> &Source {
+        &self.file.source
+    }
+
+    /// The robot; warnings are shown.
+    pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
+        let mut described = self.argument.reading.read(self.source(), terminal)?;
+        let robot = &mut described.robot;
+        robot.base_frames = self.argument.base_frames.unwrap_or(robot.base_frames);
+        Ok(described)
+    }
+
+    /// Holds the robot against the reader's checks with other values of parameters.
+    pub(crate) fn check_values(
+        &self,
+        described: &Described,
+        values: &[(&str, f64)],
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        self.argument.reading.check_values(self.source(), described, values, terminal)
+    }
+
+    /// The default options of commands that compute, with the snapping tolerance and the pinned plan; where
+    /// none is pinned or the pin is stale, which is warned of, the cheapest form is searched.
+    pub(crate) fn options(&self, terminal: &mut Terminal<'_>) -> Result<Options, Failure> {
+        pinned_or_searched(&self.file, self.argument.unpinned(), terminal)
     }
 }
 

@@ -2,11 +2,12 @@
 
 use clap::Args;
 use robot_model::description::Described;
+use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
-use crate::robot::RobotArgument;
+use crate::robot::OpenRobot;
 use crate::text;
 
 /// Parameters' values in place of the nominal ones.
@@ -34,7 +35,7 @@ impl Settings {
     /// Holds the robot file against the reader's checks with these values in place of the nominal ones.
     pub(crate) fn check(
         &self,
-        file: &RobotArgument,
+        file: &OpenRobot<'_>,
         described: &Described,
         terminal: &mut Terminal<'_>,
     ) -> Result<(), Failure> {
@@ -42,10 +43,10 @@ impl Settings {
         if pairs.is_empty() {
             return Ok(());
         }
-        let checked = file.reading.check_values(&file.source()?, described, &pairs, terminal);
+        let checked = file.check_values(described, &pairs, terminal);
         if let Err(Failure::Robot(_)) = &checked {
             let values: Vec<String> =
-                pairs.iter().map(|(name, value)| format!("{name}={value}")).collect();
+                pairs.iter().map(|(name, value)| format!("{name}={}", number(*value))).collect();
             writeln!(terminal.errors, "with --set {}:", values.join(" --set "))?;
         }
         checked

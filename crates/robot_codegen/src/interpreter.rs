@@ -5,6 +5,9 @@
 //! last bit (but for multiply-adds, those of the runtime's sines among them, which round twice here on
 //! every machine and once on targets that fuse them).
 
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
 use robot_runtime::{Scalar as _, trig};
 use robot_symbolic::Function as Call;
 use rustc_hash::FxHashMap;
@@ -18,9 +21,11 @@ use crate::trigonometry::Trigonometry;
 /// A module with its parameters given.
 #[derive(Clone, Debug)]
 pub struct Interpreter<'m> {
-    module: &'m Module,
+    module: Cow<'m, Module>,
     parameters: Vec<f64>,
     fields: Vec<f64>,
+    /// The fields with bounds of their rounding, once these are asked for.
+    rounded: OnceLock<Vec<Rounded>>,
     trigonometry: Trigonometry,
 }
 
@@ -42,6 +47,19 @@ impl<'m> Interpreter<'m> {
     ///
     /// Names that are no parameters, and parameters with neither a given nor a nominal value.
     pub fn new(module: &'m Module, given: &[(&str, f64)]) -> Result<Interpreter<'m>, Errors> {
+        Interpreter::of(Cow::Borrowed(module), given)
+    }
+
+    /// As [`Interpreter::new`], of a module that it keeps.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Interpreter::new`].
+    pub fn owned(module: Module, given: &[(&str, f64)]) -> Result<Interpreter<'static>, Errors> {
+        Interpreter::of(Cow::Owned(module), given)
+    }
+
+    fn of<'a>(module: Cow<'a, Module>, given: &[(&str, f64)]) -> Result<Interpreter<'a>, Errors> {
         let given_values: FxHashMap<&str, f64> = given.iter().copied().collect();
         let mut errors = vec![];
         for (name, _) in given {
@@ -63,15 +81,15 @@ impl<'m> Interpreter<'m> {
         }
         let parameters = Errors::check(errors, values)?;
         let trigonometry = Trigonometry::default();
-        let fields = fields(module, &parameters, trigonometry);
-        Ok(Interpreter { module, parameters, fields, trigonometry })
+        let fields = fields(&module, &parameters, trigonometry);
+        Ok(Interpreter { module, parameters, fields, rounded: OnceLock::new(), trigonometry })
     }
 
     /// The same with sines and cosines, of the constructor as well, from elsewhere.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Interpreter<'m> {
-        let fields = fields(self.module, &self.parameters, trigonometry);
-        Interpreter { fields, trigonometry, ..self }
+        let fields = fields(&self.module, &self.parameters, trigonometry);
+        Interpreter { fields, rounded: OnceLock::new(), trigonometry, ..self }
     }
 
     /// Calls a function; inputs by name.
@@ -95,7 +113,8 @@ impl<'m> Interpreter<'m> {
         Ok(outputs.collect())
     }
 
-    /// As [`Interpreter::call`], all outputs in one array, with bounds of what rounding does to them.
+    /// As [`Interpreter::call`], all outputs in one array, with bounds of what rounding does to them, that
+    /// of the constructor and of the parameters' values included: half a unit in the last place of each.
     ///
     /// # Errors
     ///
@@ -108,11 +127,29 @@ impl<'m> Interpreter<'m> {
         let function = self.function(function)?;
         let inputs = gather_inputs(function, inputs)?;
         let circular = self.circular(function, &inputs);
-        let load = |source| self.load(source, &inputs, &circular);
+        let fields = self.rounded.get_or_init(|| self.rounded_fields());
+        let load = |source| match source {
+            Source::Field(index) => fields[index as usize],
+            other => {
+                let value = self.load(other, &inputs, &circular);
+                Rounded::loaded(other, self.trigonometry, value)
+            }
+        };
         Ok(rounding::evaluate(&function.core, self.trigonometry, load))
     }
 
-    fn function(&self, name: &str) -> Result<&'m Function, Errors> {
+    /// What the constructor stores, with bounds of its rounding.
+    fn rounded_fields(&self) -> Vec<Rounded> {
+        rounding::evaluate(&self.module.constructor, self.trigonometry, |source| {
+            let value = match source {
+                Source::Parameter(index) => self.parameters[index as usize],
+                _ => f64::NAN,
+            };
+            Rounded::loaded(source, self.trigonometry, value)
+        })
+    }
+
+    fn function(&self, name: &str) -> Result<&Function, Errors> {
         self.module.function(name).ok_or_else(|| {
             Errors::from(Error::UnknownFunction {
                 module: self.module.name.clone(),

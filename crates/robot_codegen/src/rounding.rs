@@ -2,7 +2,8 @@
 //!
 //! Running error analysis (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., 2002,
 //! section 3.3): each operation passes on the errors of its operands, to first order, and adds half a unit
-//! in its last place. The bounds are of the values for the inputs as they are given.
+//! in its last place. The bounds are of the values for the inputs as they are given; parameters are decimal
+//! numbers, of which the nearest `f64` is taken.
 
 use robot_symbolic::Function as Call;
 
@@ -32,6 +33,19 @@ impl Rounded {
 
     fn exact(value: f64) -> Rounded {
         Rounded { value, error: 0.0 }
+    }
+
+    /// What a load reads: inputs are what they are; parameters, fields and sines are rounded.
+    pub(crate) fn loaded(source: Source, trigonometry: Trigonometry, value: f64) -> Rounded {
+        match source {
+            Source::Input(_) => Rounded::exact(value),
+            Source::Sin(_) | Source::Cos(_) if trigonometry == Trigonometry::Polynomial => {
+                Rounded { value, error: POLYNOMIAL }
+            }
+            Source::Parameter(_) | Source::Field(_) | Source::Sin(_) | Source::Cos(_) => {
+                Rounded::new(value, 0.0)
+            }
+        }
     }
 
     fn plus(self, other: Rounded) -> Rounded {
@@ -71,14 +85,14 @@ impl Rounded {
 pub(crate) fn evaluate(
     program: &Program,
     trigonometry: Trigonometry,
-    load: impl Fn(Source) -> f64,
+    load: impl Fn(Source) -> Rounded,
 ) -> Vec<Rounded> {
     let mut values: Vec<Rounded> = Vec::with_capacity(program.operations().len());
     for operation in program.operations() {
         let at = |value: Value| values[value.index()];
         values.push(match *operation {
             Operation::Constant(constant) => Rounded::exact(constant.get()),
-            Operation::Load(source) => loaded(source, trigonometry, load(source)),
+            Operation::Load(source) => load(source),
             Operation::Add(a, b) => at(a).plus(at(b)),
             Operation::Sub(a, b) => at(a).plus(at(b).minus()),
             Operation::Mul(a, b) => at(a).times(at(b)),
@@ -89,17 +103,6 @@ pub(crate) fn evaluate(
         });
     }
     program.results().iter().map(|value| values[value.index()]).collect()
-}
-
-/// Inputs are what they are; fields and sines are rounded.
-fn loaded(source: Source, trigonometry: Trigonometry, value: f64) -> Rounded {
-    match source {
-        Source::Parameter(_) | Source::Input(_) => Rounded::exact(value),
-        Source::Sin(_) | Source::Cos(_) if trigonometry == Trigonometry::Polynomial => {
-            Rounded { value, error: POLYNOMIAL }
-        }
-        Source::Field(_) | Source::Sin(_) | Source::Cos(_) => Rounded::new(value, 0.0),
-    }
 }
 
 #[cfg(test)]
@@ -116,7 +119,9 @@ mod tests {
         let difference = builder.sub(sum, one);
         let program = builder.finish(vec![difference]);
         let x = 1e-10 / 3.0;
-        let [found] = evaluate(&program, Trigonometry::Standard, |_| x)[..] else { panic!() };
+        let [found] = evaluate(&program, Trigonometry::Standard, |_| Rounded::exact(x))[..] else {
+            panic!()
+        };
         assert!((found.value - x).abs() <= found.error, "{found:?}");
         assert!(found.error > 1e-7 * x && found.error < 1e-5 * x, "{found:?}");
     }

@@ -23,6 +23,16 @@ pub trait Dynamics {
     /// Where the state has none. Values that are not finite are an error as well; the caller looks.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause>;
 
+    /// Whether the accelerations at a state are more than rounding; asked at each sample.
+    ///
+    /// # Errors
+    ///
+    /// Where they are not.
+    fn check(&self, state: &State) -> Result<(), Cause> {
+        let _ = state;
+        Ok(())
+    }
+
     /// The dry friction that holds joints at rest; `None` where none can. Where there is some, the
     /// motion follows it and not [`Dynamics::accelerations`].
     fn dry_friction(&self) -> Option<&dyn DryFriction> {
@@ -66,6 +76,22 @@ pub trait TorqueLaw {
     fn corners(&self) -> &[f64] {
         &[]
     }
+
+    /// What else the integrator must not step over in the span of the samples, times in s.
+    fn features(&self, samples: &[f64]) -> Features {
+        let _ = samples;
+        Features::default()
+    }
+}
+
+/// Where driving forces change so quickly that a step might miss it; times in s, rising.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Features {
+    /// Times just before and just after a jump of the forces or their slopes: a step ends at the first, and
+    /// the integrator starts anew at the second.
+    pub jumps: Vec<[f64; 2]>,
+    /// Times within short pulses. The integrator steps onto each.
+    pub peaks: Vec<f64>,
 }
 
 /// Any function of time and state.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use robot_model::diagnostic::number;
+
 /// Why there is no motion, or no picture of one.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -16,7 +18,7 @@ pub enum Error {
     #[error("{}", .0.join("\n"))]
     Input(Vec<String>),
     /// The integration ended before its time.
-    #[error("the motion ends at t = {t} s: {cause}")]
+    #[error("the motion ends at t = {} s: {cause}", number(*.t))]
     Stopped {
         /// The time that was reached, s.
         t: f64,
@@ -58,7 +60,9 @@ pub enum Cause {
     Steps(usize),
     /// So many steps, the first figure, led so short a way that the second would not be enough.
     Slow(usize, usize),
-    /// What the integrator or the interpreter says.
+    /// A velocity or an acceleration, such as `qdd1 = 1e300`, that no step can follow.
+    Large(String),
+    /// What the interpreter or the robot's mass matrix says.
     Other(String),
 }
 
@@ -99,6 +103,11 @@ impl fmt::Display for Cause {
                 formatter,
                 "the last {steps} steps led so short a way that {limit} would not be enough. {SMALL}; \
                  else allow more, or a coarser tolerance"
+            ),
+            Cause::Large(what) => write!(
+                formatter,
+                "{what} is too large for a step of any length; look at the velocities at the start, the \
+                 driving forces and the masses"
             ),
             Cause::Other(words) => formatter.write_str(words),
         }

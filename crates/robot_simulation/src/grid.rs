@@ -1,5 +1,7 @@
 //! Times of output.
 
+use robot_model::diagnostic::number;
+
 use crate::error::Error;
 
 /// More samples than this are refused: a table of them would fill the memory.
@@ -14,19 +16,20 @@ pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
     let mut wrong = vec![];
     for (name, value) in [("duration", duration), ("output step", step)] {
         if !(value.is_finite() && value > 0.0) {
-            wrong.push(format!("the {name} is {value} s; it must be positive"));
+            wrong.push(format!("the {name} is {} s; it must be positive", number(value)));
         }
     }
     Error::check(wrong, ())?;
     // A step that falls short of the end by rounding alone is the end.
     let whole = (duration / step * (1.0 + 1e-12)).floor();
     if whole > MAX_SAMPLES {
-        let message = format!("{whole} samples are more than {MAX_SAMPLES}; take a larger step");
+        let message =
+            format!("{} samples are more than {MAX_SAMPLES}; take a larger step", number(whole));
         return Err(Error::input(message));
     }
     let mut times: Vec<f64> = (0..=whole as usize).map(|index| index as f64 * step).collect();
     match times.last_mut() {
-        Some(last) if duration - *last <= 1e-9 * step => *last = duration,
+        Some(last) if *last > 0.0 && duration - *last <= 1e-9 * step => *last = duration,
         _ => times.push(duration),
     }
     Ok(times)
@@ -41,6 +44,10 @@ mod tests {
         assert_eq!(times(1.0, 0.25).unwrap(), [0.0, 0.25, 0.5, 0.75, 1.0]);
         assert_eq!(times(1.0, 0.4).unwrap(), [0.0, 0.4, 0.8, 1.0]);
         assert_eq!(times(0.3, 1.0).unwrap(), [0.0, 0.3]);
+        // The start is there, however short the time is.
+        for (duration, step) in [(1e-300, 0.01), (10.0, 1e300), (5e-324, 1.0)] {
+            assert_eq!(times(duration, step).unwrap(), [0.0, duration]);
+        }
         // 10 / 0.1 and 0.3 / 0.1 are rounded up and down.
         for (duration, step, count) in [(10.0, 0.1, 101), (0.3, 0.1, 4), (0.7, 0.1, 8)] {
             let times = times(duration, step).unwrap();
@@ -53,5 +60,7 @@ mod tests {
         let shown = times(-1.0, f64::NAN).unwrap_err().to_string();
         assert_eq!(shown.lines().count(), 2, "{shown}");
         assert!(times(1e9, 1e-9).unwrap_err().to_string().contains("samples"));
+        let shown = times(1e300, 0.01).unwrap_err().to_string();
+        assert!(shown.len() < 100, "{shown}");
     }
 }

@@ -4,6 +4,7 @@ use differential_equations::error::Error as IntegratorError;
 use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
+use robot_model::diagnostic::number;
 
 use crate::dynamics::{Dynamics, State, TorqueLaw};
 use crate::error::{Cause, Error};
@@ -18,6 +19,8 @@ const SMALLEST_STEP: f64 = 1e-14;
 const SMALLEST_PIECE: f64 = 1e-12;
 /// The steps after which it is asked how far they led.
 const WATCHED: usize = 5000;
+/// Squares of larger numbers are beyond the range of numbers.
+const LARGE: f64 = 1e150;
 /// The most events that follow each other without a time between them.
 const MAX_EVENTS: usize = 100;
 
@@ -76,8 +79,9 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
     /// τ, q̈ and the state at a time that was reached.
     pub(crate) fn sample(&self, t: f64) -> Result<(State, Vec<f64>, Vec<f64>), Error> {
         let state = self.system.state(self.method.y());
-        let found = self.system.found(t, &state);
-        let (tau, Balance { qdd, .. }) = found.map_err(|cause| Error::Stopped { t, cause })?;
+        let stopped = |cause| Error::Stopped { t, cause };
+        let (tau, Balance { qdd, .. }) = self.system.found(t, &state).map_err(stopped)?;
+        self.system.check(&state).map_err(stopped)?;
         Ok((state, qdd, tau))
     }
 
@@ -98,6 +102,16 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
             progress(self.method.t());
         }
         Ok(())
+    }
+
+    /// Goes over a jump of the driving forces: starts anew from the state that was reached, at a time behind
+    /// the jump.
+    pub(crate) fn jump(&mut self, after: f64) -> Result<(), Error> {
+        let t = after.max(self.method.t());
+        let y = self.method.y().clone();
+        (self.bracket, self.shortened) = (None, None);
+        self.choose(t, &self.system.state(&y), Some(&[]))?;
+        self.restart(t, &y, 0.0)
     }
 
     /// The shortest time within which events are told apart, s.
@@ -131,7 +145,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
                 let (y, h) = (self.method.y().clone(), self.method.h());
                 self.restart(t, &y, h)
             }
-            Err(error) => Err(self.stopped(t, error)),
+            Err(_) => Err(self.stopped(t)),
         }
     }
 
@@ -212,7 +226,10 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         let end = t + self.options.duration;
         self.method.h0 = length;
         let started = self.method.init(&self.system, t, end, y);
-        started.map_err(|error| self.stopped(t, error))?;
+        started.map_err(|error| match error {
+            IntegratorError::BadInput { .. } => Error::Stopped { t, cause: self.too_large(t, y) },
+            _ => self.stopped(t),
+        })?;
         self.method.set_status(Status::Solving);
         Ok(())
     }
@@ -233,14 +250,29 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(())
     }
 
-    /// The words of the integrator, or what stood behind them.
-    fn stopped(&self, t: f64, error: IntegratorError<f64, Vec<f64>>) -> Error {
-        let cause = match error {
-            IntegratorError::StepSize { .. } => {
-                self.system.failure.take().unwrap_or(Cause::StepSize)
-            }
-            other => Cause::Other(format!("{other:?}")),
-        };
+    /// Why steps are too small: the integrator tells only that they are.
+    fn stopped(&self, t: f64) -> Error {
+        let cause = self.system.failure.take().unwrap_or(Cause::StepSize);
         Error::Stopped { t, cause }
+    }
+
+    /// Why there is no first step: the largest velocity or acceleration.
+    fn too_large(&self, t: f64, y: &[f64]) -> Cause {
+        let state = self.system.state(y);
+        let qdd = match self.system.found(t, &state) {
+            Ok((_, Balance { qdd, .. })) => qdd,
+            Err(cause) => return cause,
+        };
+        let named = |name: &'static str, values: Vec<f64>| {
+            let entries = values.into_iter().enumerate();
+            entries.map(move |(index, value)| (format!("{name}{}", index + 1), value))
+        };
+        let all = named("qd", state.qd).chain(named("qdd", qdd));
+        match all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) {
+            Some((name, value)) if value.abs() > LARGE => {
+                Cause::Large(format!("{name} = {}", number(value)))
+            }
+            _ => Cause::StepSize,
+        }
     }
 }

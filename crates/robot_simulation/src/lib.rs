@@ -21,6 +21,7 @@ mod dynamics;
 mod error;
 mod events;
 mod expressions;
+mod features;
 mod friction;
 mod grid;
 mod integration;
@@ -35,7 +36,7 @@ mod table;
 mod torques;
 mod trajectory;
 
-pub use dynamics::{DryFriction, Dynamics, State, TorqueLaw, from_fn};
+pub use dynamics::{DryFriction, Dynamics, Features, State, TorqueLaw, from_fn};
 pub use error::{Cause, Error};
 pub use motion::{Energies, Motion};
 pub use program::RobotProgram;

@@ -1,6 +1,6 @@
 //! The interpreted program of a robot as dynamics.
 
-use robot_build::{FunctionKind, Pivot, Pivots, Programs};
+use robot_build::{FunctionKind, Pivot, Pivots, Programs, Trigonometry, too_large_angle};
 use robot_codegen::Interpreter;
 use robot_model::robot::{Friction, JointKind, Robot};
 use robot_symbolic::Formula;
@@ -120,9 +120,22 @@ impl Dynamics for RobotProgram<'_> {
         if found.iter().all(|entry| entry.is_finite()) {
             return Ok(found);
         }
+        if let Some(angle) = too_large_angle(self.robot, &state.q, Trigonometry::default()) {
+            return Err(Cause::Other(angle));
+        }
         match self.wrong_pivot(state) {
             Some(pivot) => Err(Cause::Other(format!("there are no accelerations: {pivot}"))),
             None => Ok(found),
+        }
+    }
+
+    /// Where dry friction can hold joints, what they show of inertia may be none.
+    fn check(&self, state: &State) -> Result<(), Cause> {
+        match self.wrong_pivot(state) {
+            Some(pivot) if pivot.digits == 0 && self.dry_friction().is_none() => {
+                Err(Cause::Other(format!("there are no accelerations: {pivot}")))
+            }
+            _ => Ok(()),
         }
     }
 

@@ -1,7 +1,8 @@
 //! The driving forces along a trajectory, split by cause.
 
-use robot_build::{FunctionKind, Programs};
+use robot_build::{FunctionKind, Programs, Trigonometry, too_large_angle};
 use robot_codegen::Interpreter;
+use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
 
 use crate::error::Error;
@@ -104,11 +105,13 @@ pub fn shares(
         let sample = Sample { q, qd, qdd, wrenches: wrenches(&programs.robot, trajectory, index) };
         sample.add(&interpreter, &mut shares)?;
         if shares.total.last().is_some_and(|total| total.iter().any(|torque| !torque.is_finite())) {
-            let t = trajectory.t.get(index).copied().unwrap_or_default();
-            return Err(Error::input(format!(
-                "at t = {t} s torques have no finite value; look at the size of the trajectory and of the \
-                 parameters"
-            )));
+            let t = number(trajectory.t.get(index).copied().unwrap_or_default());
+            let angle = too_large_angle(&programs.robot, q, Trigonometry::default());
+            let why = angle.unwrap_or_else(|| {
+                "look at the size of the trajectory and of the parameters".to_owned()
+            });
+            let message = format!("at t = {t} s torques have no finite value; {why}");
+            return Err(Error::input(message));
         }
     }
     Ok(shares)

@@ -1,6 +1,8 @@
 //! The integration of the motion law.
 
-use crate::dynamics::{Dynamics, State, TorqueLaw};
+use robot_model::diagnostic::number;
+
+use crate::dynamics::{Dynamics, Features, State, TorqueLaw};
 use crate::error::Error;
 use crate::grid;
 use crate::integration::Integration;
@@ -53,11 +55,15 @@ pub fn simulate(
     check(dynamics, start, options)?;
     let mut integration = Integration::new(dynamics, torques, start, options)?;
     let mut motion = Motion::default();
-    for target in stops(&times, torques.corners()) {
+    for target in stops(&times, torques.corners(), &torques.features(&times)) {
         integration.reach(target.t, progress)?;
-        if target.is_sample {
-            let (state, qdd, tau) = integration.sample(target.t)?;
-            motion.push(target.t, state, qdd, tau);
+        match target.then {
+            Then::Nothing => {}
+            Then::Sample => {
+                let (state, qdd, tau) = integration.sample(target.t)?;
+                motion.push(target.t, state, qdd, tau);
+            }
+            Then::Jump(after) => integration.jump(after)?,
         }
     }
     motion.steps = integration.steps;
@@ -67,15 +73,27 @@ pub fn simulate(
 /// A time at which a step ends.
 struct Stop {
     t: f64,
-    is_sample: bool,
+    then: Then,
 }
 
-/// The samples, and the corners between them.
-fn stops(samples: &[f64], corners: &[f64]) -> Vec<Stop> {
+/// What is done at a stop.
+enum Then {
+    Nothing,
+    Sample,
+    /// The forces jump before this time.
+    Jump(f64),
+}
+
+/// The samples, and the corners, peaks and jumps between them.
+fn stops(samples: &[f64], corners: &[f64], features: &Features) -> Vec<Stop> {
     let end = samples.last().copied().unwrap_or(0.0);
-    let corners = corners.iter().copied().filter(|corner| (0.0..end).contains(corner));
-    let mut stops: Vec<Stop> = corners.map(|t| Stop { t, is_sample: false }).collect();
-    stops.extend(samples.iter().map(|t| Stop { t: *t, is_sample: true }));
+    let corners = corners.iter().chain(&features.peaks);
+    let corners = corners.map(|t| Stop { t: *t, then: Then::Nothing });
+    let jumps = features.jumps.iter();
+    let jumps = jumps.map(|[before, after]| Stop { t: before.max(0.0), then: Then::Jump(*after) });
+    let mut stops: Vec<Stop> =
+        corners.chain(jumps).filter(|stop| (0.0..end).contains(&stop.t)).collect();
+    stops.extend(samples.iter().map(|t| Stop { t: *t, then: Then::Sample }));
     stops.sort_by(|a, b| a.t.total_cmp(&b.t));
     stops
 }
@@ -88,6 +106,7 @@ fn check(
     let mut wrong = vec![];
     let tolerance = options.tolerance;
     if !(1e-14..=0.1).contains(&tolerance) {
+        let tolerance = number(tolerance);
         wrong.push(format!("the tolerance is {tolerance}; it must lie between 1e-14 and 0.1"));
     }
     let expected = dynamics.degrees_of_freedom();

@@ -92,6 +92,11 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
         Ok((tau, found))
     }
 
+    /// Whether the accelerations are more than rounding.
+    pub(crate) fn check(&self, state: &State) -> Result<(), Cause> {
+        self.dynamics.check(state)
+    }
+
     /// How far each coordinate is beyond the end of its mode.
     pub(crate) fn overruns(&self, state: &State, found: &Balance) -> Vec<Overrun> {
         let holding = found.holding.iter();

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use robot_model::diagnostic::quote;
+use robot_model::diagnostic::{number, quote};
 use robot_model::robot::Robot;
 use robot_symbolic::Formula;
 
-use crate::dynamics::{State, TorqueLaw};
+use crate::dynamics::{Features, State, TorqueLaw};
 use crate::error::Error;
-use crate::expressions;
 use crate::table::{Table, check_times};
+use crate::{expressions, features};
 
 /// Driving forces over time, N m or N.
 #[derive(Clone, Debug)]
@@ -99,8 +99,10 @@ impl Torques {
             && (*first > 0.0 || *last < duration)
         {
             wrong.push(format!(
-                "{source}: the torques go from {first} s to {last} s; the motion from 0 s to \
-                 {duration} s"
+                "{source}: the torques go from {} s to {} s; the motion from 0 s to {} s",
+                number(*first),
+                number(*last),
+                number(duration)
             ));
         }
         let count = robot.degrees_of_freedom();
@@ -157,6 +159,19 @@ impl TorqueLaw for Torques {
         match &self.0 {
             Law::Formulas { .. } => &[],
             Law::Samples { t, .. } => t,
+        }
+    }
+
+    fn features(&self, samples: &[f64]) -> Features {
+        match &self.0 {
+            Law::Formulas { formulas, meanings } => {
+                let constant = |name: &str| match meanings.get(name) {
+                    Some(Meaning::Value(value)) => Some(*value),
+                    _ => None,
+                };
+                features::features(formulas, constant, samples)
+            }
+            Law::Samples { .. } => Features::default(),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use robot_model::diagnostic::quote;
+use robot_model::diagnostic::{number, quote};
 use robot_model::robot::Robot;
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
@@ -188,7 +188,8 @@ fn kinked<'g>(
         at(graph, exprs, parameters, t).unwrap_or_else(|_| vec![f64::NAN; exprs.len()])
     };
     let message = |kink: Kink| {
-        let Kink { coordinate, t, what, sides: [left, right] } = kink;
+        let Kink { coordinate, what, .. } = kink;
+        let [t, left, right] = [kink.t, kink.sides[0], kink.sides[1]].map(number);
         format!(
             "`q{}`: the {what} jumps at t = {t} s, from {left} to {right}: the acceleration there is an \
              impulse, which no finite torque gives; write a smooth motion, such as sqrt(x^2 + w^2) for \
@@ -213,7 +214,8 @@ fn at(
     match values.iter().all(|value| value.is_finite()) {
         true => Ok(values),
         false => Err(Error::input(format!(
-            "the expressions or their derivatives have no finite value at t = {t} s"
+            "the expressions or their derivatives have no finite value at t = {} s",
+            number(t)
         ))),
     }
 }

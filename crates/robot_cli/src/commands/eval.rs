@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::functions::named;
 use robot_build::{
-    Bundle, FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs,
+    Bundle, FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs_of,
 };
 use robot_codegen::module::Function;
 use robot_codegen::{Interpreter, OutputValues};
@@ -65,23 +65,24 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let source = self.robot.source()?;
-        let described = self.robot.read(terminal)?;
+        let file = self.robot.open()?;
+        let described = file.read(terminal)?;
         let Described { robot, code, .. } = &described;
         let bundles = code.bundles.iter().filter(|bundle| bundle.name == self.function);
         let bundles: Vec<Bundle> = bundles.cloned().collect();
         let kind = if bundles.is_empty() { Some(self.kind(robot)?) } else { None };
         let mut wrong = self.settings.wrong(robot);
         if wrong.is_empty() {
-            self.settings.check(&self.robot, &described, terminal)?;
+            self.settings.check(&file, &described, terminal)?;
         }
         let states = self.states(&Layout::of(robot), terminal, &mut wrong)?;
         let kind = kind.map(|kind| with_wrench(kind, robot, &states, &mut wrong));
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
-        let options = Options { functions, bundles, ..self.robot.options(terminal)? };
-        let programs = watched("deriving", terminal, || programs(&source, &options))?;
+        let options = Options { functions, bundles, ..file.options(terminal)? };
+        let (name, robot) = (&file.source().name, robot.clone());
+        let programs = watched("deriving", terminal, || programs_of(robot, name, &options))?;
         let digits = Digits::of(&programs, &options, &self.settings.pairs(), self.trigonometry)?;
-        let results = self.results(&source, &programs, &states, wrong, &digits)?;
+        let results = self.results(file.source(), &programs, &states, wrong, &digits)?;
         digits.warn(&states, terminal)?;
         let shown = match self.format {
             Format::Json => output::json(&results),
@@ -151,7 +152,8 @@ impl Arguments {
                 &self.settings.pairs(),
                 state,
                 &outputs,
-                || digits.singular(state),
+                digits,
+                Trigonometry::from(self.trigonometry),
             ));
             results.push(outputs);
         }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_build::{Pivots, Programs};
+use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
 use robot_simulation::plot::motion_figure;
 use robot_simulation::{
@@ -79,11 +80,12 @@ impl Arguments {
         let inputs = self.robot.inputs().into_iter().chain(self.torques.clone());
         let writer = self.force.writer(inputs);
         let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
-        let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
+        let file = self.robot.open()?;
+        let robot = motion::robot(&file, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
         let functions = RobotProgram::functions(friction);
-        let options = self.robot.options(terminal)?;
-        let programs = motion::programs(&self.robot, robot, functions, options.clone())?;
+        let options = file.options(terminal)?;
+        let programs = motion::programs(&file, robot, functions, options.clone())?;
         let pivots = Pivots::new(&programs.robot, &options, &self.settings.pairs())?;
         let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?
             .with_pivots(pivots.clone());
@@ -117,7 +119,7 @@ impl Arguments {
         let max_steps = self.max_steps.unwrap_or(usual);
         let options = SimulationOptions { duration, step, tolerance, max_steps };
         let mut progress = Progress::new(terminal);
-        let mut heard = |t: f64| progress.show(|| format!("{t:.3} s of {duration} s"));
+        let mut heard = |t: f64| progress.show(|| format!("{t:.3} s of {} s", number(duration)));
         Ok(simulate(program, &torques, &start, &options, &mut heard)?)
     }
 
@@ -135,7 +137,7 @@ impl Arguments {
 fn warn(motion: &Motion, pivots: &Pivots, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     for (t, state) in motion.t.iter().zip(&motion.states) {
         if let Ok(Some(pivot)) = pivots.smallest(&state.q) {
-            writeln!(terminal.errors, "warning: t = {t} s: {pivot}")?;
+            writeln!(terminal.errors, "warning: t = {} s: {pivot}", number(*t))?;
             return Ok(());
         }
     }
@@ -149,6 +151,7 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
         (first.unwrap_or_default(), last.unwrap_or_default())
     };
     let ((_, end), (before, after)) = (ends(&motion.t), ends(&energies.total));
+    let [end, before, after] = [end, before, after].map(number);
     format!(
         "{end} s in {} steps, {} lines; energy from {before} J to {after} J",
         motion.steps,

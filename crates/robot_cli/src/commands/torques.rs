@@ -45,7 +45,14 @@ pub(crate) struct Arguments {
     )]
     expressions: Vec<String>,
     /// How long the expressions are followed, s
-    #[arg(long, value_name = "S", requires = "expressions", allow_hyphen_values = true)]
+    // A requirement alone is dropped where it conflicts with what is given.
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "expressions",
+        conflicts_with = "trajectory",
+        allow_hyphen_values = true
+    )]
     time: Option<f64>,
     /// The time between lines of the output where the motion is expressions, s
     #[arg(
@@ -75,13 +82,14 @@ impl Arguments {
         let inputs = self.robot.inputs().into_iter().chain(self.trajectory.clone());
         let writer = self.force.writer(inputs);
         let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
-        let robot = motion::robot(&self.robot, &self.settings, &self.friction, terminal)?;
+        let file = self.robot.open()?;
+        let robot = motion::robot(&file, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
         let trajectory = self.trajectory(&robot, terminal)?;
         let wrench = trajectory.wrenches.is_some();
         let functions = Shares::functions(friction, wrench);
-        let options = self.robot.options(terminal)?;
-        let programs = motion::programs(&self.robot, robot, functions, options)?;
+        let options = file.options(terminal)?;
+        let programs = motion::programs(&file, robot, functions, options)?;
         let shares = shares(&programs, &self.settings.pairs(), &trajectory, friction)?;
         let figure = || shares_figure(&programs.robot, &shares);
         recording.write(&shares.table().csv(), figure, terminal)

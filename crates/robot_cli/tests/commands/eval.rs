@@ -271,3 +271,20 @@ fn a_nearly_singular_mass_matrix_is_reported() {
         assert!(there.errors.contains(reason), "{}", there.errors);
     }
 }
+
+/// A state whose angle has no sine is not told to have a singular mass matrix.
+#[test]
+fn an_angle_that_has_no_sine_is_the_reason() {
+    let file = robot("planar_2r");
+    let states = r#"[{"q": [0, 2e9], "qd": [0, 0], "tau": [1, 1]}]"#;
+    let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];
+    let shown = complaint(1, &arguments, states);
+    assert!(shown.contains("q2 = 2000000000 rad (joint `2`) is beyond the angles"), "{shown}");
+    assert!(!shown.contains("singular"), "{shown}");
+    output(&[&arguments[..], &["--trigonometry", "standard"]].concat(), states);
+    let shown = complaint(1, &["simulate", &file, "--q0", "0,2e9"], "");
+    assert!(shown.contains("q2 = 2000000000 rad (joint `2`) is beyond"), "{shown}");
+    let expressions = "q1 = 0; q2 = 2e9";
+    let shown = complaint(1, &["torques", &file, "--expressions", expressions, "--time", "1"], "");
+    assert!(shown.contains("q2 = 2000000000 rad (joint `2`) is beyond"), "{shown}");
+}

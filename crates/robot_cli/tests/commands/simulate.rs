@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::pages::blocks;
-use crate::{WRIST, complaint, folder, output, robot, run};
+use crate::{WRIST, complaint, folder, output, robot, run, run_with};
 
 /// The columns of CSV by name.
 fn column(csv: &str, name: &str) -> Vec<f64> {
@@ -145,6 +145,49 @@ fn a_motion_by_a_singular_posture_is_reported() {
     assert_eq!(from("0.1,0.5,0.2").errors, "");
 }
 
+/// I2 + m2 r2² is 0 but for rounding: what is found where the second joint shows that is no acceleration.
+#[test]
+fn a_mass_matrix_of_rounding_is_reported() {
+    let file = robot("planar_2r");
+    for q2 in ["1.5707963267948966", "-1.5707963267948966"] {
+        let states = format!("[{{\"q\": [0, {q2}], \"qd\": [0, 0], \"tau\": [1, 1]}}]");
+        let of_eval = ["eval", &file, "--set", "I2=-0.48", "--function", "forward_dynamics"];
+        let shown = run_with(&[&of_eval[..], &["--states", "-"]].concat(), states.as_bytes());
+        let reason = "the mass matrix is singular to within rounding";
+        assert!(shown.errors.contains(reason), "{q2}: {}", shown.errors);
+        let q0 = format!("0,{q2}");
+        let of_simulate = ["simulate", &file, "--set", "I2=-0.48", "--q0", &q0];
+        let shown = complaint(1, &of_simulate, "");
+        let start =
+            format!("error: the motion ends at t = 0 s: there are no accelerations: {reason}");
+        assert!(shown.lines().any(|line| line.starts_with(&start)), "{shown}");
+    }
+}
+
+#[test]
+fn numbers_of_any_size_are_shown_short() {
+    let file = robot("planar_2r");
+    let arguments = [
+        "--tolerance=1e300",
+        "--tolerance=1e-300",
+        "--step=1e-300",
+        "--step=-1e300",
+        "--time=1e300",
+        "--time=-1e300",
+        "--qd0=1e300,0",
+        "--torque=1=1e300",
+        "--set=m1=1e300",
+    ];
+    for argument in arguments {
+        let shown = complaint(1, &["simulate", &file, argument], "");
+        let is_short = |word: &str| word.len() < 60;
+        assert!(shown.split_whitespace().all(is_short), "{argument}: {shown}");
+        assert!(!shown.contains("Bad input") && !shown.contains("Initial step"), "{shown}");
+    }
+    let shown = output(&["simulate", &file, "--time", "1e-300"], "");
+    assert_eq!(column(&shown, "t"), [0.0, 1e-300]);
+}
+
 /// Runs a command line as documents show it: robot files of the project, other files in `folder`.
 fn run_line(line: &str, folder: &Path) {
     let mut words = vec![];
@@ -236,4 +279,8 @@ fn torques_are_split_and_wrong_trajectories_refused() {
         assert_eq!(run(arguments).code, 2, "{arguments:?}");
     }
     assert_eq!(run(&["simulate", &file, "--plot", "a.pdf"]).code, 2);
+    for option in ["--time", "--step"] {
+        let shown = complaint(2, &["torques", &file, "--trajectory", "-", option, "5"], "");
+        assert!(shown.contains("cannot be used with"), "{shown}");
+    }
 }

@@ -9,7 +9,7 @@ use super::locations::{BodyLocation, LinkLocation, Locations};
 use super::reader::Reader;
 use crate::diagnostic::significant;
 use crate::diagnostic::{Diagnostic, Span, code};
-use crate::robot::{Body, Drive, Friction, Joint, Link, Move, Placement, Robot};
+use crate::robot::{Body, Drive, Friction, Joint, JointKind, Link, Move, Placement, Robot};
 
 /// The largest figure, in SI units: the Sun has 2e30 kg.
 const LARGEST: f64 = 1e30;
@@ -58,7 +58,11 @@ impl Range<'_, '_> {
         let what = format!("the ratio of `{}`", joint.name);
         self.all([&joint.ratio], &what, &place.joint);
         self.divisor([&joint.ratio], &what, &place.joint);
-        self.all([&joint.offset], &format!("the offset of `{}`", joint.name), &place.joint);
+        let what = format!("the offset of `{}`", joint.name);
+        match joint.kind {
+            JointKind::Revolute => self.angle(&joint.offset, &what, &place.joint),
+            JointKind::Prismatic => self.all([&joint.offset], &what, &place.joint),
+        }
     }
 
     /// Axes of numbers may have any length; those of expressions are normalized where they are
@@ -121,19 +125,22 @@ impl Range<'_, '_> {
         for step in moves {
             match step {
                 Move::Translate(by) => self.all(by, what, at),
-                Move::Rotate(_, angle) => {
-                    let known = self.reader.known(angle).filter(|angle| angle.abs() > ANGLE);
-                    if let Some(angle) = known {
-                        let message = format!("{what} has an angle of {} rad", significant(angle));
-                        self.reader.report(
-                            Diagnostic::error(code::NUMBER, message)
-                                .at(at, format!("angles up to {ANGLE:e} rad are taken"))
-                                .because("rounding leaves too little of a larger one within a turn")
-                                .help("give the angle within a turn"),
-                        );
-                    }
-                }
+                Move::Rotate(_, angle) => self.angle(angle, what, at),
             }
+        }
+    }
+
+    /// Reports an angle that is too large.
+    fn angle(&mut self, angle: &Formula, what: &str, at: &Span) {
+        let known = self.reader.known(angle).filter(|angle| angle.abs() > ANGLE);
+        if let Some(angle) = known {
+            let message = format!("{what} has an angle of {} rad", significant(angle));
+            self.reader.report(
+                Diagnostic::error(code::NUMBER, message)
+                    .at(at, format!("angles up to {ANGLE:e} rad are taken"))
+                    .because("rounding leaves too little of a larger one within a turn")
+                    .help("give the angle within a turn"),
+            );
         }
     }
 

@@ -235,6 +235,16 @@ pub fn visible(text: &str) -> String {
     text.chars().flat_map(one).collect()
 }
 
+/// A number as a message shows it: the fewest digits that read back to it, with an exponent where it is very
+/// large or very small.
+#[must_use]
+pub fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() || (1e-5..1e16).contains(&value.abs()) {
+        return value.to_string();
+    }
+    format!("{value:e}")
+}
+
 /// Characters that show nothing or reorder what is around them.
 #[must_use]
 pub fn is_invisible(character: char) -> bool {

@@ -103,3 +103,20 @@ fn digits_are_few() {
     assert_eq!(significant(1.234_567_8e-7), "1.23457e-7");
     assert_eq!(significant(0.0), "0");
 }
+
+#[test]
+fn numbers_are_short_and_read_back() {
+    for (value, expected) in [
+        (5.0, "5"),
+        (0.01, "0.01"),
+        (-0.0, "-0"),
+        (1e-300, "1e-300"),
+        (-2.5e300, "-2.5e300"),
+        (1e16, "1e16"),
+        (123456.75, "123456.75"),
+        (f64::NAN, "NaN"),
+        (f64::INFINITY, "inf"),
+    ] {
+        assert_eq!(number(value), expected);
+    }
+}

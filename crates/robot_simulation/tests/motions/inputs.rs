@@ -78,6 +78,32 @@ fn no_step_goes_over_a_corner() {
     assert!((velocity - 0.0005).abs() < 1e-12, "{velocity}");
 }
 
+/// Pulses of expressions far shorter than a step of the output: 1 kg gets what they hold, in few steps.
+#[test]
+fn no_step_goes_over_a_pulse_of_an_expression() {
+    let mass = from_fn(1, |_, tau| tau.to_vec());
+    let programs = compiled(crate::PENDULUM, false);
+    let options = SimulationOptions { duration: 5.0, step: 5.0, ..SimulationOptions::default() };
+    for (text, expected) in [
+        ("1 = 500*(sign(t - 2.3) - sign(t - 2.301))", 1.0),
+        ("1 = 500*(sign(t - 2) - sign(t - 2 - 1e-6))*(1 + 0*q1)", 1e-3),
+        ("1 = abs(t - 1) + abs(t - 1.01) - 2*abs(t - 1.005)", 5e-5),
+        ("1 = (1 + sign(0.001 - abs(t - 4)))/2", 0.002),
+        ("1 = 1/(1 + ((t - 2.5)/0.001)^2)", 0.001 * 2.0 * 2500.0_f64.atan()),
+        ("1 = 1/(1 + ((t - 2.5)/0.05)^2)", 0.05 * 2.0 * 50.0_f64.atan()),
+        ("1 = tanh((t - 4)/0.0001) - tanh((t - 4.001)/0.0001)", 0.002),
+    ] {
+        let pulse = Torques::from_expressions(&programs.robot, &[], &[text]).unwrap();
+        let motion = simulate(&mass, &pulse, &rest(&[0.0]), &options, &mut |_| {}).unwrap();
+        let velocity = motion.states.last().unwrap().qd[0];
+        assert!((velocity - expected).abs() < 1e-8, "{text}: {velocity}, not {expected}");
+        assert!(motion.steps < 500, "{text}: {} steps", motion.steps);
+    }
+    let slow = Torques::from_expressions(&programs.robot, &[], &["1 = sin(t)"]).unwrap();
+    let motion = simulate(&mass, &slow, &rest(&[0.0]), &options, &mut |_| {}).unwrap();
+    assert!(motion.steps < 30, "{}", motion.steps);
+}
+
 #[test]
 fn options_and_states_are_checked_at_once() {
     let free = from_fn(2, |_, tau| tau.to_vec());
@@ -117,6 +143,13 @@ fn motions_that_cannot_go_on_say_why() {
     let error = simulate(&free, &Torques::none(1), &rest(&[0.0]), &few, &mut |_| {}).unwrap_err();
     let Error::Stopped { cause, .. } = error else { panic!("{error}") };
     assert_eq!(cause, Cause::Steps(10));
+    for (start, force, name) in [(1e300, 0.0, "qd1 = 1e300"), (0.0, 1e300, "qdd1 = 1e300")] {
+        let start = State { q: vec![0.0], qd: vec![start] };
+        let torques = move |_: f64, _: &State| vec![force];
+        let error = simulate(&free, &torques, &start, &few, &mut |_| {}).unwrap_err().to_string();
+        let expected = format!("the motion ends at t = 0 s: {name} is too large for a step");
+        assert!(error.starts_with(&expected), "{error}");
+    }
 }
 
 #[test]

@@ -39,6 +39,11 @@ impl Digits {
         Ok(())
     }
 
+    /// Whether the functions solve with the mass matrix.
+    pub(super) fn matter(&self) -> bool {
+        self.0.is_some()
+    }
+
     /// Why a state has no accelerations, where the mass matrix is the reason.
     pub(super) fn singular(&self, state: &State) -> Option<String> {
         let pivot = self.smallest(state).filter(Pivot::is_wrong)?;

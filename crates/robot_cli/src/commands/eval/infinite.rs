@@ -1,18 +1,22 @@
 //! Outputs that are not finite, which JSON cannot hold: which entry, at which state, and why.
 
+use robot_build::{Trigonometry, too_large_angle};
 use robot_codegen::OutputValues;
+use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
 use robot_numeric::Mechanism;
 
+use super::digits::Digits;
 use crate::states::State;
 
-/// A message for each output that is not finite; `pivot` says what the pivots of the mass matrix know of it.
+/// A message for each output that is not finite, with what the mass matrix has to do with it.
 pub(super) fn messages(
     robot: &Robot,
     settings: &[(&str, f64)],
     state: &State,
     outputs: &[OutputValues],
-    pivot: impl FnOnce() -> Option<String>,
+    digits: &Digits,
+    trigonometry: Trigonometry,
 ) -> Vec<String> {
     let wrong =
         outputs.iter().filter(|output| output.values.iter().any(|value| !value.is_finite()));
@@ -20,7 +24,12 @@ pub(super) fn messages(
     if wrong.is_empty() {
         return vec![];
     }
-    let why = singular(robot, settings, state).or_else(pivot);
+    // The eigenvectors of a singular matrix tell every coordinate; where it is not quite singular, its
+    // pivots tell one.
+    let of_matrix = || digits.matter().then(|| singular(robot, settings, state)).flatten();
+    let angle = state.array("q").and_then(|q| too_large_angle(robot, q, trigonometry));
+    let angle = angle.map(|why| format!("{why}, or --trigonometry standard"));
+    let why = angle.or_else(of_matrix).or_else(|| digits.singular(state));
     let why =
         why.unwrap_or_else(|| "look at the size of the parameters and of the state".to_owned());
     let message = |output: &&OutputValues| {
@@ -66,7 +75,7 @@ fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<St
                 .map(|index| {
                     let joint = robot.coordinates.get(*index).map_or("", |one| &one.joint);
                     let position = q.get(*index).copied().unwrap_or_default();
-                    format!("q{} = {position} (joint `{joint}`)", index + 1)
+                    format!("q{} = {} (joint `{joint}`)", index + 1, number(position))
                 })
                 .collect();
             Some(format!(
