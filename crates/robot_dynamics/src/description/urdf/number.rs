@@ -133,3 +133,25 @@ fn wrong(word: &str, place: &Span) -> Diagnostic {
     };
     Diagnostic::error(code::NUMBER, message).at(place, "").help(help)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_with_a_number_is_told() {
+        for (word, told) in [
+            ("1_500", "is not a number"),
+            ("1e", "is not a number"),
+            ("1e5.5", "is not a number"),
+            ("1e309", "is beyond the range of numbers"),
+            ("1e-999999999", "is beyond the range of numbers"),
+            ("-2E+99999999999999999999", "is beyond the range of numbers"),
+            ("0,5", "has a decimal comma"),
+        ] {
+            assert!(number(word).is_none(), "{word}");
+            let message = wrong(word, &(0..1)).message;
+            assert_eq!(message, format!("`{word}` {told}"));
+        }
+    }
+}
