@@ -123,7 +123,7 @@ pub enum Error {
     /// A robot file outside of the package.
     #[error(
         "{} lies outside of the package {}; a build reads what belongs to the package: move the file \
-         there, or allow it with `allow_outside(true)`",
+         there, or allow it with `allow_outside`",
         shown(path),
         shown(package)
     )]
@@ -171,6 +171,12 @@ pub enum Error {
     /// No robot file at all.
     #[error("no robot file is given; name one or more")]
     NoRobots,
+    /// A robot file that is named more than once.
+    #[error("{path} is given twice; name it once")]
+    SameFile {
+        /// The file.
+        path: String,
+    },
     /// Two files whose modules would have one name.
     #[error("{first} and {second} both give the module `{module}`; rename one of the robots")]
     SameModule {

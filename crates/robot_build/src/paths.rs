@@ -29,6 +29,7 @@ impl RobotFile {
         package: &Path,
         allow_outside: bool,
     ) -> Result<RobotFile, Errors> {
+        check_not_empty(path)?;
         let found = canonical(&package.join(path), path)?;
         let package = canonical(package, package)?;
         if !allow_outside && !found.starts_with(&package) {
@@ -43,13 +44,18 @@ impl RobotFile {
     ///
     /// A file that cannot be read, is too large or no text.
     pub fn read(path: &Path) -> Result<RobotFile, Errors> {
+        check_not_empty(path)?;
         RobotFile::read_at(canonical(path, path)?, path)
     }
 
     /// `given` is the path for messages.
     fn read_at(path: PathBuf, given: &Path) -> Result<RobotFile, Errors> {
         let failed = |error: std::io::Error| cannot_read(given, &error.to_string());
-        if !std::fs::metadata(&path).map_err(failed)?.is_file() {
+        let found = std::fs::metadata(&path).map_err(failed)?;
+        if found.is_dir() {
+            return Err(Errors::from(cannot_read(given, "it is a folder; name a robot file")));
+        }
+        if !found.is_file() {
             return Err(Errors::from(cannot_read(given, "it is no file")));
         }
         let name = given.to_string_lossy().into_owned();
@@ -85,6 +91,13 @@ pub(crate) fn robot_files(package: &Path, folder: &Path) -> Result<Vec<PathBuf>,
 #[must_use]
 pub fn shown(path: &Path) -> String {
     visible(&path.to_string_lossy())
+}
+
+fn check_not_empty(path: &Path) -> Result<(), Error> {
+    if path.as_os_str().is_empty() {
+        return Err(cannot_read(Path::new("``"), "the path of a robot file is empty; name a file"));
+    }
+    Ok(())
 }
 
 fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {

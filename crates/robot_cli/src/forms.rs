@@ -107,7 +107,7 @@ impl EquationArguments {
         file: &RobotArgument,
         robot: &Robot,
     ) -> Result<(), Failure> {
-        if self.friction { has_friction(&file.path().display().to_string(), robot) } else { Ok(()) }
+        if self.friction { has_friction(&shown(file.path()), robot) } else { Ok(()) }
     }
 
     /// The options, in the form chosen.

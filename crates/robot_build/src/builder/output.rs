@@ -60,6 +60,10 @@ pub(super) fn check_names(modules: &[Module], errors: &mut Vec<Error>) {
     }
     for module in modules {
         if let Some(first) = known.insert(module.name(), &module.path) {
+            if first == module.path {
+                errors.push(Error::SameFile { path: first.to_owned() });
+                continue;
+            }
             errors.push(Error::SameModule {
                 module: module.name().to_owned(),
                 first: first.to_owned(),

@@ -358,6 +358,8 @@ fn two_robots_of_one_name_are_refused() {
     );
     let shown = message(&builder(&package), &["robots/a.toml", "robots/c.toml"]);
     assert!(shown.contains("the index of all robots and robots/c.toml"), "{shown}");
+    let shown = message(&builder(&package), &["robots/a.toml", "robots/a.toml"]);
+    assert!(shown.contains("robots/a.toml is given twice; name it once"), "{shown}");
 }
 
 #[test]
@@ -385,7 +387,8 @@ fn what_is_no_robot_file_is_refused() {
     let package = package("nofile");
     fs::write(package.join("big.toml"), vec![b'#'; 10 << 20]).unwrap();
     fs::write(package.join("binary.toml"), [0xff, 0xfe, 0x00]).unwrap();
-    assert!(message(&builder(&package), &["robots"]).contains("it is no file"));
+    assert!(message(&builder(&package), &["robots"]).contains("it is a folder; name a robot file"));
+    assert!(message(&builder(&package), &[""]).contains("the path of a robot file is empty"));
     assert!(message(&builder(&package), &["big.toml"]).contains("at most"));
     assert!(message(&builder(&package), &["binary.toml"]).contains("UTF-8"));
 }

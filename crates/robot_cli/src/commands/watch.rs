@@ -28,11 +28,11 @@ Derives the robot again whenever its file or its pinned plan is saved, and shows
 the last save that gave a robot: parameters, links, joints and frames, terms of the driving forces,
 operations, errors and warnings that came or went. A file that is wrong or away for a while is waited for.
 The page of --report is written anew at each save that gives a robot, and a browser that shows it reloads it
-and keeps its place. Operations are those under the pinned plans, or under the default plan where either
+and keeps its place. Where no page can be made of a robot, the last one stands. Operations are those under the pinned plans, or under the default plan where either
 save has no plan of its own: nothing is searched.
 
 Changes go to standard output, errors and warnings to standard error. Exit codes: Ctrl-C ends with 0 where
-the file last gave a robot, and with 1 where it did not; 2 the command line is wrong.")]
+the file last gave a robot and its page, and with 1 where it did not; 2 the command line is wrong.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -65,7 +65,8 @@ impl Arguments {
         ctrlc::set_handler(|| OVER.store(true, Ordering::Relaxed))
             .map_err(|error| Failure::input(format!("cannot wait for Ctrl-C: {error}")))?;
         let saves = self.saves.unwrap_or(usize::MAX);
-        let looks = Files::new(self.robot.path(), &OVER).take(saves.saturating_add(1));
+        let options = self.robot.reading.options();
+        let looks = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));
         let style = if terminal.colours { Style::Terminal } else { Style::Plain };
         let reading = self.robot.reading;
         let settings = Settings { snap: self.robot.snap(), reading, terms: self.terms, style };
@@ -81,6 +82,7 @@ fn follow(
     terminal: &mut Terminal<'_>,
 ) -> Result<(), Failure> {
     let mut state = State::default();
+    let mut has_page = true;
     let followed = looks.into_iter().try_for_each(|look| {
         let shown;
         (state, shown) = watched("deriving", terminal, || state.after(&look, settings));
@@ -90,14 +92,24 @@ fn follow(
         write!(terminal.output, "{changes}").and_then(|()| terminal.output.flush())?;
         match (&mut page, state.is_good().then_some(&look.source)) {
             (Some(page), Some(Ok(source))) => {
-                watched("writing", terminal, || page.write(source, &state.options(settings)))
+                let options = state.options(settings);
+                let made = watched("writing", terminal, || Page::made(source, &options));
+                has_page = made.is_ok();
+                match made {
+                    Ok(made) => page.write(made),
+                    // The next save may give one.
+                    Err(error) => {
+                        Failure::from(error).report(terminal);
+                        Ok(writeln!(terminal.errors, "{}", page.standing())?)
+                    }
+                }
             }
             _ => Ok(()),
         }
     });
     // The last page stays, and nothing reloads it, however the watch has ended.
     page.map_or(Ok(()), Page::finish).and(followed)?;
-    if state.is_good() { Ok(()) } else { Err(Failure::Shown) }
+    if state.is_good() && has_page { Ok(()) } else { Err(Failure::Shown) }
 }
 
 #[cfg(test)]

@@ -250,7 +250,7 @@ fn scientific(value: &Rational) -> String {
             let zeros = digits.len() - kept.len();
             return match zeros.checked_sub(places) {
                 Some(zeros) => format!("{kept}e{zeros}"),
-                None => format!("{kept}e-{}", places - zeros),
+                None => below_one(kept, places - zeros),
             };
         }
         scaled = &scaled * &ten;
@@ -258,9 +258,31 @@ fn scientific(value: &Rational) -> String {
     format!("\"{value}\"")
 }
 
+/// `digits` · 10^−`places`. Exponents of decimal text end at ±400: digits of more places have the point
+/// behind the first of them, and the exponent is the number's own.
+fn below_one(digits: &str, places: usize) -> String {
+    const MAX_EXPONENT: usize = 400;
+    let first = if digits.starts_with('-') { 2 } else { 1 };
+    match digits.split_at_checked(first) {
+        Some((first, rest)) if places > MAX_EXPONENT => {
+            format!("{first}.{rest}e-{}", places - rest.len())
+        }
+        _ => format!("{digits}e-{places}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_of_more_places_than_exponents_have_are_read_again() {
+        let many = "1234567890".repeat(50);
+        for text in [format!("0.{many}7"), format!("-0.{many}7"), format!("0.0{many}3e-250")] {
+            let value = Rational::from_decimal(&text).unwrap();
+            assert_eq!(Rational::from_decimal(&number(&value)), Some(value), "{text}");
+        }
+    }
 
     #[test]
     fn numbers_are_short_and_exact() {

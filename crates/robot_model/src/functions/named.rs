@@ -200,6 +200,14 @@ impl fmt::Display for WrongName {
             let names = self.known.join("`, `");
             return write!(formatter, "`{name}` may be several functions: choose one of `{names}`");
         }
+        if self.name == ALL_FUNCTIONS {
+            let why = "stands for all functions where they are listed one by one, and is none of a bundle's";
+            return write!(
+                formatter,
+                "`{name}` {why}: name those. There are {}.",
+                self.known.join(", ")
+            );
+        }
         write!(formatter, "there is no function `{name}`.")?;
         if let Some(near) = &self.near {
             write!(formatter, " Did you mean `{near}`?")?;
@@ -209,3 +217,17 @@ impl fmt::Display for WrongName {
 }
 
 impl std::error::Error for WrongName {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_word_for_all_is_not_offered_for_itself() {
+        let known = [("bias".to_owned(), FunctionKind::Bias)];
+        let [all, other] = [ALL_FUNCTIONS, "bais"].map(|name| unknown(name, &known).to_string());
+        assert!(all.contains("is none of a bundle's") && all.ends_with("There are bias."), "{all}");
+        assert!(!all.contains("mean"), "{all}");
+        assert_eq!(other, "there is no function `bais`. Did you mean `bias`? There are bias.");
+    }
+}

@@ -22,13 +22,15 @@ const SETTLED_AWAY: usize = 50;
 /// The looks at a file that show something new, the first one at once, until it is over.
 pub(super) struct Files<'a> {
     path: &'a Path,
+    /// What is taken of the file, without which a pin of it cannot be read.
+    options: Options,
     is_over: &'a AtomicBool,
     settling: Settling,
 }
 
 impl<'a> Files<'a> {
-    pub(super) fn new(path: &'a Path, is_over: &'a AtomicBool) -> Files<'a> {
-        Files { path, is_over, settling: Settling::default() }
+    pub(super) fn new(path: &'a Path, options: Options, is_over: &'a AtomicBool) -> Files<'a> {
+        Files { path, options, is_over, settling: Settling::default() }
     }
 }
 
@@ -37,7 +39,7 @@ impl Iterator for Files<'_> {
 
     fn next(&mut self) -> Option<Look> {
         while !self.is_over.load(Ordering::Relaxed) {
-            let settled = self.settling.after(look(self.path));
+            let settled = self.settling.after(look(self.path, &self.options));
             if settled.is_some() {
                 return settled;
             }
@@ -83,10 +85,10 @@ fn needed(look: &Look) -> usize {
 }
 
 /// What the files say now.
-fn look(path: &Path) -> Look {
+fn look(path: &Path, options: &Options) -> Look {
     let file = RobotFile::read(path);
     let plan = match &file {
-        Ok(file) => file.with_pin(&Options::default()).map(|options| options.plan),
+        Ok(file) => file.with_pin(options).map(|options| options.plan),
         Err(_) => Ok(None),
     };
     Look { source: file.map(|file| file.source), plan }

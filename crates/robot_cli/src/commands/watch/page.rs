@@ -1,10 +1,11 @@
 //! The page about a robot that is watched.
 
 use std::ffi::OsString;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use robot_build::{Options, Output, Ownership, Source, Writer, shown};
-use robot_report::{Compiled, Input, Reloading, reloading};
+use robot_report::{Compiled, Error, Input, Reloading, reloading};
 
 use crate::commands::report::judge;
 use crate::failure::Failure;
@@ -13,14 +14,21 @@ use crate::failure::Failure;
 pub(super) struct Page {
     path: PathBuf,
     writer: Writer,
-    /// The page last written, without what reloads it.
-    still: Option<String>,
+    last: Option<Last>,
+}
+
+/// What was last written.
+struct Last {
+    /// The page without what reloads it.
+    still: String,
+    /// The picture.
+    stamp: String,
 }
 
 impl Page {
     /// A page that has been found to be free to be written.
     pub(super) fn open(path: PathBuf, writer: Writer) -> Result<Page, Failure> {
-        let page = Page { path, writer, still: None };
+        let page = Page { path, writer, last: None };
         let picture = page.picture();
         let files = [&page.path, &picture].map(|path| (path.as_path(), Ownership::Marked));
         page.writer.check(&files)?;
@@ -33,24 +41,56 @@ impl Page {
         PathBuf::from(name)
     }
 
-    /// Writes the page of a robot, then the picture.
-    pub(super) fn write(&mut self, source: &Source, options: &Options) -> Result<(), Failure> {
+    /// Makes the page of a robot.
+    ///
+    /// # Errors
+    ///
+    /// A robot that no page can be made of.
+    pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Error> {
         let reason = "no compiler was started while the file was watched.".to_owned();
         let compiled = Compiled::Unread { reason };
-        let Reloading { page, stamp, still } =
-            reloading(&Input { source, options, compiled: &compiled, judge })?;
+        reloading(&Input { source, options, compiled: &compiled, judge })
+    }
+
+    /// What is at the path where no page can be made.
+    pub(super) fn standing(&self) -> String {
+        let path = shown(&self.path);
+        match self.last {
+            None => format!("there is no page {path} yet"),
+            Some(_) => format!("there is no page of this robot; in {path} stands the last one"),
+        }
+    }
+
+    /// Writes a page, then the picture.
+    pub(super) fn write(&mut self, made: Reloading) -> Result<(), Failure> {
+        let Reloading { page, stamp, still } = made;
         self.writer.write(&[marked(&self.path, &page), marked(&self.picture(), &stamp)])?;
-        self.still = Some(still);
+        self.last = Some(Last { still, stamp });
         Ok(())
     }
 
-    /// Writes the last page as one that stays, and takes the picture away.
+    /// Writes the last page as one that stays, and takes the picture away, whether or not the page can be written.
     pub(super) fn finish(self) -> Result<(), Failure> {
-        let Some(still) = &self.still else { return Ok(()) };
-        self.writer.write(&[marked(&self.path, still)])?;
-        let picture = self.picture();
-        std::fs::remove_file(&picture)
-            .map_err(|error| Failure::input(format!("cannot remove {}: {error}", shown(&picture))))
+        let Some(last) = &self.last else { return Ok(()) };
+        let written = self.writer.write(&[marked(&self.path, &last.still)]);
+        let removed = remove(&self.picture(), &last.stamp);
+        written?;
+        removed
+    }
+}
+
+/// Removes a file with that text. One with another text is somebody else's by now: another watch's, or what was
+/// put in its place.
+fn remove(path: &Path, text: &str) -> Result<(), Failure> {
+    let is_regular = std::fs::metadata(path).is_ok_and(|found| found.is_file());
+    if !is_regular || !std::fs::read(path).is_ok_and(|present| present == text.as_bytes()) {
+        return Ok(());
+    }
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(Failure::input(format!("cannot remove {}: {error}", shown(path))))
+        }
+        _ => Ok(()),
     }
 }
 

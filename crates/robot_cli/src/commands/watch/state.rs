@@ -208,7 +208,9 @@ fn texts(problems: Vec<&Problem>) -> String {
 /// A line for each problem that is no more.
 fn gone(before: Vec<&Problem>, now: &[Problem]) -> String {
     let is_gone = |one: &&Problem| now.iter().all(|other| other.line != one.line);
-    before.into_iter().filter(is_gone).map(|one| format!("gone: {}\n", one.line)).collect()
+    // What a parser says of a pin is several lines.
+    let first = |one: &Problem| one.line.lines().next().unwrap_or_default().to_owned();
+    before.into_iter().filter(is_gone).map(|one| format!("gone: {}\n", first(one))).collect()
 }
 
 /// `save 3`

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use robot_build::{RobotFile, Source, pin_path, pin_text};
+use robot_build::{Options, RobotFile, Source, Writer, pin_path, pin_text};
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
 use tempfile::TempDir;
@@ -38,6 +38,14 @@ const SETTINGS: Settings = Settings {
 
 /// How the watch ends, and what it shows on either stream.
 fn followed(looks: impl IntoIterator<Item = Look>) -> (bool, String, String) {
+    followed_with(looks, None)
+}
+
+/// The same, with a page.
+fn followed_with(
+    looks: impl IntoIterator<Item = Look>,
+    page: Option<Page>,
+) -> (bool, String, String) {
     let (mut output, mut errors) = (vec![], vec![]);
     let mut terminal = Terminal {
         input: &mut std::io::empty(),
@@ -46,7 +54,7 @@ fn followed(looks: impl IntoIterator<Item = Look>) -> (bool, String, String) {
         colours: false,
         progress: false,
     };
-    let ended = follow(looks.into_iter(), &SETTINGS, None, &mut terminal);
+    let ended = follow(looks.into_iter(), &SETTINGS, page, &mut terminal);
     let [output, errors] = [output, errors].map(|bytes| String::from_utf8(bytes).unwrap());
     (ended.is_ok(), output, errors)
 }
@@ -126,7 +134,7 @@ fn a_stale_plan_is_no_change_of_the_robot() {
     let path = folder.path().join("arm.toml");
     std::fs::write(&path, ARM).unwrap();
     std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
-    let look = || Files::new(&path, &AtomicBool::new(false)).next().unwrap();
+    let look = || Files::new(&path, Options::default(), &AtomicBool::new(false)).next().unwrap();
     let pinned = look();
     assert_eq!(pinned.plan.as_ref().unwrap().as_ref(), Some(&found.plan));
     // A value of a parameter is no change of the mechanics.
@@ -179,7 +187,7 @@ fn saves_are_seen_however_editors_save() {
                 over.store(true, Ordering::Relaxed);
             }
         });
-        let mut files = Files::new(&watched.path, over);
+        let mut files = Files::new(&watched.path, Options::default(), over);
         assert_eq!(text(files.next()).as_deref(), Some(ARM));
         // In place, with as many bytes, then by another file, as often as may be.
         for _ in 0..3 {
@@ -223,4 +231,98 @@ fn a_save_in_pieces_is_seen_whole() {
     // A look back at what was shown last is nothing new.
     assert_eq!((shown(look(ARM)), shown(away()), shown(look(ARM))), (None, None, None));
     assert_eq!(shown(look(ARM)).as_deref(), Some(ARM));
+}
+
+/// A folder, a page in it, and the picture beside the page.
+fn page_in_folder() -> (TempDir, PathBuf, PathBuf) {
+    let folder = TempDir::new().unwrap();
+    let [page, picture] = ["arm.html", "arm.html.svg"].map(|name| folder.path().join(name));
+    (folder, page, picture)
+}
+
+#[test]
+fn the_end_removes_the_own_picture_alone() {
+    let (_folder, path, picture) = page_in_folder();
+    let end = |before: &dyn Fn()| {
+        let page = Page::open(path.clone(), Writer::new().force(true)).unwrap();
+        let looks = std::iter::once(look(ARM)).chain(std::iter::from_fn(|| {
+            before();
+            None
+        }));
+        followed_with(looks, Some(page))
+    };
+    assert!(end(&|| assert!(picture.exists())).0 && !picture.exists());
+    // Removed by somebody else, as by another watch of the same page, it is no error.
+    let (is_good, _, errors) = end(&|| std::fs::remove_file(&picture).unwrap());
+    assert!(is_good && errors.is_empty(), "{errors}");
+    // What somebody has put in its place stays.
+    assert!(end(&|| std::fs::write(&picture, "a drawing").unwrap()).0);
+    assert_eq!(std::fs::read_to_string(&picture).unwrap(), "a drawing");
+    // It goes also where the page cannot be written.
+    let (is_good, ..) = end(&|| {
+        std::fs::remove_file(&path).unwrap();
+        std::fs::create_dir(&path).unwrap();
+    });
+    assert!(!is_good && !picture.exists());
+}
+
+#[test]
+fn a_robot_without_a_page_does_not_end_the_watch() {
+    let (_folder, path, picture) = page_in_folder();
+    let link = |number| {
+        format!(
+            "[[link]]\nname = \"more{number}\"\njoint = {{ type = \"prismatic\", axis = \"x\" }}\n\
+             mass = {number}\ncenter_of_mass = [0, 0, 0]\ninertia = {{ xx = 0, yy = 0, zz = 0 }}\n"
+        )
+    };
+    let most = robot_report::MOST_COORDINATES;
+    let long = ARM.to_owned() + &(1..=most).map(link).collect::<String>();
+    let page = || Some(Page::open(path.clone(), Writer::new()).unwrap());
+    let (is_good, _, errors) = followed_with([look(&long)], page());
+    assert!(!is_good && !path.exists(), "{errors}");
+    assert!(errors.contains("coordinates, and a page") && errors.contains("no page"), "{errors}");
+
+    let (is_good, _, errors) = followed_with([look(ARM), look(&long)], page());
+    assert!(!is_good && errors.contains("stands the last one"), "{errors}");
+    let last = std::fs::read_to_string(&path).unwrap();
+    assert!(!picture.exists());
+    let (is_good, output, _) = followed_with([ARM, &long, &heavier()].map(look), page());
+    assert!(is_good && output.contains("\nsave 2, from save 1:\n"), "{output}");
+    assert_ne!(std::fs::read_to_string(&path).unwrap(), last);
+}
+
+#[test]
+fn a_pin_is_read_with_what_is_taken_of_the_file() {
+    let light = changed(
+        "mass = \"m2\"\ncenter_of_mass = [\"r2\", 0, 0]\ninertia = { zz = \"I2\", unchecked = true }",
+        "mass = \"m2\"\ncenter_of_mass = [\"r2\", 0, 0]\ninertia = { xx = 1, yy = 1, zz = 9 }",
+    );
+    let options = Options { allow_unphysical: true, ..Options::default() };
+    let source = look(&light).source.unwrap();
+    let robot = robot_build::read_with(&source, &options).unwrap().robot;
+    let found = search(&robot, &MechanismOptions::ROUNDED, Measure::Operations).unwrap();
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("arm.toml");
+    std::fs::write(&path, &light).unwrap();
+    std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
+    let over = AtomicBool::new(false);
+    let plan = |options| Files::new(&path, options, &over).next().unwrap().plan;
+    assert_eq!(plan(options).unwrap(), Some(found.plan));
+    assert!(plan(Options::default()).is_err());
+}
+
+#[test]
+fn a_problem_that_is_gone_is_a_line() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("arm.toml");
+    std::fs::write(&path, ARM).unwrap();
+    std::fs::write(pin_path(&path), "no plan").unwrap();
+    let over = AtomicBool::new(false);
+    let look = || Files::new(&path, Options::default(), &over).next().unwrap();
+    let bad = look();
+    std::fs::remove_file(pin_path(&path)).unwrap();
+    let (_, output, errors) = followed([bad, look()]);
+    assert!(errors.lines().count() > 2, "{errors}");
+    let end = output.split("gone: ").nth(1).unwrap();
+    assert_eq!(end.lines().nth(1), Some("nothing changes in the robot"), "{end}");
 }

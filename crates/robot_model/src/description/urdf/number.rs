@@ -90,6 +90,18 @@ fn number(word: &str) -> Option<Rational> {
     })
 }
 
+/// A word up to its exponent, where it has one.
+fn without_exponent(word: &str) -> &str {
+    match word.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => {
+            let digits = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+            let is_exponent = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
+            if is_exponent { mantissa } else { word }
+        }
+        None => word,
+    }
+}
+
 fn wrong(word: &str, place: &Span) -> Diagnostic {
     if word.contains("${") || word.contains("$(") {
         return template(place);
@@ -108,7 +120,7 @@ fn wrong(word: &str, place: &Span) -> Diagnostic {
         (format!("`{shown}` has a decimal comma"), "write the decimal point: `0.5` for `0,5`")
     } else if word.contains(',') {
         (format!("`{shown}` is not a number"), "numbers stand between spaces, without commas")
-    } else if Rational::from_decimal(word).is_some() {
+    } else if is_number(without_exponent(word)) {
         (
             format!("`{shown}` is beyond the range of numbers"),
             "magnitudes lie between 5e-324 and 1.7e308, with at most 400 digits",
@@ -120,4 +132,26 @@ fn wrong(word: &str, place: &Span) -> Diagnostic {
         )
     };
     Diagnostic::error(code::NUMBER, message).at(place, "").help(help)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wrong_with_a_number_is_told() {
+        for (word, told) in [
+            ("1_500", "is not a number"),
+            ("1e", "is not a number"),
+            ("1e5.5", "is not a number"),
+            ("1e309", "is beyond the range of numbers"),
+            ("1e-999999999", "is beyond the range of numbers"),
+            ("-2E+99999999999999999999", "is beyond the range of numbers"),
+            ("0,5", "has a decimal comma"),
+        ] {
+            assert!(number(word).is_none(), "{word}");
+            let message = wrong(word, &(0..1)).message;
+            assert_eq!(message, format!("`{word}` {told}"));
+        }
+    }
 }
