@@ -403,6 +403,50 @@ mod tests {
         assert_eq!(Counts::of(&found).operations(), 3);
     }
 
+    /// The operations that are left of what `build` makes of five inputs.
+    fn left(build: impl Fn(&mut Builder, [Value; 5]) -> Vec<Value>) -> usize {
+        let mut b = Builder::new();
+        let loads = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
+        let results = build(&mut b, loads);
+        Counts::of(&with(Resubstitution::Pairs)(&b.finish(results))).operations()
+    }
+
+    /// x w, y w and (x ± y) w are two products and a sum.
+    #[test]
+    fn sums_of_two_values_are_found() {
+        let sum = left(|b, [x, y, w, ..]| {
+            let sum = b.add(x, y);
+            vec![b.mul(x, w), b.mul(y, w), b.mul(sum, w)]
+        });
+        let difference = left(|b, [x, y, w, ..]| {
+            let difference = b.sub(x, y);
+            vec![b.mul(x, w), b.mul(y, w), b.mul(difference, w)]
+        });
+        assert_eq!((sum, difference), (3, 3));
+    }
+
+    /// y − x and (x − y) w, the second by the product −w (y − x).
+    #[test]
+    fn products_are_found_with_their_sign() {
+        let operations = left(|b, [x, y, w, ..]| {
+            let (there, back) = (b.sub(y, x), b.sub(x, y));
+            vec![there, b.mul(back, w)]
+        });
+        assert_eq!(operations, 2);
+    }
+
+    /// (x z + 5 y z)/z is x + 5 y.
+    #[test]
+    fn a_sum_with_a_multiple_is_found() {
+        let operations = left(|b, [x, y, z, ..]| {
+            let (five, xz, yz) = (b.constant(5.0), b.mul(x, z), b.mul(y, z));
+            let multiple = b.mul(five, yz);
+            let sum = b.add(xz, multiple);
+            vec![b.div(sum, z)]
+        });
+        assert_eq!(operations, 2);
+    }
+
     /// cos kθ by its recursion: bounds of rounding grow with each step, the values do not.
     #[test]
     fn a_long_recursion_is_not_taken_for_rounding() {

@@ -306,3 +306,17 @@ impl Sample {
         std::array::from_fn(|point| self.errors[point] / other.value(point).abs())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unrelated_numbers_are_of_size_one_and_of_either_sign() {
+        let numbers = (0..100).flat_map(|index| unrelated_numbers(1, index, false));
+        let numbers: Vec<f64> = numbers.map(DoubleDouble::to_f64).collect();
+        assert!(numbers.iter().all(|number| (0.5..2.0).contains(&number.abs())), "{numbers:?}");
+        let positive = numbers.iter().filter(|number| **number > 0.0).count();
+        assert!((100..numbers.len() - 100).contains(&positive), "{positive}");
+    }
+}
