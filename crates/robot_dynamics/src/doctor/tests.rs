@@ -63,6 +63,20 @@ fn centres_of_mass_are_looked_for_at_the_link() {
     assert_eq!(codes(&at("200")), [code::UNITS]);
 }
 
+/// What a prismatic joint travels counts as the size of its link; the angles of a revolute joint do not.
+#[test]
+fn limits_count_where_they_are_lengths() {
+    let limited = |kind: &str| {
+        rod(2.0, 1.0, false).replace("[0.2, 0, 0]", "[10, 0, 0]").replacen(
+            "type = \"revolute\"",
+            &format!("type = \"{kind}\", limits = [-3, 3]"),
+            1,
+        )
+    };
+    assert_eq!(codes(&limited("revolute")), [code::CENTER_FAR]);
+    assert_eq!(codes(&limited("prismatic")), [""; 0]);
+}
+
 #[test]
 fn rounded_right_angles_are_told_from_angles() {
     let turned = |angle: &str| {
