@@ -4,7 +4,7 @@ use robot_dynamics::description::read_toml;
 use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
 use serde_json::{Value, json};
 
-use crate::{WRIST, complaint, output, robot, run_with};
+use crate::{WRIST, complaint, folder, output, robot, run_with};
 
 /// The numeric mechanism of a robot with some parameters changed.
 fn mechanism(name: &str, settings: &[(&str, f64)]) -> Mechanism {
@@ -88,6 +88,27 @@ fn parameters_can_be_set() {
     let loaded = json!([{"q": Q, "qd": QD, "qdd": QDD, "wrench": WRENCH}]);
     let found = eval("inverse_dynamics", &loaded, &["--set", "M5=2.5", "--set", "l6 = -0.25"]);
     assert_close(&found[0], &expected(&settings, &WRENCH, false));
+}
+
+/// A pendulum whose mass and length have no value in the file.
+#[test]
+fn parameters_without_a_value_have_to_be_set() {
+    let file = folder("parameters_without_a_value").join("arm.toml");
+    let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nm = {}\nl = {}\n[[link]]\n\
+        name = \"rod\"\nmass = \"m\"\ncenter_of_mass = [\"l\", 0, 0]\n\
+        inertia = { xx = 0, yy = 0, zz = 0 }\njoint = { type = \"revolute\", axis = \"y\" }\n";
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    let states = json!([{"q": [0.0]}]).to_string();
+    let gravity = ["eval", file, "--function", "gravity", "--states", "-", "--set", "m=2"];
+    let told = complaint(1, &gravity, &states);
+    assert!(told.contains("`l` has no nominal value: give one, --set l=…"), "{told}");
+    assert!(!told.contains("`m`"), "{told}");
+    let shown: Value =
+        serde_json::from_str(&output(&[&gravity[..], &["--set", "l=0.5"]].concat(), &states))
+            .unwrap();
+    let found = numbers(shown[0].as_object().unwrap().values().last().unwrap());
+    assert_close(&found.iter().map(|torque| torque.abs()).collect::<Vec<_>>(), &[9.81]);
 }
 
 #[test]
