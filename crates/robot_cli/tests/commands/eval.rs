@@ -4,7 +4,7 @@ use robot_dynamics::description::read_toml;
 use robot_dynamics::numeric::{Loads, Mechanism, Wrench};
 use serde_json::{Value, json};
 
-use crate::{WRIST, complaint, folder, output, robot, run_with};
+use crate::{WRIST, complaint, output, robot, run_with};
 
 /// The numeric mechanism of a robot with some parameters changed.
 fn mechanism(name: &str, settings: &[(&str, f64)]) -> Mechanism {
@@ -93,7 +93,7 @@ fn parameters_can_be_set() {
 /// A pendulum whose mass and length have no value in the file.
 #[test]
 fn parameters_without_a_value_have_to_be_set() {
-    let file = folder("parameters_without_a_value").join("arm.toml");
+    let file = crate::folder("parameters_without_a_value").join("arm.toml");
     let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nm = {}\nl = {}\n[[link]]\n\
         name = \"rod\"\nmass = \"m\"\ncenter_of_mass = [\"l\", 0, 0]\n\
         inertia = { xx = 0, yy = 0, zz = 0 }\njoint = { type = \"revolute\", axis = \"y\" }\n";
