@@ -107,7 +107,7 @@ fn parameters_without_a_value_have_to_be_set() {
     let shown: Value =
         serde_json::from_str(&output(&[&gravity[..], &["--set", "l=0.5"]].concat(), &states))
             .unwrap();
-    let found = numbers(shown[0].as_object().unwrap().values().last().unwrap());
+    let found = numbers(shown[0].as_object().unwrap().values().next_back().unwrap());
     assert_close(&found.iter().map(|torque| torque.abs()).collect::<Vec<_>>(), &[9.81]);
 }
 
