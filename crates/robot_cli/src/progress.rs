@@ -101,4 +101,18 @@ mod tests {
         assert!(told.ends_with("\r\x1b[K"), "{told:?}");
         assert_eq!(shown(false), "");
     }
+
+    #[test]
+    fn lines_are_no_closer_than_the_pause() {
+        let mut errors = vec![];
+        let start = Instant::now();
+        let mut progress = Progress { errors: Some(&mut errors), next: start, shown: false };
+        for round in 0..1000 {
+            progress.show(|| format!("{round}."));
+        }
+        let pauses = start.elapsed().as_millis() / PAUSE.as_millis();
+        drop(progress);
+        let lines = errors.iter().filter(|byte| **byte == b'.').count();
+        assert!(lines > 0 && lines as u128 <= 1 + pauses, "{lines} lines, {pauses} pauses");
+    }
 }

@@ -21,7 +21,7 @@
 //!
 //! ```
 //! use nalgebra::{Matrix3, Vector3};
-//! use crate::{Joint, Link, Mechanism, Pose};
+//! use robot_numeric::{Joint, Link, Mechanism, Pose};
 //!
 //! // A pendulum: a point mass of 2 kg, half a metre from a horizontal axis.
 //! let bob = Vector3::new(0.5, 0.0, 0.0);
@@ -31,7 +31,7 @@
 //!
 //! let torque = pendulum.inverse_dynamics(&[0.0], &[0.0], &[0.0])?;
 //! assert!((torque[0] + 2.0 * 9.81 * 0.5).abs() < 1e-12);
-//! # Ok::<(), crate::NumericError>(())
+//! # Ok::<(), robot_numeric::NumericError>(())
 //! ```
 
 mod coriolis;

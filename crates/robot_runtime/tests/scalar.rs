@@ -27,6 +27,16 @@ fn double_software_square_root_has_the_bits_of_the_processors() {
 }
 
 #[test]
+fn roots_of_squares_are_exact() {
+    for number in [0.0, 1.0, 3.0, 0.375, 1234.0] {
+        assert_eq!(Scalar::sqrt(number * number), number);
+        let number = number as f32;
+        assert_eq!(Scalar::sqrt(number * number), number);
+    }
+    assert!(Scalar::sqrt(-1.0_f64).is_nan() && Scalar::sqrt(-1.0_f32).is_nan());
+}
+
+#[test]
 fn multiply_add_rounds_once_where_it_says_so() {
     let x = 1.0 + 2f64.powi(-30);
     let rest = Scalar::mul_add(x, x, -(1.0 + 2f64.powi(-29)));

@@ -64,6 +64,30 @@ fn centres_of_mass_are_looked_for_at_the_link() {
 }
 
 #[test]
+fn gravity_up_to_thirty_is_in_meters() {
+    let with = |gravity: &str| {
+        let robot = format!("name = \"arm\"\ngravity = [0, 0, -{gravity}]\n");
+        codes(&rod(2.0, 1.0, false).replacen("name = \"arm\"\n", &robot, 1))
+    };
+    assert_eq!(with("30"), [""; 0]);
+    assert_eq!(with("30.1"), [code::UNITS]);
+}
+
+/// What a prismatic joint travels counts as the size of its link; the angles of a revolute joint do not.
+#[test]
+fn limits_count_where_they_are_lengths() {
+    let limited = |kind: &str| {
+        rod(2.0, 1.0, false).replace("[0.2, 0, 0]", "[10, 0, 0]").replacen(
+            "type = \"revolute\"",
+            &format!("type = \"{kind}\", limits = [-3, 3]"),
+            1,
+        )
+    };
+    assert_eq!(codes(&limited("revolute")), [code::CENTER_FAR]);
+    assert_eq!(codes(&limited("prismatic")), [""; 0]);
+}
+
+#[test]
 fn rounded_right_angles_are_told_from_angles() {
     let turned = |angle: &str| {
         rod(2.0, 1.0, false)

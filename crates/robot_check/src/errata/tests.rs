@@ -70,6 +70,8 @@ fn every_kind_of_slip_is_told() {
         (3, "+ m2*l1*r2*qdd1", "missing factor: cos(q2)"),
         (3, "+ m2*l1*r2*g*cos(q2)*qdd1", "extra factor: g"),
         (3, "+ I2*l1*r2*cos(q2)*qdd1", "factor: I2 for m2"),
+        (3, "+ m2*l1*r2*sin(q1)*qdd1", "factor: sin(q1) for cos(q2)"),
+        (3, "+ m2*q1*r2*cos(q2)*qdd1", "factor: q1 for l1"),
     ];
     for (place, wrong, slip) in cases {
         let found = spoilt(TERMS[place], wrong);
@@ -194,6 +196,21 @@ fn latex_is_compared_as_text_is() {
     assert_eq!((found.equations, found.differences.len()), (4, 1), "{found:#?}");
     assert_eq!(found.differences[0].slips[0].to_string(), "dot: qd1 for qdd1");
     assert_eq!((found.differences[0].number.as_str(), found.differences[0].line), ("31", 2));
+}
+
+/// `Q_2`, `Q_m^2` and `\tau_2` are the second joint's generalized force.
+#[test]
+fn a_driving_force_is_known_by_its_usual_letters() {
+    let right = r"(m_2 r_2^2 + I_2) (\ddot q_1 + \ddot q_2) + m_2 l_1 r_2 \cos q_2 \ddot q_1
+        + m_2 l_1 r_2 \sin q_2 \dot q_1^2 + m_2 g r_2 \cos(q_1 + q_2)";
+    for left in ["Q_{2}", "Q_m^2", r"\tau_2"] {
+        let text = format!(r"\[ {left} = {right} + m_1 \]");
+        let found = compared(&robot("planar_2r"), &text);
+        let found = found.unwrap_or_else(|error| panic!("{left}: {error}")).differences;
+        let shown: Vec<_> =
+            found.iter().map(|one| (&*one.quantity, one.printed.as_deref())).collect();
+        assert_eq!(shown, [("Q2", Some("m1"))], "{left}");
+    }
 }
 
 #[test]

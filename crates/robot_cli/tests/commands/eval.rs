@@ -90,6 +90,27 @@ fn parameters_can_be_set() {
     assert_close(&found[0], &expected(&settings, &WRENCH, false));
 }
 
+/// A pendulum whose mass and length have no value in the file.
+#[test]
+fn parameters_without_a_value_have_to_be_set() {
+    let file = crate::folder("parameters_without_a_value").join("arm.toml");
+    let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nm = {}\nl = {}\n[[link]]\n\
+        name = \"rod\"\nmass = \"m\"\ncenter_of_mass = [\"l\", 0, 0]\n\
+        inertia = { xx = 0, yy = 0, zz = 0 }\njoint = { type = \"revolute\", axis = \"y\" }\n";
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    let states = json!([{"q": [0.0]}]).to_string();
+    let gravity = ["eval", file, "--function", "gravity", "--states", "-", "--set", "m=2"];
+    let told = complaint(1, &gravity, &states);
+    assert!(told.contains("`l` has no nominal value: give one, --set l=…"), "{told}");
+    assert!(!told.contains("`m`"), "{told}");
+    let shown: Value =
+        serde_json::from_str(&output(&[&gravity[..], &["--set", "l=0.5"]].concat(), &states))
+            .unwrap();
+    let found = numbers(shown[0].as_object().unwrap().values().next_back().unwrap());
+    assert_close(&found.iter().map(|torque| torque.abs()).collect::<Vec<_>>(), &[9.81]);
+}
+
 #[test]
 fn matrices_are_rows_and_csv_has_a_header() {
     let file = robot("trttr1");

@@ -163,7 +163,7 @@ mod tests {
     use crate::counts::Counts;
     use crate::interpreter::evaluate;
     use crate::passes::testing::assert_same_values;
-    use crate::program::{Builder, Source};
+    use crate::program::{Builder, Operation, Source};
     use crate::trigonometry::Trigonometry;
 
     #[test]
@@ -215,6 +215,18 @@ mod tests {
         let sum = b.add(prx, psy);
         let counts = Counts::of_calls(&run(&b.finish(vec![sum])));
         assert_eq!((counts.mul, counts.add), (2, 1));
+    }
+
+    /// p x + p: the constructor has p, and p (x + 1) is as many operations.
+    #[test]
+    fn a_parameter_is_not_taken_out_of_what_costs_as_much() {
+        let mut b = Builder::new();
+        let (x, p) = (b.load(Source::Input(0)), b.load(Source::Parameter(0)));
+        let product = b.mul(p, x);
+        let sum = b.add(p, product);
+        let program = run(&b.finish(vec![sum]));
+        let last = program.operation(program.results()[0]);
+        assert!(matches!(last, Operation::Add(..)), "{program:?}");
     }
 
     #[test]

@@ -85,9 +85,29 @@ fn depths(program: &Program) -> Vec<u32> {
 mod tests {
     use super::*;
     use crate::passes::testing::assert_same_bits;
+    use crate::program::Source;
 
     #[test]
     fn bits_stay() {
         assert_same_bits("fusing", run);
+    }
+
+    /// x y z + u v: the sum waits for x y z anyway, and u v is there before.
+    #[test]
+    fn of_two_products_the_later_is_part_of_the_instruction() {
+        for swapped in [false, true] {
+            let mut b = Builder::new();
+            let [x, y, z, u, v] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
+            let xy = b.mul(x, y);
+            let (deep, shallow) = (b.mul(xy, z), b.mul(u, v));
+            let sum = if swapped { b.add(shallow, deep) } else { b.add(deep, shallow) };
+            let fused = run(&b.finish(vec![sum]));
+            let Operation::MulAdd(a, b, addend) = fused.operation(fused.results()[0]) else {
+                panic!("{fused:?}");
+            };
+            let operations = [a, b, addend].map(|value| fused.operation(value));
+            assert!(operations.contains(&Operation::Load(Source::Input(2))), "{fused:?}");
+            assert!(matches!(operations[2], Operation::Mul(..)), "{fused:?}");
+        }
     }
 }

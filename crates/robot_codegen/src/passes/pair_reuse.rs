@@ -246,6 +246,16 @@ mod tests {
         assert_eq!(Counts::of(&run(&b.finish(results))).add, 4);
     }
 
+    #[test]
+    fn a_pair_of_two_sums_is_added_once() {
+        let mut b = Builder::new();
+        let [x, y, u, v, _] = inputs(&mut b);
+        // u + x + v, y + u + v
+        let (ux, yu) = (b.add(u, x), b.add(y, u));
+        let results = vec![b.add(ux, v), b.add(yu, v)];
+        assert_eq!(Counts::of(&run(&b.finish(results))).add, 3);
+    }
+
     /// p + x + r: the sum of the parameters comes from the constructor.
     #[test]
     fn what_is_known_early_is_joined_early() {

@@ -132,4 +132,23 @@ mod tests {
         let program = b.finish(vec![sum]);
         assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
     }
+
+    /// The same sum as a factor: the product with it has to be there before the last factor is.
+    #[test]
+    fn no_product_waits_for_it() {
+        let mut b = Builder::new();
+        let [x, y, z, w, v] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
+        let [r, s, t, u] = [5, 6, 7, 8].map(|index| b.load(Source::Input(index)));
+        let (xy, zw) = (b.mul(x, y), b.mul(z, w));
+        let products = b.add(xy, zw);
+        let late = b.call(Function::Sqrt, v);
+        let sum = b.add(products, late);
+        // Known a little later than the sum.
+        let quotient = b.div(r, s);
+        let last = b.div(quotient, t);
+        let product = b.mul(u, sum);
+        let product = b.mul(product, last);
+        let program = b.finish(vec![product]);
+        assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
+    }
 }

@@ -294,3 +294,38 @@ fn clean(matrix: Matrix<'_>) -> Matrix<'_> {
 pub(crate) fn constant_rotation(matrix: Matrix<'_>) -> ConstantRotation<'_> {
     ConstantRotation::new(matrix)
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_symbolic::{Graph, Number};
+
+    use super::*;
+
+    #[test]
+    fn nothing_is_divided_by_what_is_small_or_not_a_number() {
+        let graph = Graph::new();
+        let number = |value: f64| graph.number(Number::Real(value));
+        let quotient = |numerator: f64, denominator: f64| {
+            safe_quotient(number(numerator), number(denominator))
+                .map(|quotient| quotient.evaluate(|_| f64::NAN))
+        };
+        assert_eq!(quotient(3.0, -2.0), Some(-1.5));
+        assert_eq!((quotient(3.0, 1e-4), quotient(3.0, 0.0)), (None, None));
+        // A shift by 0 is none.
+        assert_eq!(safe_quotient(graph.zero(), number(2.0)), None);
+        assert_eq!(safe_quotient(number(3.0), graph.symbol("h")), None);
+    }
+
+    #[test]
+    fn a_direction_has_a_length() {
+        let graph = Graph::new();
+        let number = |value: f64| graph.number(Number::Real(value));
+        let found = direction([graph.integer(8), graph.integer(-6), graph.one()]);
+        let found =
+            found.map(|(sine, cosine)| [sine, cosine].map(|one| one.evaluate(|_| f64::NAN)));
+        assert_eq!(found, Some([-0.6, 0.8]));
+        // Rounding points anywhere.
+        assert_eq!(direction([number(6e-10), number(-3e-10), graph.one()]), None);
+        assert_eq!(direction([graph.symbol("x"), number(1.0), graph.one()]), None);
+    }
+}

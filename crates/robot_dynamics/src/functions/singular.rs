@@ -38,11 +38,11 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
 fn of_matrix(matrix: Rows) -> Vec<usize> {
     let order = matrix.len();
     let most = (0..order).fold(0.0_f64, |most, row| most.max(matrix[row][row].abs()));
-    if most == 0.0 {
-        return (0..order).collect();
-    }
     if matrix.iter().flatten().any(|entry| !entry.is_finite()) {
         return Vec::new();
+    }
+    if most == 0.0 {
+        return (0..order).collect();
     }
     // Rotations and translations differ in their units: each by its own inertia.
     let scale: Vec<f64> =

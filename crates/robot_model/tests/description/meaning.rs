@@ -45,6 +45,26 @@ fn numbers_are_exact_and_expressions_are_kept() {
 }
 
 #[test]
+fn a_root_has_half_the_dimension() {
+    let text = |mass: &str, gravity: &str| {
+        let parameters = "[parameters]\na = { value = 2, unit = \"kg\" }\n\
+             b = { value = 0.5, unit = \"m\" }\ng = { value = 9.81, unit = \"m/s^2\" }\n";
+        let link = revolute("1", "origin = { xyz = [\"b\", \"sqrt(b^2)\", 0] }");
+        let link = link.replace("mass = 1", &format!("mass = \"{mass}\""));
+        let robot = arm(&format!("{parameters}{link}"));
+        robot.replacen("[robot]", &format!("[robot]\ngravity = [0, 0, \"-{gravity}\"]"), 1)
+    };
+    let right = text("sqrt(a^2)", "sqrt(g^2)");
+    assert!(read(&right).warnings.is_empty(), "{right}");
+    for (mass, gravity) in
+        [("sqrt(b^2)", "g"), ("sqrt(a^4)", "g"), ("a", "sqrt(b^2)"), ("a", "g*sqrt(b^4)")]
+    {
+        let found = errors(&text(mass, gravity)).to_string();
+        assert!(found.contains("R0306"), "{mass}, {gravity}: {found}");
+    }
+}
+
+#[test]
 fn links_stand_on_the_link_before_unless_they_say_otherwise() {
     let text = [
         revolute("a", ""),
@@ -275,7 +295,7 @@ fn code_names_functions_and_bundles() {
     assert_eq!(all.functions, Functions::All);
     let found = of("[code]\nfunctions = [\"bias\", \"gravity\"]\n\
          bundles = { both = [\"mass_matrix\", \"bias\"], one = [\"gravity\"] }\n\
-         [budget]\nfunction = \"both\"\n");
+         [budget]\nfunction = \"both\"\nmax_operations = 900\n");
     assert_eq!(found.budgets[0].function.as_deref(), Some("both"));
     let Code { functions, bundles } = found.code;
     assert_eq!(functions, Functions::Chosen(vec![FunctionKind::Bias, FunctionKind::Gravity]));

@@ -112,6 +112,14 @@ fn friction_is_apart_unless_it_is_asked_for() {
     let friction = read_taking(&text, &options).robot.links[0].friction.clone();
     let figures = [&friction.viscous, &friction.coulomb_positive, &friction.coulomb_negative];
     assert_eq!(figures.map(|figure| figure.text().to_owned()), ["5", "3", "3"]);
+    // One of the two alone is friction as well.
+    for (figures, expected) in [("damping=\"5\"", ["5", "0"]), ("friction=\"3\"", ["0", "3"])] {
+        let joint = format!("<axis xyz=\"0 0 1\"/><dynamics {figures}/>");
+        let described = read_taking(&one_link(BODY, &joint), &options);
+        let friction = &described.robot.links[0].friction;
+        let found = [&friction.viscous, &friction.coulomb_positive];
+        assert_eq!(found.map(|figure| figure.text().to_owned()), expected);
+    }
 }
 
 #[test]
@@ -162,9 +170,9 @@ fn massless_links_need_a_waiver() {
         .replace("0.03", "0")
         .replace("0.04", "0");
     let waiver = Options { allow_massless: true, ..Options::default() };
-    for body in ["", &zero] {
-        let text = one_link(body, "<axis xyz=\"1 0 0\"/>");
-        assert_eq!(codes(&errors(&text)), [code::MASS], "{body}");
+    for (body, axis) in [("", "1 0 0"), (&zero, "1 0 0"), ("", "0 0 1"), (&zero, "0 0 1")] {
+        let text = one_link(body, &format!("<axis xyz=\"{axis}\"/>"));
+        assert_eq!(codes(&errors(&text)), [code::MASS], "{body}, {axis}");
         let described = read_taking(&text, &waiver);
         assert_eq!(codes(&described.warnings), [code::MASS]);
         assert!(described.robot.links[0].bodies.is_empty());

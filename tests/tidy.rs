@@ -1,0 +1,198 @@
+//! The house rules that a compiler does not hold: which crate and which module may know which, how long a file
+//! may be, how large a crate.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The crates along the arrow of ARCHITECTURE.md: each may depend on those before it.
+const CRATES: [&str; 14] = [
+    "robot_runtime",
+    "robot_symbolic",
+    "robot_model",
+    "robot_dynamics",
+    "robot_codegen",
+    "robot_build",
+    "robot_macros",
+    "robot_document",
+    "robot_simulation",
+    "robot_evidence",
+    "robot_report",
+    "robot_numeric",
+    "robot_check",
+    "robot_cli",
+];
+
+/// Who may depend on the numeric solver: what judges, and the command that asks it. Nothing that derives,
+/// prints or generates.
+const JUDGES: [&str; 2] = ["robot_check", "robot_cli"];
+
+/// The modules of crates in layers: each may use those of its own layer and of those before.
+const LAYERS: [(&str, &[&[&str]]); 2] = [
+    (
+        "robot_model",
+        &[
+            &["space", "unit", "diagnostic", "snap"],
+            &["robot", "physics"],
+            &["functions"],
+            &["description"],
+        ],
+    ),
+    (
+        "robot_dynamics",
+        &[
+            &["vector", "matrix", "quantity"],
+            &["mechanism"],
+            &["body", "newton_euler"],
+            &["economical"],
+            &["derivation"],
+            &["base_parameters"],
+            &["functions"],
+        ],
+    ),
+];
+
+/// The most lines of a file.
+const LONGEST: usize = 500;
+
+/// The largest part of the code, in percent, that one crate may have.
+const LARGEST: usize = 20;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The Rust files below a folder, in order.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = vec![];
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn place(name: &str) -> usize {
+    CRATES.iter().position(|known| *known == name).unwrap_or_else(|| {
+        panic!("{name} has no place in the order of crates: give it one, in ARCHITECTURE.md too")
+    })
+}
+
+/// The crates of this project that a crate depends on, as users build it.
+fn dependencies(name: &str) -> Vec<String> {
+    let manifest = root().join("crates").join(name).join("Cargo.toml");
+    let manifest: toml::Table = fs::read_to_string(manifest).unwrap().parse().unwrap();
+    let sections = ["dependencies", "build-dependencies"];
+    let tables = sections.iter().filter_map(|section| manifest.get(*section)?.as_table());
+    tables.flat_map(toml::Table::keys).filter(|key| key.starts_with("robot_")).cloned().collect()
+}
+
+#[test]
+fn crates_depend_on_those_before_them() {
+    let mut crates: Vec<String> = fs::read_dir(root().join("crates"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    crates.sort();
+    assert_eq!(crates.len(), CRATES.len(), "{crates:?}");
+    let mut wrong = vec![];
+    for name in &crates {
+        for other in dependencies(name) {
+            if place(&other) >= place(name) {
+                wrong.push(format!("{name} depends on {other}, which stands after it"));
+            }
+            if other == "robot_numeric" && !JUDGES.contains(&name.as_str()) {
+                wrong.push(format!("{name} depends on the numeric solver"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The modules of its own crate that a source names: `crate::unit::Unit` and `crate::{unit, robot}`.
+fn named(text: &str) -> Vec<String> {
+    let word = |text: &str| -> String {
+        text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
+    };
+    let mut found = vec![];
+    for (start, _) in text.match_indices("crate::") {
+        let before = text[..start].chars().next_back();
+        if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$') {
+            continue;
+        }
+        let rest = &text[start + "crate::".len()..];
+        match rest.strip_prefix('{') {
+            Some(list) => {
+                let list = list.split('}').next().unwrap_or_default();
+                found.extend(list.split(',').map(|entry| word(entry.trim())));
+            }
+            None => found.push(word(rest)),
+        }
+    }
+    found
+}
+
+#[test]
+fn modules_use_those_of_layers_before_them() {
+    let mut wrong = vec![];
+    for (name, layers) in LAYERS {
+        let source = root().join("crates").join(name).join("src");
+        let layer = |module: &str| layers.iter().position(|modules| modules.contains(&module));
+        for path in sources(&source) {
+            let inside = path.strip_prefix(&source).unwrap();
+            let first = inside.iter().next().unwrap().to_str().unwrap();
+            let own = first.strip_suffix(".rs").unwrap_or(first);
+            if own == "lib" {
+                continue;
+            }
+            let Some(here) = layer(own) else {
+                wrong.push(format!("{name}: the module {own} has no layer"));
+                continue;
+            };
+            for other in named(&fs::read_to_string(&path).unwrap()) {
+                if layer(&other).is_some_and(|other| other > here) {
+                    wrong.push(format!(
+                        "{name}: {} uses {other}, which stands above it",
+                        inside.display()
+                    ));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn names_of_modules_are_found_in_paths_and_lists() {
+    let text = "use crate::unit::Unit; let x = crate::robot::Y; use crate::{a, b::c}; $crate::no mycrate::no";
+    assert_eq!(named(text), ["unit", "robot", "a", "b"]);
+}
+
+#[test]
+fn files_are_short_and_no_crate_dwarfs_the_others() {
+    let mut long = vec![];
+    let mut lines: BTreeMap<&str, usize> = BTreeMap::new();
+    for name in CRATES {
+        let folder = root().join("crates").join(name);
+        for path in sources(&folder) {
+            let count = fs::read_to_string(&path).unwrap().lines().count();
+            if count > LONGEST {
+                long.push(format!("{}: {count} lines", path.display()));
+            }
+            if path.starts_with(folder.join("src")) {
+                *lines.entry(name).or_default() += count;
+            }
+        }
+    }
+    assert!(long.is_empty(), "files of more than {LONGEST} lines: {long:#?}");
+    let all: usize = lines.values().sum();
+    let large: Vec<_> = lines.iter().filter(|(_, count)| **count * 100 > all * LARGEST).collect();
+    assert!(large.is_empty(), "of {all} lines: {large:?}");
+}
