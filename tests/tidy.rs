@@ -47,7 +47,7 @@ const LAYERS: [(&str, &[&[&str]]); 2] = [
             &["mechanism"],
             &["body", "newton_euler"],
             &["economical"],
-            &["derivation"],
+            &["derivation", "plain"],
             &["base_parameters"],
             &["functions"],
         ],

@@ -24,7 +24,7 @@ pub fn check_value(robot: &Robot, friction: bool) -> Option<CheckValue> {
     let numbers = |texts: &[&str]| texts.iter().map(number).collect::<Vec<f64>>();
     let [fx, fy, fz, mx, my, mz] = WRENCH.each_ref().map(number);
     let wrench = Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() };
-    let loads = Loads { wrenches: robot.tips().map(|_| wrench.clone()).collect(), friction };
+    let loads = Loads { wrenches: robot.tips().map(|_| wrench).collect(), friction };
     let mechanism = Mechanism::nominal(robot).ok()?;
     let (q, qd, qdd) = (numbers(&positions), numbers(&velocities), numbers(&accelerations));
     let forces = mechanism.inverse_dynamics_with(&q, &qd, &qdd, &loads).ok()?;

@@ -5,10 +5,12 @@
 
 pub mod base_parameters;
 mod body;
+mod derivation;
 pub mod economical;
 pub mod functions;
 pub mod matrix;
 pub mod mechanism;
 pub mod newton_euler;
+mod plain;
 pub mod quantity;
 pub mod vector;

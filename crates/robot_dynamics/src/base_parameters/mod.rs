@@ -18,6 +18,7 @@
 //! Where joints share a coordinate, what the mechanism's coordinates tell less than independent ones
 //! would is found by the rank of the columns at seeded states, and the figures are rounded.
 
+mod columns;
 mod echelon;
 mod joint;
 mod moments;
@@ -29,9 +30,10 @@ mod told;
 
 use robot_symbolic::Expr;
 
+use crate::derivation::Derivation;
 use crate::economical::{Reframed, WorkingFrame};
-use crate::functions::Derivation;
 use crate::mechanism::Mechanism;
+pub(crate) use columns::{base_columns, standard_columns};
 use joint::Joint;
 use regroup::{Form, Kept};
 use robot_model::functions::{has_shared_coordinates, out_of_reach};

@@ -2,9 +2,10 @@
 
 use robot_symbolic::{Expr, Number, Random, SymbolId, walk};
 
+use super::columns::base_columns;
 use super::regroup::{Kept, add};
 use super::scalar::Scalar;
-use crate::functions::{Derivation, base_columns};
+use crate::derivation::Derivation;
 
 /// The seed of the states.
 const SEED: u64 = 19_900_402;

@@ -1,6 +1,7 @@
 //! Kinetic and potential energy.
 
-use super::{Derivation, Function, FunctionKind, Output, mass_matrix, plain};
+use super::{Derivation, Function, FunctionKind, Output, mass_matrix};
+use crate::plain;
 
 /// The energies of the links and drives.
 pub(super) fn energies<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {

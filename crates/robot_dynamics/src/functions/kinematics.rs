@@ -2,10 +2,11 @@
 
 use robot_symbolic::Expr;
 
-use super::{Derivation, Function, FunctionKind, Output, plain};
+use super::{Derivation, Function, FunctionKind, Output};
 use crate::economical::plan::{LinkPlan, Origin, Turn};
 use crate::economical::{Plan, Pose, Recursion};
 use crate::mechanism::MechanismFrame;
+use crate::plain;
 use crate::vector::{Matrix, Vector};
 use robot_model::functions::FrameRef;
 

@@ -15,7 +15,6 @@ mod inverse_dynamics;
 mod kinematics;
 mod mass_matrix;
 mod pivots;
-mod plain;
 mod plans;
 mod regressor;
 mod sampled;
@@ -23,18 +22,16 @@ mod sharing;
 mod singular;
 
 pub use plans::search_plan;
-pub(crate) use regressor::base_columns;
 pub use singular::undetermined;
-use std::cell::OnceCell;
+
+pub use crate::derivation::Derivation;
 
 use robot_model::functions::FunctionKind;
-use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
+use robot_symbolic::Expr;
 
-use crate::economical::{Plan, Recursion};
+use crate::economical::Recursion;
 use crate::matrix::Pivots;
-use crate::mechanism::{Mechanism, MechanismOptions};
-use crate::newton_euler::{self, Effects};
-use robot_model::robot::{JointKind, Parameter, Robot};
+use robot_model::robot::JointKind;
 
 /// A function of a robot, or several in one.
 #[derive(Clone, Debug)]
@@ -90,55 +87,7 @@ impl<'g> Output<'g> {
     }
 }
 
-/// A robot in symbols, ready to derive functions in one graph.
-#[derive(Debug)]
-pub struct Derivation<'r, 'g> {
-    /// The robot.
-    pub robot: &'r Robot,
-    /// The robot in symbols.
-    pub mechanism: Mechanism<'g>,
-    /// The economical recursion; `None` where a joint axis depends on parameters, for which it
-    /// cannot be set up: functions then come from the paper's iterations.
-    pub recursion: Option<Recursion<'g>>,
-    /// Whether pivots of the mass matrix may be small; found when it is asked for.
-    small_pivots: OnceCell<bool>,
-}
-
 impl<'r, 'g> Derivation<'r, 'g> {
-    /// Puts the robot into the symbols of `graph`, constants rounded as code needs them.
-    ///
-    /// Without a plan the recursion takes [`Plan::default_for`].
-    #[must_use]
-    pub fn new(
-        robot: &'r Robot,
-        graph: &'g Graph,
-        options: &MechanismOptions,
-        plan: Option<Plan>,
-    ) -> Derivation<'r, 'g> {
-        let mechanism = Mechanism::new(robot, graph, options);
-        let plan = plan.unwrap_or_else(|| Plan::default_for(robot));
-        let recursion = Recursion::new(&mechanism, &plan);
-        Derivation { robot, mechanism, recursion, small_pivots: OnceCell::new() }
-    }
-
-    /// The operations of expressions; what depends on parameters alone is free.
-    fn operations(&self, roots: &[Expr<'g>]) -> Operations {
-        let symbol = |parameter: &Parameter| {
-            self.mechanism.graph.find_symbol(&parameter.name).and_then(Expr::as_symbol)
-        };
-        let free: Vec<SymbolId> = self.robot.parameters.iter().filter_map(symbol).collect();
-        operations(roots, |symbol| free.contains(&symbol))
-    }
-
-    /// The same robot in the same graph under another plan.
-    #[must_use]
-    pub fn with_plan(&self, plan: &Plan) -> Derivation<'r, 'g> {
-        let mechanism = self.mechanism.clone();
-        let recursion = Recursion::new(&mechanism, plan);
-        let small_pivots = self.small_pivots.clone();
-        Derivation { robot: self.robot, mechanism, recursion, small_pivots }
-    }
-
     /// The recursion, where it has to solve M q̈ = b by articulated bodies so as to keep digits: where
     /// pivots of M may be small, and each coordinate moves one joint.
     fn recursion_for_small_pivots(&self) -> Option<&Recursion<'g>> {
@@ -232,13 +181,6 @@ impl<'r, 'g> Derivation<'r, 'g> {
         names.map(|name| self.coordinate_input(name)).to_vec()
     }
 
-    /// The symbols of an input with an element per coordinate.
-    fn coordinate_symbols(&self, name: &str) -> Vec<Expr<'g>> {
-        let graph = self.mechanism.graph;
-        let numbers = 1..=self.mechanism.degrees_of_freedom;
-        numbers.map(|number| graph.symbol(&format!("{name}{number}"))).collect()
-    }
-
     /// The generalised driving forces as an output.
     fn torque_output(&self, values: Vec<Expr<'g>>) -> Output<'g> {
         Output::new(
@@ -248,25 +190,6 @@ impl<'r, 'g> Derivation<'r, 'g> {
             vec![values.len()],
             values,
         )
-    }
-
-    /// The paper's driving forces at other values of velocities and accelerations, by the symbol's
-    /// prefix: what stands in where the economical recursion cannot be set up.
-    fn paper_torques(&self, wrench: bool, zero: &[&str]) -> Vec<Expr<'g>> {
-        let effects = Effects { wrench, friction: false };
-        let torques = newton_euler::newton_euler(&self.mechanism, effects).driving_forces;
-        let graph = self.mechanism.graph;
-        let names: Vec<String> = zero
-            .iter()
-            .flat_map(|prefix| {
-                (1..=self.mechanism.degrees_of_freedom)
-                    .map(move |number| format!("{prefix}{number}"))
-            })
-            .collect();
-        walk::rebuild(&torques, graph, |name| {
-            let is_zero = names.iter().any(|zero| zero == name);
-            if is_zero { graph.zero() } else { graph.symbol(name) }
-        })
     }
 
     /// An input array with an element per coordinate: `q`, `qd`, `qdd` or `tau`.

@@ -24,7 +24,7 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     let mut random = Random::new(SEED);
     let mut found: Vec<usize> = (0..matrix.order()).collect();
     for _ in 0..POSTURES {
-        let here = of_matrix(matrix.at(&matrix.posture(&mut random)));
+        let here = of_matrix(&matrix.at(&matrix.posture(&mut random)));
         found.retain(|coordinate| here.contains(coordinate));
         // Regular in one posture is enough, and builds ask.
         if found.is_empty() {
@@ -35,7 +35,7 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
 }
 
 /// The coordinates that have a part in the null space of a symmetric matrix.
-fn of_matrix(matrix: Rows) -> Vec<usize> {
+fn of_matrix(matrix: &Rows) -> Vec<usize> {
     let order = matrix.len();
     let most = (0..order).fold(0.0_f64, |most, row| most.max(matrix[row][row].abs()));
     if matrix.iter().flatten().any(|entry| !entry.is_finite()) {
@@ -99,12 +99,12 @@ mod tests {
     fn a_null_motion_names_the_coordinates_that_take_part() {
         // The first two turn alike: their difference moves nothing.
         let alike = vec![vec![2.0, 2.0, 0.5], vec![2.0, 2.0, 0.5], vec![0.5, 0.5, 1.0]];
-        assert_eq!(of_matrix(alike), [0, 1]);
+        assert_eq!(of_matrix(&alike), [0, 1]);
         let regular = vec![vec![2.0, 1.0], vec![1.0, 2.0]];
-        assert_eq!(of_matrix(regular), Vec::<usize>::new());
+        assert_eq!(of_matrix(&regular), Vec::<usize>::new());
         let none = vec![vec![1.0, 0.0, 0.0], vec![0.0, 0.0, 0.0], vec![0.0, 0.0, 1e-6]];
-        assert_eq!(of_matrix(none), [1]);
-        assert_eq!(of_matrix(vec![vec![0.0; 2]; 2]), [0, 1]);
-        assert_eq!(of_matrix(vec![vec![f64::NAN; 2]; 2]), Vec::<usize>::new());
+        assert_eq!(of_matrix(&none), [1]);
+        assert_eq!(of_matrix(&vec![vec![0.0; 2]; 2]), [0, 1]);
+        assert_eq!(of_matrix(&vec![vec![f64::NAN; 2]; 2]), Vec::<usize>::new());
     }
 }

@@ -3,7 +3,7 @@
 
 use robot_symbolic::{Expr, walk};
 
-use super::Derivation;
+use crate::derivation::Derivation;
 use crate::economical::{Column, Pose, RegressorColumns, Wrench, unit_rotor, unit_wrenches};
 use crate::matrix::SymmetricMatrix;
 use crate::mechanism::{MechanismFrame, MechanismLink};
@@ -11,7 +11,7 @@ use crate::newton_euler::{self, Effects, LinkMotion};
 use crate::vector::{Matrix, Vector};
 
 /// The poses of the links' frames.
-pub(super) fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
+pub(crate) fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     let mechanism = &derivation.mechanism;
     let base = Pose {
         rotation: Matrix::identity(mechanism.graph),
@@ -26,7 +26,7 @@ pub(super) fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
 }
 
 /// The poses of named frames.
-pub(super) fn frame_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
+pub(crate) fn frame_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     let links = link_poses(derivation);
     derivation.mechanism.frames.iter().map(|frame| frame_pose(&links, frame)).collect()
 }
@@ -46,7 +46,7 @@ fn carried<'g>(carrier: &Pose<'g>, rotation: Matrix<'g>, translation: Vector<'g>
 }
 
 /// The geometric Jacobian of a frame, row by row.
-pub(super) fn jacobian<'g>(
+pub(crate) fn jacobian<'g>(
     derivation: &Derivation<'_, 'g>,
     frame: &MechanismFrame<'g>,
 ) -> Vec<Vec<Expr<'g>>> {
@@ -71,7 +71,7 @@ pub(super) fn jacobian<'g>(
 }
 
 /// J̇ q̇: the rate of J q̇ at constant q̇.
-pub(super) fn jacobian_dot_qd<'g>(
+pub(crate) fn jacobian_dot_qd<'g>(
     derivation: &Derivation<'_, 'g>,
     frame: &MechanismFrame<'g>,
 ) -> Vec<Expr<'g>> {
@@ -92,7 +92,7 @@ pub(super) fn jacobian_dot_qd<'g>(
 }
 
 /// ½ q̇ᵀ M q̇.
-pub(super) fn kinetic_energy<'g>(
+pub(crate) fn kinetic_energy<'g>(
     derivation: &Derivation<'_, 'g>,
     matrix: &SymmetricMatrix<'g>,
 ) -> Expr<'g> {
@@ -107,7 +107,7 @@ pub(super) fn kinetic_energy<'g>(
 }
 
 /// −Σ m g · c.
-pub(super) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> {
+pub(crate) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> {
     let mechanism = &derivation.mechanism;
     let mut energy = mechanism.graph.zero();
     for (link, pose) in mechanism.links.iter().zip(link_poses(derivation)) {
@@ -118,7 +118,7 @@ pub(super) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> 
 }
 
 /// The shares of the links' inertial parameters and of the rotors in the driving forces.
-pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> RegressorColumns<'g> {
+pub(crate) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> RegressorColumns<'g> {
     let mechanism = &derivation.mechanism;
     let effects = Effects { wrench: false, friction: false };
     let motions = newton_euler::newton_euler(mechanism, effects).motions;

@@ -1,0 +1,86 @@
+//! A robot in symbols with its recursion: what functions and base parameters are derived from.
+
+use std::cell::OnceCell;
+
+use robot_model::robot::{Parameter, Robot};
+use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
+
+use crate::economical::{Plan, Recursion};
+use crate::mechanism::{Mechanism, MechanismOptions};
+use crate::newton_euler::{self, Effects};
+
+/// A robot in symbols, ready to derive functions in one graph.
+#[derive(Debug)]
+pub struct Derivation<'r, 'g> {
+    /// The robot.
+    pub robot: &'r Robot,
+    /// The robot in symbols.
+    pub mechanism: Mechanism<'g>,
+    /// The economical recursion; `None` where a joint axis depends on parameters, for which it
+    /// cannot be set up: functions then come from the paper's iterations.
+    pub recursion: Option<Recursion<'g>>,
+    /// Whether pivots of the mass matrix may be small; found when it is asked for.
+    pub(crate) small_pivots: OnceCell<bool>,
+}
+
+impl<'r, 'g> Derivation<'r, 'g> {
+    /// Puts the robot into the symbols of `graph`, constants rounded as code needs them.
+    ///
+    /// Without a plan the recursion takes [`Plan::default_for`].
+    #[must_use]
+    pub fn new(
+        robot: &'r Robot,
+        graph: &'g Graph,
+        options: &MechanismOptions,
+        plan: Option<Plan>,
+    ) -> Derivation<'r, 'g> {
+        let mechanism = Mechanism::new(robot, graph, options);
+        let plan = plan.unwrap_or_else(|| Plan::default_for(robot));
+        let recursion = Recursion::new(&mechanism, &plan);
+        Derivation { robot, mechanism, recursion, small_pivots: OnceCell::new() }
+    }
+
+    /// The operations of expressions; what depends on parameters alone is free.
+    pub(crate) fn operations(&self, roots: &[Expr<'g>]) -> Operations {
+        let symbol = |parameter: &Parameter| {
+            self.mechanism.graph.find_symbol(&parameter.name).and_then(Expr::as_symbol)
+        };
+        let free: Vec<SymbolId> = self.robot.parameters.iter().filter_map(symbol).collect();
+        operations(roots, |symbol| free.contains(&symbol))
+    }
+
+    /// The same robot in the same graph under another plan.
+    #[must_use]
+    pub fn with_plan(&self, plan: &Plan) -> Derivation<'r, 'g> {
+        let mechanism = self.mechanism.clone();
+        let recursion = Recursion::new(&mechanism, plan);
+        let small_pivots = self.small_pivots.clone();
+        Derivation { robot: self.robot, mechanism, recursion, small_pivots }
+    }
+
+    /// The symbols of an input with an element per coordinate.
+    pub(crate) fn coordinate_symbols(&self, name: &str) -> Vec<Expr<'g>> {
+        let graph = self.mechanism.graph;
+        let numbers = 1..=self.mechanism.degrees_of_freedom;
+        numbers.map(|number| graph.symbol(&format!("{name}{number}"))).collect()
+    }
+
+    /// The paper's driving forces at other values of velocities and accelerations, by the symbol's
+    /// prefix: what stands in where the economical recursion cannot be set up.
+    pub(crate) fn paper_torques(&self, wrench: bool, zero: &[&str]) -> Vec<Expr<'g>> {
+        let effects = Effects { wrench, friction: false };
+        let torques = newton_euler::newton_euler(&self.mechanism, effects).driving_forces;
+        let graph = self.mechanism.graph;
+        let names: Vec<String> = zero
+            .iter()
+            .flat_map(|prefix| {
+                (1..=self.mechanism.degrees_of_freedom)
+                    .map(move |number| format!("{prefix}{number}"))
+            })
+            .collect();
+        walk::rebuild(&torques, graph, |name| {
+            let is_zero = names.iter().any(|zero| zero == name);
+            if is_zero { graph.zero() } else { graph.symbol(name) }
+        })
+    }
+}
