@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 use std::io::Write;
 
-/// Standard error. Control characters are written as escapes, but for ends of lines, tabs, and on a terminal
+use robot_model::diagnostic::is_invisible;
+
+/// Standard error. Control characters and those that show nothing or reorder text are written as escapes, but for ends of lines, tabs, and on a terminal
 /// this program's own commands; what cannot be written is dropped, for messages that nobody hears are no reason
 /// to leave the work undone.
 pub(crate) struct Messages<'a> {
@@ -35,10 +37,8 @@ fn escaped(text: &str, commands: bool) -> String {
             None => character.len_utf8(),
         };
         let (taken, after) = rest.split_at(length);
-        if length == character.len_utf8()
-            && character.is_control()
-            && !matches!(character, '\n' | '\t')
-        {
+        let hides = character.is_control() || is_invisible(character);
+        if length == character.len_utf8() && hides && !matches!(character, '\n' | '\t') {
             // Writing to a string does not fail.
             let _ = write!(shown, "{}", character.escape_unicode());
         } else {
@@ -70,6 +70,7 @@ mod tests {
         let plain = "a\\u{1b}]0;title\\u{7} \\u{1b}[2J\\u{9b}31m\\u{d}\\u{0} é\tb\n";
         assert_eq!(escaped(text, false), plain);
         assert_eq!(escaped(text, true), plain);
+        assert_eq!(escaped("a\u{2028}\u{202e}b\u{feff}", false), "a\\u{2028}\\u{202e}b\\u{feff}");
         let own = "\x1b[1;31merror\x1b[0m\r\x1b[K1 s";
         assert_eq!(escaped(own, true), own);
         assert_eq!(escaped(own, false), "\\u{1b}[1;31merror\\u{1b}[0m\\u{d}\\u{1b}[K1 s");

@@ -42,6 +42,7 @@ fn values_that_are_set_are_held_against_the_checks_of_the_reader() {
         ("I2=-5", "R0502"),
         ("I2=0.5", "R0503"),
         ("payload_mass=-1", "R0501"),
+        ("payload_xx=1e40", "R0301"),
         ("payload_xx=-1", "R0502"),
     ] {
         let shown = complaint(1, &[&eval[..], &[setting]].concat(), STATE);

@@ -6,6 +6,7 @@ use super::draft::{DraftFrame, DraftLink, DraftPayload, Parent};
 use super::link::named_parent;
 use super::locations::{BodyLocation, ParameterLocation};
 use super::names::Kind;
+use super::range::too_large;
 use super::reader::{Named, Reader};
 use super::shape::PAYLOAD;
 use super::table::Table;
@@ -59,11 +60,16 @@ pub(super) fn read(
 
 /// Reports a mass or a tensor that no body has. Of a mass of 0 any tensor is let pass: nothing is carried.
 fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
-    let Payload { mass, inertia, .. } = names();
+    let Payload { mass, center_of_mass, inertia } = names();
     let value = |name: &String| {
         let parameter = parameters.iter().find(|parameter| parameter.name == *name);
         parameter.and_then(|parameter| parameter.value.as_ref()).map_or(0.0, Rational::to_f64)
     };
+    for name in [&mass].into_iter().chain(&center_of_mass).chain(&inertia) {
+        if let Some(diagnostic) = too_large(&format!("`{name}`"), value(name), span) {
+            reader.report(diagnostic);
+        }
+    }
     let severity = reader.options.unphysical();
     let carried = value(&mass);
     if carried < 0.0 {

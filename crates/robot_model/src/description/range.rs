@@ -147,16 +147,9 @@ impl Range<'_, '_> {
     /// Reports the first figure that is too large.
     fn all<'f>(&mut self, figures: impl IntoIterator<Item = &'f Formula>, what: &str, at: &Span) {
         let known = figures.into_iter().filter_map(|figure| self.reader.known(figure));
-        if let Some(value) = known.into_iter().find(|value| value.abs() > LARGEST) {
-            self.reader.report(
-                Diagnostic::error(
-                    code::NUMBER,
-                    format!("{what} has a figure of {}", significant(value)),
-                )
-                .at(at, format!("magnitudes up to {LARGEST:e} are taken"))
-                .because("products of larger figures are beyond the range of numbers")
-                .help("give the figure in SI units"),
-            );
+        let diagnostic = known.into_iter().find_map(|value| too_large(what, value, at));
+        if let Some(diagnostic) = diagnostic {
+            self.reader.report(diagnostic);
         }
     }
 
@@ -182,4 +175,15 @@ impl Range<'_, '_> {
             );
         }
     }
+}
+
+/// What is said of a number that is too large; `None` where it is not.
+pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
+    let message = || format!("{what} has a figure of {}", significant(value));
+    (value.abs() > LARGEST).then(|| {
+        Diagnostic::error(code::NUMBER, message())
+            .at(at, format!("magnitudes up to {LARGEST:e} are taken"))
+            .because("products of larger figures are beyond the range of numbers")
+            .help("give the figure in SI units")
+    })
 }
