@@ -3,8 +3,6 @@
 
 mod common;
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, read, robot_files, with_free_axes};
 use nalgebra::DMatrix;
 use robot_dynamics::base_parameters::{BaseParameters, base_parameters};
 use robot_dynamics::functions::Derivation;
@@ -15,6 +13,9 @@ use robot_model::robot::{BaseFrames, Robot};
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Graph, Number, Rational};
+
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude, read, robot_files, with_free_axes};
 
 const STATES: usize = 6;
 const TOLERANCE: f64 = 1e-11;

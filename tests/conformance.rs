@@ -4,7 +4,6 @@
 
 mod common;
 
-use common::largest_difference;
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
 use robot_model::description::{self, read_toml, read_urdf};
@@ -12,6 +11,8 @@ use robot_model::diagnostic::{Diagnostics, Severity};
 use robot_model::robot::Robot;
 use robot_numeric::Mechanism;
 use toml::{Table, Value};
+
+use common::largest_difference;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance");
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/conformance.md");

@@ -4,7 +4,6 @@
 
 mod common;
 
-use common::energy::{Motion, energies};
 use robot_dynamics::economical::{
     Plan, Recursion,
     plan::{LinkPlan, Turn},
@@ -16,6 +15,8 @@ use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::polynomial::expands_to_zero;
 use robot_symbolic::{Expr, Formula, Graph};
+
+use common::energy::{Motion, energies};
 
 const PLAIN: Effects = Effects { wrench: false, friction: false };
 

@@ -4,10 +4,6 @@
 
 mod common;
 
-use common::place::{Layout, Off};
-use common::plans::random_plan;
-use common::solver::{expected, state};
-use common::{evaluate, magnitude, robot_files, with_free_axes};
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::functions::{Derivation, Output, search_plan};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -18,6 +14,11 @@ use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::differentiate::{forward, reverse};
 use robot_symbolic::{Expr, Graph, operations};
+
+use common::place::{Layout, Off};
+use common::plans::random_plan;
+use common::solver::{expected, state};
+use common::{evaluate, magnitude, robot_files, with_free_axes};
 
 const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;

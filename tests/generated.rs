@@ -9,8 +9,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::solver::{expected, inputs, state};
-use common::{largest_difference, magnitude, robot_files};
 use nalgebra::DVector;
 use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
@@ -18,6 +16,9 @@ use robot_codegen::backend::rust::{self, RustOptions, Scalar};
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
+
+use common::solver::{expected, inputs, state};
+use common::{largest_difference, magnitude, robot_files};
 
 const TOLERANCE: f64 = 1e-12;
 const FUNCTIONS: [FunctionKind; 5] = [

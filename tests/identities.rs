@@ -18,9 +18,6 @@ mod common;
 
 use std::collections::BTreeMap;
 
-use common::complex_step::derivative;
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, robot_files, with_free_axes};
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -29,6 +26,10 @@ use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph};
+
+use common::complex_step::derivative;
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude, robot_files, with_free_axes};
 
 const STATES: usize = 3;
 const TOLERANCE: f64 = 1e-11;

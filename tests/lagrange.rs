@@ -4,7 +4,6 @@
 
 mod common;
 
-use common::energy::{Motion, energies};
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
@@ -13,6 +12,8 @@ use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::Graph;
 use robot_symbolic::polynomial::expands_to_zero;
+
+use common::energy::{Motion, energies};
 
 /// Checks each coordinate's equation; the number of recursions that were compared.
 fn check(robot: &Robot, name: &str) -> usize {

@@ -7,7 +7,6 @@ mod common;
 
 use std::collections::BTreeMap;
 
-use common::{evaluate, largest_difference, magnitude, robot_files};
 use robot_dynamics::economical::{
     Plan, Recursion, Solver,
     plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
@@ -18,6 +17,8 @@ use robot_model::robot::{Move, Robot};
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph};
+
+use common::{evaluate, largest_difference, magnitude, robot_files};
 
 const STATES: usize = 8;
 const TOLERANCE: f64 = 1e-12;

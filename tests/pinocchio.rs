@@ -6,13 +6,14 @@ mod common;
 
 use std::collections::BTreeMap;
 
-use common::{largest_difference, magnitude};
 use robot_build::{Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
 use robot_model::functions::FunctionKind;
 use robot_model::robot::LINK_PARAMETERS;
 use robot_model::robot::Robot;
 use serde_json::Value;
+
+use common::{largest_difference, magnitude};
 
 const ARMS: [&str; 6] = ["ur5", "panda", "iiwa", "puma560", "stanford", "scara"];
 

@@ -3,8 +3,6 @@
 
 mod common;
 
-use common::energy::{Motion, energies};
-use common::{evaluate, robot_files};
 use nalgebra::DVector;
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -13,6 +11,9 @@ use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::Graph;
+
+use common::energy::{Motion, energies};
+use common::{evaluate, robot_files};
 
 /// The power that the tips give to their surroundings, by the numeric solver's Jacobians.
 fn tip_power(robot: &Robot, solver: &robot_numeric::Mechanism, state: &State) -> f64 {

@@ -4,8 +4,6 @@
 
 mod common;
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, robot_files};
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
@@ -15,6 +13,9 @@ use robot_numeric::random::Recipe;
 use robot_numeric::robots;
 use robot_numeric::{self, Loads};
 use robot_symbolic::{Expr, Graph};
+
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude, robot_files};
 
 const STATES: usize = 50;
 const TOLERANCE: f64 = 1e-12;

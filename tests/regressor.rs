@@ -3,8 +3,6 @@
 
 mod common;
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, robot_files, with_free_axes};
 use robot_build::{BaseFrames, Functions, Options, programs_of};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -14,6 +12,9 @@ use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Graph, Rational, operations};
+
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude, robot_files, with_free_axes};
 
 const STATES: usize = 8;
 const TOLERANCE: f64 = 1e-11;

@@ -4,11 +4,12 @@
 
 mod common;
 
-use common::{largest_difference, magnitude};
 use robot_build::{FunctionKind, Functions, Options, Source, programs, snapping};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
+
+use common::{largest_difference, magnitude};
 
 const TOLERANCE: f64 = 1e-12;
 const STATES: usize = 20;

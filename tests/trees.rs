@@ -4,8 +4,6 @@
 
 mod common;
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude};
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::{Plan, Recursion};
@@ -16,6 +14,9 @@ use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_numeric::{self, Loads};
 use robot_symbolic::Graph;
+
+use common::place::{Layout, Off};
+use common::{evaluate, magnitude};
 
 const STATES: usize = 6;
 const TOLERANCE: f64 = 1e-12;

@@ -1,6 +1,5 @@
 //! The robot file of a command, and how code is made of it.
 
-use robot_model::snap;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -11,6 +10,7 @@ use robot_build::{
 };
 use robot_model::description::Described;
 use robot_model::robot::Robot;
+use robot_model::snap;
 
 use crate::Terminal;
 use crate::failure::Failure;

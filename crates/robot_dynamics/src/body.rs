@@ -3,11 +3,11 @@
 //! They are the mass m, the first moment h = m c and the inertia tensor I about the origin of a
 //! frame, in the order m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.
 
+use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::{Expr, Graph};
 
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
-use robot_model::robot::LINK_PARAMETERS;
 
 /// The place of the first moment's x component among the parameters.
 pub(crate) const FIRST_MOMENT: usize = 1;

@@ -8,13 +8,13 @@
 //! This recursion is for people: its expressions expand to the equations that the paper prints. The
 //! code's own recursion is cheaper, and its inner forces mean nothing.
 
+use robot_model::robot::JointKind;
+use robot_model::unit::Dimension;
 use robot_symbolic::Expr;
 
 use crate::mechanism::{Mechanism, MechanismFriction, MechanismLink};
 use crate::quantity::{Kind, Quantity, Symbol};
 use crate::vector::{Matrix, Vector};
-use robot_model::robot::JointKind;
-use robot_model::unit::Dimension;
 
 /// Which effects the iterations take in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,13 +1,13 @@
 //! From the checked robot to numbers: every formula evaluated in floating point at once.
 
 use nalgebra::{Matrix3, Vector3};
+use robot_model::robot;
 use robot_symbolic::Formula;
 
 use super::error::NumericError;
 use super::friction::{Friction, Sign};
 use super::mechanism::{Frame, Joint, JointKind, Link, Mechanism};
 use super::pose::{Pose, rotation_about};
-use robot_model::robot;
 
 impl Mechanism {
     /// The robot with its parameters at the values that `value` gives by name.

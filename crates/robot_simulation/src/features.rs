@@ -5,7 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use robot_symbolic::{Expr, Formula, Function, Graph, Id, View, walk};
+use robot_symbolic::walk::{self, Evaluator};
+use robot_symbolic::{Expr, Formula, Function, Graph, Id, SymbolId, View};
 
 use crate::dynamics::Features;
 
@@ -34,7 +35,7 @@ pub(crate) fn features(
     let lower = |formula: &Formula| formula.lower(&graph, &mut |name| graph.symbol(name));
     let roots: Vec<Expr<'_>> = formulas.iter().map(lower).collect();
     let parts = Parts::of(&graph, &roots, &constant);
-    let Some(end) = samples.last().copied().filter(|_| !parts.roots.is_empty()) else {
+    let Some(end) = samples.last().copied().filter(|_| parts.roots > 0) else {
         return Features::default();
     };
     let looks = LEAST.max(PARTS * samples.len());
@@ -52,98 +53,74 @@ pub(crate) fn features(
     Features { jumps: jumps(&parts, times), peaks: found }
 }
 
-/// An operation on earlier values.
-#[derive(Clone, Copy)]
-enum Operation {
-    Constant(f64),
-    Time,
-    Add(usize, usize),
-    Sub(usize, usize),
-    Mul(usize, usize),
-    Div(usize, usize),
-    Neg(usize),
-    Call(Function, usize),
-}
-
 /// What depends on the time alone.
 struct Parts {
-    operations: Vec<Operation>,
-    /// The largest such parts of the formulas.
-    roots: Vec<usize>,
-    /// What stands in their `abs` and `sign`.
-    switches: Vec<usize>,
+    /// The values of the largest such parts of the formulas, then of what stands in their `abs` and `sign`.
+    values: Evaluator,
+    /// The number of the former.
+    roots: usize,
+    /// The number of the latter.
+    switches: usize,
+    /// What symbols other than the time stand for.
+    constants: BTreeMap<SymbolId, f64>,
 }
 
 impl Parts {
     fn of(graph: &Graph, roots: &[Expr<'_>], constant: &impl Fn(&str) -> Option<f64>) -> Parts {
-        let mut parts = Parts { operations: vec![], roots: vec![], switches: vec![] };
-        // For each expression that does not depend on the state its value's place, and whether it depends on t.
-        let mut known: BTreeMap<Id, (usize, bool)> = BTreeMap::new();
+        let mut constants = BTreeMap::new();
+        let (mut found, mut switches) = (vec![], vec![]);
+        // For each expression that does not depend on the state, whether it depends on the time.
+        let mut known: BTreeMap<Id, bool> = BTreeMap::new();
         for expr in walk::reachable(roots) {
-            let at = |operand: Expr<'_>| known.get(&operand.id()).copied();
-            let pair = |a: Expr<'_>, b: Expr<'_>| {
-                let ((a, a_moves), (b, b_moves)) = (at(a)?, at(b)?);
-                Some(([a, b], a_moves || b_moves))
-            };
-            let found = match expr.view() {
-                View::Number(number) => Some((Operation::Constant(number.to_f64()), false)),
-                View::Pi => Some((Operation::Constant(std::f64::consts::PI), false)),
-                View::Symbol(symbol) => match &*graph.symbol_name(symbol) {
-                    "t" => Some((Operation::Time, true)),
-                    name => constant(name).map(|value| (Operation::Constant(value), false)),
+            let operands = expr.operands();
+            let moves = match expr.as_symbol() {
+                Some(symbol) => match &*graph.symbol_name(symbol) {
+                    "t" => Some(true),
+                    name => constant(name).map(|value| {
+                        constants.insert(symbol, value);
+                        false
+                    }),
                 },
-                View::Add(a, b) => pair(a, b).map(|([a, b], moves)| (Operation::Add(a, b), moves)),
-                View::Sub(a, b) => pair(a, b).map(|([a, b], moves)| (Operation::Sub(a, b), moves)),
-                View::Mul(a, b) => pair(a, b).map(|([a, b], moves)| (Operation::Mul(a, b), moves)),
-                View::Div(a, b) => pair(a, b).map(|([a, b], moves)| (Operation::Div(a, b), moves)),
-                View::Neg(a) => at(a).map(|(a, moves)| (Operation::Neg(a), moves)),
-                View::Call(function, a) => {
-                    at(a).map(|(a, moves)| (Operation::Call(function, a), moves))
-                }
+                None => operands.iter().try_fold(false, |moves, operand| {
+                    known.get(&operand.id()).map(|operand| moves | operand)
+                }),
             };
-            match found {
-                Some((operation, moves)) => {
-                    if let Operation::Call(Function::Abs | Function::Sign, inner) = operation
+            match moves {
+                Some(moves) => {
+                    if let View::Call(Function::Abs | Function::Sign, inner) = expr.view()
                         && moves
                     {
-                        parts.switches.push(inner);
+                        switches.push(inner);
                     }
-                    known.insert(expr.id(), (parts.operations.len(), moves));
-                    parts.operations.push(operation);
+                    known.insert(expr.id(), moves);
                 }
-                None => parts.roots.extend(moving(expr.operands(), &known)),
+                None => found.extend(moving(operands, &known)),
             }
         }
-        parts.roots.extend(moving(roots.to_vec(), &known));
-        for places in [&mut parts.roots, &mut parts.switches] {
-            places.sort_unstable();
-            places.dedup();
+        found.extend(moving(roots.to_vec(), &known));
+        for list in [&mut found, &mut switches] {
+            list.sort_unstable_by_key(|expr| expr.id());
+            list.dedup_by_key(|expr| expr.id());
         }
-        parts
+        let (roots, switches_count) = (found.len(), switches.len());
+        found.extend(switches);
+        Parts { values: Evaluator::new(&found), roots, switches: switches_count, constants }
     }
 
-    /// The values at a time, one for each operation.
-    fn evaluate(&self, t: f64, values: &mut Vec<f64>) {
-        values.clear();
-        for operation in &self.operations {
-            values.push(match *operation {
-                Operation::Constant(value) => value,
-                Operation::Time => t,
-                Operation::Add(a, b) => values[a] + values[b],
-                Operation::Sub(a, b) => values[a] - values[b],
-                Operation::Mul(a, b) => values[a] * values[b],
-                Operation::Div(a, b) => values[a] / values[b],
-                Operation::Neg(a) => -values[a],
-                Operation::Call(function, a) => function.apply(values[a]),
-            });
-        }
+    /// The values at a time: of the parts, then of what stands in switches.
+    fn at(&self, t: f64) -> Vec<f64> {
+        self.values.values(|symbol| self.constants.get(&symbol).copied().unwrap_or(t))
+    }
+
+    /// The classes of what stands in `abs` and `sign` at a time.
+    fn classes(&self, t: f64) -> Vec<f64> {
+        self.at(t).into_iter().skip(self.roots).map(class).collect()
     }
 }
 
-/// The places of those that depend on the time.
-fn moving(exprs: Vec<Expr<'_>>, known: &BTreeMap<Id, (usize, bool)>) -> Vec<usize> {
-    let found = exprs.into_iter().filter_map(|expr| known.get(&expr.id()));
-    found.filter(|(_, moves)| *moves).map(|(place, _)| *place).collect()
+/// Those that depend on the time.
+fn moving<'g>(exprs: Vec<Expr<'g>>, known: &BTreeMap<Id, bool>) -> Vec<Expr<'g>> {
+    exprs.into_iter().filter(|expr| known.get(&expr.id()) == Some(&true)).collect()
 }
 
 /// Which of the three values of `sign` a number has.
@@ -153,24 +130,22 @@ fn class(value: f64) -> f64 {
 
 /// Where what stands in an `abs` or a `sign` passes 0, comes to it or leaves it, in order.
 fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
-    let (mut found, mut values, mut before) = (vec![], vec![], None);
-    if parts.switches.is_empty() {
+    let (mut found, mut before) = (vec![], None);
+    if parts.switches == 0 {
         return found;
     }
     for t in times {
-        parts.evaluate(t, &mut values);
-        let classes: Vec<f64> = parts.switches.iter().map(|place| class(values[*place])).collect();
+        let classes = parts.classes(t);
         if let Some((start, old)) = before.replace((t, classes.clone())) {
-            for ((place, old), new) in parts.switches.iter().zip(&old).zip(&classes) {
+            for (switch, (old, new)) in old.iter().zip(&classes).enumerate() {
                 let mut span = (start, *old);
                 // By way of 0.
                 for _ in 0..2 {
                     if span.1 != *new && !(span.1.is_nan() || new.is_nan()) {
-                        let [low, high] = boundary(parts, *place, [span.0, t], span.1);
+                        let [low, high] = boundary(parts, switch, [span.0, t], span.1);
                         let margin = MARGIN * f64::EPSILON * high;
                         found.push([low - margin, high + margin]);
-                        parts.evaluate(high, &mut values);
-                        span = (high, class(values[*place]));
+                        span = (high, parts.classes(high)[switch]);
                     }
                 }
             }
@@ -189,37 +164,32 @@ fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
 }
 
 /// The neighbouring times between which a value's class is no longer what it was at the first.
-fn boundary(parts: &Parts, place: usize, [mut low, mut high]: [f64; 2], old: f64) -> [f64; 2] {
-    let mut values = vec![];
+fn boundary(parts: &Parts, switch: usize, [mut low, mut high]: [f64; 2], old: f64) -> [f64; 2] {
     loop {
         let middle = low + (high - low) / 2.0;
         if middle <= low || middle >= high {
             return [low, high];
         }
-        parts.evaluate(middle, &mut values);
-        if class(values[place]) == old { low = middle } else { high = middle }
+        if parts.classes(middle)[switch] == old { low = middle } else { high = middle }
     }
 }
 
 /// Where a part bends most: the tops and feet of pulses, the ends of steep flanks.
 fn peaks(parts: &Parts, times: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
-    let mut values = vec![];
-    let mut largest = vec![0.0_f64; parts.roots.len()];
+    let mut largest = vec![0.0_f64; parts.roots];
     for t in times.clone() {
-        parts.evaluate(t, &mut values);
-        for (largest, place) in largest.iter_mut().zip(&parts.roots) {
-            *largest = largest.max(values[*place].abs());
+        for (largest, value) in largest.iter_mut().zip(parts.at(t)) {
+            *largest = largest.max(value.abs());
         }
     }
     // The last values of each, and how much they bend at the two times before the last.
-    let mut last = vec![[0.0_f64; 2]; parts.roots.len()];
+    let mut last = vec![[0.0_f64; 2]; parts.roots];
     let mut bends = last.clone();
     let (mut found, mut earlier) = (vec![], [0.0; 2]);
     for (look, t) in times.enumerate() {
-        parts.evaluate(t, &mut values);
         let mut is_peak = false;
-        for (index, place) in parts.roots.iter().enumerate() {
-            let (value, [before, between]) = (values[*place], last[index]);
+        for (index, value) in parts.at(t).into_iter().take(parts.roots).enumerate() {
+            let [before, between] = last[index];
             let bend = if look < 2 { 0.0 } else { (value - 2.0 * between + before).abs() };
             let [first, middle] = bends[index];
             // `middle` is the bend at the time before the last.

@@ -2,12 +2,13 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::facts::Patient;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::description::AngleLocation;
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 use robot_model::robot::JointKind;
+
+use super::facts::Patient;
 
 /// Programs that write angles leave noise below this, rad.
 const NOISE: f64 = 1e-6;

@@ -1,8 +1,9 @@
 //! Joint axes that are nearly an axis of their frame.
 
-use super::facts::Patient;
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
+
+use super::facts::Patient;
 
 /// Programs that write axes leave noise below this, in parts of the length.
 const NOISE: f64 = 1e-6;

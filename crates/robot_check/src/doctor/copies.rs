@@ -1,7 +1,8 @@
 //! The same inertia on several links.
 
-use super::facts::{BodyFacts, Patient};
 use robot_model::diagnostic::{Diagnostic, code};
+
+use super::facts::{BodyFacts, Patient};
 
 /// Two modules of an arm may well be alike; three are rare.
 const ALIKE: usize = 3;

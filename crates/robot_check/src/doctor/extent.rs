@@ -1,10 +1,10 @@
 //! Bodies that do not fit the links that they are of.
 
 use nalgebra::Vector3;
-
-use super::facts::{BodyFacts, LinkFacts, Patient};
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
+
+use super::facts::{BodyFacts, LinkFacts, Patient};
 
 /// A body's parts lie at its edge or nearer, and one of its ends is at the link's origin: the mass
 /// centre is then no farther than the size of the link, nor is the radius of gyration larger. Motors

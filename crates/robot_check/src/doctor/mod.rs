@@ -15,9 +15,10 @@ mod motion;
 mod origin;
 mod units;
 
-use facts::Patient;
 use robot_model::description::{self, Described, Options};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity};
+
+use facts::Patient;
 
 /// What is found in a file.
 #[derive(Clone, Debug)]

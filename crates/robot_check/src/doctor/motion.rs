@@ -1,11 +1,12 @@
 //! Gravity that points up, joints that move nothing, bodies without extent.
 
-use super::facts::{LinkFacts, Patient};
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, Span, code};
 use robot_model::robot::JointKind;
 use robot_numeric::Mechanism;
 use robot_numeric::random::Random;
+
+use super::facts::{LinkFacts, Patient};
 
 /// A coordinate with less than this part of the largest inertia has none: rounding is a thousand
 /// times smaller, and the smallest joint of an arm has a millionth.

@@ -1,11 +1,11 @@
 //! Tensors about the origin of the link's frame that are given as about the centre of mass.
 
 use nalgebra::{Matrix3, Vector3};
-
-use super::facts::{BodyFacts, LinkFacts, Patient};
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 use robot_model::physics::{Verdict, judge};
+
+use super::facts::{BodyFacts, LinkFacts, Patient};
 
 /// A link reaches from its origin to a point that lies so much farther than its centre of mass, or
 /// to nothing that the file knows; of others the two ends are not known.

@@ -1,6 +1,7 @@
-use super::*;
 use robot_model::diagnostic::code;
 use robot_numeric::random::Random;
+
+use super::*;
 
 fn codes(text: &str) -> Vec<&'static str> {
     check("arm.toml", text, &Options::default()).found.iter().map(|one| one.code).collect()

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::facts::{BodyFacts, Patient};
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, Span, code};
+
+use super::facts::{BodyFacts, Patient};
 
 /// The radius of gyration of a rod of 10 m is 2.9 m; the largest industrial arms reach 5 m.
 const WIDEST: f64 = 3.0;

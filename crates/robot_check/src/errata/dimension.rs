@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use robot_model::robot::{JointKind, Robot};
+use robot_model::unit::Dimension;
 use robot_symbolic::View;
 
 use super::term::Term;
-use robot_model::robot::{JointKind, Robot};
-use robot_model::unit::Dimension;
 
 /// The dimension of every symbol of a robot; `None` where the file gives no unit.
 pub(super) struct Dimensions {

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use super::printed::Notation;
 use robot_model::diagnostic::{Diagnostic, Span, code, quote};
+
+use super::printed::Notation;
 
 /// Environments that display equations, without the star.
 const DISPLAYS: [&str; 8] =

@@ -1,14 +1,13 @@
 //! What speaks against a printed term or for a derived one, without the derivation.
 
 use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::fmt;
 
-use std::collections::HashMap;
-
+use robot_model::unit::Dimension;
 use robot_symbolic::Number;
 
 use super::term::{Key, Term};
-use robot_model::unit::Dimension;
 
 /// Independent evidence about a difference.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
+use robot_model::description::is_finite;
+use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
 use robot_symbolic::formula::latex::to_infix;
 use robot_symbolic::{Formula, ParseError};
 
 use super::entries::{Entry, entries, unnamed};
 use super::symbols::Symbols;
-use robot_model::description::is_finite;
-use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
 
 /// How equations are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 //! Terms of expanded equations, and how two sets of them differ.
 
+use std::collections::HashMap;
 use std::fmt;
 
 use robot_symbolic::{
     Expr, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, print,
 };
-use std::collections::HashMap;
 
 /// A term: a coefficient and powers of atoms.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,6 @@
-use super::*;
 use robot_model::description::read_toml;
+
+use super::*;
 
 fn robot(name: &str) -> Robot {
     let path = format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));

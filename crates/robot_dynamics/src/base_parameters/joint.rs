@@ -1,5 +1,6 @@
 //! What a joint and the placement before it make of twists and of bodies.
 
+use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::{Expr, Graph};
 
 use super::echelon::Row;
@@ -7,7 +8,6 @@ use super::scalar::Scalar;
 use crate::body::{Body, ENTRIES, FIRST_MOMENT, TENSOR};
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
-use robot_model::robot::LINK_PARAMETERS;
 
 /// Angular velocity, then the velocity of the point at the origin.
 const TWIST: usize = 6;

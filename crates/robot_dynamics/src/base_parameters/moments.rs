@@ -1,6 +1,7 @@
 //! Base parameters over second moments: from a link's parameters in the file's frame to first and second
 //! moments in another frame, and back.
 
+use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::Expr;
 
 use super::echelon::Row;
@@ -8,7 +9,6 @@ use super::regroup::{Form, add};
 use super::scalar::Scalar;
 use crate::body::{Body, ENTRIES, Moments, TENSOR};
 use crate::economical::WorkingFrame;
-use robot_model::robot::LINK_PARAMETERS;
 
 /// Per tensor of six figures by place: those on the diagonal.
 fn is_diagonal(place: usize) -> bool {

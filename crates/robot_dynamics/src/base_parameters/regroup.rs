@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use robot_model::robot::LINK_PARAMETERS;
+
 use super::echelon::{Echelon, Row};
 use super::joint::Joint;
 use super::moments::{of_moments, to_inertia, to_second, unit_in_frame};
@@ -11,7 +13,6 @@ use super::told::DRIVE;
 use crate::body::{FIRST_MOMENT, tensor_place};
 use crate::economical::WorkingFrame;
 use crate::mechanism::{Mechanism, MechanismLink};
-use robot_model::robot::LINK_PARAMETERS;
 
 /// A linear function of the standard parameters: figures by their places.
 pub(super) type Form<'g> = BTreeMap<usize, Scalar<'g>>;

@@ -1,10 +1,10 @@
 //! The standard parameters: those of the full regressor's columns.
 
+use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::Expr;
 
 use crate::body::Body;
 use crate::mechanism::{Mechanism, MechanismLink};
-use robot_model::robot::LINK_PARAMETERS;
 
 /// What is measured of a link or of the drive of its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -19,12 +19,13 @@
 //! The spans of motion of P. M. Wensing, G. Niemeyer, J.-J. E. Slotine, "A geometric characterization
 //! of observability in inertial parameter identification" (2018), here with drives.
 
+use robot_model::robot::LINK_PARAMETERS;
+
 use super::echelon::{Echelon, Row, closure};
 use super::joint::{Joint, energy};
 use super::scalar::Scalar;
 use super::standard::Quantity;
 use crate::mechanism::Mechanism;
-use robot_model::robot::LINK_PARAMETERS;
 
 /// The drive's quantities in the places after the ten of the link.
 pub(super) const DRIVE: [Quantity; 3] =

@@ -1,5 +1,6 @@
 //! The mechanism prepared for the economical recursion: working frames and regrouped inertias.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, Graph};
 
 use super::frames::{self, WorkingFrame};
@@ -9,7 +10,6 @@ use super::plan::{Entry, LinkPlan, Plan};
 use super::rotation::ConstantRotation;
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
-use robot_model::robot::JointKind;
 
 /// Residuals may exceed the robot's own mass, first and second moment by no more than this factor,
 /// and working frames lie no farther off than this many of its reaches: beyond, differences of large

@@ -27,10 +27,10 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use robot_model::robot::{Friction, JointKind, Link, Robot};
 use robot_symbolic::{Expr, Graph, Id, Number, View, walk};
 
 use crate::mechanism::{Mechanism, MechanismLink, MechanismOptions};
-use robot_model::robot::{Friction, JointKind, Link, Robot};
 
 /// Mechanisms of more expressions than this become no code.
 const MAX_NODES: usize = 500_000;

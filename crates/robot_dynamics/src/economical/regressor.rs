@@ -10,6 +10,7 @@
 //! ([`Moments`]). Wrenches of second moments have more zeros and share more products: from tensor to
 //! second moments the base regressor of an arm of seven joints loses 52 operations of some thousand.
 
+use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::Expr;
 
 use super::Recursion;
@@ -22,7 +23,6 @@ use super::spatial::{Ways, Wrench};
 use crate::body::{Body, FIRST_MOMENT, Moments, TENSOR};
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
-use robot_model::robot::LINK_PARAMETERS;
 
 /// The places of the parameters that a rotation about z tells from the parent's, but for I_yy.
 const TOLD_BY_ROTATION: [usize; 7] = [1, 2, 4, 5, 7, 8, 9];

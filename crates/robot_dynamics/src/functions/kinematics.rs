@@ -1,5 +1,6 @@
 //! Poses and Jacobians.
 
+use robot_model::functions::FrameRef;
 use robot_symbolic::Expr;
 
 use super::{Derivation, Function, FunctionKind, Output};
@@ -8,7 +9,6 @@ use crate::economical::{Plan, Pose, Recursion};
 use crate::mechanism::MechanismFrame;
 use crate::plain;
 use crate::vector::{Matrix, Vector};
-use robot_model::functions::FrameRef;
 
 /// The poses of all links.
 pub(super) fn forward_kinematics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {

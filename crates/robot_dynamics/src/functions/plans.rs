@@ -2,13 +2,13 @@
 
 use std::cell::OnceCell;
 
+use robot_model::robot::Robot;
 use robot_symbolic::Expr;
 
 use super::{Derivation, FunctionKind};
 use crate::economical::search::{self, Found, Objective, Scope};
 use crate::economical::{Recursion, TorqueDerivatives};
 use crate::mechanism::MechanismOptions;
-use robot_model::robot::Robot;
 
 /// Searches the plan under which these functions together need the fewest multiplications and
 /// additions; what they share counts once.

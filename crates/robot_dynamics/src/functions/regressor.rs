@@ -1,13 +1,14 @@
 //! The regressors: driving forces as linear functions of the robot's parameters.
 
+use robot_model::robot::BaseFrames;
+use robot_model::robot::LINK_PARAMETERS;
+
 use super::{Derivation, Function, FunctionKind, Output};
 use crate::base_parameters::{
     BaseParameter, BaseParameters, Quantity, StandardParameter, base_columns, base_parameters,
     standard_columns, standard_parameters,
 };
 use crate::economical::Column;
-use robot_model::robot::BaseFrames;
-use robot_model::robot::LINK_PARAMETERS;
 
 /// Y with Y π = τ.
 pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {

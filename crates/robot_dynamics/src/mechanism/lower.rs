@@ -2,12 +2,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use robot_model::robot::{Axis, Body, Frame, Friction, Inertia, Link, Move, Placement, Robot};
 use robot_symbolic::{Expr, Formula, Graph, Number, walk};
 
 use super::direction::unit_vector;
 use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap};
 use crate::vector::{Matrix, Vector};
-use robot_model::robot::{Axis, Body, Frame, Friction, Inertia, Link, Move, Placement, Robot};
 
 /// The robot in symbols of `graph`.
 pub(super) fn lower<'g>(

@@ -11,10 +11,11 @@ mod energies;
 mod functions;
 mod recursions;
 
-use common::with_free_axes;
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
+
+use common::with_free_axes;
 
 /// States at which values are held.
 const STATES: usize = 3;
