@@ -39,18 +39,23 @@ struct Outcome {
     errors: String,
 }
 
-/// Runs `robot-symbolic` with arguments and standard input.
-fn run_with(arguments: &[&str], mut input: &[u8]) -> Outcome {
-    let (mut output, mut errors) = (vec![], vec![]);
-    let mut terminal = robot_cli::Terminal {
-        input: &mut input,
-        output: &mut output,
-        errors: &mut errors,
-        colours: false,
-        progress: false,
-    };
+/// Runs `robot-symbolic` with arguments between streams that are no terminal: the exit code.
+fn run_between(
+    arguments: &[&str],
+    mut input: &[u8],
+    output: &mut dyn std::io::Write,
+    errors: &mut dyn std::io::Write,
+) -> u8 {
+    let mut terminal =
+        robot_cli::Terminal { input: &mut input, output, errors, colours: false, progress: false };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
-    let code = robot_cli::run(arguments, &mut terminal);
+    robot_cli::run(arguments, &mut terminal)
+}
+
+/// Runs `robot-symbolic` with arguments and standard input.
+fn run_with(arguments: &[&str], input: &[u8]) -> Outcome {
+    let (mut output, mut errors) = (vec![], vec![]);
+    let code = run_between(arguments, input, &mut output, &mut errors);
     let [output, errors] = [output, errors].map(|bytes| String::from_utf8(bytes).unwrap());
     Outcome { code, output, errors }
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::{URDF, complaint, folder, output, robot, run, run_with};
+use crate::{URDF, complaint, folder, output, robot, run, run_between, run_with};
 
 const TRAJECTORY: &str =
     "t,q1,q2,qd1,qd2,qdd1,qdd2,tau1,tau2\n0,0,0,0,0,0,0,0,0\n1,0,0,0,0,0,0,0,0\n";
@@ -264,29 +264,16 @@ fn messages_that_nobody_hears_do_not_end_the_work() {
     }
     let inputs = Inputs::new("outputs-deaf");
     let toml = inputs.path("out.toml");
-    let words = inputs.words("robot-symbolic import @arm.urdf -o @out.toml");
-    let (mut input, mut output, mut errors) = (&b""[..], vec![], Deaf);
-    let mut terminal = robot_cli::Terminal {
-        input: &mut input,
-        output: &mut output,
-        errors: &mut errors,
-        colours: false,
-        progress: false,
-    };
-    assert_eq!(robot_cli::run(words, &mut terminal), 0);
+    let words = inputs.words("import @arm.urdf -o @out.toml");
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    assert_eq!(run_between(&words, b"", &mut vec![], &mut Deaf), 0);
     assert!(Path::new(&toml).exists());
     // Results that cannot be shown are an error, but for a reader that has seen enough.
     let plan = inputs.path("arm.plan");
     fs::remove_file(&plan).unwrap();
-    let (mut input, mut output, mut errors) = (&b""[..], Deaf, vec![]);
-    let mut terminal = robot_cli::Terminal {
-        input: &mut input,
-        output: &mut output,
-        errors: &mut errors,
-        colours: false,
-        progress: false,
-    };
-    assert_eq!(robot_cli::run(inputs.words("robot-symbolic search @arm.toml"), &mut terminal), 0);
+    let words = inputs.words("search @arm.toml");
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    assert_eq!(run_between(&words, b"", &mut Deaf, &mut vec![]), 0);
     assert!(Path::new(&plan).exists());
     assert_eq!(run_with(&["--version"], b"").code, 0);
 }
@@ -305,18 +292,7 @@ impl std::io::Write for Broken {
 
 /// The exit code of a command whose output cannot be written.
 fn broken(arguments: &[&str], kind: std::io::ErrorKind) -> u8 {
-    let (mut input, mut output, mut errors) = (&b""[..], Broken(kind), vec![]);
-    let mut terminal = robot_cli::Terminal {
-        input: &mut input,
-        output: &mut output,
-        errors: &mut errors,
-        colours: false,
-        progress: false,
-    };
-    robot_cli::run(
-        std::iter::once("robot-symbolic").chain(arguments.iter().copied()),
-        &mut terminal,
-    )
+    run_between(arguments, b"", &mut Broken(kind), &mut vec![])
 }
 
 /// The code of what cannot be written is none of an answer, and a reader that leaves changes no answer.

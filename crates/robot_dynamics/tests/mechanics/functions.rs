@@ -4,6 +4,7 @@ use robot_dynamics::economical::Plan;
 use robot_dynamics::functions::{Derivation, Output};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::functions::FunctionKind;
+use robot_model::robot::Robot;
 use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Graph};
 
@@ -13,27 +14,11 @@ use crate::common::solver::{expected, state};
 use crate::common::{evaluate, magnitude};
 use crate::{STATES, TOLERANCE, robots};
 
-const KINDS: [FunctionKind; 19] = [
-    FunctionKind::InverseDynamics,
-    FunctionKind::InverseDynamicsWrench,
-    FunctionKind::InverseDynamicsFriction,
-    FunctionKind::InverseDynamicsWrenchFriction,
-    FunctionKind::LinkWrenches,
-    FunctionKind::MassMatrix,
-    FunctionKind::Bias,
-    FunctionKind::Gravity,
-    FunctionKind::ForwardDynamics,
-    FunctionKind::ForwardDynamicsWrench,
-    FunctionKind::ForwardKinematics,
-    FunctionKind::FramePoses,
-    FunctionKind::Jacobian,
-    FunctionKind::JacobianDotQd,
-    FunctionKind::Energies,
-    FunctionKind::CoriolisMatrix,
-    FunctionKind::InverseDynamicsDerivatives,
-    FunctionKind::ForwardDynamicsDerivatives,
-    FunctionKind::Regressor,
-];
+/// All functions but those over base parameters, which are in `base_parameters.rs`.
+fn kinds(robot: &Robot) -> impl Iterator<Item = FunctionKind> {
+    let over_base = [FunctionKind::RegressorBase, FunctionKind::BaseParameters];
+    FunctionKind::of(robot).into_iter().filter(move |kind| !over_base.contains(kind))
+}
 
 /// The outputs that the solver has: of the regressor the columns of the links.
 fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Output<'g>> {
@@ -60,7 +45,7 @@ fn functions_agree_with_the_numeric_solver() {
         let usual = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
         let drawn: Vec<Plan> = (0..2).map(|_| random_plan(&mut random, &robot)).collect();
         let drawn: Vec<_> = drawn.iter().map(|plan| (usual.with_plan(plan), plan)).collect();
-        for kind in KINDS.into_iter().filter(|kind| kind.missing_in(&robot).is_none()) {
+        for kind in kinds(&robot) {
             let expected: Vec<Vec<f64>> =
                 states.iter().map(|state| expected(&robot, &solver, kind, state)).collect();
             let size = magnitude(expected.iter().flatten()).max(1e-3);
