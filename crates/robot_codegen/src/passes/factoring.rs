@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn no_program_costs_more_and_many_less() {
         let (before, after) = operations_left(run);
-        assert!(after * 100 <= before * 85, "{before} became {after}");
+        assert!(before == 6338 && after <= 4876, "{before} became {after}");
         // A second time there is little left: what one factor gave may give another.
         let (once, twice) = operations_left(|program| run(&run(program)));
         assert!(twice <= after && once == before, "{after} became {twice}");

@@ -100,7 +100,8 @@ mod tests {
     use super::*;
     use crate::counts::Counts;
     use crate::passes::fusing;
-    use crate::passes::testing::assert_same_values;
+    use crate::passes::testing::{assert_same_values, inputs_only, random_polynomials};
+    use crate::passes::waiting::longest_chain;
     use crate::program::{Builder, Source};
 
     #[test]
@@ -150,5 +151,52 @@ mod tests {
         let product = b.mul(product, last);
         let program = b.finish(vec![product]);
         assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
+    }
+
+    /// x y + z w + late, where `late` is known so many sums after the inputs and the sum is needed by a
+    /// chain, or has so many sums to spare beside another.
+    fn fused_with(late: usize, spare: usize) -> usize {
+        let mut b = Builder::new();
+        let loads: Vec<_> = (0..40).map(|index| b.load(Source::Input(index))).collect();
+        let chain = |b: &mut Builder, first: usize, count: usize| {
+            (0..count).fold(loads[first], |sum, place| b.add(sum, loads[first + 1 + place]))
+        };
+        let (xy, zw) = (b.mul(loads[0], loads[1]), b.mul(loads[2], loads[3]));
+        let products = b.add(xy, zw);
+        let late = chain(&mut b, 4, late);
+        // Shared, so that it is a node of its own.
+        let late = b.call(Function::RecipPositive, late);
+        let sum = b.add(products, late);
+        let other = b.call(Function::RecipPositive, loads[20]);
+        let other = (0..spare).fold(other, |value, place| b.div(value, loads[21 + place]));
+        let program = b.finish(vec![sum, other]);
+        Counts::of(&fusing::run(&run(&program))).fused
+    }
+
+    /// The first term may be a late one where another result is later still.
+    #[test]
+    fn time_to_spare_is_used() {
+        // The sum with the late term first is known at 13 + 2 · 4 cycles, with it last at 13 + 3.
+        assert_eq!([0, 1, 2].map(|spare| fused_with(0, spare)), [1, 2, 2]);
+        // At 16 + 8 cycles; two quotients take 26, one 13.
+        assert_eq!([0, 1, 2].map(|spare| fused_with(1, spare)), [1, 2, 2]);
+        assert_eq!([0, 1, 2].map(|spare| fused_with(2, spare)), [1, 1, 2]);
+    }
+
+    /// No result of any program is later than in the order of arrival, and no product fewer fuses.
+    #[test]
+    fn nothing_is_lost_against_the_order_of_arrival() {
+        let (mut before, mut after) = (0, 0);
+        for seed in 0..200 {
+            let program = inputs_only(&random_polynomials(seed));
+            let ordered = arrival::ordered(&program, true).view.program();
+            let [old, new] = [&ordered, &run(&program)].map(fusing::run);
+            let chains = [&old, &new].map(longest_chain);
+            let fused = [&old, &new].map(|program| Counts::of_calls(program).fused);
+            before += fused[0];
+            after += fused[1];
+            assert!(chains[1] <= chains[0], "seed {seed}: {chains:?}");
+        }
+        assert!(after > before, "{before} became {after}");
     }
 }

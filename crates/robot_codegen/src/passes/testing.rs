@@ -94,6 +94,20 @@ pub(super) fn random_polynomials(seed: u64) -> Program {
     builder.finish(results)
 }
 
+/// The program with inputs in the place of parameters.
+pub(super) fn inputs_only(program: &Program) -> Program {
+    let mut b = Builder::new();
+    let mut values: Vec<Value> = vec![];
+    for operation in program.operations() {
+        values.push(match *operation {
+            Operation::Load(Source::Parameter(index)) => b.load(Source::Input(20 + index)),
+            operation => b.apply(operation.map(|value| values[value.index()])),
+        });
+    }
+    let results = program.results().iter().map(|value| values[value.index()]);
+    dead_code::run(&b.finish(results.collect()))
+}
+
 /// The operations at calls of many programs of sums and products, before and after a pass, which makes
 /// none of them more.
 pub(super) fn operations_left(pass: impl Fn(&Program) -> Program) -> (usize, usize) {
