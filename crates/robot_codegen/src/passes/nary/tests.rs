@@ -31,6 +31,7 @@ fn sum_of(build: impl Fn(&mut Builder, [Value; 4]) -> Value) -> Vec<(Node, bool)
     let view = Nary::new(&b.finish(vec![result]));
     match view.node(view.results[0].node) {
         Node::Sum(terms) => {
+            assert!(terms.len() > 1, "{terms:?}");
             terms.iter().map(|term| (view.node(term.node).clone(), term.negative)).collect()
         }
         other => vec![(other.clone(), view.results[0].negative)],
