@@ -276,6 +276,10 @@ mod tests {
                 factoring.apply(&mut view, id);
                 counted += 1;
                 assert_eq!(before - operations_of(&view), foretold, "seed {seed}");
+                for id in 0..view.len() as Id {
+                    let products = matches!(view.node(id), Node::Product(all) if all.len() < 2);
+                    assert!(!products, "seed {seed}: a product of one");
+                }
             }
         }
         assert!(counted > 100, "{counted}");

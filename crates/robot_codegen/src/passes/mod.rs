@@ -307,6 +307,14 @@ mod tests {
             [&start[..], &round[..1], &round[..1]].concat()
         );
         assert_eq!(of(true, Options { rounds: 0, ..all }), start);
+        // (x z + y z)/z beside x + y: resubstitution alone saves.
+        let mut b = Builder::new();
+        let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
+        let (sum, xz, yz) = (b.add(x, y), b.mul(x, z), b.mul(y, z));
+        let other = b.add(xz, yz);
+        let results = vec![sum, xz, yz, b.div(other, z)];
+        let report = run(&b.finish(results), &Program::default(), &all).1;
+        assert_eq!(names(&report), [&start[..], &round, &round[..2]].concat());
     }
 
     /// Thousands of sums x y + x z: more values than the rounds may see, once.

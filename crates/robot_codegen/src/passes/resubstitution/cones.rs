@@ -261,6 +261,10 @@ mod tests {
         let unused = b.add(x, z);
         let program = b.finish(vec![square, other]);
         let cones = Cones::new(&program);
+        // Of what the square is of, the sum twice, its two loads; there and back.
+        assert_eq!((cones.size(square), cones.visits.get()), (2, 8));
+        // The square, the sum once, one of its loads.
+        assert!(cones.depend_on(&[square], x) && cones.visits.get() > 9);
         assert_eq!([square, other, sum, unused].map(|value| cones.size(value)), [2, 1, 1, 0]);
         for _ in 0..2 {
             assert!(cones.depend_on(&[square], x) && cones.depend_on(&[other, sum], x));

@@ -222,3 +222,20 @@ fn results_agree_to_a_part_in_a_billion() {
         assert!(!agree([1e6, 1e-10 * sign], [1e6, 1e-10 * sign + 1.1e-12]));
     }
 }
+
+/// Functions are themselves where results are checked, and unrelated numbers where values are compared.
+#[test]
+fn functions_are_checked() {
+    let program = |function: Function| {
+        let mut b = Builder::new();
+        let x = b.load(Source::Input(0));
+        let value = b.call(function, x);
+        b.finish(vec![value])
+    };
+    let samples = Samples::unrelated();
+    let agree = |a, b| samples.agree(&program(a), &program(b));
+    assert!(agree(Function::Tanh, Function::Tanh) && !agree(Function::Tanh, Function::Sin));
+    assert!(!agree(Function::Abs, Function::Sign));
+    let [a, b] = [Function::Tanh, Function::Sin].map(|function| samples.of(&program(function))[1]);
+    assert_eq!(a.equals(&b), Some(false));
+}
