@@ -292,6 +292,30 @@ fn sums_of_much_larger_values_are_not_taken() {
     assert!(none.iter().all(Option::is_none), "{none:?}");
 }
 
+/// (x z u + y z)/z is x u + y, but not with x u as (x + c w) u − c w u for a large c, whose rounding is large.
+#[test]
+fn values_that_round_much_more_are_no_terms() {
+    let found = |size: f64| {
+        let mut b = Builder::new();
+        let [x, y, z, u, w] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
+        let constant = b.constant(size);
+        let large = b.mul(constant, w);
+        let (sum, rest) = (b.add(x, large), b.mul(large, u));
+        let product = b.mul(sum, u);
+        let first = b.sub(product, rest);
+        let (xz, yz) = (b.mul(x, z), b.mul(y, z));
+        let xzu = b.mul(xz, u);
+        let both = b.add(xzu, yz);
+        let value = b.div(both, z);
+        let program = b.finish(vec![first, value]);
+        let search = Search::new(&program, &Samples::unrelated());
+        let mut best = Best { gain: 0, form: None };
+        search.try_pairs(value, search.cones.size(value), &mut best);
+        best.form.is_some_and(|form| form.operands().contains(&first))
+    };
+    assert!(found(0.25) && !found(1e4));
+}
+
 /// A sum whose both terms are negative is no form: the negative of the sum would be.
 #[test]
 fn one_term_of_a_sum_is_positive() {
