@@ -162,7 +162,7 @@ mod tests {
     use super::*;
     use crate::counts::Counts;
     use crate::interpreter::evaluate;
-    use crate::passes::testing::assert_same_values;
+    use crate::passes::testing::{assert_same_values, operations_left, random_polynomials};
     use crate::program::{Builder, Operation, Source};
     use crate::trigonometry::Trigonometry;
 
@@ -238,5 +238,89 @@ mod tests {
         let sum = b.add(px, rx);
         let counts = Counts::of_calls(&run(&b.finish(vec![sum])));
         assert_eq!((counts.mul, counts.add), (1, 0));
+    }
+
+    /// The operations of a call of the sums and products of a view, equal ones counted each.
+    fn operations_of(view: &Nary) -> usize {
+        let uses = view.uses();
+        let needed =
+            (0..view.len() as Id).filter(|id| uses[*id as usize] > 0 && !view.is_early(*id));
+        needed
+            .map(|id| match view.node(id) {
+                Node::Sum(_) | Node::Product(_) => {
+                    let early = view.operands(id).any(|operand| view.is_early(operand));
+                    let late = view.operands(id).filter(|operand| !view.is_early(*operand)).count();
+                    late + usize::from(early) - 1
+                }
+                _ => 0,
+            })
+            .sum()
+    }
+
+    /// What a factoring is said to save, a count of operations before and after confirms.
+    #[test]
+    fn savings_come_as_foretold() {
+        let mut counted = 0;
+        for seed in 0..300 {
+            let mut view = Nary::new(&random_polynomials(seed));
+            for id in 0..view.len() as Id {
+                let uses = view.uses();
+                if uses[id as usize] == 0 {
+                    continue;
+                }
+                let Some(factoring) = best(&view, id, &uses) else { continue };
+                let Node::Sum(terms) = view.node(id).clone() else { panic!("no sum") };
+                let places = &factoring.terms;
+                let foretold = saving(&view, &terms, factoring.factor, places, &uses);
+                let before = operations_of(&view);
+                factoring.apply(&mut view, id);
+                counted += 1;
+                assert_eq!(before - operations_of(&view), foretold, "seed {seed}");
+                for id in 0..view.len() as Id {
+                    let products = matches!(view.node(id), Node::Product(all) if all.len() < 2);
+                    assert!(!products, "seed {seed}: a product of one");
+                }
+            }
+        }
+        assert!(counted > 100, "{counted}");
+    }
+
+    /// Of two factors that save as much, the one of the earliest node; of two that do not, the better.
+    #[test]
+    fn the_factor_that_saves_most_is_taken() {
+        let mut b = Builder::new();
+        let [x, y, u, v, w] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
+        // y u + x u + x v + x w: x saves two products, u one.
+        let products = [b.mul(y, u), b.mul(x, u), b.mul(x, v), b.mul(x, w)];
+        let sum = products.into_iter().reduce(|sum, product| b.add(sum, product)).unwrap();
+        let view = Nary::new(&b.finish(vec![sum]));
+        let found = best(&view, view.results[0].node, &view.uses()).unwrap();
+        assert_eq!(view.node(found.factor), &Node::Leaf(Operation::Load(Source::Input(0))));
+        assert_eq!(found.terms, [0, 1, 3]);
+        // y z + z x + x y: each saves one.
+        let mut b = Builder::new();
+        let [x, y, z] = [2, 1, 0].map(|index| b.load(Source::Input(index)));
+        let products = [b.mul(y, z), b.mul(z, x), b.mul(x, y)];
+        let sum = products.into_iter().reduce(|sum, product| b.add(sum, product)).unwrap();
+        let view = Nary::new(&b.finish(vec![sum]));
+        let found = best(&view, view.results[0].node, &view.uses()).unwrap();
+        assert_eq!(found.factor, 0);
+        assert_eq!(view.node(0), &Node::Leaf(Operation::Load(Source::Input(2))));
+    }
+
+    /// n operands, e of them early: a chain of n − 1, of which the early ones are one operand.
+    #[test]
+    fn operands_known_early_are_one() {
+        let counts = [(1, 0), (3, 0), (3, 1), (3, 2), (3, 3), (5, 2)];
+        assert_eq!(counts.map(|(all, early)| operations(all, early)), [0, 2, 2, 1, 0, 3]);
+    }
+
+    #[test]
+    fn no_program_costs_more_and_many_less() {
+        let (before, after) = operations_left(run);
+        assert!(before == 6338 && after <= 4876, "{before} became {after}");
+        // A second time there is little left: what one factor gave may give another.
+        let (once, twice) = operations_left(|program| run(&run(program)));
+        assert!(twice <= after && once == before, "{after} became {twice}");
     }
 }

@@ -84,8 +84,11 @@ fn depths(program: &Program) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::counts::Counts;
+    use crate::interpreter::evaluate;
     use crate::passes::testing::assert_same_bits;
     use crate::program::Source;
+    use crate::trigonometry::Trigonometry;
 
     #[test]
     fn bits_stay() {
@@ -109,5 +112,77 @@ mod tests {
             assert!(operations.contains(&Operation::Load(Source::Input(2))), "{fused:?}");
             assert!(matches!(operations[2], Operation::Mul(..)), "{fused:?}");
         }
+    }
+
+    /// The multiply-adds and operations of what `build` makes, whose values stay.
+    fn fused(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> (usize, usize) {
+        let mut b = Builder::new();
+        let loads = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
+        let results = build(&mut b, loads);
+        let program = b.finish(results);
+        let found = run(&program);
+        let load = |source| match source {
+            Source::Input(index) => [3.0, 5.0, 7.0, 0.25][index as usize],
+            other => panic!("{other:?}"),
+        };
+        let values = |program| evaluate(program, Trigonometry::Standard, load);
+        assert_eq!(values(&found), values(&program), "{program:?}");
+        let counts = Counts::of(&found);
+        assert_eq!(counts.operations(), Counts::of(&program).operations());
+        (counts.fused, found.operations().len())
+    }
+
+    #[test]
+    fn sums_and_differences_take_a_product_on_either_side() {
+        type Make = fn(Value, Value) -> Operation;
+        let operations: [Make; 2] = [Operation::Add, Operation::Sub];
+        for make in operations {
+            for swapped in [false, true] {
+                let (one, _) = fused(|b, [x, y, z, _]| {
+                    let product = b.mul(x, y);
+                    let (first, second) = if swapped { (z, product) } else { (product, z) };
+                    vec![b.push(make(first, second))]
+                });
+                let (two, _) = fused(|b, [x, y, z, w]| {
+                    let (first, second) = (b.mul(x, y), b.mul(z, w));
+                    let (first, second) = if swapped { (second, first) } else { (first, second) };
+                    vec![b.push(make(first, second))]
+                });
+                let (none, _) = fused(|b, [x, y, z, w]| {
+                    let (first, second) = (b.div(x, y), b.add(z, w));
+                    vec![b.push(make(first, second))]
+                });
+                assert_eq!((one, two, none), (1, 1, 0));
+            }
+        }
+    }
+
+    #[test]
+    fn a_product_of_several_is_multiplied_once() {
+        let sums = fused(|b, [x, y, z, w]| {
+            let product = b.mul(x, y);
+            vec![b.add(product, z), b.add(product, w)]
+        });
+        let result = fused(|b, [x, y, z, _]| {
+            let product = b.mul(x, y);
+            vec![b.add(product, z), product]
+        });
+        let square = fused(|b, [x, y, ..]| {
+            let product = b.mul(x, y);
+            vec![b.push(Operation::Add(product, product))]
+        });
+        assert_eq!((sums.0, result.0, square.0), (0, 0, 0));
+    }
+
+    /// Loads are at the depth 0, and each operation one below the deepest of its operands.
+    #[test]
+    fn depths_are_those_of_the_deepest_operand() {
+        let mut b = Builder::new();
+        let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
+        let square = b.mul(x, x);
+        let sum = b.add(square, y);
+        let product = b.mul(sum, z);
+        let last = b.sub(product, square);
+        assert_eq!(depths(&b.finish(vec![last])), [0, 0, 0, 1, 2, 3, 4]);
     }
 }

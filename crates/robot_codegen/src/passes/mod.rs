@@ -222,6 +222,7 @@ impl Runner {
 mod tests {
     use super::testing::{assert_same_bits, assert_same_values};
     use super::*;
+    use crate::program::{Builder, Source};
 
     #[test]
     fn dead_code_and_value_numbering_keep_bits() {
@@ -270,5 +271,140 @@ mod tests {
             let costs: Vec<usize> = report.iter().map(|pass| pass.counts.operations()).collect();
             assert!(costs.is_sorted_by(|before, after| before >= after), "{costs:?}");
         }
+    }
+
+    fn names(report: &[PassCounts]) -> Vec<&'static str> {
+        report.iter().map(|counts| counts.pass).collect()
+    }
+
+    /// A round after one that saved something; it ends where the first two save nothing more.
+    #[test]
+    fn rounds_end_when_nothing_is_saved() {
+        let program = |saves: bool| {
+            let mut b = Builder::new();
+            let [x, y, z, w] = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
+            let (first, second) = (b.mul(x, y), b.mul(if saves { x } else { w }, z));
+            let sum = b.add(first, second);
+            b.finish(vec![sum])
+        };
+        let start = ["as built", "value numbering", "dead code"];
+        let round = ["factoring", "pair reuse", "resubstitution"];
+        let of = |saves: bool, options: Options| {
+            names(&run(&program(saves), &Program::default(), &options).1)
+        };
+        let all = Options::default();
+        assert_eq!(of(false, all), [&start[..], &round].concat());
+        assert_eq!(of(true, all), [&start[..], &round, &round[..2]].concat());
+        assert_eq!(of(true, Options { rounds: 1, ..all }), [&start[..], &round].concat());
+        let off = Options { resubstitution: Resubstitution::Off, ..all };
+        assert_eq!(of(true, off), [&start[..], &round[..2], &round[..2]].concat());
+        assert_eq!(
+            of(true, Options { factoring: false, ..off }),
+            [&start[..], &round[1..2]].concat()
+        );
+        assert_eq!(
+            of(true, Options { pair_reuse: false, ..off }),
+            [&start[..], &round[..1], &round[..1]].concat()
+        );
+        assert_eq!(of(true, Options { rounds: 0, ..all }), start);
+        // (x z + y z)/z beside x + y: resubstitution alone saves.
+        let mut b = Builder::new();
+        let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
+        let (sum, xz, yz) = (b.add(x, y), b.mul(x, z), b.mul(y, z));
+        let other = b.add(xz, yz);
+        let results = vec![sum, xz, yz, b.div(other, z)];
+        let report = run(&b.finish(results), &Program::default(), &all).1;
+        assert_eq!(names(&report), [&start[..], &round, &round[..2]].concat());
+    }
+
+    /// Thousands of sums x y + x z: more values than the rounds may see, once.
+    #[test]
+    fn large_programs_have_one_round() {
+        let rounds = |sums: u32| {
+            let mut b = Builder::new();
+            let mut results = vec![];
+            for index in 0..sums {
+                let [x, y, z] = [0, 1, 2].map(|input| b.load(Source::Input(3 * index + input)));
+                let (first, second) = (b.mul(x, y), b.mul(x, z));
+                results.push(b.add(first, second));
+            }
+            let program = b.finish(results);
+            let options = Options {
+                pair_reuse: false,
+                resubstitution: Resubstitution::Off,
+                ..Options::default()
+            };
+            let (found, report) = run(&program, &Program::default(), &options);
+            assert_eq!(Counts::of_calls(&found).operations(), 2 * sums as usize);
+            names(&report).into_iter().filter(|name| *name == "factoring").count()
+        };
+        // Six values a sum.
+        let most = MAX_WORK as u32 / 6;
+        assert_eq!((rounds(most - 10), rounds(most + 10)), (2, 1));
+    }
+
+    #[test]
+    fn the_last_passes_are_those_asked_for() {
+        let program = testing::random_program(1);
+        let of = |options: Options| names(&finish(&program, &options).1);
+        let all = Options::default();
+        assert_eq!(of(all), ["constructor", "arrival", "signs", "schedule"]);
+        let fused = Options { fused: Fused::WhereTarget, ..all };
+        assert_eq!(of(fused), ["constructor", "product last", "fusing", "signs", "schedule"]);
+        let built = Options { arrival: false, ..fused };
+        assert_eq!(of(built), ["constructor", "fusing", "signs", "schedule"]);
+        assert_eq!(
+            of(Options { signs: false, arrival: false, ..all }),
+            ["constructor", "schedule"]
+        );
+    }
+
+    /// What costs as much is left, and what waits longer or adds an operation in another order.
+    #[test]
+    fn results_of_passes_are_taken_where_they_are_better() {
+        let program = |value: u32| {
+            let mut b = Builder::new();
+            let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+            let sum = b.add(x, y);
+            let result = match value {
+                0 => b.div(sum, x),
+                1 => b.mul(sum, x),
+                2 => sum,
+                _ => {
+                    let product = b.mul(sum, x);
+                    b.add(product, y)
+                }
+            };
+            b.finish(vec![result])
+        };
+        let runner =
+            |first: u32| Runner { program: program(first), cost: Cost::Operations, report: vec![] };
+        for (first, second, taken) in [(0, 1, false), (1, 0, false), (0, 2, true), (2, 0, false)] {
+            let mut runner = runner(first);
+            assert_eq!(runner.attempt("pass", |_| program(second)), taken);
+            assert_eq!(runner.program, program(if taken { second } else { first }));
+            assert_eq!(runner.report.len(), 1);
+        }
+        for (first, second, taken) in [(0, 1, true), (1, 0, false), (0, 2, true), (0, 3, false)] {
+            let mut runner = runner(first);
+            runner.take_order("order", Program::clone, |_| program(second));
+            assert_eq!(runner.program, program(if taken { second } else { first }), "{second}");
+        }
+    }
+
+    /// The fewest operations of all: with pairs, and what each pass adds to the others.
+    #[test]
+    fn together_passes_save_more_than_each() {
+        let left = |options: Options| {
+            testing::operations_left(|program| run(program, &Program::default(), &options).0).1
+        };
+        let all = left(Options::default());
+        let one = left(Options { rounds: 1, ..Options::default() });
+        let factoring = left(Options { factoring: false, ..Options::default() });
+        let reuse = left(Options { pair_reuse: false, ..Options::default() });
+        assert!(
+            all < one && all < factoring && all < reuse && all <= 4726,
+            "{all} {one} {factoring} {reuse}"
+        );
     }
 }

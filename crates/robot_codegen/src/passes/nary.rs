@@ -340,26 +340,4 @@ fn uses_through_signs(program: &Program) -> Vec<u32> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::passes::testing::assert_same_values;
-
-    #[test]
-    fn there_and_back_keeps_the_values() {
-        assert_same_values("n-ary view", |program| Nary::new(program).program());
-    }
-
-    #[test]
-    fn sums_used_once_are_one_sum() {
-        let mut b = Builder::new();
-        let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
-        let sum = b.add(x, y);
-        let all = b.sub(z, sum);
-        let back = b.add(all, y);
-        let view = Nary::new(&b.finish(vec![back]));
-        let Node::Sum(terms) = view.node(view.results[0].node) else {
-            panic!("no sum");
-        };
-        assert_eq!(terms.len(), 2, "z − (x + y) + y = z − x");
-    }
-}
+mod tests;

@@ -223,8 +223,10 @@ fn join_early(
 mod tests {
     use super::*;
     use crate::counts::Counts;
-    use crate::passes::testing::assert_same_values;
+    use crate::interpreter::evaluate;
+    use crate::passes::testing::{assert_same_values, operations_left};
     use crate::program::{Builder, Source, Value};
+    use crate::trigonometry::Trigonometry;
 
     #[test]
     fn values_stay() {
@@ -275,5 +277,111 @@ mod tests {
         let other = [z, x, x].into_iter().fold(y, |product, x| b.mul(product, x));
         // x² once, then x² x, and (x² y) z
         assert_eq!(Counts::of(&run(&b.finish(vec![cube, other]))).mul, 4);
+    }
+
+    /// The operations left of what `build` makes, whose values stay.
+    fn left(build: impl Fn(&mut Builder, [Value; 5]) -> Vec<Value>) -> (usize, usize) {
+        let mut b = Builder::new();
+        let loads = inputs(&mut b);
+        let results = build(&mut b, loads);
+        let program = b.finish(results);
+        let found = run(&program);
+        let load = |source| match source {
+            Source::Input(index) => [3.0, 5.0, 7.0, 0.25, 11.0][index as usize],
+            Source::Parameter(index) => [2.0, 13.0, 0.5][index as usize],
+            other => panic!("{other:?}"),
+        };
+        let values = |program| evaluate(program, Trigonometry::Standard, load);
+        assert_eq!(values(&found), values(&program), "{program:?}");
+        let counts = Counts::of_calls(&found);
+        (counts.add, counts.mul)
+    }
+
+    fn joined(
+        b: &mut Builder,
+        values: &[Value],
+        make: fn(&mut Builder, Value, Value) -> Value,
+    ) -> Value {
+        values[1..].iter().fold(values[0], |all, value| make(b, all, *value))
+    }
+
+    #[test]
+    fn pairs_of_sums_match_up_to_a_common_sign_alone() {
+        let same = left(|b, [u, v, x, y, _]| {
+            let (first, second) = (b.sub(x, u), b.sub(y, v));
+            vec![b.add(first, v), b.add(second, u)]
+        });
+        let other = left(|b, [u, v, x, y, _]| {
+            let (first, second) = (b.sub(x, u), b.add(y, v));
+            vec![b.add(first, v), b.add(second, u)]
+        });
+        assert_eq!((same.0, other.0), (3, 4));
+    }
+
+    #[test]
+    fn pairs_of_products_are_multiplied_once() {
+        // u v x, u v y, u v z; and u² v², which is (u v)²
+        let three = left(|b, [u, v, x, y, z]| {
+            [x, y, z].map(|w| joined(b, &[u, w, v], Builder::mul)).to_vec()
+        });
+        let square = left(|b, [u, v, ..]| vec![joined(b, &[u, u, v, v], Builder::mul)]);
+        let fourth = left(|b, [u, ..]| vec![joined(b, &[u, u, u, u], Builder::mul)]);
+        let cube = left(|b, [u, ..]| vec![joined(b, &[u, u, u], Builder::mul)]);
+        // u⁴ v² beside u v: ((u v) u)²
+        let fifth = left(|b, [u, v, ..]| {
+            vec![joined(b, &[u, u, v, u, v, u], Builder::mul), joined(b, &[u, v], Builder::mul)]
+        });
+        assert_eq!([three, square, fourth, cube, fifth].map(|counts| counts.1), [4, 2, 2, 2, 3]);
+    }
+
+    /// The pair that stands in three sums is joined before the two that stand in two, which it breaks.
+    #[test]
+    fn the_commonest_pair_is_joined_first() {
+        let sums = left(|b, [u, v, x, y, z]| {
+            let rows = [vec![u, v, x], vec![u, v, y], vec![u, v, z], vec![v, x, y], vec![z, v, x]];
+            rows.map(|row| joined(b, &row, Builder::add)).to_vec()
+        });
+        assert_eq!(sums.0, 7);
+    }
+
+    /// Terms known early are joined in the constructor, the same for the same terms of either sign.
+    #[test]
+    fn early_terms_of_many_sums_are_one() {
+        let mut b = Builder::new();
+        let [x, y, z, ..] = inputs(&mut b);
+        let [p, r, s] = [0, 1, 2].map(|index| b.load(Source::Parameter(index)));
+        let less = b.sub(p, r);
+        let (first, second, third) = (b.add(x, p), b.sub(y, p), b.sub(z, r));
+        let single = b.add(x, s);
+        let results = vec![b.sub(first, r), b.add(second, r), b.add(third, p), single, less];
+        let program = run(&b.finish(results));
+        assert_eq!((Counts::of_calls(&program).add, Counts::of(&program).add), (4, 5));
+        let products = left(|b, [x, y, ..]| {
+            let [p, r, s] = [0, 1, 2].map(|index| b.load(Source::Parameter(index)));
+            vec![joined(b, &[x, p, r], Builder::mul), joined(b, &[r, y, s, p], Builder::mul)]
+        });
+        assert_eq!(products.1, 2);
+    }
+
+    /// Sums of 64 terms are looked at, those of 65 are not.
+    #[test]
+    fn the_longest_sums_are_left_alone() {
+        let added = |terms: u32| {
+            let mut b = Builder::new();
+            let loads: Vec<Value> = (0..terms).map(|index| b.load(Source::Input(index))).collect();
+            let backward: Vec<Value> = loads.iter().copied().rev().collect();
+            let (first, second) =
+                (joined(&mut b, &loads, Builder::add), joined(&mut b, &backward, Builder::add));
+            let results = vec![first, second];
+            Counts::of(&run(&b.finish(results))).add
+        };
+        let longest = LONGEST as u32;
+        assert_eq!((added(longest), added(longest + 1)), (63, 128));
+    }
+
+    #[test]
+    fn no_program_costs_more_and_many_less() {
+        let (before, after) = operations_left(run);
+        assert!(before == 6338 && after <= 5294, "{before} became {after}");
     }
 }

@@ -100,8 +100,8 @@ mod tests {
     use super::*;
     use crate::counts::Counts;
     use crate::passes::fusing;
-    use crate::passes::testing::assert_same_values;
-    use crate::program::{Builder, Source};
+    use crate::passes::testing::{Random, assert_same_values, inputs_only, random_polynomials};
+    use crate::program::{Builder, Source, Value};
 
     #[test]
     fn values_stay() {
@@ -150,5 +150,88 @@ mod tests {
         let product = b.mul(product, last);
         let program = b.finish(vec![product]);
         assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
+    }
+
+    /// x y + z w + late, where `late` is known so many sums after the inputs and the sum is needed by a
+    /// chain, or has so many sums to spare beside another.
+    fn fused_with(late: usize, spare: usize) -> usize {
+        let mut b = Builder::new();
+        let loads: Vec<_> = (0..40).map(|index| b.load(Source::Input(index))).collect();
+        let chain = |b: &mut Builder, first: usize, count: usize| {
+            (0..count).fold(loads[first], |sum, place| b.add(sum, loads[first + 1 + place]))
+        };
+        let (xy, zw) = (b.mul(loads[0], loads[1]), b.mul(loads[2], loads[3]));
+        let products = b.add(xy, zw);
+        let late = chain(&mut b, 4, late);
+        // Shared, so that it is a node of its own.
+        let late = b.call(Function::RecipPositive, late);
+        let sum = b.add(products, late);
+        let other = b.call(Function::RecipPositive, loads[20]);
+        let other = (0..spare).fold(other, |value, place| b.div(value, loads[21 + place]));
+        let program = b.finish(vec![sum, other]);
+        Counts::of(&fusing::run(&run(&program))).fused
+    }
+
+    /// The first term may be a late one where another result is later still.
+    #[test]
+    fn time_to_spare_is_used() {
+        // The sum with the late term first is known at 13 + 2 · 4 cycles, with it last at 13 + 3.
+        assert_eq!([0, 1, 2].map(|spare| fused_with(0, spare)), [1, 2, 2]);
+        // At 16 + 8 cycles; two quotients take 26, one 13.
+        assert_eq!([0, 1, 2].map(|spare| fused_with(1, spare)), [1, 2, 2]);
+        assert_eq!([0, 1, 2].map(|spare| fused_with(2, spare)), [1, 1, 2]);
+    }
+
+    /// Layers of a b ± c d + e, with quotients and functions between them: what one result waits for, others
+    /// have time for.
+    fn layers(seed: u64) -> Program {
+        let mut random = Random::new(seed);
+        let mut b = Builder::new();
+        let mut pool: Vec<Value> = (0..12).map(|index| b.load(Source::Input(index))).collect();
+        for _ in 0..20 {
+            let recent = pool.len() - 12;
+            let [x, y, z, u, v] =
+                [(); 5].map(|()| pool[recent * random.below(2) + random.below(12)]);
+            let (xy, zu) = (b.mul(x, y), b.mul(z, u));
+            let products = if random.below(2) == 0 { b.add(xy, zu) } else { b.sub(xy, zu) };
+            let zuxy = if random.below(3) == 0 { b.mul(products, zu) } else { products };
+            let sum = b.add(zuxy, v);
+            pool.push(match random.below(6) {
+                0 => b.div(sum, x),
+                1 => b.div(y, sum),
+                2 => b.call(Function::Abs, sum),
+                3 => b.call(Function::RecipPositive, sum),
+                _ => sum,
+            });
+        }
+        b.finish(pool[pool.len() - 4..].to_vec())
+    }
+
+    /// No result of any program is later than in the order of arrival, and more products fuse.
+    #[test]
+    fn nothing_is_lost_against_the_order_of_arrival() {
+        let (mut before, mut after) = (0, 0);
+        for seed in 0..400 {
+            let program =
+                if seed % 4 == 0 { inputs_only(&random_polynomials(seed)) } else { layers(seed) };
+            let waiting = arrival::ordered(&program, true);
+            let ordered = waiting.view.program();
+            let mut order = Order { needed: vec![u32::MAX; waiting.ids().len()], waiting };
+            let end = |waiting: &Waiting| {
+                let results = waiting.view.results.iter();
+                results.map(|term| waiting.known(term.node)).max()
+            };
+            let old = end(&order.waiting);
+            order.run();
+            for id in order.waiting.ids() {
+                order.waiting.settle(id);
+            }
+            assert!(end(&order.waiting) <= old, "seed {seed}");
+            let found = order.waiting.view.program();
+            assert_eq!(found, run(&program), "seed {seed}");
+            before += Counts::of_calls(&fusing::run(&ordered)).fused;
+            after += Counts::of_calls(&fusing::run(&found)).fused;
+        }
+        assert!(before == 9675 && after >= 9863, "{before} became {after}");
     }
 }

@@ -103,6 +103,7 @@ fn registers(program: &Program) -> Vec<u32> {
 mod tests {
     use super::*;
     use crate::passes::testing::{assert_same_bits, random_program};
+    use crate::program::{Builder, Source};
 
     #[test]
     fn bits_stay() {
@@ -127,5 +128,83 @@ mod tests {
         let after: usize =
             programs().map(|program| lifetimes(&run(&program, Schedule::DepthFirst))).sum();
         assert!(after * 10 < before * 9, "{before} became {after}");
+    }
+
+    /// Two where a chain takes up loads, one more for each level of a tree.
+    #[test]
+    fn registers_are_those_of_sethi_and_ullman() {
+        let mut b = Builder::new();
+        let loads: Vec<Value> = (0..8).map(|index| b.load(Source::Input(index))).collect();
+        let pairs: Vec<Value> = loads.chunks(2).map(|pair| b.add(pair[0], pair[1])).collect();
+        let fours: Vec<Value> = pairs.chunks(2).map(|pair| b.mul(pair[0], pair[1])).collect();
+        let tree = b.sub(fours[0], fours[1]);
+        let chain = loads[1..].iter().fold(loads[0], |chain, load| b.mul(chain, *load));
+        let (root, three) =
+            (b.neg(fours[0]), b.push(Operation::MulAdd(pairs[0], loads[5], pairs[1])));
+        let program = b.finish(vec![tree, chain, root, three]);
+        let registers = registers(&program);
+        let of = |value: Value| registers[value.index()];
+        assert_eq!([loads[0], pairs[3], fours[1], tree, chain, root].map(of), [1, 2, 3, 4, 2, 3]);
+        // Two pairs, of which the first is held meanwhile, and a load beside both.
+        assert_eq!(of(three), 3);
+    }
+
+    /// Of two operands the one that needs more registers is first, whichever side it is on.
+    #[test]
+    fn the_operand_of_more_registers_is_first() {
+        for swapped in [false, true] {
+            let mut b = Builder::new();
+            let [x, y, z, w] = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
+            let single = b.call(robot_symbolic::Function::Abs, x);
+            let (first, second) = (b.add(x, y), b.add(z, w));
+            let tree = b.mul(first, second);
+            let last = if swapped { b.div(tree, single) } else { b.div(single, tree) };
+            let ordered = run(&b.finish(vec![last]), Schedule::DepthFirst);
+            let place =
+                |wanted: fn(&Operation) -> bool| ordered.operations().iter().position(wanted);
+            let product = place(|operation| matches!(operation, Operation::Mul(..)));
+            let call = place(|operation| matches!(operation, Operation::Call(..)));
+            assert!(product < call, "{ordered:?}");
+        }
+    }
+
+    #[test]
+    fn long_programs_are_ordered_depth_first() {
+        let products = |operations: usize| {
+            let mut b = Builder::new();
+            let (x, y) = (b.load(Source::Input(0)), b.load(Source::Input(1)));
+            let (mut first, mut second) = (x, y);
+            let count = operations - 3;
+            for index in 0..count {
+                // The second chain, built last, is the longer.
+                let chain = if index < count / 3 { &mut first } else { &mut second };
+                *chain = b.mul(*chain, x);
+            }
+            let sum = b.add(first, second);
+            let program = b.finish(vec![sum]);
+            assert_eq!(program.operations().len(), operations);
+            program
+        };
+        let (short, long) = (products(LONG), products(LONG + 1));
+        assert_eq!(run(&short, Schedule::Throughput), throughput::run(&short));
+        assert_eq!(run(&long, Schedule::Throughput), depth_first(&long));
+        for program in [&short, &long] {
+            assert_ne!(throughput::run(program), depth_first(program));
+            assert_eq!(run(program, Schedule::DepthFirst), depth_first(program));
+            assert_eq!(&run(program, Schedule::Construction), program);
+        }
+    }
+
+    /// Each operation once, after its operands, and nothing else.
+    #[test]
+    fn no_operation_is_lost_or_made() {
+        for seed in 0..100 {
+            let program = super::super::dead_code::run(&random_program(seed));
+            for schedule in [Schedule::Construction, Schedule::DepthFirst, Schedule::Throughput] {
+                let ordered = run(&program, schedule);
+                assert_eq!(ordered.operations().len(), program.operations().len());
+                assert_eq!(super::super::dead_code::run(&ordered), ordered);
+            }
+        }
     }
 }

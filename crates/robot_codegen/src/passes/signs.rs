@@ -113,8 +113,11 @@ impl Signs<'_> {
 mod tests {
     use super::*;
     use crate::counts::Counts;
-    use crate::passes::testing::assert_same_bits;
+    use crate::interpreter::evaluate;
+    use crate::passes::dead_code;
+    use crate::passes::testing::{assert_same_bits, random_program};
     use crate::program::Source;
+    use crate::trigonometry::Trigonometry;
 
     #[test]
     fn bits_stay() {
@@ -134,5 +137,102 @@ mod tests {
         let program = b.finish(results);
         assert_eq!(Counts::of(&program).neg, 2);
         assert_eq!(Counts::of(&run(&program)).neg, 0);
+    }
+
+    /// The changes of sign that are left of −value, and the results at two inputs before and after.
+    fn left(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> usize {
+        let mut b = Builder::new();
+        let loads = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
+        let results = build(&mut b, loads);
+        let program = b.finish(results);
+        let found = run(&program);
+        let load = |source| match source {
+            Source::Input(index) => [3.0, 5.0, 7.0, 0.25][index as usize],
+            other => panic!("{other:?}"),
+        };
+        let values = |program| evaluate(program, Trigonometry::Standard, load);
+        assert_eq!(values(&found), values(&program), "{program:?}");
+        assert_eq!(Counts::of(&found).operations(), Counts::of(&program).operations());
+        Counts::of(&found).neg
+    }
+
+    /// −(x − y), alone and as an operand of each operation, on either side.
+    #[test]
+    fn every_operation_passes_a_sign_on() {
+        type Make = fn(Value, Value) -> Operation;
+        let operations: [Make; 4] =
+            [Operation::Add, Operation::Mul, Operation::Div, Operation::Sub];
+        for make in operations {
+            for swapped in [false, true] {
+                for constant in [false, true] {
+                    let negatives = left(|b, [x, y, z, _]| {
+                        let part = if constant { b.constant(2.5) } else { b.sub(x, y) };
+                        let (first, second) = if swapped { (z, part) } else { (part, z) };
+                        let value = b.push(make(first, second));
+                        let scaled = b.push(Operation::Mul(value, z));
+                        vec![b.neg(value), b.neg(scaled)]
+                    });
+                    // The first use of two stays as it is; the other operand of the second takes no sign.
+                    assert_eq!(negatives, 2);
+                    let negatives = left(|b, [x, y, z, _]| {
+                        let part = if constant { b.constant(2.5) } else { b.sub(x, y) };
+                        let (first, second) = if swapped { (z, part) } else { (part, z) };
+                        let value = b.push(make(first, second));
+                        vec![b.neg(value)]
+                    });
+                    assert_eq!(negatives, 0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_used_elsewhere_keeps_its_sign() {
+        let shared = left(|b, [x, y, z, _]| {
+            let difference = b.sub(x, y);
+            let product = b.mul(difference, z);
+            vec![b.neg(product), difference]
+        });
+        let call = left(|b, [x, y, z, _]| {
+            let difference = b.sub(x, y);
+            let root = b.call(robot_symbolic::Function::Abs, difference);
+            let product = b.mul(root, z);
+            vec![b.neg(product)]
+        });
+        // A constant gives way whatever else uses it, one of two operands alone.
+        let constant = left(|b, [x, y, z, w]| {
+            let third = b.constant(1.5);
+            let (first, second) = (b.mul(third, x), b.mul(third, y));
+            let (both, other) = (b.sub(z, w), b.sub(w, x));
+            let product = b.mul(both, other);
+            let results = vec![b.neg(first), second, b.neg(product)];
+            results
+        });
+        assert_eq!((shared, call, constant), (1, 1, 0));
+    }
+
+    /// Through as many operations as its depth, and no further.
+    #[test]
+    fn a_sign_sinks_so_deep() {
+        let through = |operations: usize| {
+            left(|b, [x, y, z, _]| {
+                let difference = b.sub(x, y);
+                let value = (0..operations).fold(difference, |value, _| b.mul(value, z));
+                vec![b.neg(value)]
+            })
+        };
+        assert_eq!([1, DEPTH - 1, DEPTH, DEPTH + 1].map(through), [0, 0, 1, 1]);
+    }
+
+    #[test]
+    fn no_program_costs_more_or_has_more_signs() {
+        let (mut before, mut after) = (0, 0);
+        for seed in 0..200 {
+            let program = random_program(seed);
+            let [old, new] = [&dead_code::run(&program), &run(&program)].map(Counts::of);
+            assert!(new.neg <= old.neg && new.operations() <= old.operations(), "seed {seed}");
+            (before, after) = (before + old.neg, after + new.neg);
+        }
+        assert!(after * 10 < before * 9, "{before} became {after}");
     }
 }

@@ -2,12 +2,18 @@
 
 use robot_symbolic::Function;
 
+use super::dead_code;
+use crate::counts::Counts;
 use crate::program::{Builder, Operation, Program, Source, Value};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 pub(super) struct Random(u64);
 
 impl Random {
+    pub(super) fn new(seed: u64) -> Random {
+        Random(seed)
+    }
+
     fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -16,7 +22,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    fn below(&mut self, limit: usize) -> usize {
+    pub(super) fn below(&mut self, limit: usize) -> usize {
         (self.bits() % limit as u64) as usize
     }
 
@@ -61,6 +67,63 @@ pub(super) fn random_program(seed: u64) -> Program {
     }
     let results = (0..1 + random.below(5)).map(|_| pool[pool.len() - 1 - random.below(12)]);
     builder.finish(results.collect())
+}
+
+/// Sums of products of few loads, some of them of parameters: much to take out, to join and to find again.
+pub(super) fn random_polynomials(seed: u64) -> Program {
+    let mut random = Random(seed ^ 0x9017);
+    let mut builder = Builder::new();
+    let mut pool: Vec<Value> = (0..3).map(|index| builder.load(Source::Parameter(index))).collect();
+    pool.extend((0..4).map(|index| builder.load(Source::Input(index))));
+    let mut results = vec![];
+    for _ in 0..2 + random.below(5) {
+        let mut sum: Option<Value> = None;
+        for _ in 0..2 + random.below(5) {
+            let mut product = pool[random.below(pool.len())];
+            for _ in 0..random.below(4) {
+                let factor = pool[random.below(pool.len())];
+                product = builder.mul(product, factor);
+            }
+            sum = Some(match sum {
+                None => product,
+                Some(sum) if random.below(3) == 0 => builder.sub(sum, product),
+                Some(sum) => builder.add(sum, product),
+            });
+        }
+        results.extend(sum);
+        if random.below(3) == 0 {
+            pool.extend(sum);
+        }
+    }
+    builder.finish(results)
+}
+
+/// The program with inputs in the place of parameters.
+pub(super) fn inputs_only(program: &Program) -> Program {
+    let mut b = Builder::new();
+    let mut values: Vec<Value> = vec![];
+    for operation in program.operations() {
+        values.push(match *operation {
+            Operation::Load(Source::Parameter(index)) => b.load(Source::Input(20 + index)),
+            operation => b.apply(operation.map(|value| values[value.index()])),
+        });
+    }
+    let results = program.results().iter().map(|value| values[value.index()]);
+    dead_code::run(&b.finish(results.collect()))
+}
+
+/// The operations at calls of many programs of sums and products, before and after a pass, which makes
+/// none of them more.
+pub(super) fn operations_left(pass: impl Fn(&Program) -> Program) -> (usize, usize) {
+    let (mut before, mut after) = (0, 0);
+    for seed in 0..SEEDS {
+        let program = dead_code::run(&random_polynomials(seed));
+        let [old, new] =
+            [&program, &pass(&program)].map(|program| Counts::of_calls(program).operations());
+        assert!(new <= old, "seed {seed}: {old} became {new}");
+        (before, after) = (before + old, after + new);
+    }
+    (before, after)
 }
 
 /// The value of each result, and a bound of how far rounding can move it, in units of 2⁻⁵³.
@@ -118,8 +181,8 @@ fn compare(program: &Program, other: &Program, seed: u64) -> Vec<(f64, f64, f64)
 /// A pass that may reassociate: the values stay up to rounding.
 pub(super) fn assert_same_values(name: &str, pass: impl Fn(&Program) -> Program) {
     let mut finite = 0;
-    for seed in 0..SEEDS {
-        let program = random_program(seed);
+    for seed in 0..2 * SEEDS {
+        let program = if seed < SEEDS { random_program(seed) } else { random_polynomials(seed) };
         for (expected, found, bound) in compare(&program, &pass(&program), seed) {
             // Quotients by values that cancelled to nothing compare nothing.
             if !bound.is_finite() || bound > 1e9 {

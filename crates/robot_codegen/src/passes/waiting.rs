@@ -125,3 +125,105 @@ impl Waiting {
         ready
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::arrival;
+    use crate::passes::testing::{inputs_only, random_polynomials};
+    use crate::program::{Builder, Source, Value};
+
+    fn end(waiting: &Waiting) -> u32 {
+        let results = waiting.view.results.iter();
+        results.map(|term| waiting.known(term.node)).max().unwrap()
+    }
+
+    /// What the view says of a program before it is one, the chain of its operations confirms. What is
+    /// computed by the constructor is left out of both.
+    #[test]
+    fn the_last_result_is_known_at_the_end_of_the_longest_chain() {
+        for seed in 0..200 {
+            let program = inputs_only(&random_polynomials(seed));
+            let plain = arrival::ordered(&program, false);
+            assert_eq!(end(&plain), longest_chain(&plain.view.program()), "seed {seed}");
+        }
+    }
+
+    /// When each result is known, for a program that `build` makes of inputs.
+    fn known(fused: bool, build: impl Fn(&mut Builder, [Value; 5]) -> Value) -> u32 {
+        let mut b = Builder::new();
+        let loads = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
+        let result = build(&mut b, loads);
+        end(&arrival::ordered(&b.finish(vec![result]), fused))
+    }
+
+    #[test]
+    fn each_operation_takes_its_cycles() {
+        for fused in [false, true] {
+            assert_eq!(known(fused, |b, [x, y, ..]| b.add(x, y)), SUM);
+            assert_eq!(known(fused, |b, [x, y, ..]| b.div(x, y)), QUOTIENT);
+            assert_eq!(known(fused, |b, [x, ..]| b.call(Function::Sqrt, x)), CALL);
+            assert_eq!(known(fused, |b, [x, ..]| b.call(Function::RecipPositive, x)), QUOTIENT);
+            let late = known(fused, |b, [x, y, z, ..]| {
+                let (first, second) = (b.div(x, y), b.call(Function::Abs, z));
+                b.div(first, second)
+            });
+            assert_eq!(late, CALL + QUOTIENT);
+        }
+        assert_eq!(known(false, |b, [x, y, ..]| b.mul(x, y)), PRODUCT);
+        let product = known(false, |b, [x, y, z, u, _]| {
+            let first = [y, z, u].into_iter().fold(x, |product, y| b.mul(product, y));
+            b.add(first, x)
+        });
+        assert_eq!(product, 3 * PRODUCT + SUM);
+        let parameter = known(false, |b, [x, y, ..]| {
+            let p = b.load(Source::Parameter(0));
+            let root = b.call(Function::Sqrt, p);
+            let product = b.mul(x, root);
+            b.add(product, y)
+        });
+        assert_eq!(parameter, PRODUCT + SUM);
+    }
+
+    #[test]
+    fn the_last_product_of_a_sum_is_part_of_it() {
+        let one = known(true, |b, [x, y, z, ..]| {
+            let product = b.mul(x, y);
+            b.add(product, z)
+        });
+        let two = known(true, |b, [x, y, z, u, _]| {
+            let (first, second) = (b.mul(x, y), b.mul(z, u));
+            b.add(first, second)
+        });
+        let three = known(true, |b, [x, y, z, u, v]| {
+            let first = b.mul(x, y);
+            let first = b.mul(first, z);
+            let sum = b.add(first, u);
+            b.add(sum, v)
+        });
+        assert_eq!((one, two, three), (FUSED, PRODUCT + FUSED, SUM + FUSED));
+        // What two sums use is multiplied by itself.
+        let shared = known(true, |b, [x, y, z, u, _]| {
+            let product = b.mul(x, y);
+            let (first, second) = (b.add(product, z), b.add(product, u));
+            b.div(first, second)
+        });
+        assert_eq!(shared, PRODUCT + SUM + QUOTIENT);
+    }
+
+    #[test]
+    fn a_chain_is_as_long_as_its_operations() {
+        let mut b = Builder::new();
+        let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+        let fused = b.push(Operation::MulAdd(x, y, x));
+        let minus = b.neg(fused);
+        let difference = b.sub(y, minus);
+        let product = b.mul(difference, x);
+        let root = b.call(Function::Sqrt, product);
+        let quotient = b.div(root, y);
+        let reciprocal = b.call(Function::RecipPositive, quotient);
+        let program = b.finish(vec![x, reciprocal, fused]);
+        let expected = FUSED + SUM + PRODUCT + CALL + QUOTIENT + QUOTIENT;
+        assert_eq!(longest_chain(&program), expected);
+    }
+}

@@ -166,6 +166,8 @@ impl Cones {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::passes::dead_code;
+    use crate::passes::testing::random_polynomials;
     use crate::program::{Builder, Source};
 
     #[test]
@@ -185,5 +187,100 @@ mod tests {
         // 40,000 queries of up to 160,000 visits each would be 3.2 thousand million.
         assert!(cones.visits.get() <= MAX_VISITS + 400_000, "{}", cones.visits.get());
         assert_eq!(sizes.last(), Some(&0));
+        // Nor do they end before that.
+        assert!(cones.visits.get() > MAX_VISITS, "{}", cones.visits.get());
+    }
+
+    /// The costs of what the results of some operands need, one value counted with other operands.
+    fn needed(
+        cones: &Cones,
+        results: &[Value],
+        value: Value,
+        form: Option<(&[Value], usize)>,
+    ) -> usize {
+        let (mut pending, mut met, mut cost) =
+            (results.to_vec(), vec![false; cones.costs.len()], 0);
+        while let Some(next) = pending.pop() {
+            if std::mem::replace(&mut met[next.index()], true) {
+                continue;
+            }
+            let (operands, own) = match form {
+                Some(form) if next == value => form,
+                _ => (cones.operands(next), cones.costs[next.index()]),
+            };
+            cost += own;
+            pending.extend(operands);
+        }
+        cost
+    }
+
+    /// What a query says is what a count of everything says, also after replacements.
+    #[test]
+    fn gains_are_differences_of_counts() {
+        let mut gained = 0;
+        for seed in 0..60 {
+            let program = dead_code::run(&random_polynomials(seed));
+            let results = program.results();
+            let mut cones = Cones::new(&program);
+            let values: Vec<Value> = program.values().map(|(value, _)| value).collect();
+            for (value, operation) in program.values().filter(|(_, op)| !op.is_leaf()) {
+                let call = program.stages()[value.index()] == Stage::Call;
+                assert_eq!(cones.is_early(value), !call);
+                let cost = usize::from(call && !matches!(operation, Operation::Neg(_)));
+                assert_eq!(cones.costs[value.index()], cost);
+            }
+            for step in 0..40 {
+                let value = values[(7 * step + 3) % values.len()];
+                let operands = [values[step % values.len()], values[(5 * step) % values.len()]];
+                if cones.uses.borrow()[value.index()] == 0 || cones.depend_on(&operands, value) {
+                    continue;
+                }
+                let count = |form| needed(&cones, results, value, form);
+                for cost in [0, 1, 2] {
+                    let saved = count(None).saturating_sub(count(Some((&operands, cost))));
+                    assert_eq!(cones.gain(value, &operands, cost), saved, "seed {seed}, {step}");
+                }
+                assert_eq!(cones.size(value), count(None) - count(Some((&[], 0))));
+                if cones.gain(value, &operands, 1) > 0 {
+                    gained += 1;
+                    cones.replace(value, operands.into_iter().collect(), 1);
+                    assert_eq!(cones.operands(value), operands);
+                }
+            }
+        }
+        assert!(gained > 100, "{gained}");
+    }
+
+    /// What nothing needs gains nothing, and a value depends on itself and what it is made of.
+    #[test]
+    fn dependence_is_along_operands() {
+        let mut b = Builder::new();
+        let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
+        let sum = b.add(x, y);
+        let (square, other) = (b.mul(sum, sum), b.mul(y, z));
+        let unused = b.add(x, z);
+        let program = b.finish(vec![square, other]);
+        let cones = Cones::new(&program);
+        // Of what the square is of, the sum twice, its two loads; there and back.
+        assert_eq!((cones.size(square), cones.visits.get()), (2, 8));
+        // The square, the sum once, one of its loads.
+        assert!(cones.depend_on(&[square], x) && cones.visits.get() > 9);
+        assert_eq!([square, other, sum, unused].map(|value| cones.size(value)), [2, 1, 1, 0]);
+        for _ in 0..2 {
+            assert!(cones.depend_on(&[square], x) && cones.depend_on(&[other, sum], x));
+            assert!(cones.depend_on(&[sum], sum) && !cones.depend_on(&[sum], square));
+            assert!(!cones.depend_on(&[other], x) && !cones.depend_on(&[], x));
+        }
+    }
+
+    /// One use of two is no reason for a value to go.
+    #[test]
+    fn shared_values_stay() {
+        let mut b = Builder::new();
+        let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+        let sum = b.add(x, y);
+        let (first, second) = (b.mul(sum, x), b.mul(sum, y));
+        let cones = Cones::new(&b.finish(vec![first, second]));
+        assert_eq!((cones.size(first), cones.size(second), cones.size(sum)), (1, 1, 1));
     }
 }

@@ -308,35 +308,4 @@ impl Sample {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::program::Builder;
-
-    /// 10⁶ x (1 + 10⁻¹² p) by 10⁶ x: no constant, for rounding is far below 10⁻¹² of either.
-    #[test]
-    fn the_ratio_of_large_values_is_as_exact_as_that_of_small_ones() {
-        let is_constant = |difference: f64| {
-            let mut b = Builder::new();
-            let (x, p) = (b.load(Source::Input(0)), b.load(Source::Parameter(0)));
-            let [million, one, small] = [1e6, 1.0, difference].map(|value| b.constant(value));
-            let large = b.mul(million, x);
-            let part = b.mul(small, p);
-            let factor = b.add(one, part);
-            let other = b.mul(large, factor);
-            let program = b.finish(vec![large, other]);
-            let samples = Samples::unrelated().of(&program);
-            let [large, other] = [large, other].map(|value| &samples[value.index()]);
-            other.ratio(large).unwrap().is_constant()
-        };
-        assert!(is_constant(1e-18) && !is_constant(1e-12));
-    }
-
-    #[test]
-    fn unrelated_numbers_are_of_size_one_and_of_either_sign() {
-        let numbers = (0..100).flat_map(|index| unrelated_numbers(1, index, false));
-        let numbers: Vec<f64> = numbers.map(DoubleDouble::to_f64).collect();
-        assert!(numbers.iter().all(|number| (0.5..2.0).contains(&number.abs())), "{numbers:?}");
-        let positive = numbers.iter().filter(|number| **number > 0.0).count();
-        assert!((100..numbers.len() - 100).contains(&positive), "{positive}");
-    }
-}
+mod tests;

@@ -2,8 +2,10 @@ use robot_symbolic::Function;
 
 use super::*;
 use crate::counts::Counts;
-use crate::passes::testing::assert_same_values;
+use crate::interpreter::evaluate;
+use crate::passes::testing::{assert_same_values, operations_left};
 use crate::program::Source;
+use crate::trigonometry::Trigonometry;
 
 fn with(effort: Resubstitution) -> impl Fn(&Program) -> Program {
     move |program| run(program, &Samples::unrelated(), effort)
@@ -188,4 +190,179 @@ fn an_absolute_value_is_no_argument() {
     let (absolute, root) = (b.call(Function::Abs, x), b.call(Function::Sqrt, square));
     let program = b.finish(vec![x, absolute, root]);
     assert_eq!(run(&program, &Samples::unrelated(), Resubstitution::Pairs), program);
+}
+
+/// What each form says that it costs and needs, and what it computes.
+#[test]
+fn forms_cost_and_compute_what_they_say() {
+    let (x, y) = (Value(0), Value(1));
+    let forms = [
+        (Form::Constant(4.0), 0, 4.0),
+        (Form::Equal(x, false), 0, 3.0),
+        (Form::Equal(y, true), 0, -5.0),
+        (Form::Multiple(7.0, y), 1, 35.0),
+        (Form::SumMultiple(x, 7.0, y), 2, 38.0),
+        (Form::Sum((x, false), (y, false)), 1, 8.0),
+        (Form::Sum((x, true), (y, false)), 1, 2.0),
+        (Form::Sum((x, false), (y, true)), 1, -2.0),
+        (Form::Product(x, y, false), 1, 15.0),
+        (Form::Product(x, y, true), 1, -15.0),
+    ];
+    for (form, cost, expected) in forms {
+        let mut b = Builder::new();
+        let loads = [0, 1].map(|index| b.load(Source::Input(index)));
+        let result = form.build(&mut b, |value| loads[value.index()]);
+        let program = b.finish(vec![result]);
+        let load = |source| if source == Source::Input(0) { 3.0 } else { 5.0 };
+        assert_eq!(evaluate(&program, Trigonometry::Standard, load), [expected], "{form:?}");
+        assert_eq!((form.cost(), Counts::of(&program).operations()), (cost, cost), "{form:?}");
+        let mut needed = form.operands().to_vec();
+        needed.sort_unstable();
+        let sources = crate::passes::dead_code::run(&program).sources();
+        assert_eq!(needed.len(), sources.len(), "{form:?}");
+        for (value, source) in needed.into_iter().zip(sources) {
+            assert_eq!(Source::Input(value.0), source, "{form:?}");
+        }
+    }
+}
+
+/// Keys are 30 bits of a number, and its sign is none of them: what differs by less is under one or the next.
+#[test]
+fn near_are_numbers_that_agree_to_nine_digits() {
+    for number in [1.0, 1.75, 3e-7, 6e8] {
+        assert_eq!(key(number), key(-number));
+        let step = number * 2f64.powi(-30);
+        assert_ne!(key(number), key(number + 1.01 * step));
+        let table = FxHashMap::from_iter([(key(number), vec![Value(3), Value(5)])]);
+        for sign in [1.0, -1.0] {
+            assert!(near(&table, key(number + 0.5 * sign * step)).eq([Value(3), Value(5)]));
+            assert!(has_near(&table, key(-number - 0.5 * sign * step)));
+            assert!(!has_near(&table, key(number + 4.0 * sign * step)));
+        }
+    }
+}
+
+/// What a search finds directly: ways to compute the last result as sums with one of the first values.
+fn sums_found(
+    build: impl Fn(&mut Builder, [Value; 4]) -> (Value, Value),
+    negative: bool,
+) -> Option<Form> {
+    let mut b = Builder::new();
+    let loads = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
+    let (first, value) = build(&mut b, loads);
+    let mut results = loads.to_vec();
+    results.extend([first, value]);
+    let program = b.finish(results);
+    let search = Search::new(&program, &Samples::unrelated());
+    let mut best = Best { gain: 0, form: None };
+    search.try_sums(value, (first, negative), search.cones.size(value), &mut best);
+    best.form
+}
+
+/// x + y as (x z + y z)/z beside x + c and c − y, whose difference is the same: with a large c it rounds more than
+/// four times what the quotient does.
+#[test]
+fn sums_of_much_larger_values_are_not_taken() {
+    let found = |size: f64| {
+        let mut b = Builder::new();
+        let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
+        let large = b.constant(size);
+        let (first, second) = (b.add(x, large), b.sub(large, y));
+        let (xz, yz) = (b.mul(x, z), b.mul(y, z));
+        let sum = b.add(xz, yz);
+        let quotient = b.div(sum, z);
+        let program = b.finish(vec![first, second, quotient]);
+        let search = Search::new(&program, &Samples::unrelated());
+        let room = search.cones.size(quotient);
+        let mut forms = [None, None];
+        for (form, negative, value) in [(0, false, first), (1, true, second)] {
+            let mut best = Best { gain: 0, form: None };
+            search.try_sums(quotient, (value, negative), room, &mut best);
+            forms[form] = best.form;
+        }
+        forms
+    };
+    let [first, second] = found(1.0);
+    assert!(matches!(first, Some(Form::Sum((Value(0..), false), (Value(0..), true)))), "{first:?}");
+    assert!(
+        matches!(second, Some(Form::Sum((Value(0..), true), (Value(0..), false)))),
+        "{second:?}"
+    );
+    let none = found(1e4);
+    assert!(none.iter().all(Option::is_none), "{none:?}");
+}
+
+/// (x z u + y z)/z is x u + y, but not with x u as (x + c w) u − c w u for a large c, whose rounding is large.
+#[test]
+fn values_that_round_much_more_are_no_terms() {
+    let found = |size: f64| {
+        let mut b = Builder::new();
+        let [x, y, z, u, w] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
+        let constant = b.constant(size);
+        let large = b.mul(constant, w);
+        let (sum, rest) = (b.add(x, large), b.mul(large, u));
+        let product = b.mul(sum, u);
+        let first = b.sub(product, rest);
+        let (xz, yz) = (b.mul(x, z), b.mul(y, z));
+        let xzu = b.mul(xz, u);
+        let both = b.add(xzu, yz);
+        let value = b.div(both, z);
+        let program = b.finish(vec![first, value]);
+        let search = Search::new(&program, &Samples::unrelated());
+        let mut best = Best { gain: 0, form: None };
+        search.try_pairs(value, search.cones.size(value), &mut best);
+        best.form.is_some_and(|form| form.operands().contains(&first))
+    };
+    assert!(found(0.25) && !found(1e4));
+}
+
+/// A sum whose both terms are negative is no form: the negative of the sum would be.
+#[test]
+fn one_term_of_a_sum_is_positive() {
+    let of_signs = |negative: bool| {
+        sums_found(
+            |b, [x, y, z, _]| {
+                let (xz, yz) = (b.mul(x, z), b.mul(y, z));
+                let sum = b.add(xz, yz);
+                let quotient = b.div(sum, z);
+                (x, if negative { b.neg(quotient) } else { quotient })
+            },
+            negative,
+        )
+    };
+    assert!(matches!(of_signs(false), Some(Form::Sum((Value(0), false), (Value(1), false)))));
+    assert!(of_signs(true).is_none());
+}
+
+/// (x z + c y z)/z less x is c y: taken where that rounds no more than the quotient.
+#[test]
+fn multiples_that_are_much_larger_are_not_taken() {
+    let found = |constant: f64, fourth: bool| {
+        sums_found(
+            move |b, [x, y, z, w]| {
+                let factor = b.constant(constant);
+                let (xz, yz) = (b.mul(x, z), b.mul(y, z));
+                let multiple = b.mul(factor, yz);
+                let sum = b.add(xz, multiple);
+                let last = if fourth { b.mul(sum, w) } else { b.div(sum, z) };
+                (x, last)
+            },
+            false,
+        )
+    };
+    let Some(Form::SumMultiple(Value(0), factor, Value(1))) = found(5.0, false) else {
+        panic!("no multiple")
+    };
+    assert!((factor - 5.0).abs() < 1e-14);
+    assert!(found(5.0, true).is_none());
+}
+
+#[test]
+fn no_program_costs_more_and_many_less() {
+    for (effort, most) in [(Resubstitution::Multiples, 6337), (Resubstitution::Pairs, 5631)] {
+        let (before, after) = operations_left(with(effort));
+        assert!(after <= most, "{effort:?}: {before} became {after}");
+    }
+    let (before, after) = operations_left(with(Resubstitution::Off));
+    assert_eq!(before, after);
 }

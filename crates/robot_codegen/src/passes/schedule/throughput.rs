@@ -219,6 +219,8 @@ fn distinct(operation: Operation) -> impl Iterator<Item = Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::passes::dead_code;
+    use crate::passes::testing::{random_polynomials, random_program};
     use crate::program::{Builder, Source};
 
     /// The sum of two chains of products, one twice as long, built one after the other.
@@ -274,5 +276,147 @@ mod tests {
         let most = (0..last.len()).map(alive).max().unwrap();
         // What is under way comes on top of 24; 32 registers hold them.
         assert!(most <= 26, "{most}");
+    }
+
+    /// A product of three dense matrices, of some entries the reciprocal: many values live long.
+    fn matrices(size: u32) -> Program {
+        let mut b = Builder::new();
+        let mut entries = |first: u32| -> Vec<Value> {
+            (0..size * size).map(|index| b.load(Source::Input(first + index))).collect()
+        };
+        let (left, right, third) = (entries(0), entries(100), entries(200));
+        let size = size as usize;
+        let mut product = |left: &[Value], right: &[Value]| -> Vec<Value> {
+            let mut found = vec![];
+            for (row, column) in (0..size * size).map(|index| (index / size, index % size)) {
+                let mut sum = b.mul(left[row * size], right[column]);
+                for k in 1..size {
+                    let term = b.mul(left[row * size + k], right[k * size + column]);
+                    sum = if k % 3 == 1 { b.sub(sum, term) } else { b.add(sum, term) };
+                }
+                found.push(if (row + column) % 4 == 0 {
+                    b.call(Function::RecipPositive, sum)
+                } else {
+                    sum
+                });
+            }
+            found
+        };
+        let first = product(&left, &right);
+        let second = product(&first, &third);
+        b.finish(second)
+    }
+
+    /// The cycles that the processor of the model takes for a program in its order, and the most values
+    /// alive at once.
+    fn cost(program: &Program) -> (u32, usize) {
+        let mut there: Vec<u32> = vec![];
+        let (mut now, mut room) = (0, [PRODUCTS, SUMS]);
+        let mut last: Vec<usize> = (0..program.operations().len()).collect();
+        for (value, operation) in program.values() {
+            let ready =
+                operation.operands().map(|operand| there[operand.index()]).max().unwrap_or(0);
+            operation.operands().for_each(|operand| last[operand.index()] = value.index());
+            if operation.is_leaf() {
+                there.push(0);
+                continue;
+            }
+            let kind = usize::from(is_sum(operation));
+            if ready > now {
+                (now, room) = (ready, [PRODUCTS, SUMS]);
+            }
+            if room[kind] == 0 {
+                (now, room) = (now + 1, [PRODUCTS, SUMS]);
+            }
+            room[kind] -= 1;
+            there.push(now + latency(operation));
+        }
+        for result in program.results() {
+            last[result.index()] = last.len();
+        }
+        let values: Vec<usize> = program
+            .values()
+            .filter(|(_, operation)| !operation.is_leaf())
+            .map(|(value, _)| value.index())
+            .collect();
+        let alive =
+            |at: usize| values.iter().filter(|value| **value <= at && last[**value] > at).count();
+        (there.into_iter().max().unwrap_or(0), (0..last.len()).map(alive).max().unwrap_or(0))
+    }
+
+    /// As built and as ordered: the figures of this model, another has others.
+    #[test]
+    fn time_and_registers_of_dense_matrices() {
+        let costs = [2, 4, 6].map(|size| {
+            let program = matrices(size);
+            (cost(&program), cost(&run(&program)))
+        });
+        assert_eq!(costs, [((24, 6), (22, 7)), ((218, 20), (82, 26)), ((776, 42), (632, 62))]);
+    }
+
+    /// The same over many random programs: the sums of cycles, and of values alive.
+    #[test]
+    fn time_and_registers_of_random_programs() {
+        let (mut before, mut after) = ((0, 0), (0, 0));
+        for seed in 0..200 {
+            let make = if seed % 2 == 0 { random_polynomials } else { random_program };
+            let program = dead_code::run(&make(seed));
+            let (old, new) = (cost(&program), cost(&run(&program)));
+            before = (before.0 + old.0, before.1 + old.1);
+            after = (after.0 + new.0, after.1 + new.1);
+            let height = heights(&program).into_iter().max().unwrap_or(0);
+            assert!(new.0 >= height, "seed {seed}");
+        }
+        assert_eq!((before, after), ((6708, 956), (3618, 1355)));
+    }
+
+    #[test]
+    fn each_operation_has_its_latency() {
+        let mut b = Builder::new();
+        let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+        let sum = b.add(x, y);
+        let (minus, root) = (b.neg(sum), b.call(Function::Sqrt, sum));
+        let quotient = b.div(root, x);
+        let reciprocal = b.call(Function::RecipPositive, quotient);
+        let fused = b.push(Operation::MulAdd(reciprocal, x, minus));
+        let program = b.finish(vec![fused, sum]);
+        assert_eq!(heights(&program), [28, 28, 28, 3, 26, 16, 9, 2]);
+    }
+
+    /// Where both users of a value take it as both of their operands, it is one operand.
+    #[test]
+    fn operands_are_told_once() {
+        let (x, y) = (Value(3), Value(5));
+        let each = |operation| distinct(operation).collect::<Vec<_>>();
+        assert_eq!(each(Operation::Mul(x, x)), [x]);
+        assert_eq!(each(Operation::MulAdd(x, y, x)), [x, y]);
+        assert_eq!(each(Operation::MulAdd(y, y, x)), [y, x]);
+        assert_eq!(each(Operation::Sub(y, x)), [y, x]);
+        assert!(each(Operation::Load(Source::Input(0))).is_empty());
+    }
+
+    /// The life of a value ends with the last operation that needs it, but not that of a result or load.
+    #[test]
+    fn growth_is_one_less_what_ends() {
+        let mut b = Builder::new();
+        let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+        let (sum, difference) = (b.add(x, y), b.sub(x, y));
+        let (product, square) = (b.mul(sum, difference), b.mul(sum, sum));
+        let quotient = b.div(product, square);
+        let program = b.finish(vec![quotient, difference]);
+        let mut list = List::new(&program);
+        let growth = |list: &List, values: [Value; 5]| values.map(|value| list.growth(value));
+        let values = [sum, difference, product, square, quotient];
+        assert_eq!(growth(&list, values), [1, 1, 1, 1, -1]);
+        for (value, alive) in [(difference, 1), (sum, 2), (square, 3), (product, 3), (quotient, 2)]
+        {
+            list.begin(value, program.operation(value));
+            assert_eq!(list.alive, alive, "{value:?}");
+            if value == square {
+                // The product alone needs the sum now.
+                assert_eq!(list.growth(product), 0);
+            }
+        }
+        assert_eq!(list.missing, [0; 7]);
     }
 }
