@@ -245,7 +245,10 @@ where
     N: std::str::FromStr<Err: std::fmt::Display>,
 {
     match literal(value) {
-        Some(Lit::Int(literal)) => literal.base10_parse(),
+        Some(Lit::Int(literal)) => {
+            without_type(literal.suffix(), value)?;
+            literal.base10_parse()
+        }
         _ => Err(syn::Error::new_spanned(value, "expected a whole number")),
     }
 }
@@ -255,14 +258,23 @@ fn number(value: &Expr) -> syn::Result<f64> {
         Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => (-1.0, unary.expr.as_ref()),
         _ => (1.0, value),
     };
-    let digits = match literal(operand) {
-        Some(Lit::Float(literal)) => literal.base10_parse::<f64>().ok(),
-        Some(Lit::Int(literal)) => literal.base10_parse::<f64>().ok(),
-        _ => None,
+    let (digits, suffix) = match literal(operand) {
+        Some(Lit::Float(literal)) => (literal.base10_parse::<f64>().ok(), literal.suffix()),
+        Some(Lit::Int(literal)) => (literal.base10_parse::<f64>().ok(), literal.suffix()),
+        _ => (None, ""),
     };
+    without_type(suffix, value)?;
     digits
         .map(|digits| sign * digits)
         .ok_or_else(|| syn::Error::new_spanned(value, "expected a number"))
+}
+
+/// Refuses the type behind a number, as in `4u8`, which would have no effect.
+fn without_type(suffix: &str, value: &Expr) -> syn::Result<()> {
+    if suffix.is_empty() {
+        return Ok(());
+    }
+    Err(syn::Error::new_spanned(value, format!("write the number without its type `{suffix}`")))
 }
 
 fn literal(value: &Expr) -> Option<&Lit> {

@@ -71,6 +71,9 @@ fn all_wrong_options_are_named() {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }
     assert_eq!(shown.matches("compile_error").count(), 10);
+    let typed = expanded(quote! { "robots/trttr1.toml", batch = 4u8, snap = 1e-7f32 });
+    assert!(typed.contains("write the number without its type `u8`"), "{typed}");
+    assert!(typed.contains("write the number without its type `f32`"), "{typed}");
     assert!(expanded(quote!(5)).contains("expected the path of a robot file"));
     assert!(expanded(quote!()).contains("expected the path of a robot file"));
 }
