@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use clap::Args;
 use robot_build::{Options, Source, Trigonometry, check, programs};
 use robot_document::{EquationOptions, equations};
-
 use robot_dynamics::economical::pin::Pin;
 
 use super::equations::plain;
