@@ -59,7 +59,7 @@ pub use pivots::{Pivot, Pivots};
 pub use problems::Problem;
 pub use programs::{Programs, planned, programs, programs_of, read, read_with};
 pub use robot_codegen::Trigonometry;
-pub use robot_codegen::backend::rust::{Scalar, identifier};
+pub use robot_codegen::backend::rust::{Scalar, check_runtime_path, identifier};
 pub use robot_dynamics::economical::Plan;
 pub use robot_model::diagnostic::{Source, visible};
 pub use robot_model::functions::{

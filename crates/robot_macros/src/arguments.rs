@@ -153,7 +153,10 @@ struct Bundles(Vec<(Ident, Expr)>);
 impl Parse for Bundles {
     fn parse(input: ParseStream<'_>) -> syn::Result<Bundles> {
         let content;
-        syn::braced!(content in input);
+        let braces = syn::braced!(content in input);
+        if content.is_empty() {
+            return Err(syn::Error::new(braces.span.join(), "no bundles are given"));
+        }
         let bundle = |input: ParseStream<'_>| {
             let name = input.parse()?;
             input.parse::<Token![=]>()?;

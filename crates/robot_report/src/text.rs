@@ -2,17 +2,11 @@
 
 use robot_document::words;
 use robot_model::robot::{Move, Placement, Robot};
-use robot_symbolic::{Formula, Rational};
-
-/// The nominal value of a parameter; NaN where it has none.
-pub(crate) fn nominal(robot: &Robot, name: &str) -> f64 {
-    let value = robot.parameter(name).and_then(|parameter| parameter.value.as_ref());
-    value.map_or(f64::NAN, Rational::to_f64)
-}
+use robot_symbolic::Formula;
 
 /// The nominal value of a formula; NaN where a parameter of it has none.
 pub(crate) fn value(robot: &Robot, formula: &Formula) -> f64 {
-    formula.evaluate(|name| nominal(robot, name))
+    formula.evaluate(|name| robot.nominal_value(name))
 }
 
 /// A formula as its text; with its nominal value where that is not the same.

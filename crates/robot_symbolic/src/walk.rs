@@ -56,17 +56,7 @@ pub fn symbols(roots: &[Expr<'_>]) -> Vec<SymbolId> {
 /// The values of `roots` with the symbols at the values that `value` gives.
 #[must_use]
 pub fn evaluate(roots: &[Expr<'_>], value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
-    evaluate_by(roots, value, Function::apply)
-}
-
-/// As [`evaluate`], with the values of functions that `apply` gives.
-#[must_use]
-pub fn evaluate_by(
-    roots: &[Expr<'_>],
-    value: impl Fn(SymbolId) -> f64,
-    apply: impl Fn(Function, f64) -> f64,
-) -> Vec<f64> {
-    Evaluator::new(roots).values_by(value, apply)
+    Evaluator::new(roots).values(value)
 }
 
 /// `roots` rebuilt in `graph`, each symbol replaced by what `replace` gives for its name; the local

@@ -162,6 +162,16 @@ fn a_folder_appears_whole_and_a_present_one_keeps_what_is_in_it() {
 }
 
 #[test]
+fn a_folder_that_is_left_by_dots_is_not_made() {
+    let folder = Folder::new("dots");
+    assert!(message(write(&folder.path("missing/../a.rs"), OWN)).contains("a.rs"));
+    assert_eq!(folder.names(), Vec::<String>::new());
+    assert_eq!(write(&folder.path("made/deep/a.rs"), OWN).unwrap(), 1);
+    assert_eq!(write(&folder.path("made/../b.rs"), OWN).unwrap(), 1);
+    assert_eq!(folder.names(), ["b.rs", "made"]);
+}
+
+#[test]
 fn leftovers_of_a_killed_process_go_and_those_of_a_living_one_stay() {
     let folder = Folder::new("leftovers");
     let path = folder.put("a.rs", OWN);

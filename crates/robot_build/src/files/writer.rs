@@ -302,6 +302,10 @@ impl Folders {
             !folder.as_os_str().is_empty() && fs::symlink_metadata(folder).is_err()
         });
         let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
+        // `missing/..` names nothing, as the system has it, also once `missing` was made.
+        if missing.iter().any(|folder| folder.file_name().is_none()) {
+            return Err(std::io::ErrorKind::NotFound.into());
+        }
         fs::create_dir_all(folder)?;
         self.0.extend(missing.into_iter().rev());
         Ok(())

@@ -1,7 +1,7 @@
 //! `generate`: the Rust module of a robot, in a file.
 
 use clap::Args;
-use robot_build::generate;
+use robot_build::{check_runtime_path, generate};
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;
@@ -27,10 +27,15 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
     trigonometry: TrigonometryName,
     /// The path of the runtime in the code
-    #[arg(long, value_name = "PATH", default_value = "::robot_runtime")]
+    #[arg(long, value_name = "PATH", default_value = "::robot_runtime", value_parser = runtime)]
     runtime: String,
     #[command(flatten)]
     output: OutputArguments,
+}
+
+/// A path of the runtime.
+fn runtime(text: &str) -> Result<String, String> {
+    check_runtime_path(text).map(|()| text.to_owned()).map_err(|error| error.to_string())
 }
 
 impl Arguments {

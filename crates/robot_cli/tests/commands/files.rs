@@ -3,7 +3,7 @@
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};
 
-use crate::robot;
+use crate::{complaint, robot};
 
 #[test]
 fn the_process_reads_and_writes_its_streams() {
@@ -31,6 +31,8 @@ fn exit_codes_tell_wrong_files_from_wrong_usage() {
         assert_eq!(output.status.code(), Some(code));
         assert!(!output.stderr.is_empty());
     }
+    let shown = complaint(2, &["generate", &robot("planar_2r"), "--runtime", "a b"], "");
+    assert!(shown.contains("the runtime path `a b` is no path of Rust"), "{shown}");
 }
 
 #[test]

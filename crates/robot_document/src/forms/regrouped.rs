@@ -2,7 +2,6 @@
 
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, StandardParameter};
 use robot_dynamics::mechanism::MechanismFriction;
-use robot_model::functions::FunctionKind;
 use robot_model::robot::BaseFrames;
 use robot_symbolic::{Expr, Polynomial};
 
@@ -21,12 +20,8 @@ const REGRESSOR: [&str; 4] = ["Y", "W", "A", "X"];
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let derivation = writer.derivation();
     let found = base::found(&derivation)?;
-    let columns: Vec<Expr<'_>> = derivation
-        .functions(FunctionKind::RegressorBase)
-        .into_iter()
-        .flat_map(|function| function.outputs)
-        .flat_map(|output| output.values)
-        .collect();
+    let outputs = derivation.regressor_over(&found).outputs;
+    let columns: Vec<Expr<'_>> = outputs.into_iter().flat_map(|output| output.values).collect();
     let columns = writer.with_angle_sums(columns);
     let (mut groups, parameters) = definitions(writer, &found)?;
     let forces = writer.economical_forces(false);

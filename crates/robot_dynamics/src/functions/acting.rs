@@ -7,7 +7,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use robot_symbolic::{Expr, Function as Elementary, Random, SymbolId, View, walk};
+use robot_symbolic::walk::{self, Evaluator};
+use robot_symbolic::{Expr, Function as Elementary, Random, SymbolId, View};
 
 use super::{Derivation, Function};
 
@@ -40,9 +41,10 @@ impl<'g> Derivation<'_, 'g> {
                 let is_idle = symbol.as_symbol().is_some_and(|symbol| idle.contains(&symbol));
                 if is_idle { graph.integer(constant) } else { symbol }
             });
+            let (before, after) = (Evaluator::new(&roots), Evaluator::new(&settled));
             let same = (0..STATES).all(|state| {
                 let value = |symbol| value(&graph.symbol_name(symbol), state);
-                same(&evaluate(&roots, value), &evaluate(&settled, value))
+                same(&evaluate(&before, value), &evaluate(&after, value))
             });
             if same && !graph.is_full() {
                 let mut settled = settled.into_iter();
@@ -73,20 +75,22 @@ impl<'g> Derivation<'_, 'g> {
             };
             left.into_iter().filter(is_flat).collect()
         });
-        flat.into_iter().filter(|one| is_idle(roots, *one)).collect()
+        let evaluator = Evaluator::new(roots);
+        let value = |symbol, state| value(&graph.symbol_name(symbol), state);
+        flat.into_iter().filter(|one| is_idle(&evaluator, *one, value)).collect()
     }
 }
 
-/// Whether no value changes with a parameter.
-fn is_idle(roots: &[Expr<'_>], parameter: SymbolId) -> bool {
-    let graph = match roots {
-        [root, ..] => root.graph(),
-        [] => return true,
-    };
+/// Whether no value changes with a parameter; `value` gives that of a symbol at a state.
+fn is_idle(
+    evaluator: &Evaluator,
+    parameter: SymbolId,
+    value: impl Fn(SymbolId, u64) -> f64,
+) -> bool {
     (0..STATES).all(|state| {
         let at = |factor: f64| {
-            evaluate(roots, |symbol| {
-                let value = value(&graph.symbol_name(symbol), state);
+            evaluate(evaluator, |symbol| {
+                let value = value(symbol, state);
                 if symbol == parameter { value * factor } else { value }
             })
         };
@@ -103,8 +107,8 @@ fn same(a: &[f64], b: &[f64]) -> bool {
 }
 
 /// Values at any parameters, also such as no body has: there a pivot below 0 is to show what it depends on.
-fn evaluate(roots: &[Expr<'_>], value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
-    walk::evaluate_by(roots, value, |function, argument| match function {
+fn evaluate(evaluator: &Evaluator, value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
+    evaluator.values_by(value, |function, argument| match function {
         Elementary::RecipPositive => argument.recip(),
         other => other.apply(argument),
     })
@@ -130,7 +134,8 @@ fn slopes(roots: &[Expr<'_>], state: u64) -> BTreeMap<SymbolId, Slope> {
     let Some(graph) = nodes.first().map(|node| node.graph()) else {
         return BTreeMap::new();
     };
-    let values = evaluate(&nodes, |symbol| value(&graph.symbol_name(symbol), state));
+    let values =
+        evaluate(&Evaluator::new(&nodes), |symbol| value(&graph.symbol_name(symbol), state));
     // All operands are among the nodes.
     let place_of = |expr: Expr<'_>| {
         nodes.binary_search_by_key(&expr.id(), |node| node.id()).unwrap_or_default()

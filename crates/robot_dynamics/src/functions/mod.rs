@@ -29,6 +29,7 @@ pub use crate::derivation::Derivation;
 use robot_model::functions::FunctionKind;
 use robot_symbolic::Expr;
 
+use crate::base_parameters::BaseParameters;
 use crate::economical::Recursion;
 use crate::matrix::Pivots;
 use robot_model::robot::JointKind;
@@ -114,6 +115,12 @@ impl<'r, 'g> Derivation<'r, 'g> {
     pub fn functions(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let derived = self.derived(kind).into_iter();
         derived.map(|function| self.of_acting_parameters(function)).collect()
+    }
+
+    /// The regressor over base parameters that were found before, as [`Derivation::functions`] gives it.
+    #[must_use]
+    pub fn regressor_over(&self, base: &BaseParameters<'g>) -> Function<'g> {
+        self.of_acting_parameters(regressor::regressor_over(self, base))
     }
 
     /// The functions as they are derived: with parameters that cancel.

@@ -28,7 +28,14 @@ pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
 
 /// Y over the base parameters.
 pub(super) fn regressor_base<'g>(derivation: &Derivation<'_, 'g>) -> Option<Function<'g>> {
-    let base = base_parameters(derivation)?;
+    base_parameters(derivation).map(|base| regressor_over(derivation, &base))
+}
+
+/// Y over base parameters that are known.
+pub(super) fn regressor_over<'g>(
+    derivation: &Derivation<'_, 'g>,
+    base: &BaseParameters<'g>,
+) -> Function<'g> {
     let columns = base_columns(derivation);
     let kept: Vec<&Column<'g>> =
         base.base.iter().filter_map(|parameter| columns.get(parameter.column)).collect();
@@ -40,14 +47,14 @@ pub(super) fn regressor_base<'g>(derivation: &Derivation<'_, 'g>) -> Option<Func
         match base.frames {
             BaseFrames::File => format!(
                 "Its columns are those of the full regressor at {}.",
-                columns_and_names(&base).join(", ")
+                columns_and_names(base).join(", ")
             ),
             BaseFrames::DenavitHartenberg => {
-                format!("Its columns are those of {}. {OF_DENAVIT_HARTENBERG}", names(&base))
+                format!("Its columns are those of {}. {OF_DENAVIT_HARTENBERG}", names(base))
             }
         },
     ];
-    Some(function(derivation, FunctionKind::RegressorBase, &doc, &kept))
+    function(derivation, FunctionKind::RegressorBase, &doc, &kept)
 }
 
 /// β of the base parameters, from the file's parameters.

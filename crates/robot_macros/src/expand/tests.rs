@@ -150,6 +150,7 @@ fn functions_of_a_link_are_asked_for_by_name() {
 fn wrong_bundles_are_named() {
     let of = |bundles| expanded(quote!("robots/trttr1.toml", bundles = #bundles));
     assert!(of(quote!({ load = [] })).contains("no functions are chosen"));
+    assert!(of(quote!({})).contains("no bundles are given"));
     assert!(of(quote!({ load = ["biass"] })).contains("expected one of \\\"inverse_dynamics\\\""));
     assert!(of(quote!({ bias = ["bias"] })).contains("it cannot have this name"));
     assert!(of(quote!(["bias"])).contains("expected curly braces"));

@@ -30,6 +30,7 @@ pub use self::options::{
     ConstantItem, ConstantValue, Parallel, RustOptions, Scalar, Setter, SetterArgument, Wrapping,
 };
 use self::scope::Scope;
+pub use self::scope::check_runtime_path;
 use crate::error::Errors;
 use crate::module::Module;
 

@@ -31,10 +31,22 @@ pub(super) struct Scope<'a> {
     pub(super) methods: Namer,
 }
 
+fn runtime_path(path: &str) -> Result<syn::Path, Error> {
+    syn::parse_str(path).map_err(|_| Error::RuntimePath { path: path.to_owned() })
+}
+
+/// Checks a path of the runtime, such as `::robot_runtime`, as generated code shall name it.
+///
+/// # Errors
+///
+/// A text that is not a path of Rust.
+pub fn check_runtime_path(path: &str) -> Result<(), Error> {
+    runtime_path(path).map(drop)
+}
+
 impl<'a> Scope<'a> {
     pub(super) fn new(module: &'a Module, options: &'a RustOptions) -> Result<Scope<'a>, Errors> {
-        let runtime: syn::Path = syn::parse_str(&options.runtime)
-            .map_err(|_| Error::RuntimePath { path: options.runtime.clone() })?;
+        let runtime = runtime_path(&options.runtime)?;
         if options.scalar == Scalar::F32 {
             check_single_precision(module)?;
         }
