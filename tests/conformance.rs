@@ -4,7 +4,7 @@
 
 mod common;
 
-use robot_build::{FunctionKind, Functions, Options, programs_of};
+use robot_build::{Effects, FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
 use robot_model::description::{self, read_toml, read_urdf};
 use robot_model::diagnostic::{Diagnostics, Severity};
@@ -55,7 +55,7 @@ fn codes(found: &Diagnostics, severity: Severity) -> Vec<String> {
 /// The torques of the program that code is printed from, and those of the numeric solver.
 fn torques(robot: &Robot, row: &Table) -> [Vec<f64>; 2] {
     let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(row, key));
-    let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics]);
+    let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]);
     let options = Options { functions, ..Options::default() };
     let programs = programs_of(robot.clone(), "row", &options).unwrap();
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();

@@ -9,7 +9,8 @@ use robot_dynamics::economical::{
     plan::{LinkPlan, Turn},
 };
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
+use robot_model::functions::Effects;
 use robot_model::robot::{Body, Inertia, Joint, JointKind, Link, Placement, Robot};
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;

@@ -1,7 +1,7 @@
 //! The operations that the documents state are those of the code.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
-use robot_build::{Bundle, FunctionKind, Functions, Options, RobotFile, programs};
+use robot_build::{Bundle, Effects, FunctionKind, Functions, Options, RobotFile, programs};
 use robot_codegen::Counts;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -26,7 +26,7 @@ fn costs(robot: &str, functions: Vec<FunctionKind>, bundles: Vec<Bundle>) -> Vec
 fn inverse_dynamics_of_the_page_about_performance() {
     let rows = rows("performance.md");
     for robot in ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"] {
-        let counts = costs(robot, vec![FunctionKind::InverseDynamics], vec![])[0];
+        let counts = costs(robot, vec![FunctionKind::InverseDynamics(Effects::NONE)], vec![])[0];
         let [mul, add] = [counts.mul, counts.add];
         let [sin, cos] = [counts.sin, counts.cos];
         let stated = format!("{robot} | {mul} | {add} | {} | {sin} + {cos}", mul + add);

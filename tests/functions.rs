@@ -8,7 +8,7 @@ use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::functions::{Derivation, Output, search_plan};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::functions;
-use robot_model::functions::{FrameRef, FunctionKind};
+use robot_model::functions::{Effects, FrameRef, FunctionKind};
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
@@ -28,10 +28,10 @@ const KINDS: [FunctionKind; 15] = [
     FunctionKind::MassMatrix,
     FunctionKind::Bias,
     FunctionKind::Gravity,
-    FunctionKind::ForwardDynamics,
-    FunctionKind::ForwardDynamicsWrench,
-    FunctionKind::ForwardDynamicsFriction,
-    FunctionKind::ForwardDynamicsWrenchFriction,
+    FunctionKind::ForwardDynamics(Effects::NONE),
+    FunctionKind::ForwardDynamics(Effects::WRENCH),
+    FunctionKind::ForwardDynamics(Effects::FRICTION),
+    FunctionKind::ForwardDynamics(Effects::BOTH),
     FunctionKind::ForwardKinematics,
     FunctionKind::FramePoses,
     FunctionKind::Jacobian,
@@ -265,8 +265,8 @@ fn searched_plans_keep_the_operations_of_functions_low() {
     let budgets = [
         ("puma560", FunctionKind::MassMatrix, 138, 0),
         ("ur5", FunctionKind::MassMatrix, 102, 0),
-        ("puma560", FunctionKind::ForwardDynamics, 495, 4),
-        ("ur5", FunctionKind::ForwardDynamics, 390, 5),
+        ("puma560", FunctionKind::ForwardDynamics(Effects::NONE), 495, 4),
+        ("ur5", FunctionKind::ForwardDynamics(Effects::NONE), 390, 5),
     ];
     for (name, kind, flops, divisions) in budgets {
         let robot = common::robot(name);

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use nalgebra::DVector;
-use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
+use robot_build::{Effects, FunctionKind, Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
 use robot_codegen::backend::rust::{self, RustOptions, Scalar};
 use robot_model::robot::Robot;
@@ -22,10 +22,10 @@ use common::{largest_difference, magnitude, robot_files};
 
 const TOLERANCE: f64 = 1e-12;
 const FUNCTIONS: [FunctionKind; 5] = [
-    FunctionKind::InverseDynamics,
-    FunctionKind::InverseDynamicsWrench,
-    FunctionKind::InverseDynamicsFriction,
-    FunctionKind::InverseDynamicsWrenchFriction,
+    FunctionKind::InverseDynamics(Effects::NONE),
+    FunctionKind::InverseDynamics(Effects::WRENCH),
+    FunctionKind::InverseDynamics(Effects::FRICTION),
+    FunctionKind::InverseDynamics(Effects::BOTH),
     FunctionKind::LinkWrenches,
 ];
 
@@ -65,7 +65,7 @@ impl Case {
         let robot = &self.programs.robot;
         let expected: Vec<Vec<f64>> =
             self.states.iter().map(|state| expected(robot, &self.solver, kind, state)).collect();
-        if kind == FunctionKind::ForwardDynamics {
+        if kind == FunctionKind::ForwardDynamics(Effects::NONE) {
             return self.hold_accelerations(values, &expected);
         }
         let size = magnitude(expected.iter().flatten());
@@ -138,11 +138,11 @@ fn the_programs_of_two_hundred_random_robots() {
 #[test]
 fn the_programs_of_long_chains() {
     let kinds = [
-        FunctionKind::InverseDynamics,
+        FunctionKind::InverseDynamics(Effects::NONE),
         FunctionKind::MassMatrix,
         FunctionKind::Bias,
         FunctionKind::Gravity,
-        FunctionKind::ForwardDynamics,
+        FunctionKind::ForwardDynamics(Effects::NONE),
         FunctionKind::Energies,
         FunctionKind::CoriolisMatrix,
         FunctionKind::Regressor,

@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
@@ -40,8 +40,8 @@ const KINDS: [FunctionKind; 12] = [
     FunctionKind::CoriolisMatrix,
     FunctionKind::Gravity,
     FunctionKind::Bias,
-    FunctionKind::InverseDynamics,
-    FunctionKind::ForwardDynamics,
+    FunctionKind::InverseDynamics(Effects::NONE),
+    FunctionKind::ForwardDynamics(Effects::NONE),
     FunctionKind::Energies,
     FunctionKind::FramePoses,
     FunctionKind::Jacobian,
@@ -165,9 +165,12 @@ impl<'g> Subject<'_, 'g> {
     fn torques(&self) {
         let mass = self.matrix(self.root(FunctionKind::MassMatrix));
         let coriolis = self.matrix(self.root(FunctionKind::CoriolisMatrix));
-        let [gravity, bias, torques] =
-            [FunctionKind::Gravity, FunctionKind::Bias, FunctionKind::InverseDynamics]
-                .map(|kind| self.vector(kind));
+        let [gravity, bias, torques] = [
+            FunctionKind::Gravity,
+            FunctionKind::Bias,
+            FunctionKind::InverseDynamics(Effects::NONE),
+        ]
+        .map(|kind| self.vector(kind));
         let [rates, accelerations] =
             [&self.state.qd, &self.state.qdd].map(|entries| DVector::from_column_slice(entries));
         let inertial = mass * accelerations;
@@ -202,17 +205,18 @@ impl<'g> Subject<'_, 'g> {
             rate.qd.clone_from(&self.state.qdd);
         });
         let gain: f64 = derivative(self.robot, &energies, &self.state, &rate).iter().sum();
-        let torques = self.vector(FunctionKind::InverseDynamics);
+        let torques = self.vector(FunctionKind::InverseDynamics(Effects::NONE));
         let powers = torques.component_mul(&DVector::from_column_slice(&self.state.qd));
         self.hold_rows("d(T + V)/dt", &[gain], &[powers.sum()], powers.abs().sum());
     }
 
     fn forward_dynamics(&self) {
         let mass = self.matrix(self.root(FunctionKind::MassMatrix));
-        let torques = self.vector(FunctionKind::InverseDynamics);
+        let torques = self.vector(FunctionKind::InverseDynamics(Effects::NONE));
         let bias = self.vector(FunctionKind::Bias);
         let driven = State { tau: torques.as_slice().to_vec(), ..self.state.clone() };
-        let found = evaluate(self.robot, self.root(FunctionKind::ForwardDynamics), &driven);
+        let found =
+            evaluate(self.robot, self.root(FunctionKind::ForwardDynamics(Effects::NONE)), &driven);
         // What M⁻¹ makes of the rounding of torques is a matter of the condition of M.
         let inverse = mass.clone().try_inverse().unwrap();
         let size = inverse.norm() * torques.amax().max(bias.amax());
@@ -261,9 +265,9 @@ impl<'g> Subject<'_, 'g> {
     }
 
     fn derivatives(&self) {
-        let torques = self.root(FunctionKind::InverseDynamics);
+        let torques = self.root(FunctionKind::InverseDynamics(Effects::NONE));
         let by_torques = self.roots(FunctionKind::InverseDynamicsDerivatives);
-        let accelerations = self.root(FunctionKind::ForwardDynamics);
+        let accelerations = self.root(FunctionKind::ForwardDynamics(Effects::NONE));
         let by_accelerations = self.roots(FunctionKind::ForwardDynamicsDerivatives);
         let ways: [Way<'_, 'g>; 6] = [
             ("∂τ/∂q", torques, &by_torques[0], |state| &mut state.q),

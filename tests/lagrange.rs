@@ -6,7 +6,8 @@ mod common;
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
+use robot_model::functions::Effects;
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use robot_build::{Functions, Options, Programs, programs_of};
 use robot_codegen::Interpreter;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::LINK_PARAMETERS;
 use robot_model::robot::Robot;
 use serde_json::Value;
@@ -25,12 +25,12 @@ type Held = (FunctionKind, &'static [(&'static str, &'static str)], &'static [&'
 
 /// The functions whose outputs are values of the oracle.
 const FUNCTIONS: [Held; 9] = [
-    (FunctionKind::InverseDynamics, &[("qdd", "a")], &["tau"]),
+    (FunctionKind::InverseDynamics(Effects::NONE), &[("qdd", "a")], &["tau"]),
     (FunctionKind::Gravity, &[], &["g"]),
     (FunctionKind::Bias, &[], &["nle"]),
     (FunctionKind::MassMatrix, &[], &["M"]),
     (FunctionKind::CoriolisMatrix, &[], &["C"]),
-    (FunctionKind::ForwardDynamics, &[("tau", "aba_tau")], &["aba_a"]),
+    (FunctionKind::ForwardDynamics(Effects::NONE), &[("tau", "aba_tau")], &["aba_a"]),
     (FunctionKind::Energies, &[], &["kinetic", "potential"]),
     (FunctionKind::InverseDynamicsDerivatives, &[("qdd", "a")], &["dtau_dq", "dtau_dv"]),
     (FunctionKind::ForwardDynamicsDerivatives, &[("tau", "aba_tau")], &["da_dq", "da_dv", "Minv"]),

@@ -6,7 +6,7 @@ mod common;
 use nalgebra::DVector;
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
@@ -34,8 +34,8 @@ fn check(robot: &Robot, name: &str, seed: u64) {
     let graph = Graph::new();
     let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
     let kind = match robot.tips().next() {
-        Some(_) => FunctionKind::InverseDynamicsWrench,
-        None => FunctionKind::InverseDynamics,
+        Some(_) => FunctionKind::InverseDynamics(Effects::WRENCH),
+        None => FunctionKind::InverseDynamics(Effects::NONE),
     };
     let torques = derivation.functions(kind).remove(0).outputs.remove(0).values;
     let motion = Motion::new(&derivation.mechanism);

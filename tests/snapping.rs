@@ -4,7 +4,7 @@
 
 mod common;
 
-use robot_build::{FunctionKind, Functions, Options, Source, programs, snapping};
+use robot_build::{Effects, FunctionKind, Functions, Options, Source, programs, snapping};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
@@ -108,7 +108,7 @@ fn any_tolerance_gives_accurate_torques() {
         for options in plans.chain([searched]) {
             let options = Options {
                 snap: Some(snap),
-                functions: Functions::Chosen(vec![FunctionKind::InverseDynamics]),
+                functions: Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]),
                 ..options
             };
             let programs = programs(&written, &options).unwrap();

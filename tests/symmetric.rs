@@ -11,7 +11,8 @@ use robot_dynamics::economical::{
     plan::{LinkPlan, Turn},
 };
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
+use robot_model::functions::Effects;
 use robot_symbolic::Graph;
 use robot_symbolic::polynomial::expands_to_zero;
 

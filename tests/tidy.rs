@@ -35,7 +35,7 @@ const LAYERS: [(&str, &[&[&str]]); 2] = [
         "robot_model",
         &[
             &["space", "unit", "diagnostic", "snap"],
-            &["robot", "physics"],
+            &["robot", "physics", "variable"],
             &["functions"],
             &["description"],
         ],

@@ -8,7 +8,8 @@ use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
+use robot_model::functions::Effects;
 use robot_model::robot::{Robot, Wrench};
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
@@ -51,7 +52,7 @@ fn hold(robot: &Robot, what: &str, seed: u64, found: &[Vec<f64>], expected: &[Ve
 }
 
 fn interpreted(robot: &Robot, states: &[State]) -> Vec<Vec<f64>> {
-    let kind = FunctionKind::InverseDynamicsWrench;
+    let kind = FunctionKind::InverseDynamics(Effects::WRENCH);
     let options = Options { functions: Functions::Chosen(vec![kind]), ..Options::default() };
     let programs = programs_of(robot.clone(), "tree", &options).unwrap();
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();

@@ -1,7 +1,7 @@
 //! What the numeric solver says about functions, and the states and inputs to ask for.
 
 use nalgebra::{DMatrix, Vector3};
-use robot_model::functions::{FrameRef, FunctionKind};
+use robot_model::functions::{Effects, FrameRef, FunctionKind};
 use robot_model::robot::LINK_PARAMETERS;
 use robot_model::robot::{Friction, Robot};
 use robot_numeric::random::{Random, State};
@@ -68,10 +68,10 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
     // The solver has gyroscopic rotors as links behind those of the robot.
     let links = robot.links.len();
     match kind {
-        FunctionKind::InverseDynamics => torques(&[], false),
-        FunctionKind::InverseDynamicsWrench => torques(wrenches, false),
-        FunctionKind::InverseDynamicsFriction => torques(&[], true),
-        FunctionKind::InverseDynamicsWrenchFriction => torques(wrenches, true),
+        FunctionKind::InverseDynamics(Effects::NONE) => torques(&[], false),
+        FunctionKind::InverseDynamics(Effects::WRENCH) => torques(wrenches, false),
+        FunctionKind::InverseDynamics(Effects::FRICTION) => torques(&[], true),
+        FunctionKind::InverseDynamics(Effects::BOTH) => torques(wrenches, true),
         FunctionKind::LinkWrenches => {
             let found = &solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links];
             let entries = |vector: Vector3<f64>| vector.as_slice().to_vec();
@@ -81,10 +81,12 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
         FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
         FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
-        FunctionKind::ForwardDynamics => accelerations(&[]),
-        FunctionKind::ForwardDynamicsWrench => accelerations(wrenches),
-        FunctionKind::ForwardDynamicsFriction => with_friction(robot, solver, state, &[]),
-        FunctionKind::ForwardDynamicsWrenchFriction => {
+        FunctionKind::ForwardDynamics(Effects::NONE) => accelerations(&[]),
+        FunctionKind::ForwardDynamics(Effects::WRENCH) => accelerations(wrenches),
+        FunctionKind::ForwardDynamics(Effects::FRICTION) => {
+            with_friction(robot, solver, state, &[])
+        }
+        FunctionKind::ForwardDynamics(Effects::BOTH) => {
             with_friction(robot, solver, state, wrenches)
         }
         FunctionKind::ForwardKinematics => {

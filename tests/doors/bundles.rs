@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use robot_build::{Bundle, FunctionKind, Functions, Options, RobotFile, generate};
+use robot_build::{Bundle, Effects, FunctionKind, Functions, Options, RobotFile, generate};
 
 use crate::package::{Package, dependency};
 
@@ -11,10 +11,10 @@ use crate::package::{Package, dependency};
 const TOLERANCE: f64 = 1e-12;
 
 const KINDS: [FunctionKind; 5] = [
-    FunctionKind::InverseDynamics,
+    FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::MassMatrix,
     FunctionKind::Bias,
-    FunctionKind::ForwardDynamics,
+    FunctionKind::ForwardDynamics(Effects::NONE),
     FunctionKind::Energies,
 ];
 

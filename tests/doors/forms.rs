@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use robot_build::{Functions, Options, Source, Trigonometry, generate, programs};
 use robot_codegen::Interpreter;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_numeric::random::Random;
 
 use crate::package::{Package, dependency};
@@ -20,7 +20,7 @@ const TRTTR1: &str = include_str!("../../robots/trttr1.toml");
 
 /// Every form of inverse dynamics, and a batch of the mass matrix, whose velocities are unused.
 fn options(trigonometry: Trigonometry, fused: bool) -> Options {
-    let functions = vec![FunctionKind::InverseDynamics, FunctionKind::MassMatrix];
+    let functions = vec![FunctionKind::InverseDynamics(Effects::NONE), FunctionKind::MassMatrix];
     Options {
         functions: Functions::Chosen(functions),
         generic: true,

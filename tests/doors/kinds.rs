@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use robot_build::{FrameRef, FunctionKind, Functions, Options, programs_of};
+use robot_build::{Effects, FrameRef, FunctionKind, Functions, Options, programs_of};
 use robot_codegen::backend::rust::{self, RustOptions};
 use robot_codegen::module::Function;
 use robot_dynamics::base_parameters::{BaseParameter, base_parameters};
@@ -232,10 +232,10 @@ impl Case {
 fn solves(kind: FunctionKind) -> bool {
     matches!(
         kind,
-        FunctionKind::ForwardDynamics
-            | FunctionKind::ForwardDynamicsWrench
-            | FunctionKind::ForwardDynamicsFriction
-            | FunctionKind::ForwardDynamicsWrenchFriction
+        FunctionKind::ForwardDynamics(Effects::NONE)
+            | FunctionKind::ForwardDynamics(Effects::WRENCH)
+            | FunctionKind::ForwardDynamics(Effects::FRICTION)
+            | FunctionKind::ForwardDynamics(Effects::BOTH)
             | FunctionKind::ForwardDynamicsDerivatives
     )
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nalgebra::Matrix3;
 use robot_build::{
-    FunctionKind, Functions, Options, RobotFile, Scalar, Source, generate, programs,
+    Effects, FunctionKind, Functions, Options, RobotFile, Scalar, Source, generate, programs,
 };
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::pin::Pin;
@@ -72,7 +72,7 @@ fn worst(found: &[Vec<f64>], expected: &[([Vec<f64>; 3], Vec<f64>)]) -> f64 {
 }
 
 fn options() -> Options {
-    let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics]);
+    let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]);
     Options { functions, ..Options::default() }
 }
 

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use robot_build::{FunctionKind, Functions, Options, RobotFile, Scalar, generate};
+use robot_build::{Effects, FunctionKind, Functions, Options, RobotFile, Scalar, generate};
 
 use crate::package::{Package, dependency};
 
@@ -77,7 +77,7 @@ fn single_precision_keeps_its_digits() {
         let robot = robot_build::read(&file.source).unwrap().robot;
         let module = robot.name.to_lowercase();
         for (case, scalar) in [("double", Scalar::F64), ("single", Scalar::F32)] {
-            let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics]);
+            let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]);
             let options = Options { functions, scalar, generic: true, ..Options::default() };
             let options = file.with_pin(&options).unwrap();
             let code = generate(&file.source, &options).unwrap().code;

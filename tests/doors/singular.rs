@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use robot_build::{FunctionKind, Functions, Options, Scalar, Source, generate};
+use robot_build::{Effects, FunctionKind, Functions, Options, Scalar, Source, generate};
 
 use crate::package::{Package, dependency};
 
@@ -72,7 +72,7 @@ fn what_is_singular_has_no_number() {
         ("pendulum_double", PENDULUM, Scalar::F64),
     ] {
         let source = Source { name: format!("{name}.toml"), text: text.to_owned() };
-        let functions = Functions::Chosen(vec![FunctionKind::ForwardDynamics]);
+        let functions = Functions::Chosen(vec![FunctionKind::ForwardDynamics(Effects::NONE)]);
         let batch = Some(8);
         let options = Options { functions, scalar, generic: true, batch, ..Options::default() };
         let code = generate(&source, &options).unwrap().code;

@@ -63,7 +63,7 @@ pub use robot_codegen::backend::rust::{Scalar, check_runtime_path, identifier};
 pub use robot_dynamics::economical::Plan;
 pub use robot_model::diagnostic::{Source, visible};
 pub use robot_model::functions::{
-    self, ALL_FUNCTIONS, Bundle, FrameRef, FunctionKind, Functions, WrongName,
+    self, ALL_FUNCTIONS, Bundle, Effects, FrameRef, FunctionKind, Functions, WrongName,
 };
 pub use robot_model::robot::{BaseFrames, Robot};
 pub use singular::{Unsolvable, unsolvable};

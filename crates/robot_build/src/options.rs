@@ -6,7 +6,7 @@ use robot_dynamics::economical::Plan;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::description::{self, Code, MAX_BUNDLES, check_bundle_name};
 use robot_model::functions;
-use robot_model::functions::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions};
+use robot_model::functions::{ALL_FUNCTIONS, Bundle, Effects, FunctionKind, Functions};
 use robot_model::robot::{BaseFrames, Robot};
 use robot_model::snap;
 
@@ -15,10 +15,10 @@ use crate::singular::unsolvable;
 
 /// The functions that are generated where none are chosen, as far as the robot has them.
 pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
-    FunctionKind::InverseDynamics,
-    FunctionKind::InverseDynamicsWrench,
-    FunctionKind::InverseDynamicsFriction,
-    FunctionKind::InverseDynamicsWrenchFriction,
+    FunctionKind::InverseDynamics(Effects::NONE),
+    FunctionKind::InverseDynamics(Effects::WRENCH),
+    FunctionKind::InverseDynamics(Effects::FRICTION),
+    FunctionKind::InverseDynamics(Effects::BOTH),
     FunctionKind::LinkWrenches,
 ];
 

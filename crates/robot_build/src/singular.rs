@@ -4,7 +4,7 @@ use std::fmt;
 
 use robot_codegen::Error as CodeError;
 use robot_dynamics::functions::undetermined;
-use robot_model::functions::{Bundle, FunctionKind, Functions};
+use robot_model::functions::{Bundle, Effects, FunctionKind, Functions};
 use robot_model::robot::Robot;
 
 use crate::error::{Error, Errors, quoted};
@@ -42,7 +42,7 @@ pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
     if undetermined(robot).is_empty() {
         return None;
     }
-    let functions = Functions::Chosen(vec![FunctionKind::ForwardDynamics]);
+    let functions = Functions::Chosen(vec![FunctionKind::ForwardDynamics(Effects::NONE)]);
     let (bundles, search) = (vec![], false);
     let options = Options { functions, bundles, search, ..options.clone() };
     let errors = programs_of(robot.clone(), &robot.name, &options).err()?;

@@ -2,7 +2,7 @@
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions, Snap};
-use robot_model::functions::{FunctionKind, Functions};
+use robot_model::functions::{Effects, FunctionKind, Functions};
 use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
@@ -63,7 +63,7 @@ pub fn snapping(robot: &Robot, snap: Option<f64>, plan: Option<&Plan>) -> Result
 
 fn tried(robot: &Robot, tolerance: f64, plan: Option<&Plan>) -> Result<Tried, Errors> {
     let options = Options {
-        functions: Functions::Chosen(vec![FunctionKind::InverseDynamics]),
+        functions: Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]),
         snap: Some(tolerance),
         plan: plan.cloned(),
         ..Options::default()

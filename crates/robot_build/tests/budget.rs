@@ -4,7 +4,7 @@
 
 use robot_build::{Functions, Options, Source, budget, generate, package, programs};
 use robot_codegen::stack;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 
 const ROBOT: &str = include_str!("../../../robots/planar_2r.toml");
 
@@ -13,7 +13,7 @@ fn source(budgets: &str) -> Source {
 }
 
 fn options() -> Options {
-    let functions = vec![FunctionKind::InverseDynamics, FunctionKind::MassMatrix];
+    let functions = vec![FunctionKind::InverseDynamics(Effects::NONE), FunctionKind::MassMatrix];
     Options { functions: Functions::Chosen(functions), ..Options::default() }
 }
 

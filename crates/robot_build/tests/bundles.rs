@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use robot_build::{Bundle, FunctionKind, Functions, Options, Source, generate, programs};
+use robot_build::{Bundle, Effects, FunctionKind, Functions, Options, Source, generate, programs};
 use robot_codegen::Interpreter;
 
 const ROBOT: &str = include_str!("../../../robots/trttr1.toml");
@@ -50,11 +50,11 @@ const SETS: [(&[FunctionKind], usize); 6] = {
     };
     [
         (FunctionKind::ALL, 75),
-        (&[MassMatrix, Bias, InverseDynamics], 75),
+        (&[MassMatrix, Bias, InverseDynamics(Effects::NONE)], 75),
         (&[CoriolisMatrix, Gravity, Bias], 85),
         (&[MassMatrix, Energies], 85),
         (&[CoriolisMatrix, InverseDynamicsDerivatives], 80),
-        (&[MassMatrix, Bias, ForwardDynamics], 65),
+        (&[MassMatrix, Bias, ForwardDynamics(Effects::NONE)], 65),
     ]
 };
 
@@ -162,7 +162,7 @@ fn wrong_bundles_of_the_caller_are_errors() {
     }
     let arm = include_str!("../../../robots/planar_2r.toml").to_owned();
     let arm = Source { name: "arm.toml".to_owned(), text: arm };
-    let bundles = vec![bundle("load", &[FunctionKind::InverseDynamicsFriction])];
+    let bundles = vec![bundle("load", &[FunctionKind::InverseDynamics(Effects::FRICTION)])];
     let error = programs(&arm, &Options { bundles, ..Options::default() }).unwrap_err();
     assert!(error.to_string().contains("has no function `inverse_dynamics_friction`"), "{error}");
 }

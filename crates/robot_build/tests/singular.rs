@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use robot_build::{FunctionKind, Functions, Options, Pivots, Programs, Source};
+use robot_build::{Effects, FunctionKind, Functions, Options, Pivots, Programs, Source};
 use robot_codegen::{Interpreter, counts::Counts, program::Operation};
 use robot_model::robot::Robot;
 use robot_numeric::Mechanism;
@@ -83,7 +83,7 @@ fn errors(kind: FunctionKind, keys: &[&str]) -> Vec<(String, f64, f64)> {
 /// From condition numbers of 10 to 10¹⁷. By the decomposition of M the last have no digit.
 #[test]
 fn accelerations_keep_their_digits() {
-    let errors = errors(FunctionKind::ForwardDynamics, &["qdd"]);
+    let errors = errors(FunctionKind::ForwardDynamics(Effects::NONE), &["qdd"]);
     assert_eq!(errors.len(), 14 * 16);
     // In one state torques cancel: there Pinocchio is off by 10⁻¹⁴ too.
     let many = errors.iter().filter(|(.., error)| *error > 5e-15).count();
@@ -107,7 +107,7 @@ fn derivatives_keep_what_their_torques_have() {
 
 #[test]
 fn accelerations_have_the_right_sign() {
-    let programs = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics);
+    let programs = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics(Effects::NONE));
     let signs = |q2: f64| -> Vec<f64> {
         let inputs: [(&str, &[f64]); 3] =
             [("q", &[0.3, q2, 0.4]), ("qd", &[0.0; 3]), ("tau", &[1.0, 0.0, 0.0])];
@@ -122,14 +122,15 @@ fn accelerations_have_the_right_sign() {
 
 #[test]
 fn what_is_singular_has_no_number() {
-    let wrist = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics);
+    let wrist = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics(Effects::NONE));
     let inputs: [(&str, &[f64]); 3] =
         [("q", &[0.3, 0.0, 0.4]), ("qd", &[0.0; 3]), ("tau", &[1.0, 2.0, 3.0])];
     let found = call(&wrist, &[], &inputs);
     assert!(found.iter().all(|entry| entry.is_nan()), "{found:?}");
 
     // An inertia of −9 beside m r² = 0.5: the acceleration would be finite, and against the torque.
-    let pendulum = programs("pendulum.toml", PENDULUM, FunctionKind::ForwardDynamics);
+    let pendulum =
+        programs("pendulum.toml", PENDULUM, FunctionKind::ForwardDynamics(Effects::NONE));
     let inputs: [(&str, &[f64]); 3] = [("q", &[0.0]), ("qd", &[0.0]), ("tau", &[1.0])];
     assert!(call(&pendulum, &[("I", 0.1)], &inputs)[0].is_finite());
     assert!(call(&pendulum, &[("I", -9.0)], &inputs)[0].is_nan());
@@ -138,7 +139,7 @@ fn what_is_singular_has_no_number() {
 
 #[test]
 fn pivots_name_the_joint_and_the_digits() {
-    let robot = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics).robot;
+    let robot = programs("wrist.toml", WRIST, FunctionKind::ForwardDynamics(Effects::NONE)).robot;
     let pivots = Pivots::new(&robot, &Options::default(), &[]).unwrap();
     let at = |q2: f64| pivots.smallest(&[0.3, q2, 0.4]).unwrap();
     assert_eq!(at(0.5), None);
@@ -162,7 +163,7 @@ fn pivots_count_the_digits_that_a_decomposition_loses() {
                     inertia = { xx = 1e-5, yy = 1e-5, zz = 1e-5 }\n\
                     joint = { type = \"prismatic\", axis = \"y\" }\n";
     let text = format!("{WRIST}\n{follower}");
-    let robot = programs("wrist.toml", &text, FunctionKind::ForwardDynamics).robot;
+    let robot = programs("wrist.toml", &text, FunctionKind::ForwardDynamics(Effects::NONE)).robot;
     let pivots = Pivots::new(&robot, &Options::default(), &[]).unwrap();
     let near = pivots.smallest(&[0.3, 1e-5, 0.4, 0.0]).unwrap().unwrap();
     assert!((2..=6).contains(&near.digits), "{near:?}");
@@ -177,7 +178,7 @@ fn arms_decompose_their_mass_matrix() {
     {
         let path = format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
-        let programs = programs(name, &text, FunctionKind::ForwardDynamics);
+        let programs = programs(name, &text, FunctionKind::ForwardDynamics(Effects::NONE));
         let core = &programs.module.functions[0].core;
         assert_eq!(Counts::of(core).operations(), operations, "{name}");
         let checks = |operation: &Operation| {
@@ -214,7 +215,7 @@ fn trees_with_massless_links_agree_with_the_numeric_solver() {
         if expected.iter().any(|entry| !entry.is_finite() || entry.abs() > 1e8) {
             continue;
         }
-        let options = options(FunctionKind::ForwardDynamics);
+        let options = options(FunctionKind::ForwardDynamics(Effects::NONE));
         let programs = robot_build::programs_of(robot, "random", &options).unwrap();
         let found = call(&programs, &[], &[("q", q), ("qd", qd), ("tau", tau)]);
         let error = error(&found, expected.as_slice());
@@ -231,7 +232,7 @@ fn a_joint_without_mass_is_the_reason() {
         "{WRIST}\n[[link]]\nname = \"idle\"\njoint = {{ type = \"revolute\", axis = \"x\" }}\nmassless = true\n"
     );
     let source = Source { name: "wrist.toml".to_owned(), text };
-    let options = options(FunctionKind::ForwardDynamics);
+    let options = options(FunctionKind::ForwardDynamics(Effects::NONE));
     let found = robot_build::programs(&source, &options).unwrap_err().to_string();
     assert!(found.contains("the mass matrix is singular"), "{found}");
 }

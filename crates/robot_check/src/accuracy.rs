@@ -2,6 +2,7 @@
 
 use robot_build::Programs;
 use robot_codegen::Interpreter;
+use robot_model::variable::JointVariable::{Acceleration, Position, Torque, Velocity};
 use robot_numeric::random::Random;
 use robot_numeric::{Mechanism, NumericError};
 
@@ -42,15 +43,17 @@ pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
         let failed = |error: NumericError| error.to_string();
         let torques = mechanism.inverse_dynamics(q, qd, qdd).map_err(failed)?;
         let masses = mechanism.mass_matrix(q).map_err(failed)?;
+        let [q, qd, qdd, tau] = [(Position, q), (Velocity, qd), (Acceleration, qdd), (Torque, tau)]
+            .map(|(variable, values)| (variable.name(), values));
         let mut found = vec![
-            (call("inverse_dynamics", &[("q", q), ("qd", qd), ("qdd", qdd)])?, torques.as_slice()),
+            (call("inverse_dynamics", &[q, qd, qdd])?, torques.as_slice()),
             // Symmetric, so that its columns are its rows.
-            (call("mass_matrix", &[("q", q)])?, masses.as_slice()),
+            (call("mass_matrix", &[q])?, masses.as_slice()),
         ];
         let rates;
         if solves {
-            rates = mechanism.forward_dynamics(q, qd, tau, &[]).map_err(failed)?;
-            let called = call("forward_dynamics", &[("q", q), ("qd", qd), ("tau", tau)])?;
+            rates = mechanism.forward_dynamics(q.1, qd.1, tau.1, &[]).map_err(failed)?;
+            let called = call("forward_dynamics", &[q, qd, tau])?;
             found.push((called, rates.as_slice()));
         }
         for ((_, error), (values, expected)) in errors.iter_mut().zip(&found) {

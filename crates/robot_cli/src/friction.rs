@@ -1,7 +1,7 @@
 //! Whether and how a command takes friction into account.
 
 use clap::Args;
-use robot_build::FunctionKind;
+use robot_build::{Effects, FunctionKind};
 use robot_model::diagnostic::number;
 use robot_model::robot::{Friction, Robot};
 use robot_symbolic::Formula;
@@ -10,7 +10,7 @@ use crate::failure::Failure;
 
 /// That the robot has friction, which a command was asked to take into account.
 pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
-    match FunctionKind::InverseDynamicsFriction.missing_in(robot) {
+    match FunctionKind::InverseDynamics(Effects::FRICTION).missing_in(robot) {
         None => Ok(()),
         Some(why) => Err(Failure::input(format!("{file}: --friction: {why}"))),
     }

@@ -13,10 +13,10 @@ use robot_document::meaning::meaning;
 use robot_document::{EquationOptions, Equations, Form, base::base, equations};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
 use robot_dynamics::quantity::Kind;
 use robot_model::description::read_toml;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::{BaseFrames, Robot};
 use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
@@ -68,8 +68,8 @@ fn expected<'g>(
         .map(|quantity| (quantity.symbol.to_string(), quantity.value))
         .collect();
     let kind = match options.friction {
-        true => FunctionKind::InverseDynamicsWrenchFriction,
-        false => FunctionKind::InverseDynamicsWrench,
+        true => FunctionKind::InverseDynamics(Effects::BOTH),
+        false => FunctionKind::InverseDynamics(Effects::WRENCH),
     };
     let program = derivation.functions(kind).remove(0).outputs.remove(0).values;
     for (value, number) in program.into_iter().zip(1..) {

@@ -2,12 +2,14 @@
 
 use std::cell::OnceCell;
 
+use robot_model::functions::Effects;
 use robot_model::robot::{Parameter, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Graph, Operations, SymbolId, operations, walk};
 
 use crate::economical::{Plan, Recursion};
 use crate::mechanism::{Mechanism, MechanismOptions};
-use crate::newton_euler::{self, Effects};
+use crate::newton_euler;
 
 /// A robot in symbols, ready to derive functions in one graph.
 #[derive(Debug)]
@@ -59,27 +61,20 @@ impl<'r, 'g> Derivation<'r, 'g> {
     }
 
     /// The symbols of an input with an element per coordinate.
-    pub(crate) fn coordinate_symbols(&self, name: &str) -> Vec<Expr<'g>> {
-        let graph = self.mechanism.graph;
-        let numbers = 1..=self.mechanism.degrees_of_freedom;
-        numbers.map(|number| graph.symbol(&format!("{name}{number}"))).collect()
+    pub(crate) fn coordinate_symbols(&self, variable: JointVariable) -> Vec<Expr<'g>> {
+        let names = variable.symbols(self.mechanism.degrees_of_freedom);
+        names.iter().map(|name| self.mechanism.graph.symbol(name)).collect()
     }
 
-    /// The paper's driving forces at other values of velocities and accelerations, by the symbol's
-    /// prefix: what stands in where the economical recursion cannot be set up.
-    pub(crate) fn paper_torques(&self, wrench: bool, zero: &[&str]) -> Vec<Expr<'g>> {
+    /// The paper's driving forces with some variables 0: what stands in where the economical recursion
+    /// cannot be set up.
+    pub(crate) fn paper_torques(&self, wrench: bool, zero: &[JointVariable]) -> Vec<Expr<'g>> {
         let effects = Effects { wrench, friction: false };
         let torques = newton_euler::newton_euler(&self.mechanism, effects).driving_forces;
         let graph = self.mechanism.graph;
-        let names: Vec<String> = zero
-            .iter()
-            .flat_map(|prefix| {
-                (1..=self.mechanism.degrees_of_freedom)
-                    .map(move |number| format!("{prefix}{number}"))
-            })
-            .collect();
         walk::rebuild(&torques, graph, |name| {
-            let is_zero = names.iter().any(|zero| zero == name);
+            let variable = JointVariable::parse(name).map(|(variable, _)| variable);
+            let is_zero = variable.is_some_and(|variable| zero.contains(&variable));
             if is_zero { graph.zero() } else { graph.symbol(name) }
         })
     }

@@ -5,6 +5,7 @@ mod lower;
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::snap;
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Graph};
 
 use crate::vector::{Matrix, Vector};
@@ -159,7 +160,7 @@ impl<'g> Mechanism<'g> {
     /// The generalised coordinate of that index (from 0), `q1` for the first.
     #[must_use]
     pub fn coordinate(&self, index: usize) -> Expr<'g> {
-        self.graph.symbol(&format!("q{}", index + 1))
+        self.graph.symbol(&JointVariable::Position.symbol(index))
     }
 
     /// The links whose parent is `link`.

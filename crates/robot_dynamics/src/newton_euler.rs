@@ -8,6 +8,7 @@
 //! This recursion is for people: its expressions expand to the equations that the paper prints. The
 //! code's own recursion is cheaper, and its inner forces mean nothing.
 
+use robot_model::functions::Effects;
 use robot_model::robot::JointKind;
 use robot_model::unit::Dimension;
 use robot_symbolic::Expr;
@@ -15,15 +16,6 @@ use robot_symbolic::Expr;
 use crate::mechanism::{Mechanism, MechanismFriction, MechanismLink};
 use crate::quantity::{Kind, Quantity, Symbol};
 use crate::vector::{Matrix, Vector};
-
-/// Which effects the iterations take in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effects {
-    /// The wrenches of the tips.
-    pub wrench: bool,
-    /// Friction in the joints, equations (4)-(5).
-    pub friction: bool,
-}
 
 /// The motion of a link, in its own frame.
 #[derive(Clone, Copy, Debug)]

@@ -1,13 +1,15 @@
 //! Kinematics and energies straight from the links' frames: for robots whose joint axes depend on
 //! parameters, for which the economical recursion cannot be set up.
 
+use robot_model::functions::Effects;
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, walk};
 
 use crate::derivation::Derivation;
 use crate::economical::{Column, Pose, RegressorColumns, Wrench, unit_rotor, unit_wrenches};
 use crate::matrix::SymmetricMatrix;
 use crate::mechanism::{MechanismFrame, MechanismLink};
-use crate::newton_euler::{self, Effects, LinkMotion};
+use crate::newton_euler::{self, LinkMotion};
 use crate::vector::{Matrix, Vector};
 
 /// The poses of the links' frames.
@@ -76,14 +78,14 @@ pub(crate) fn jacobian_dot_qd<'g>(
     frame: &MechanismFrame<'g>,
 ) -> Vec<Expr<'g>> {
     let graph = derivation.mechanism.graph;
-    let rates = derivation.coordinate_symbols("qd");
+    let rates = derivation.coordinate_symbols(JointVariable::Velocity);
     let rows = jacobian(derivation, frame);
     let twist: Vec<Expr<'g>> = rows
         .iter()
         .map(|row| row.iter().zip(&rates).fold(graph.zero(), |sum, (j, qd)| sum + *j * *qd))
         .collect();
     let mut drift = vec![graph.zero(); twist.len()];
-    for (q, qd) in derivation.coordinate_symbols("q").into_iter().zip(&rates) {
+    for (q, qd) in derivation.coordinate_symbols(JointVariable::Position).into_iter().zip(&rates) {
         for (sum, slope) in drift.iter_mut().zip(walk::derivatives(&twist, q)) {
             *sum += slope * *qd;
         }
@@ -96,7 +98,7 @@ pub(crate) fn kinetic_energy<'g>(
     derivation: &Derivation<'_, 'g>,
     matrix: &SymmetricMatrix<'g>,
 ) -> Expr<'g> {
-    let rates = derivation.coordinate_symbols("qd");
+    let rates = derivation.coordinate_symbols(JointVariable::Velocity);
     let mut twice = derivation.mechanism.graph.zero();
     for (row, rate) in rates.iter().enumerate() {
         for (column, other) in rates.iter().enumerate() {

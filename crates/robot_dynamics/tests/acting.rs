@@ -7,7 +7,7 @@ use std::path::Path;
 use robot_dynamics::functions::{Derivation, Function};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::description::read_toml;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_numeric::Mechanism;
 use robot_numeric::random::{Random, Recipe, State};
@@ -100,9 +100,12 @@ fn what_does_not_act_on_torques_leaves_no_bit_of_them() {
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
     let of = |kind| roots(&derivation.functions(kind)[0]);
-    let [torques, masses, accelerations] =
-        [FunctionKind::InverseDynamics, FunctionKind::MassMatrix, FunctionKind::ForwardDynamics]
-            .map(of);
+    let [torques, masses, accelerations] = [
+        FunctionKind::InverseDynamics(Effects::NONE),
+        FunctionKind::MassMatrix,
+        FunctionKind::ForwardDynamics(Effects::NONE),
+    ]
+    .map(of);
     for roots in [torques, masses, accelerations] {
         let usual = evaluated(&robot, &roots, "", 0.0);
         for idle in ["Jx1", "Jy1", "Jz1", "Jx2", "Jy2", "Jx3", "Jy3", "Jx4", "Jy4"] {
@@ -129,7 +132,7 @@ fn torques_without_idle_parameters_are_those_of_the_solver() {
     for (name, robot) in robots() {
         let graph = Graph::new();
         let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let roots = roots(&derivation.functions(FunctionKind::InverseDynamics)[0]);
+        let roots = roots(&derivation.functions(FunctionKind::InverseDynamics(Effects::NONE))[0]);
         let state = Random::new(5).state(&Mechanism::nominal(&robot).unwrap());
         for parameter in &robot.parameters {
             let to = parameter.value.as_ref().map_or(0.0, Rational::to_f64) * 1.25 + 0.5;

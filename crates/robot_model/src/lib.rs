@@ -12,3 +12,4 @@ pub mod robot;
 pub mod snap;
 mod space;
 pub mod unit;
+pub mod variable;

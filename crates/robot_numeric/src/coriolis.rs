@@ -1,6 +1,7 @@
 //! The Coriolis matrix and the Christoffel symbols behind it.
 
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
+use robot_model::variable::JointVariable::{Position, Velocity};
 
 use super::{
     error::{NumericError, check_lengths},
@@ -37,7 +38,7 @@ impl Mechanism {
     /// [`NumericError::Lengths`] where an argument has the wrong length.
     pub fn coriolis_matrix(&self, q: &[f64], qd: &[f64]) -> Result<DMatrix<f64>, NumericError> {
         let n = self.coordinates();
-        check_lengths(&[("q", n, q.len()), ("qd", n, qd.len())])?;
+        check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;
         let configuration = Configuration::new(self, q);
         let motions = outward(self, &configuration, qd, &vec![0.0; n], &Vector3::zeros());
         let velocities = &motions.velocities;
@@ -90,7 +91,7 @@ impl Mechanism {
     ///
     /// [`NumericError::Lengths`] where q has the wrong length.
     pub fn mass_matrix_derivatives(&self, q: &[f64]) -> Result<Vec<DMatrix<f64>>, NumericError> {
-        check_lengths(&[("q", self.coordinates(), q.len())])?;
+        check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let along = |k| mass_matrix(self, &Configuration::new(self, &step(q, k))).map(derivative);
         Ok((0..self.coordinates()).map(along).collect())
     }

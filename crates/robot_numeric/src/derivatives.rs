@@ -1,6 +1,7 @@
 //! Derivatives of inverse and forward dynamics.
 
 use nalgebra::{Complex, DMatrix};
+use robot_model::variable::JointVariable::Acceleration;
 
 use super::{
     error::NumericError,
@@ -46,7 +47,7 @@ impl Mechanism {
         qdd: &[f64],
         wrenches: &[Wrench],
     ) -> Result<InverseDynamicsDerivatives, NumericError> {
-        self.check_state(q, qd, ("qdd", qdd), wrenches)?;
+        self.check_state(q, qd, (Acceleration.name(), qdd), wrenches)?;
         let torques = |q: &[Complex<f64>], qd: &[Complex<f64>]| {
             inverse_dynamics(self, q, qd, &plain(qdd), wrenches)
         };

@@ -4,6 +4,7 @@ use super::{
     error::{NumericError, check_lengths},
     mechanism::Mechanism,
 };
+use robot_model::variable::JointVariable::{Position, Velocity};
 
 /// Energies in joules.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +24,7 @@ impl Mechanism {
     /// [`NumericError::Lengths`] where an argument has the wrong length.
     pub fn energies(&self, q: &[f64], qd: &[f64]) -> Result<Energies, NumericError> {
         let n = self.coordinates();
-        check_lengths(&[("q", n, q.len()), ("qd", n, qd.len())])?;
+        check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;
         let poses = self.forward_kinematics(q)?.links;
         let motions = self.link_dynamics(q, qd, &vec![0.0; n], &[])?;
         let mut energies = Energies { kinetic: 0.0, potential: 0.0 };

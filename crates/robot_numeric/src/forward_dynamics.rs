@@ -1,6 +1,7 @@
 //! Forward dynamics: by the mass matrix, and by the articulated-body algorithm.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector3, Vector6};
+use robot_model::variable::JointVariable::Torque;
 
 use super::{
     error::NumericError,
@@ -127,7 +128,7 @@ impl Mechanism {
         tau: &[f64],
         wrenches: &[Wrench],
     ) -> Result<DVector<f64>, NumericError> {
-        self.check_state(q, qd, ("tau", tau), wrenches)?;
+        self.check_state(q, qd, (Torque.name(), tau), wrenches)?;
         let bias = inverse_dynamics(self, q, qd, &vec![0.0; q.len()], wrenches);
         let excess = DVector::from_column_slice(tau) - DVector::from_vec(bias);
         Ok(self.decomposed_mass_matrix(q)?.solve(&excess))
@@ -146,7 +147,7 @@ impl Mechanism {
         tau: &[f64],
         wrenches: &[Wrench],
     ) -> Result<DVector<f64>, NumericError> {
-        self.check_state(q, qd, ("tau", tau), wrenches)?;
+        self.check_state(q, qd, (Torque.name(), tau), wrenches)?;
         let mut joints = vec![0; self.coordinates()];
         for coordinate in self.links().iter().filter_map(|link| link.joint.driver()) {
             joints[coordinate] += 1;

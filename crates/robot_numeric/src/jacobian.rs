@@ -1,6 +1,7 @@
 //! Geometric Jacobians of links and frames.
 
 use nalgebra::{DVector, Matrix6xX, Vector3, Vector6};
+use robot_model::variable::JointVariable::{Position, Velocity};
 
 use super::{
     error::{NumericError, check_index, check_lengths},
@@ -82,7 +83,7 @@ impl Mechanism {
         carrier: Option<usize>,
         point: &Vector3<f64>,
     ) -> Result<Matrix6xX<f64>, NumericError> {
-        check_lengths(&[("q", self.coordinates(), q.len())])?;
+        check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let poses = Configuration::new(self, q).in_base(self);
         let mut jacobian = Matrix6xX::zeros(self.coordinates());
         let Some(carrier) = carrier else {
@@ -117,7 +118,7 @@ impl Mechanism {
         placement: &Pose,
     ) -> Result<Vector6<f64>, NumericError> {
         let n = self.coordinates();
-        check_lengths(&[("q", n, q.len()), ("qd", n, qd.len())])?;
+        check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;
         let Some(carrier) = carrier else {
             return Ok(Vector6::zeros());
         };
@@ -145,7 +146,7 @@ impl Mechanism {
         wrenches: &[Wrench],
     ) -> Result<DVector<f64>, NumericError> {
         check_lengths(&[
-            ("q", self.coordinates(), q.len()),
+            (Position.name(), self.coordinates(), q.len()),
             ("wrenches", self.frames().len(), wrenches.len()),
         ])?;
         let placements = self.forward_kinematics(q)?;

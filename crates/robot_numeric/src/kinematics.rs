@@ -1,6 +1,7 @@
 //! Positions: where the links and frames are.
 
 use nalgebra::{Matrix6, Vector3};
+use robot_model::variable::JointVariable::Position;
 
 use super::{
     error::{NumericError, check_lengths},
@@ -66,7 +67,7 @@ impl Mechanism {
     ///
     /// [`NumericError::Lengths`] where q has the wrong length.
     pub fn forward_kinematics(&self, q: &[f64]) -> Result<Placements, NumericError> {
-        check_lengths(&[("q", self.coordinates(), q.len())])?;
+        check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let links = Configuration::new(self, q).in_base(self);
         let frames = self
             .frames()

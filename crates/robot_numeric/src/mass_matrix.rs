@@ -2,6 +2,7 @@
 //! Dynamics Algorithms", 2008.
 
 use nalgebra::{DMatrix, Matrix6};
+use robot_model::variable::JointVariable::Position;
 
 use super::{
     error::{NumericError, check_lengths},
@@ -54,7 +55,7 @@ impl Mechanism {
     ///
     /// [`NumericError::Lengths`] where q has the wrong length.
     pub fn mass_matrix(&self, q: &[f64]) -> Result<DMatrix<f64>, NumericError> {
-        check_lengths(&[("q", self.coordinates(), q.len())])?;
+        check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         Ok(mass_matrix(self, &Configuration::new(self, q)))
     }
 }

@@ -2,6 +2,7 @@
 //! R. Featherstone, "Rigid Body Dynamics Algorithms", 2008.
 
 use nalgebra::{DVector, Matrix3, Vector3, Vector6};
+use robot_model::variable::JointVariable::{Acceleration, Position, Velocity};
 
 use super::{
     error::{NumericError, check_lengths},
@@ -207,7 +208,7 @@ impl Mechanism {
         loads: &Loads,
     ) -> Result<DVector<f64>, NumericError> {
         let wrenches = &loads.wrenches;
-        self.check_state(q, qd, ("qdd", qdd), wrenches)?;
+        self.check_state(q, qd, (Acceleration.name(), qdd), wrenches)?;
         let torques = DVector::from_vec(inverse_dynamics(self, q, qd, qdd, wrenches));
         if loads.friction {
             let links = self.link_dynamics(q, qd, qdd, wrenches)?;
@@ -222,7 +223,7 @@ impl Mechanism {
     ///
     /// [`NumericError::Lengths`] where q has the wrong length.
     pub fn gravity_torques(&self, q: &[f64]) -> Result<DVector<f64>, NumericError> {
-        check_lengths(&[("q", self.coordinates(), q.len())])?;
+        check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let still = vec![0.0; q.len()];
         self.inverse_dynamics(q, &still, &still)
     }
@@ -234,7 +235,7 @@ impl Mechanism {
     /// [`NumericError::Lengths`] where an argument has the wrong length.
     pub fn bias(&self, q: &[f64], qd: &[f64]) -> Result<DVector<f64>, NumericError> {
         let n = self.coordinates();
-        check_lengths(&[("q", n, q.len()), ("qd", n, qd.len())])?;
+        check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;
         self.inverse_dynamics(q, qd, &vec![0.0; n])
     }
 
@@ -251,7 +252,7 @@ impl Mechanism {
         qdd: &[f64],
         wrenches: &[Wrench],
     ) -> Result<Vec<LinkDynamics>, NumericError> {
-        self.check_state(q, qd, ("qdd", qdd), wrenches)?;
+        self.check_state(q, qd, (Acceleration.name(), qdd), wrenches)?;
         let configuration = Configuration::new(self, q);
         let motions = outward(self, &configuration, qd, qdd, &-self.gravity());
         let forces = inward(self, &configuration, &motions, wrenches);
@@ -277,8 +278,8 @@ impl Mechanism {
     ) -> Result<(), NumericError> {
         let n = self.coordinates();
         check_lengths(&[
-            ("q", n, q.len()),
-            ("qd", n, qd.len()),
+            (Position.name(), n, q.len()),
+            (Velocity.name(), n, qd.len()),
             (name, n, third.len()),
             wrench_length(self, wrenches),
         ])

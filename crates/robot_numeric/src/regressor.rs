@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix6xX, SMatrix, Vector3};
 use robot_model::robot::LINK_PARAMETERS;
+use robot_model::variable::JointVariable::{Acceleration, Velocity};
 
 use super::{
     error::{NumericError, check_lengths},
@@ -114,7 +115,7 @@ impl Mechanism {
     /// [`NumericError::Lengths`] where an argument has the wrong length.
     pub fn drive_regressor(&self, qd: &[f64], qdd: &[f64]) -> Result<DMatrix<f64>, NumericError> {
         let n = self.coordinates();
-        check_lengths(&[("qd", n, qd.len()), ("qdd", n, qdd.len())])?;
+        check_lengths(&[(Velocity.name(), n, qd.len()), (Acceleration.name(), n, qdd.len())])?;
         let mut regressor = DMatrix::zeros(n, DRIVE_PARAMETERS * self.links().len());
         for (index, link) in self.links().iter().enumerate() {
             let Some(coordinate) = link.joint.driver() else {

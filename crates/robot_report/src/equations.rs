@@ -4,7 +4,8 @@
 use robot_document::breaking::terms;
 use robot_document::math::Math;
 use robot_document::{Equation, EquationOptions, Equations, Form, Group, equations};
-use robot_model::robot::{Robot, Wrench};
+use robot_model::robot::Robot;
+use robot_model::variable::{JointVariable, Variable};
 
 use crate::formula::{self, math};
 use crate::html::{Element, Node, element, holding};
@@ -119,26 +120,27 @@ impl Sources<'_> {
 
     /// What a symbol comes from.
     fn tokens(&self, name: &str) -> Vec<String> {
-        if self.robot.parameter(name).is_some() {
-            let links = parts::links_of_parameter(self.robot, name).into_iter().map(parts::link);
-            return std::iter::once(parts::parameter(name)).chain(links).collect();
-        }
-        if self.names.contains(&name) {
+        let parameter = self.robot.parameter(name).is_some();
+        if !parameter && self.names.contains(&name) {
             return vec![self.defined(name)];
         }
-        let exerts =
-            |wrench: &Wrench| wrench.force.iter().chain(&wrench.moment).any(|one| one == name);
-        if let Some((tip, _)) = self.robot.tips().find(|(_, wrench)| exerts(wrench)) {
-            return tip.link.map(parts::link).into_iter().collect();
+        match self.robot.variable(name) {
+            Some(Variable::Parameter(_)) => {
+                let links = parts::links_of_parameter(self.robot, name).into_iter();
+                let links = links.map(parts::link);
+                std::iter::once(parts::parameter(name)).chain(links).collect()
+            }
+            Some(Variable::Wrench(tip, _)) => {
+                let tip = self.robot.frames.get(tip).and_then(|tip| tip.link);
+                tip.map(parts::link).into_iter().collect()
+            }
+            Some(Variable::Joint(variable, index)) if JointVariable::MOTION.contains(&variable) => {
+                let links = self.robot.links.iter().enumerate();
+                let moved = links.filter(|(_, link)| link.joint.coordinate == index);
+                moved.map(|(index, _)| parts::link(index)).collect()
+            }
+            Some(Variable::Joint(..)) | None => vec![],
         }
-        let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
-        let is_motion = matches!(name.strip_suffix(digits), Some("q" | "qd" | "qdd"));
-        let Some(number) = digits.parse::<usize>().ok().filter(|_| is_motion) else {
-            return vec![];
-        };
-        let links = self.robot.links.iter().enumerate();
-        let moved = links.filter(|(_, link)| link.joint.coordinate + 1 == number);
-        moved.map(|(index, _)| parts::link(index)).collect()
     }
 
     /// The token of an equation of this form.

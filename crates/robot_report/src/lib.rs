@@ -28,7 +28,8 @@ pub use evidence::{Accuracy, Compiled};
 
 use robot_build::ablation::ablation;
 use robot_build::{
-    Errors, FunctionKind, Functions, Options, Programs, Source, Unsolvable, programs, unsolvable,
+    Effects, Errors, FunctionKind, Functions, Options, Programs, Source, Unsolvable, programs,
+    unsolvable,
 };
 use robot_model::robot::Robot;
 
@@ -52,19 +53,19 @@ pub struct Input<'a> {
 }
 
 /// The function whose costs are taken apart.
-const FUNCTION: FunctionKind = FunctionKind::InverseDynamics;
+const FUNCTION: FunctionKind = FunctionKind::InverseDynamics(Effects::NONE);
 
 /// The functions whose costs are told.
 const FUNCTIONS: [FunctionKind; 9] = [
-    FunctionKind::InverseDynamics,
-    FunctionKind::InverseDynamicsWrench,
-    FunctionKind::InverseDynamicsFriction,
+    FunctionKind::InverseDynamics(Effects::NONE),
+    FunctionKind::InverseDynamics(Effects::WRENCH),
+    FunctionKind::InverseDynamics(Effects::FRICTION),
     FunctionKind::LinkWrenches,
     FunctionKind::MassMatrix,
     FunctionKind::CoriolisMatrix,
     FunctionKind::Gravity,
     FunctionKind::Bias,
-    FunctionKind::ForwardDynamics,
+    FunctionKind::ForwardDynamics(Effects::NONE),
 ];
 
 /// The page about the robot of a file, as HTML that is well-formed XML too.

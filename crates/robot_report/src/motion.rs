@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use robot_build::Programs;
 use robot_model::robot::{JointKind, Robot};
+use robot_model::variable::JointVariable;
 use robot_simulation::{Trajectory, shares};
 
 use crate::html::{Node, holding};
@@ -43,7 +44,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
             samples.iter().filter_map(|sample| sample.get(index).copied()).collect()
         };
         let curves: Vec<_> = shares.iter().map(|(name, samples)| (*name, of(samples))).collect();
-        let symbol = text::symbol(&format!("q{}", index + 1));
+        let symbol = text::symbol(&JointVariable::Position.symbol(index));
         let peaks =
             curves.iter().map(|(_, values)| text::number(plot::rounded(plot::peak(values))));
         let cells: Vec<String> = std::iter::once(unit.to_owned()).chain(peaks).collect();

@@ -9,8 +9,10 @@
 use std::collections::BTreeMap;
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
+use robot_model::functions::Effects;
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Graph, Random, SymbolId, walk};
 
 use crate::html::{Element, element, holding};
@@ -47,13 +49,15 @@ impl Structure {
         let effects = Effects { wrench: false, friction: false };
         let forces = newton_euler(&mechanism, effects).driving_forces;
         let count = forces.len();
-        let symbol = |name: &str, index: usize| graph.symbol(&format!("{name}{}", index + 1));
-        let slopes = |name| -> Vec<Expr<'_>> {
-            (0..count).flat_map(|index| walk::derivatives(&forces, symbol(name, index))).collect()
+        let symbol = |variable: JointVariable, index: usize| graph.symbol(&variable.symbol(index));
+        let slopes = |variable| -> Vec<Expr<'_>> {
+            let slopes = |index| walk::derivatives(&forces, symbol(variable, index));
+            (0..count).flat_map(slopes).collect()
         };
-        let columns = [slopes("qdd"), slopes("qd")].concat();
+        let columns =
+            [slopes(JointVariable::Acceleration), slopes(JointVariable::Velocity)].concat();
         let positions: Vec<Option<SymbolId>> =
-            (0..count).map(|index| symbol("q", index).as_symbol()).collect();
+            (0..count).map(|index| symbol(JointVariable::Position, index).as_symbol()).collect();
         let entries = entries(&columns, &positions);
         // From columns to rows.
         let row = |matrix: usize, row: usize| -> Vec<Entry> {
@@ -130,7 +134,8 @@ const SHADES: usize = 5;
 
 fn grid(caption: &str, rows: &[Vec<Entry>]) -> Element {
     let heading = |index: usize, scope: &str| {
-        holding("th", text::symbol(&format!("q{}", index + 1))).attribute("scope", scope)
+        holding("th", text::symbol(&JointVariable::Position.symbol(index)))
+            .attribute("scope", scope)
     };
     let corner = element("td");
     let title =
@@ -159,7 +164,8 @@ fn cell(entry: &Entry, count: usize) -> Element {
         Entry::Of(list) => {
             // The darkest shade is that of an entry which depends on all.
             let shade = (list.len() * SHADES).div_ceil(count.max(1));
-            let names = list.iter().map(|index| text::symbol(&format!("q{}", index + 1)));
+            let names =
+                list.iter().map(|index| text::symbol(&JointVariable::Position.symbol(*index)));
             (format!("shade-{shade}"), names.collect::<Vec<_>>().join(" "))
         }
     };

@@ -2,6 +2,7 @@
 
 use robot_document::words;
 use robot_model::robot::{Body, Inertia, Link, Parameter, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;
 use robot_symbolic::print::exact_text;
 
@@ -121,7 +122,7 @@ fn figure(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
 /// The joint's position by its coordinate: `q2`, `−0.5 q2 + 0.1`.
 fn position(robot: &Robot, link: &Link) -> String {
     let joint = &link.joint;
-    let coordinate = text::symbol(&format!("q{}", joint.coordinate + 1));
+    let coordinate = text::symbol(&JointVariable::Position.symbol(joint.coordinate));
     let is_one = joint.ratio.as_number().is_some_and(|number| number.is_one());
     let turned = match is_one {
         true => coordinate,

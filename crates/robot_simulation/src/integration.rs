@@ -5,6 +5,7 @@ use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinar
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
 use robot_model::diagnostic::number;
+use robot_model::variable::JointVariable;
 
 use crate::dynamics::{Dynamics, State, TorqueLaw};
 use crate::error::{Cause, Error};
@@ -263,11 +264,12 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
             Ok((_, Balance { qdd, .. })) => qdd,
             Err(cause) => return cause,
         };
-        let named = |name: &'static str, values: Vec<f64>| {
+        let named = |variable: JointVariable, values: Vec<f64>| {
             let entries = values.into_iter().enumerate();
-            entries.map(move |(index, value)| (format!("{name}{}", index + 1), value))
+            entries.map(move |(index, value)| (variable.symbol(index), value))
         };
-        let all = named("qd", state.qd).chain(named("qdd", qdd));
+        let all =
+            named(JointVariable::Velocity, state.qd).chain(named(JointVariable::Acceleration, qdd));
         match all.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs())) {
             Some((name, value)) if value.abs() > LARGE => {
                 Cause::Large(format!("{name} = {}", number(value)))

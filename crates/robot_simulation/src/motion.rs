@@ -1,5 +1,7 @@
 //! Motions: what a simulation gives.
 
+use robot_model::variable::JointVariable;
+
 use crate::dynamics::State;
 use crate::error::Error;
 use crate::program::RobotProgram;
@@ -62,10 +64,10 @@ impl Motion {
         let qd: Vec<&[f64]> = self.states.iter().map(|state| state.qd.as_slice()).collect();
         let mut table = Table::default();
         table.push("t", self.t.clone());
-        table.push_numbered("q", &q);
-        table.push_numbered("qd", &qd);
-        table.push_numbered("qdd", &self.qdd);
-        table.push_numbered("tau", &self.tau);
+        table.push_numbered(JointVariable::Position.name(), &q);
+        table.push_numbered(JointVariable::Velocity.name(), &qd);
+        table.push_numbered(JointVariable::Acceleration.name(), &self.qdd);
+        table.push_numbered(JointVariable::Torque.name(), &self.tau);
         table.push("kinetic", energies.kinetic.clone());
         table.push("potential", energies.potential.clone());
         table.push("energy", energies.total.clone());

@@ -1,6 +1,6 @@
 //! The interpreted program of a robot as dynamics.
 
-use robot_build::{FunctionKind, Pivot, Pivots, Programs, Trigonometry, too_large_angle};
+use robot_build::{Effects, FunctionKind, Pivot, Pivots, Programs, Trigonometry, too_large_angle};
 use robot_codegen::Interpreter;
 use robot_model::robot::{Friction, JointKind, Robot};
 use robot_symbolic::Formula;
@@ -36,12 +36,12 @@ impl<'p> RobotProgram<'p> {
     /// The functions that a program for a simulation needs.
     #[must_use]
     pub fn functions(friction: bool) -> Vec<FunctionKind> {
-        let mut kinds = vec![FunctionKind::ForwardDynamics, FunctionKind::Energies];
+        let mut kinds = vec![FunctionKind::ForwardDynamics(Effects::NONE), FunctionKind::Energies];
         if friction {
             kinds.extend([
                 FunctionKind::MassMatrix,
-                FunctionKind::InverseDynamics,
-                FunctionKind::InverseDynamicsFriction,
+                FunctionKind::InverseDynamics(Effects::NONE),
+                FunctionKind::InverseDynamics(Effects::FRICTION),
             ]);
         }
         kinds
@@ -114,7 +114,7 @@ impl Dynamics for RobotProgram<'_> {
             Some(_) => balance(self, state, tau, &vec![Mode::Free; tau.len()])?.qdd,
             None => {
                 let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("tau", tau)];
-                self.values(FunctionKind::ForwardDynamics, &inputs)?
+                self.values(FunctionKind::ForwardDynamics(Effects::NONE), &inputs)?
             }
         };
         if found.iter().all(|entry| entry.is_finite()) {
@@ -166,8 +166,8 @@ impl DryFriction for RobotProgram<'_> {
     ) -> Result<Vec<f64>, Cause> {
         let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("qdd", qdd)];
         let kind = match friction {
-            true => FunctionKind::InverseDynamicsFriction,
-            false => FunctionKind::InverseDynamics,
+            true => FunctionKind::InverseDynamics(Effects::FRICTION),
+            false => FunctionKind::InverseDynamics(Effects::NONE),
         };
         self.values(kind, &inputs)
     }

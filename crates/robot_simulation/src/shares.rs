@@ -1,9 +1,10 @@
 //! The driving forces along a trajectory, split by cause.
 
-use robot_build::{FunctionKind, Programs, Trigonometry, too_large_angle};
+use robot_build::{Effects, FunctionKind, Programs, Trigonometry, too_large_angle};
 use robot_codegen::Interpreter;
 use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 
 use crate::error::Error;
 use crate::program::{check_functions, difference, values};
@@ -40,15 +41,13 @@ impl Shares {
         use FunctionKind as Kind;
         let mut kinds = vec![Kind::MassMatrix, Kind::Bias, Kind::Gravity];
         if friction || wrench {
-            kinds.push(Kind::InverseDynamics);
+            kinds.push(Kind::InverseDynamics(Effects::NONE));
         }
         if wrench {
-            kinds.push(Kind::InverseDynamicsWrench);
+            kinds.push(Kind::InverseDynamics(Effects::WRENCH));
         }
-        match (friction, wrench) {
-            (true, true) => kinds.push(Kind::InverseDynamicsWrenchFriction),
-            (true, false) => kinds.push(Kind::InverseDynamicsFriction),
-            _ => {}
+        if friction {
+            kinds.push(Kind::InverseDynamics(Effects { friction, wrench }));
         }
         kinds
     }
@@ -73,7 +72,7 @@ impl Shares {
     pub fn table(&self) -> Table {
         let mut table = Table::default();
         table.push("t", self.t.clone());
-        table.push_numbered("tau", &self.total);
+        table.push_numbered(JointVariable::Torque.name(), &self.total);
         for (name, series) in self.named().into_iter().filter(|(name, _)| *name != "total") {
             table.push_numbered(name, series);
         }
@@ -154,17 +153,19 @@ impl Sample<'_> {
         let motion = [q, qd, qdd];
         let loads = self.wrenches.iter().map(|(name, wrench)| (name.as_str(), *wrench));
         let loaded: Vec<(&str, &[f64])> = motion.into_iter().chain(loads).collect();
-        let (free, rubbing) = match shares.wrench {
-            Some(_) => (Kind::InverseDynamicsWrench, Kind::InverseDynamicsWrenchFriction),
-            None => (Kind::InverseDynamics, Kind::InverseDynamicsFriction),
-        };
+        let wrench = shares.wrench.is_some();
+        let of = |friction| Kind::InverseDynamics(Effects { friction, wrench });
+        let (free, rubbing) = (of(false), of(true));
         if let Some(friction) = &mut shares.friction {
             let share = difference(&call(rubbing, &loaded)?, &call(free, &loaded)?);
             parts.push(share.clone());
             friction.push(share);
         }
         if let Some(wrench) = &mut shares.wrench {
-            let share = difference(&call(free, &loaded)?, &call(Kind::InverseDynamics, &motion)?);
+            let share = difference(
+                &call(free, &loaded)?,
+                &call(Kind::InverseDynamics(Effects::NONE), &motion)?,
+            );
             parts.push(share.clone());
             wrench.push(share);
         }

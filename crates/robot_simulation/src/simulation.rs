@@ -1,6 +1,7 @@
 //! The integration of the motion law.
 
 use robot_model::diagnostic::number;
+use robot_model::variable::JointVariable;
 
 use crate::dynamics::{Dynamics, Features, State, TorqueLaw};
 use crate::error::Error;
@@ -110,7 +111,10 @@ fn check(
         wrong.push(format!("the tolerance is {tolerance}; it must lie between 1e-14 and 0.1"));
     }
     let expected = dynamics.degrees_of_freedom();
-    for (name, values) in [("q", &start.q), ("qd", &start.qd)] {
+    for (variable, values) in
+        [(JointVariable::Position, &start.q), (JointVariable::Velocity, &start.qd)]
+    {
+        let name = variable.name();
         if values.len() != expected {
             let count = values.len();
             wrong.push(format!("the start has {count} entries of {name}, not {expected}"));

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use robot_model::diagnostic::{number, quote};
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;
 
 use crate::dynamics::{Features, State, TorqueLaw};
@@ -105,8 +106,7 @@ impl Torques {
                 number(duration)
             ));
         }
-        let count = robot.degrees_of_freedom();
-        let names: Vec<String> = (1..=count).map(|number| format!("tau{number}")).collect();
+        let names = robot.symbols(JointVariable::Torque);
         let lacks: Vec<&str> =
             names.iter().map(String::as_str).filter(|name| table.column(name).is_none()).collect();
         if !lacks.is_empty() {
@@ -195,12 +195,9 @@ fn linear(times: &[f64], values: &[f64], t: f64) -> f64 {
 
 /// The columns of a motion beside its torques.
 fn is_of_motion(name: &str) -> bool {
-    let numbered = |prefix: &str| {
-        let number = name.strip_prefix(prefix);
-        number.is_some_and(|number| number.parse::<usize>().is_ok())
-    };
+    let motion = |(variable, _)| JointVariable::MOTION.contains(&variable);
     matches!(name, "t" | "kinetic" | "potential" | "energy")
-        || ["q", "qd", "qdd"].into_iter().any(numbered)
+        || JointVariable::parse(name).is_some_and(motion)
 }
 
 fn meanings(robot: &Robot, parameters: &[(&str, f64)]) -> BTreeMap<String, Meaning> {
@@ -209,8 +206,8 @@ fn meanings(robot: &Robot, parameters: &[(&str, f64)]) -> BTreeMap<String, Meani
         values.map(|(name, value)| (name, Meaning::Value(value))).collect();
     meanings.insert("t".to_owned(), Meaning::Time);
     for index in 0..robot.degrees_of_freedom() {
-        meanings.insert(format!("q{}", index + 1), Meaning::Position(index));
-        meanings.insert(format!("qd{}", index + 1), Meaning::Velocity(index));
+        meanings.insert(JointVariable::Position.symbol(index), Meaning::Position(index));
+        meanings.insert(JointVariable::Velocity.symbol(index), Meaning::Velocity(index));
     }
     meanings
 }
@@ -222,6 +219,11 @@ fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
         let index = text.parse::<usize>().ok()?.checked_sub(1)?;
         (index < robot.degrees_of_freedom()).then_some(index)
     };
+    let of_torque = |text: &str| {
+        let (variable, index) = JointVariable::parse(text)?;
+        let is_there = index < robot.degrees_of_freedom();
+        (variable == JointVariable::Torque && is_there).then_some(index)
+    };
     let shown = quote(name);
     match (by_joint, of_number(name)) {
         (Some(joint), Some(number)) if joint != number => Err(format!(
@@ -231,7 +233,7 @@ fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
             joint + 1
         )),
         (Some(index), _) | (None, Some(index)) => Ok(index),
-        (None, None) => name.strip_prefix("tau").and_then(of_number).ok_or_else(|| {
+        (None, None) => of_torque(name).ok_or_else(|| {
             let joints: Vec<&str> =
                 robot.coordinates.iter().map(|coordinate| coordinate.joint.as_str()).collect();
             let (count, joints) = (joints.len(), joints.join(", "));

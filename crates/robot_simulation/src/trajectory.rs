@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use robot_model::diagnostic::{number, quote};
 use robot_model::robot::Robot;
+use robot_model::variable::{JointVariable, WRENCH_COMPONENTS};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use crate::error::Error;
@@ -27,28 +28,17 @@ pub struct Trajectory {
     pub wrenches: Option<Vec<Vec<f64>>>,
 }
 
-/// The names of the components of a wrench.
-const COMPONENTS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
-
 /// Columns that a motion has beside those of a trajectory.
 fn is_result(name: &str) -> bool {
-    let number = name.strip_prefix("tau").map(str::parse::<usize>);
-    matches!(name, "kinetic" | "potential" | "energy") || matches!(number, Some(Ok(_)))
-}
-
-/// `q1` … for each coordinate.
-fn numbered(robot: &Robot, name: &str) -> Vec<String> {
-    (1..=robot.degrees_of_freedom()).map(|number| format!("{name}{number}")).collect()
+    matches!(name, "kinetic" | "potential" | "energy")
+        || matches!(JointVariable::parse(name), Some((JointVariable::Torque, _)))
 }
 
 /// `fx` … of the only tip, or `fx_NAME` … of each of several.
 fn wrench_names(robot: &Robot) -> Vec<String> {
-    let tips: Vec<&str> = robot.tips().map(|(frame, _)| frame.name.as_str()).collect();
-    let of_tip = |tip: &str| {
-        let suffix = if tips.len() > 1 { format!("_{tip}") } else { String::new() };
-        COMPONENTS.map(|component| format!("{component}{suffix}"))
-    };
-    tips.iter().flat_map(|tip| of_tip(tip)).collect()
+    let suffixes = robot.tips().map(|(tip, _)| robot.wrench_suffix(tip));
+    let of_tip = |suffix: String| WRENCH_COMPONENTS.map(|component| format!("{component}{suffix}"));
+    suffixes.flat_map(of_tip).collect()
 }
 
 /// The rows of some columns.
@@ -70,7 +60,7 @@ impl Trajectory {
         let mut wrong = check_times(source, table);
         let wrench_names = wrench_names(robot);
         let has_wrench = table.names().any(|name| wrench_names.iter().any(|known| known == name));
-        let [q, qd, qdd] = ["q", "qd", "qdd"].map(|name| numbered(robot, name));
+        let [q, qd, qdd] = JointVariable::MOTION.map(|variable| robot.symbols(variable));
         let needed = [&q, &qd, &qdd].into_iter().flatten();
         let wrenches = if has_wrench { &wrench_names[..] } else { &[] };
         let needed: Vec<&String> = needed.chain(wrenches).collect();
@@ -124,7 +114,7 @@ impl Trajectory {
             Some(formula) => formula.lower(&graph, &mut |name| graph.symbol(name)),
             None => graph.zero(),
         };
-        let q: Vec<Expr<'_>> = numbered(robot, "q").iter().map(lower).collect();
+        let q: Vec<Expr<'_>> = robot.symbols(JointVariable::Position).iter().map(lower).collect();
         let qd = walk::derivatives(&q, time);
         let qdd = walk::derivatives(&qd, time);
         Error::check(kinked(&graph, [&q, &qd], &values, &times), ())?;
@@ -151,7 +141,7 @@ fn formulas(
     texts: &[impl AsRef<str>],
 ) -> (BTreeMap<String, Formula>, Vec<String>) {
     let (mut formulas, mut wrong) = (BTreeMap::new(), vec![]);
-    let coordinates = numbered(robot, "q");
+    let coordinates = robot.symbols(JointVariable::Position);
     let wrenches = wrench_names(robot);
     let is_known = |name: &str| name == "t" || parameters.contains_key(name);
     for text in texts {

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
 use robot_dynamics::quantity::Kind;
+use robot_model::functions::Effects;
 use robot_model::robot::Robot;
 use robot_symbolic::{
     AngleSums, Expr, Graph, Id, Number, Polynomial, PolynomialError, PolynomialOptions, print,

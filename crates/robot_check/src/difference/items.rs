@@ -2,6 +2,7 @@
 
 use robot_document::words;
 use robot_model::robot::{Body, Frame, Joint, Link, Move, Parameter, Payload, Placement, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Formula, print};
 
 /// What an item is.
@@ -169,7 +170,7 @@ fn joint(robot: &Robot, link: &Link) -> Item {
         named("moves", link.name.clone()),
         named("kind", words::motion(*kind).to_owned()),
         named("axis", vector(axis)),
-        named("coordinate", format!("q{}", coordinate + 1)),
+        named("coordinate", JointVariable::Position.symbol(*coordinate)),
         named("ratio", formula(ratio)),
         named("offset", formula(offset)),
         named("viscous friction", formula(&friction.viscous)),

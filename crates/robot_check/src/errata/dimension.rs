@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::unit::Dimension;
+use robot_model::variable::JointVariable;
 use robot_symbolic::View;
 
 use super::term::Term;
@@ -18,10 +19,9 @@ impl Dimensions {
         let mut symbols = BTreeMap::new();
         for (index, coordinate) in robot.coordinates.iter().enumerate() {
             let length = i8::from(coordinate.kind == JointKind::Prismatic);
-            for (dots, prefix) in ["q", "qd", "qdd"].iter().enumerate() {
-                // Two dots at the most.
-                let dimension = Dimension::new(0, length, -(dots as i8));
-                symbols.insert(format!("{prefix}{}", index + 1), Some(dimension));
+            for variable in JointVariable::MOTION {
+                let dimension = variable.order().map(|order| Dimension::new(0, length, -order));
+                symbols.insert(variable.symbol(index), dimension);
             }
         }
         for parameter in &robot.parameters {

@@ -18,6 +18,7 @@ mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use robot_model::functions::Effects;
 use robot_symbolic::{AngleSums, Expr, Graph, PolynomialOptions, walk};
 
 use dimension::Dimensions;
@@ -26,7 +27,7 @@ use evidence::PrintedTerms;
 pub use printed::Notation;
 use printed::{PrintedEquation, read_printed};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{self, Effects};
+use robot_dynamics::newton_euler;
 use robot_dynamics::quantity::{Kind, Quantity};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code, quote};
 use robot_model::robot::Robot;

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, View};
 
 use super::term::{Power, Term};
@@ -179,16 +180,18 @@ fn likeness(one: Expr<'_>, other: Expr<'_>) -> Option<SlipKind> {
 }
 
 fn names_differ(one: &str, other: &str) -> Option<SlipKind> {
-    let stem = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
-    let ((a, i), (b, j)) = (one.split_at(stem(one)), other.split_at(stem(other)));
-    let motion = |letters: &str| matches!(letters, "q" | "qd" | "qdd");
-    if motion(a) && motion(b) {
-        return match (a == b, i == j) {
+    let motion = |name: &str| {
+        JointVariable::parse(name).filter(|(variable, _)| JointVariable::MOTION.contains(variable))
+    };
+    if let (Some((one, i)), Some((other, j))) = (motion(one), motion(other)) {
+        return match (one == other, i == j) {
             (false, true) => Some(SlipKind::Dot),
             (true, _) => Some(SlipKind::Index),
             (false, false) => None,
         };
     }
+    let stem = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
+    let (a, b) = (stem(one), stem(other));
     // Another number, or one other letter behind the first.
     let alike = one.len() == other.len()
         && one.bytes().zip(other.bytes()).skip(1).filter(|(x, y)| x != y).count() == 1

@@ -7,6 +7,7 @@ use robot_symbolic::print::latex::symbol_latex;
 
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 
 /// Signs over a letter that only say that it is a vector.
 const VECTOR_SIGNS: [&str; 5] = [r"\bar", r"\overline", r"\vec", r"\overrightarrow", r"\widetilde"];
@@ -29,13 +30,13 @@ impl Symbols {
             symbols.insert(&parameter.name, parameter.latex.as_deref());
         }
         for (_, wrench) in robot.tips() {
-            for (name, latex) in wrench.force.iter().chain(&wrench.moment).zip(&wrench.latex) {
+            for (name, latex) in wrench.components().zip(&wrench.latex) {
                 symbols.insert(name, latex.as_deref());
             }
         }
-        for number in 1..=robot.degrees_of_freedom() {
-            for prefix in ["q", "qd", "qdd"] {
-                symbols.insert(&format!("{prefix}{number}"), None);
+        for index in 0..robot.degrees_of_freedom() {
+            for variable in JointVariable::MOTION {
+                symbols.insert(&variable.symbol(index), None);
             }
         }
         for quantity in quantities {

@@ -9,12 +9,13 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::functions::named;
 use robot_build::{
-    Bundle, FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs_of,
+    Bundle, Effects, FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs_of,
 };
 use robot_codegen::module::Function;
 use robot_codegen::{Interpreter, OutputValues};
 use robot_model::description::Described;
 use robot_model::robot::Robot;
+use robot_model::variable::WRENCH;
 
 use self::digits::Digits;
 use crate::Terminal;
@@ -24,7 +25,7 @@ use crate::function::FunctionName;
 use crate::progress::watched;
 use crate::robot::{RobotArgument, TrigonometryName};
 use crate::settings::Settings;
-use crate::states::{Layout, State, WRENCH};
+use crate::states::{Layout, State};
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -173,17 +174,11 @@ fn with_wrench(
     if loaded.is_empty() {
         return kind;
     }
-    if let Some(why) = FunctionKind::InverseDynamicsWrench.missing_in(robot) {
+    if let Some(why) = FunctionKind::InverseDynamics(Effects::WRENCH).missing_in(robot) {
         wrong.extend(loaded.iter().map(|state| format!("{}: a wrench, but {why}", state.place)));
         return kind;
     }
-    match kind {
-        FunctionKind::InverseDynamics => FunctionKind::InverseDynamicsWrench,
-        FunctionKind::InverseDynamicsFriction => FunctionKind::InverseDynamicsWrenchFriction,
-        FunctionKind::ForwardDynamics => FunctionKind::ForwardDynamicsWrench,
-        FunctionKind::ForwardDynamicsFriction => FunctionKind::ForwardDynamicsWrenchFriction,
-        other => other,
-    }
+    kind.with_effects(Effects { wrench: true, ..kind.effects() }).unwrap_or(kind)
 }
 
 /// The inputs that a state lacks; a wrench is 0 where it is not given.

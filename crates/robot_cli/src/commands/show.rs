@@ -4,6 +4,7 @@ use clap::Args;
 use robot_build::{FrameRef, FunctionKind, Options, functions, snapping, unsolvable};
 use robot_document::words;
 use robot_model::robot::{JointKind, Robot};
+use robot_model::variable::JointVariable;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -61,7 +62,7 @@ fn joints(robot: &Robot) -> Vec<Vec<String>> {
             words::carrier(robot, link.parent).to_owned(),
             link.joint.name.clone(),
             motion,
-            format!("q{}", link.joint.coordinate + 1),
+            JointVariable::Position.symbol(link.joint.coordinate),
             bodies.join(", "),
         ]);
     }

@@ -5,6 +5,7 @@ mod json;
 mod node;
 
 use robot_model::robot::Robot;
+use robot_model::variable::{JointVariable, WRENCH, WRENCH_COMPONENTS};
 
 /// The arrays that a state of a robot can have.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,23 +46,17 @@ impl State {
     }
 }
 
-/// The key of a wrench, or the beginning of the keys of several.
-pub(crate) const WRENCH: &str = "wrench";
-
 impl Layout {
     /// The arrays of a robot's states: `q`, `qd`, `qdd`, `tau`, and `wrench` or one for each tip.
     pub(crate) fn of(robot: &Robot) -> Layout {
-        let count = robot.degrees_of_freedom();
-        let mut arrays: Vec<Array> = ["q", "qd", "qdd", "tau"]
-            .map(|name| Array {
-                name: name.to_owned(),
-                columns: (1..=count).map(|number| format!("{name}{number}")).collect(),
+        let mut arrays: Vec<Array> = JointVariable::ALL
+            .map(|variable| Array {
+                name: variable.name().to_owned(),
+                columns: robot.symbols(variable),
             })
             .into();
-        let tips: Vec<&str> = robot.tips().map(|(frame, _)| frame.name.as_str()).collect();
-        if tips.len() > 1 {
-            arrays.extend(tips.iter().map(|tip| wrench(&format!("_{tip}"))));
-        } else {
+        arrays.extend(robot.tips().map(|(tip, _)| wrench(&robot.wrench_suffix(tip))));
+        if robot.tips().next().is_none() {
             // A robot without a tip takes a wrench of 0, so that one file of states suits all.
             arrays.push(wrench(""));
         }
@@ -92,7 +87,7 @@ impl Layout {
 fn wrench(suffix: &str) -> Array {
     Array {
         name: format!("{WRENCH}{suffix}"),
-        columns: ["fx", "fy", "fz", "mx", "my", "mz"].map(|name| format!("{name}{suffix}")).into(),
+        columns: WRENCH_COMPONENTS.map(|name| format!("{name}{suffix}")).into(),
     }
 }
 

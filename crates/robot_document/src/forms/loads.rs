@@ -2,9 +2,10 @@
 //! wrenches of the tips, friction.
 
 use robot_dynamics::mechanism::MechanismFriction;
-use robot_dynamics::newton_euler::{Effects, LinkWrench, friction};
+use robot_dynamics::newton_euler::{LinkWrench, friction};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
+use robot_model::functions::Effects;
 use robot_symbolic::{Expr, walk};
 
 use super::coefficients::{Coefficient, Section, Sum};

@@ -13,9 +13,9 @@ mod shapes;
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_dynamics::newton_euler::{Effects, NewtonEuler, newton_euler};
+use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_model::snap;
 use robot_symbolic::print::latex::Trigonometry;
@@ -220,8 +220,8 @@ impl<'g> Writer<'_, 'g> {
     /// sums of angles where the options want them.
     fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
         let kind = match friction {
-            true => FunctionKind::InverseDynamicsWrenchFriction,
-            false => FunctionKind::InverseDynamicsWrench,
+            true => FunctionKind::InverseDynamics(Effects::BOTH),
+            false => FunctionKind::InverseDynamics(Effects::WRENCH),
         };
         let functions = self.derivation().functions(kind);
         let outputs = functions.into_iter().flat_map(|function| function.outputs);

@@ -1,8 +1,8 @@
 //! The recursive form: the paper's iterations, link by link, each quantity by those before it.
 
-use robot_dynamics::newton_euler::Effects;
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
+use robot_model::functions::Effects;
 use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;

@@ -1,5 +1,6 @@
 //! Joints that share a coordinate tell less than joints with one each.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Number, Random, SymbolId, walk};
 
 use super::columns::base_columns;
@@ -84,12 +85,11 @@ fn sampled<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Vec<f6
     let mut values: Vec<f64> =
         (0..graph.symbol_count()).map(|_| random.uniform(0.5, 1.5)).collect();
     for state in 0..states {
-        for (name, size) in [("q", 3.0), ("qd", 2.0), ("qdd", 5.0)] {
-            for number in 1..=rows {
-                let rests = name == "qd" && state % 6 == 0;
+        for (variable, size) in JointVariable::MOTION.into_iter().zip([3.0, 2.0, 5.0]) {
+            for name in variable.symbols(rows) {
+                let rests = variable == JointVariable::Velocity && state % 6 == 0;
                 let value = if rests { 0.0 } else { random.uniform(-size, size) };
-                let symbol =
-                    graph.find_symbol(&format!("{name}{number}")).and_then(Expr::as_symbol);
+                let symbol = graph.find_symbol(&name).and_then(Expr::as_symbol);
                 if let Some(place) = symbol.and_then(|symbol| values.get_mut(symbol.index())) {
                     *place = value;
                 }

@@ -31,6 +31,24 @@ pub(crate) struct Chain<'g> {
     pub(crate) unit: Expr<'g>,
 }
 
+/// The motion of a joint along or about z; of a prismatic one in the plan's unit of length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct JointMotion<'g> {
+    pub(crate) position: Expr<'g>,
+    pub(crate) velocity: Expr<'g>,
+    pub(crate) acceleration: Expr<'g>,
+}
+
+impl<'g> JointMotion<'g> {
+    fn map(self, change: impl Fn(Expr<'g>) -> Expr<'g>) -> JointMotion<'g> {
+        JointMotion {
+            position: change(self.position),
+            velocity: change(self.velocity),
+            acceleration: change(self.acceleration),
+        }
+    }
+}
+
 /// A link in its working frame; lengths in the plan's unit.
 #[derive(Clone, Debug)]
 pub(crate) struct ChainLink<'g> {
@@ -39,8 +57,7 @@ pub(crate) struct ChainLink<'g> {
     pub(crate) coordinate: usize,
     /// The coordinate's share in the joint's motion along or about z, sign included.
     pub(crate) ratio: Expr<'g>,
-    /// Joint position, velocity and acceleration along or about z.
-    pub(crate) motion: [Expr<'g>; 3],
+    pub(crate) motion: JointMotion<'g>,
     /// From the parent's working frame to this one at joint position 0.
     pub(crate) rotation: ConstantRotation<'g>,
     /// Origin at joint position 0 in the parent's working frame.
@@ -155,7 +172,7 @@ impl<'g> Chain<'g> {
             let is_last = self.links.iter().all(|other| other.parent != Some(index));
             let is_loaded = tips.iter().any(|tip| tip.link == index);
             if is_last && link.is_revolute() && link.is_symmetric() && !is_loaded {
-                link.motion[0] = zero;
+                link.motion.position = zero;
                 link.rotation.turn = (zero, one);
             }
         }
@@ -290,7 +307,12 @@ fn assemble<'g>(
             kind: link.kind,
             coordinate: link.coordinate,
             ratio: along(link.ratio),
-            motion: [link.position, link.velocity, link.acceleration].map(along),
+            motion: JointMotion {
+                position: link.position,
+                velocity: link.velocity,
+                acceleration: link.acceleration,
+            }
+            .map(along),
             axis: rotation.axis(),
             rotation,
             translation,

@@ -60,7 +60,7 @@ impl<'g> Recursion<'g> {
         let mut chain = self.chain.clone();
         for link in &mut chain.links {
             let unit = if link.is_revolute() { chain.graph.one() } else { chain.unit };
-            link.motion[2] = accelerations[link.coordinate] * link.ratio / unit;
+            link.motion.acceleration = accelerations[link.coordinate] * link.ratio / unit;
         }
         Some(self.torque_derivatives_of(&chain))
     }
@@ -114,7 +114,7 @@ impl<'g> Recursion<'g> {
         }
         let mut chain = self.chain.without_idle_turns(&[]);
         for link in &mut chain.links {
-            link.motion[2] = chain.graph.zero();
+            link.motion.acceleration = chain.graph.zero();
         }
         let states = outward::outward(&chain, &self.plans, Accelerations::Given);
         let ways = Ways::new(&chain, |index| self.plans[index].composite_sum);
@@ -208,7 +208,7 @@ impl<'g> Motions<'g> {
             ));
             let mut velocity = posture.turn.back(link.rotation.back(carried));
             if !link.is_revolute() {
-                velocity.0[2] += link.motion[1] * factor;
+                velocity.0[2] += link.motion.velocity * factor;
             }
             let angular = states[index].angular_velocity * factor;
             twists.push(Twist { angular, linear: velocity });

@@ -35,9 +35,9 @@ impl<'g> Recursion<'g> {
             };
             let mut velocity = posture.turn.back(carried);
             if link.is_revolute() {
-                at_home.0[2] += link.motion[1];
+                at_home.0[2] += link.motion.velocity;
             } else {
-                velocity.0[2] += link.motion[1];
+                velocity.0[2] += link.motion.velocity;
             }
             let omega = posture.group_turn.back(at_home);
             home.push(at_home);
@@ -47,7 +47,7 @@ impl<'g> Recursion<'g> {
             // ∫ (v + ω × r)² dm
             let mixed = omega.cross(Vector(h)).dot(velocity) * 2 + velocity.dot(velocity) * m;
             twice += of_second(link.inertia.second, omega) + mixed;
-            let rate = chain.in_metres(link, link.motion[1]);
+            let rate = chain.in_metres(link, link.motion.velocity);
             twice += link.reflected_inertia * (rate * rate);
             if let Some(parent) = link.parent {
                 // J N q̇ a · ω of the carrier

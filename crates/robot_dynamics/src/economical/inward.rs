@@ -85,7 +85,7 @@ fn rotor<'g>(
     let carrier = &states[parent];
     let torque = link.rotor_coupling * carrier.angular_acceleration.dot(link.axis);
     let momentum = |motion| link.rotor_coupling * chain.in_metres(link, motion);
-    let turning = carrier.angular_velocity.cross(link.axis) * momentum(link.motion[1]);
+    let turning = carrier.angular_velocity.cross(link.axis) * momentum(link.motion.velocity);
     (torque, link.axis * momentum(rate) + turning)
 }
 

@@ -127,7 +127,7 @@ impl<'g> Recursion<'g> {
         let mut chain = self.chain.clone();
         chain.gravity = Vector::zero(graph);
         for link in &mut chain.links {
-            link.motion[2] = graph.zero();
+            link.motion.acceleration = graph.zero();
         }
         let states = outward::outward(&chain, &self.plans, Accelerations::Given);
         let state = &states[carried.link];

@@ -113,7 +113,7 @@ impl<'g> Recursion<'g> {
     pub fn bias(&self, wrench: bool) -> Vec<Expr<'g>> {
         let mut chain = self.chain.clone();
         for link in &mut chain.links {
-            link.motion[2] = chain.graph.zero();
+            link.motion.acceleration = chain.graph.zero();
         }
         self.torques(&chain, Accelerations::Given, wrench).0
     }

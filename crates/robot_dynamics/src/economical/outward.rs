@@ -145,7 +145,7 @@ impl<'g> Turning<'g> {
         plan: &LinkPlan,
     ) -> Turning<'g> {
         let zero = link.ratio.graph().zero();
-        let speed = if link.is_revolute() { link.motion[1] } else { zero };
+        let speed = if link.is_revolute() { link.motion.velocity } else { zero };
         // About the common axis, rates add up along the group.
         let (omega_z, epsilon_z) = match before {
             Some(state) => (state.angular_velocity.0[2], state.angular_acceleration.0[2]),
@@ -185,7 +185,7 @@ impl<'g> Turning<'g> {
         let carried = self.epsilon.0[2];
         let mut at_rest = None;
         let rate = match free {
-            None => link.motion[2],
+            None => link.motion.acceleration,
             Some(free) => match self.chosen(free, acceleration, next) {
                 Some((total, rest)) => {
                     at_rest = rest;
@@ -252,12 +252,12 @@ impl<'g> Turning<'g> {
         free: Option<FreeRate>,
     ) -> LinkState<'g> {
         // 2 ω × q̇ z + q̈ z
-        let twice = link.motion[1] * 2;
+        let twice = link.motion.velocity * 2;
         let Vector([x, y, _]) = self.omega;
         let zero = twice.graph().zero();
         let mut acceleration = carried + Vector([y * twice, -(x * twice), zero]);
         let rate = match free {
-            None => link.motion[2],
+            None => link.motion.acceleration,
             Some(FreeRate::Zero) => zero,
             Some(_) => -carried.0[2],
         };

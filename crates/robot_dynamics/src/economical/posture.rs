@@ -44,7 +44,7 @@ pub(crate) fn postures<'g>(chain: &Chain<'g>, joins: impl Fn(usize) -> bool) -> 
             turn: Plane::z(sine, cosine),
             origin: match link.is_revolute() {
                 true => link.translation,
-                false => link.translation + link.axis * link.motion[0],
+                false => link.translation + link.axis * link.motion.position,
             },
         });
     }
@@ -58,7 +58,7 @@ fn joint_angle<'g>(link: &ChainLink<'g>) -> (Expr<'g>, Expr<'g>) {
         return (sine, cosine);
     }
     let graph = sine.graph();
-    let position = link.motion[0];
+    let position = link.motion.position;
     match (sine.as_number(), cosine.as_number()) {
         (Some(s), Some(c)) => {
             let quarter = match (s.to_f64(), c.to_f64()) {

@@ -259,7 +259,7 @@ impl<'g> Recursion<'g> {
         let carrier = &states[parent];
         let (torque, moment) = unit_rotor(
             link.axis,
-            [link.motion[1], link.motion[2]],
+            [link.motion.velocity, link.motion.acceleration],
             carrier.angular_velocity,
             carrier.angular_acceleration,
         );

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeSet;
 
+use robot_model::functions::Effects;
 use robot_model::robot::{Parameter, Robot};
 use robot_symbolic::{Counter, Expr, Graph, Operations, SymbolId, walk};
 
@@ -13,7 +14,7 @@ use super::Recursion;
 use super::chain::Base;
 use super::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
-use crate::newton_euler::{self, Effects};
+use crate::newton_euler;
 
 /// A plan must reproduce the torques to this fraction of the largest.
 const TOLERANCE: f64 = 1e-12;

@@ -1,5 +1,6 @@
 //! The Coriolis matrix.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, differentiate};
 
 use super::{Derivation, Function, FunctionKind, Output, inverse_dynamics};
@@ -21,7 +22,6 @@ pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'
         FunctionKind::CoriolisMatrix,
         &["The Coriolis matrix C(q, q̇) by the Christoffel symbols of the mass matrix: C q̇ is what \
            Coriolis and centrifugal effects ask for, Ṁ = C + Cᵀ, and Ṁ − 2 C is skew."],
-        derivation.coordinate_inputs(["q", "qd"]),
         vec![output],
     )
 }
@@ -29,7 +29,8 @@ pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'
 /// ½ ∂τ/∂q̇, for C q̇ is a quadratic form in q̇ with the Christoffel symbols for coefficients.
 fn half_velocity_slopes<'g>(derivation: &Derivation<'_, 'g>) -> SquareMatrix<'g> {
     let bias = inverse_dynamics::bias_torques(derivation);
-    let slopes = differentiate::forward(&bias, &derivation.coordinate_symbols("qd"));
+    let slopes =
+        differentiate::forward(&bias, &derivation.coordinate_symbols(JointVariable::Velocity));
     let halves: Vec<Expr<'g>> = slopes.into_iter().flatten().map(|slope| slope / 2).collect();
     SquareMatrix::from_rows(halves, bias.len())
 }

@@ -1,5 +1,6 @@
 //! Derivatives of inverse and forward dynamics.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, differentiate, walk};
 
 use super::{Derivation, Function, FunctionKind, Output, forward_dynamics};
@@ -17,7 +18,6 @@ pub(super) fn inverse_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
         &["The derivatives of inverse dynamics without friction and wrenches: the entry in row i \
              and column j is that of the driving force i by the position or velocity j, exact. The \
              derivative by the accelerations is the mass matrix."],
-        derivation.coordinate_inputs(["q", "qd", "qdd"]),
         vec![
             output("dtau_dq", "∂τ/∂q, row by row", "rad or m", positions),
             output("dtau_dqd", "∂τ/∂q̇, row by row", "rad/s or m/s", velocities),
@@ -36,8 +36,10 @@ fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
         Some(recursion) => (recursion.inverse_dynamics(false), recursion.torque_derivatives()),
         None => (derivation.paper_torques(false, &[]), None),
     };
-    let symbols: Vec<Expr<'g>> =
-        ["q", "qd"].iter().flat_map(|name| derivation.coordinate_symbols(name)).collect();
+    let symbols: Vec<Expr<'g>> = [JointVariable::Position, JointVariable::Velocity]
+        .into_iter()
+        .flat_map(|variable| derivation.coordinate_symbols(variable))
+        .collect();
     let order = torques.len();
     let split = |rows: Vec<Vec<Expr<'g>>>| {
         let part = |skip: usize| {
@@ -98,7 +100,6 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
              and column j is that of the acceleration i by the position, velocity or driving force \
              j, exact: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that the driving forces give, and \
              ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018)."],
-        derivation.coordinate_inputs(["q", "qd", "tau"]),
         vec![
             output("dqdd_dq", "∂q̈/∂q, row by row", "rad or m", part(0)),
             output("dqdd_dqd", "∂q̈/∂q̇, row by row", "rad/s or m/s", part(order)),
@@ -116,8 +117,7 @@ fn at<'g>(
     accelerations: &[Expr<'g>],
 ) -> TorqueDerivatives<'g> {
     let graph = derivation.mechanism.graph;
-    let names: Vec<String> =
-        (1..=accelerations.len()).map(|number| format!("qdd{number}")).collect();
+    let names = JointVariable::Acceleration.symbols(accelerations.len());
     let replaced = |matrix: &SquareMatrix<'g>| {
         let rows = walk::rebuild(&matrix.rows(), graph, |name| {
             let place = names.iter().position(|qdd| qdd == name);

@@ -18,7 +18,6 @@ pub(super) fn energies<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
         &["Kinetic energy ½ q̇ᵀ M q̇, the drives' reflected inertias included, and potential energy \
            of the weight, −Σ m g · c with the mass centres c in the base frame: zero where all mass \
            is in the base frame's origin. Its gradient is g(q)."],
-        derivation.coordinate_inputs(["q", "qd"]),
         vec![
             output("kinetic", "Kinetic energy", kinetic),
             output("potential", "Potential energy", potential),

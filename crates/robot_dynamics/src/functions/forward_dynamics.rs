@@ -1,8 +1,9 @@
 //! Forward dynamics: accelerations from driving forces.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, walk};
 
-use super::{Derivation, Function, FunctionKind, Output, inverse_dynamics, mass_matrix};
+use super::{Derivation, Effects, Function, FunctionKind, Output, inverse_dynamics, mass_matrix};
 use crate::economical::Solver;
 use crate::matrix::Pivots;
 
@@ -21,30 +22,28 @@ pub(super) fn forward_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
 ) -> Function<'g> {
-    let wrench = kind.has_wrench();
-    let mut inputs = derivation.coordinate_inputs(["q", "qd", "tau"]);
-    if wrench {
-        inputs.extend(derivation.wrench_inputs());
-    }
-    let values = match kind.has_friction() {
+    let Effects { wrench, friction } = kind.effects();
+    let values = match friction {
         true => with_friction(derivation, wrench),
-        false => accelerations(derivation, wrench, &derivation.coordinate_symbols("tau")),
+        false => {
+            accelerations(derivation, wrench, &derivation.coordinate_symbols(JointVariable::Torque))
+        }
     };
     let output = Output::new(
-        "qdd",
-        "Joint accelerations",
-        &derivation.coordinate_unit("rad/s²", "m/s²"),
+        JointVariable::Acceleration.name(),
+        JointVariable::Acceleration.meaning(),
+        &derivation.coordinate_unit(JointVariable::Acceleration),
         vec![values.len()],
         values,
     );
-    let what = match kind.has_friction() {
+    let what = match friction {
         true => FRICTION_DOC,
         false => {
             "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
              solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`."
         }
     };
-    let mut function = derivation.of_kind(kind, &[what], inputs, vec![output]);
+    let mut function = derivation.of_kind(kind, &[what], vec![output]);
     function.doc.extend(method(derivation));
     function
 }
@@ -82,7 +81,7 @@ const FRICTION_DOC: &str = "Forward dynamics with the friction of the joints, vi
 /// q̈ with friction, for the symbols τ.
 fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
     let graph = derivation.mechanism.graph;
-    let tau = derivation.coordinate_symbols("tau");
+    let tau = derivation.coordinate_symbols(JointVariable::Torque);
     let friction = inverse_dynamics::friction_forces(&derivation.mechanism, wrench);
     let by_load = derivation.mechanism.links.iter().any(|link| !link.friction.coulomb.is_zero());
     let rounds = if by_load { FRICTION_ROUNDS } else { 1 };
@@ -92,8 +91,8 @@ fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<
     };
     for _ in 0..rounds {
         let value = |name: &str| {
-            let number = name.strip_prefix("qdd").and_then(|number| number.parse::<usize>().ok());
-            number.and_then(|number| found.get(number.checked_sub(1)?).copied())
+            let (variable, coordinate) = JointVariable::parse(name)?;
+            found.get(coordinate).copied().filter(|_| variable == JointVariable::Acceleration)
         };
         let friction = walk::rebuild(&friction, graph, |name| {
             value(name).unwrap_or_else(|| graph.symbol(name))
@@ -146,7 +145,7 @@ fn by_small_pivots<'g>(
 /// q̈ for the symbols τ in derivatives, which solve M x = b for many b: by the decomposition of M, but
 /// where pivots may be small.
 pub(super) fn for_derivatives<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
-    let tau = derivation.coordinate_symbols("tau");
+    let tau = derivation.coordinate_symbols(JointVariable::Torque);
     let careful = by_small_pivots(derivation, false, &tau);
     careful.unwrap_or_else(|| by_matrix(derivation, false, &tau))
 }
@@ -181,7 +180,7 @@ fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]
     let by_recursion = recursion
         .and_then(|recursion| recursion.forward_dynamics(tau, wrench, Solver::MassMatrix, pivots));
     by_recursion.unwrap_or_else(|| {
-        let bias = derivation.paper_torques(wrench, &["qdd"]);
+        let bias = derivation.paper_torques(wrench, &[JointVariable::Acceleration]);
         let excess = tau.iter().zip(bias).map(|(tau, bias)| *tau - bias).collect();
         mass_matrix::matrix(derivation).solve(excess, pivots)
     })

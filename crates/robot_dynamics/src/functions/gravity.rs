@@ -1,18 +1,21 @@
 //! The weight's share in the driving forces.
 
+use robot_model::variable::JointVariable;
+
 use super::{Derivation, Function, FunctionKind};
 
 /// g(q).
 pub(super) fn gravity<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let torques = match &derivation.recursion {
         Some(recursion) => recursion.gravity(),
-        None => derivation.paper_torques(false, &["qd", "qdd"]),
+        None => {
+            derivation.paper_torques(false, &[JointVariable::Velocity, JointVariable::Acceleration])
+        }
     };
     derivation.of_kind(
         FunctionKind::Gravity,
         &["The driving forces that hold the robot at rest against its weight, g(q): the gradient of \
            the potential energy."],
-        derivation.coordinate_inputs(["q"]),
         vec![derivation.torque_output(torques)],
     )
 }

@@ -1,10 +1,11 @@
 //! Inverse dynamics, with and without wrenches and friction, and the contact torsors.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;
 
-use super::{Derivation, Function, FunctionKind, Output};
+use super::{Derivation, Effects, Function, FunctionKind, Output};
 use crate::mechanism::Mechanism;
-use crate::newton_euler::{self, Effects, NewtonEuler};
+use crate::newton_euler::{self, NewtonEuler};
 use crate::vector::Vector;
 
 /// The generalised driving forces Q of equation (3).
@@ -12,7 +13,7 @@ pub(super) fn inverse_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
 ) -> Function<'g> {
-    let (wrench, friction) = (kind.has_wrench(), kind.has_friction());
+    let Effects { wrench, friction } = kind.effects();
     let friction_doc = match friction {
         true => "Includes the friction of the joints, viscous and dry.",
         false => "Without friction.",
@@ -28,19 +29,15 @@ pub(super) fn inverse_dynamics<'g>(
         }
     };
     let doc = [sum_doc, friction_doc];
-    let mut inputs = derivation.coordinate_inputs(["q", "qd", "qdd"]);
-    if wrench {
-        inputs.extend(derivation.wrench_inputs());
-    }
     let tau = derivation.torque_output(driving_forces(derivation, wrench, friction));
-    derivation.of_kind(kind, &doc, inputs, vec![tau])
+    derivation.of_kind(kind, &doc, vec![tau])
 }
 
 /// C(q, q̇) q̇ + g(q).
 pub(super) fn bias_torques<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     match &derivation.recursion {
         Some(recursion) => recursion.bias(false),
-        None => derivation.paper_torques(false, &["qdd"]),
+        None => derivation.paper_torques(false, &[JointVariable::Acceleration]),
     }
 }
 
@@ -51,7 +48,6 @@ pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
         FunctionKind::Bias,
         &["The driving forces at zero accelerations, C(q, q̇) q̇ + g(q): what gravity, Coriolis and \
            centrifugal effects ask for. Without wrenches and friction."],
-        derivation.coordinate_inputs(["q", "qd"]),
         vec![derivation.torque_output(torques)],
     )
 }
@@ -105,13 +101,10 @@ pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g>
     let output = |name: &str, doc: &str, unit: &str, values| {
         Output::new(name, doc, unit, shape.clone(), values)
     };
-    let mut inputs = derivation.coordinate_inputs(["q", "qd", "qdd"]);
-    inputs.extend(derivation.wrench_inputs());
     derivation.of_kind(
         FunctionKind::LinkWrenches,
         &["The wrench in every joint: the contact force F_l and the contact moment M_l that each link \
            receives through its joint, a row per link, in the link's own frame."],
-        inputs,
         vec![
             output("force", "Contact forces F_l", "N", rows(|wrench| wrench.force)),
             output(

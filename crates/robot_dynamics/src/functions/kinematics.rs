@@ -22,7 +22,6 @@ pub(super) fn forward_kinematics<'g>(derivation: &Derivation<'_, 'g>) -> Functio
              components in the link's frame to components in the base frame, and origins.",
             &rows,
         ],
-        derivation.coordinate_inputs(["q"]),
         pose_outputs(&poses),
     )
 }
@@ -42,7 +41,6 @@ pub(super) fn frame_poses<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
              components in the frame to components in the base frame, and origins.",
             &rows,
         ],
-        derivation.coordinate_inputs(["q"]),
         pose_outputs(&poses),
     )
 }
@@ -151,7 +149,6 @@ fn jacobian<'g>(
     derivation.of_kind(
         FunctionKind::Jacobian,
         &[&doc],
-        derivation.coordinate_inputs(["q"]),
         vec![Output::new("jacobian", "The Jacobian, row by row", unit, shape, values)],
     )
 }
@@ -173,7 +170,6 @@ fn jacobian_dot_qd<'g>(
     derivation.of_kind(
         FunctionKind::JacobianDotQd,
         &[&doc],
-        derivation.coordinate_inputs(["q", "qd"]),
         vec![Output::new(
             "acceleration",
             "Velocity-product acceleration",

@@ -1,5 +1,6 @@
 //! The mass matrix.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::walk;
 
 use super::{Derivation, Function, FunctionKind, Output};
@@ -21,7 +22,6 @@ pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
         &["The mass matrix M(q), the drives' reflected inertias included: symmetric, positive \
            definite; the driving forces for the accelerations `qdd` are M q̈ + C q̇ + g and the \
            kinetic energy is ½ q̇ᵀ M q̇."],
-        derivation.coordinate_inputs(["q"]),
         vec![output],
     )
 }
@@ -36,7 +36,8 @@ pub(super) fn matrix<'g>(derivation: &Derivation<'_, 'g>) -> SymmetricMatrix<'g>
     let torques = derivation.paper_torques(false, &[]);
     let mut matrix = SymmetricMatrix::zero(graph, order);
     for column in 0..order {
-        let slopes = walk::derivatives(&torques, graph.symbol(&format!("qdd{}", column + 1)));
+        let slopes =
+            walk::derivatives(&torques, graph.symbol(&JointVariable::Acceleration.symbol(column)));
         for (row, slope) in slopes.into_iter().enumerate().skip(column) {
             matrix.set(row, column, slope);
         }

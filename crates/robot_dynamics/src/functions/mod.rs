@@ -26,13 +26,14 @@ pub use singular::undetermined;
 
 pub use crate::derivation::Derivation;
 
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_symbolic::Expr;
 
 use crate::base_parameters::BaseParameters;
 use crate::economical::Recursion;
 use crate::matrix::Pivots;
 use robot_model::robot::JointKind;
+use robot_model::variable::{JointVariable, WRENCH};
 
 /// A function of a robot, or several in one.
 #[derive(Clone, Debug)]
@@ -126,22 +127,12 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// The functions as they are derived: with parameters that cancel.
     fn derived(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let function = match kind {
-            FunctionKind::InverseDynamics
-            | FunctionKind::InverseDynamicsWrench
-            | FunctionKind::InverseDynamicsFriction
-            | FunctionKind::InverseDynamicsWrenchFriction => {
-                inverse_dynamics::inverse_dynamics(self, kind)
-            }
+            FunctionKind::InverseDynamics(_) => inverse_dynamics::inverse_dynamics(self, kind),
             FunctionKind::LinkWrenches => inverse_dynamics::link_wrenches(self),
             FunctionKind::MassMatrix => mass_matrix::mass_matrix(self),
             FunctionKind::Bias => inverse_dynamics::bias(self),
             FunctionKind::Gravity => gravity::gravity(self),
-            FunctionKind::ForwardDynamics
-            | FunctionKind::ForwardDynamicsWrench
-            | FunctionKind::ForwardDynamicsFriction
-            | FunctionKind::ForwardDynamicsWrenchFriction => {
-                forward_dynamics::forward_dynamics(self, kind)
-            }
+            FunctionKind::ForwardDynamics(_) => forward_dynamics::forward_dynamics(self, kind),
             FunctionKind::ForwardKinematics => kinematics::forward_kinematics(self),
             FunctionKind::FramePoses => kinematics::frame_poses(self),
             FunctionKind::Jacobian | FunctionKind::JacobianDotQd => {
@@ -171,53 +162,45 @@ impl<'r, 'g> Derivation<'r, 'g> {
         pivots::pivots(self)
     }
 
-    /// A function of the kind's own name.
-    fn of_kind(
-        &self,
-        kind: FunctionKind,
-        doc: &[&str],
-        inputs: Vec<Input>,
-        outputs: Vec<Output<'g>>,
-    ) -> Function<'g> {
+    /// A function of the kind's own name and inputs.
+    fn of_kind(&self, kind: FunctionKind, doc: &[&str], outputs: Vec<Output<'g>>) -> Function<'g> {
         let doc = doc.iter().map(|&paragraph| paragraph.to_owned()).collect();
+        let mut inputs: Vec<Input> =
+            kind.inputs().iter().map(|variable| self.coordinate_input(*variable)).collect();
+        if kind.effects().wrench || kind == FunctionKind::LinkWrenches {
+            inputs.extend(self.wrench_inputs());
+        }
         Function { name: kind.name().to_owned(), doc, inputs, outputs }
-    }
-
-    /// The inputs of those names, each with an element per coordinate.
-    fn coordinate_inputs<const N: usize>(&self, names: [&str; N]) -> Vec<Input> {
-        names.map(|name| self.coordinate_input(name)).to_vec()
     }
 
     /// The generalised driving forces as an output.
     fn torque_output(&self, values: Vec<Expr<'g>>) -> Output<'g> {
         Output::new(
-            "tau",
-            "Generalised driving forces",
-            &self.coordinate_unit("N m", "N"),
+            JointVariable::Torque.name(),
+            JointVariable::Torque.meaning(),
+            &self.coordinate_unit(JointVariable::Torque),
             vec![values.len()],
             values,
         )
     }
 
-    /// An input array with an element per coordinate: `q`, `qd`, `qdd` or `tau`.
-    fn coordinate_input(&self, name: &str) -> Input {
-        let (doc, rotation, translation) = match name {
-            "q" => ("Joint positions", "rad", "m"),
-            "qd" => ("Joint velocities", "rad/s", "m/s"),
-            "qdd" => ("Joint accelerations", "rad/s²", "m/s²"),
-            _ => ("Generalised driving forces", "N m", "N"),
-        };
-        let count = self.robot.degrees_of_freedom();
+    /// An input array with an element per coordinate.
+    fn coordinate_input(&self, variable: JointVariable) -> Input {
         Input {
-            name: name.to_owned(),
-            doc: doc.to_owned(),
-            unit: self.coordinate_unit(rotation, translation),
-            symbols: (1..=count).map(|number| format!("{name}{number}")).collect(),
+            name: variable.name().to_owned(),
+            doc: variable.meaning().to_owned(),
+            unit: self.coordinate_unit(variable),
+            symbols: self.robot.symbols(variable),
         }
     }
 
     /// The unit of an array over the coordinates, with the translations named where they differ.
-    fn coordinate_unit(&self, rotation: &str, translation: &str) -> String {
+    fn coordinate_unit(&self, variable: JointVariable) -> String {
+        self.unit_by_joint(variable.unit(JointKind::Revolute), variable.unit(JointKind::Prismatic))
+    }
+
+    /// The same of an array with other units.
+    fn unit_by_joint(&self, rotation: &str, translation: &str) -> String {
         let kinds = &self.robot.coordinates;
         let translations: Vec<String> = kinds
             .iter()
@@ -251,16 +234,15 @@ impl<'r, 'g> Derivation<'r, 'g> {
 
     /// An input array per tip: force, then moment.
     fn wrench_inputs(&self) -> Vec<Input> {
-        let single = self.robot.tips().count() == 1;
         let inputs = self.robot.tips().map(|(frame, wrench)| Input {
-            name: if single { "wrench".to_owned() } else { format!("wrench_{}", frame.name) },
+            name: format!("{WRENCH}{}", self.robot.wrench_suffix(frame)),
             doc: format!(
                 "Wrench that the frame `{}` exerts on its surroundings, in its axes, the moment about \
                  its origin: force x y z, moment x y z",
                 frame.name
             ),
             unit: "N and N m".to_owned(),
-            symbols: wrench.force.iter().chain(&wrench.moment).cloned().collect(),
+            symbols: wrench.components().map(str::to_owned).collect(),
         });
         inputs.collect()
     }

@@ -7,6 +7,7 @@
 //! subtract what they have not added, and keep the digits.
 
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_symbolic::Random;
 
 use super::sampled::{Rows, SampledMassMatrix};
@@ -37,13 +38,13 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let matrix = mass_matrix::matrix(derivation);
     let diagonal = (0..matrix.order()).map(|row| matrix.at(row, row)).collect();
     let output = |name, doc, values: Vec<_>| {
-        let unit = derivation.coordinate_unit("kg m²", "kg");
+        let unit = derivation.unit_by_joint("kg m²", "kg");
         Output::new(name, doc, &unit, vec![values.len()], values)
     };
     Function {
         name: "pivots".to_owned(),
         doc: vec!["D of M = Lᵀ D L and the diagonal of M.".to_owned()],
-        inputs: derivation.coordinate_inputs(["q"]),
+        inputs: vec![derivation.coordinate_input(JointVariable::Position)],
         outputs: vec![
             output("pivots", "D", forward_dynamics::pivots(derivation)),
             output("diagonal", "The diagonal of M", diagonal),

@@ -21,8 +21,8 @@ pub fn search_plan(
     kinds: &[FunctionKind],
 ) -> Option<Found> {
     let scope = Scope {
-        motions: kinds.iter().any(|kind| uses_motions(*kind)),
-        composites: kinds.iter().any(|kind| uses_composites(*kind)),
+        motions: kinds.iter().any(|kind| kind.uses_motions()),
+        composites: kinds.iter().any(|kind| kind.uses_composites()),
         free: kinds.iter().any(|kind| kind.divides_by_mass_matrix()),
     };
     let small_pivots = OnceCell::new();
@@ -58,30 +58,4 @@ fn objective<'g>(
         functions.flat_map(|function| function.outputs).flat_map(|output| output.values).collect()
     };
     Objective::of(kinds.iter().copied().flat_map(values).collect())
-}
-
-/// Whether the recursion over motions and forces is part of the function.
-fn uses_motions(kind: FunctionKind) -> bool {
-    !matches!(
-        kind,
-        FunctionKind::MassMatrix
-            | FunctionKind::Gravity
-            | FunctionKind::ForwardKinematics
-            | FunctionKind::LinkWrenches
-            | FunctionKind::Regressor
-            | FunctionKind::RegressorBase
-            | FunctionKind::BaseParameters
-    )
-}
-
-/// Whether composite inertias are part of the function.
-fn uses_composites(kind: FunctionKind) -> bool {
-    matches!(
-        kind,
-        FunctionKind::MassMatrix
-            | FunctionKind::Gravity
-            | FunctionKind::Energies
-            | FunctionKind::CoriolisMatrix
-            | FunctionKind::InverseDynamicsDerivatives
-    ) || kind.divides_by_mass_matrix()
 }

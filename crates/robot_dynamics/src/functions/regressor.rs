@@ -76,7 +76,6 @@ pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Functio
     Some(derivation.of_kind(
         FunctionKind::BaseParameters,
         &doc,
-        vec![],
         vec![Output::new(
             "base_parameters",
             "The base parameters",
@@ -118,7 +117,6 @@ fn function<'g>(
     derivation.of_kind(
         kind,
         &doc,
-        derivation.coordinate_inputs(["q", "qd", "qdd"]),
         vec![Output::new(
             kind.name(),
             "The regressor, row by row: a row per driving force, a column per parameter",

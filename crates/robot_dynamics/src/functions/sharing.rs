@@ -1,8 +1,9 @@
 //! Functions of a bundle by way of other functions of it, where that is cheaper.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;
 
-use super::{Derivation, Function, FunctionKind};
+use super::{Derivation, Effects, Function, FunctionKind};
 use crate::matrix::SymmetricMatrix;
 
 /// Another way to the first output of a function; `None` where the bundle lacks what it starts from.
@@ -12,8 +13,8 @@ type Way = for<'g> fn(&Derivation<'_, 'g>, &[Function<'g>]) -> Option<Vec<Expr<'
 const WAYS: [(FunctionKind, Way); 5] = [
     (FunctionKind::CoriolisMatrix, coriolis_matrix),
     (FunctionKind::Bias, bias),
-    (FunctionKind::InverseDynamics, inverse_dynamics),
-    (FunctionKind::ForwardDynamics, forward_dynamics),
+    (FunctionKind::InverseDynamics(Effects::NONE), inverse_dynamics),
+    (FunctionKind::ForwardDynamics(Effects::NONE), forward_dynamics),
     (FunctionKind::Energies, kinetic_energy),
 ];
 
@@ -71,7 +72,7 @@ fn coriolis_matrix<'g>(
 fn bias<'g>(derivation: &Derivation<'_, 'g>, functions: &[Function<'g>]) -> Option<Vec<Expr<'g>>> {
     let matrix = values(functions, FunctionKind::CoriolisMatrix, 0)?;
     let gravity = values(functions, FunctionKind::Gravity, 0)?;
-    Some(sum(&product(matrix, &derivation.coordinate_symbols("qd")), gravity))
+    Some(sum(&product(matrix, &derivation.coordinate_symbols(JointVariable::Velocity)), gravity))
 }
 
 /// M q̈ + C q̇ + g.
@@ -81,7 +82,7 @@ fn inverse_dynamics<'g>(
 ) -> Option<Vec<Expr<'g>>> {
     let matrix = values(functions, FunctionKind::MassMatrix, 0)?;
     let bias = values(functions, FunctionKind::Bias, 0)?;
-    Some(sum(&product(matrix, &derivation.coordinate_symbols("qdd")), bias))
+    Some(sum(&product(matrix, &derivation.coordinate_symbols(JointVariable::Acceleration)), bias))
 }
 
 /// The solution of M q̈ = τ − C q̇ − g.
@@ -100,7 +101,7 @@ fn forward_dynamics<'g>(
             matrix.set(row, column, *entry);
         }
     }
-    let forces = derivation.coordinate_symbols("tau");
+    let forces = derivation.coordinate_symbols(JointVariable::Torque);
     let excess = forces.iter().zip(bias).map(|(force, bias)| *force - *bias).collect();
     Some(matrix.solve(excess, derivation.pivots_known()))
 }
@@ -111,7 +112,7 @@ fn kinetic_energy<'g>(
     functions: &[Function<'g>],
 ) -> Option<Vec<Expr<'g>>> {
     let matrix = values(functions, FunctionKind::MassMatrix, 0)?;
-    let rates = derivation.coordinate_symbols("qd");
+    let rates = derivation.coordinate_symbols(JointVariable::Velocity);
     let twice = product(&product(matrix, &rates), &rates);
     Some(twice.into_iter().map(|twice| twice / 2).collect())
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use robot_model::robot::{Axis, Body, Frame, Friction, Inertia, Link, Move, Placement, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Formula, Graph, Number, walk};
 
 use super::direction::unit_vector;
@@ -17,10 +18,8 @@ pub(super) fn lower<'g>(
 ) -> Mechanism<'g> {
     let mut lowering = Lowering { graph, options, snapped: vec![] };
     // The symbols' order is the file's and the mechanism's, whatever the formulas use first.
-    for prefix in ["q", "qd", "qdd"] {
-        for number in 1..=robot.coordinates.len() {
-            graph.symbol(&format!("{prefix}{number}"));
-        }
+    for symbol in JointVariable::MOTION.into_iter().flat_map(|variable| robot.symbols(variable)) {
+        graph.symbol(&symbol);
     }
     for parameter in &robot.parameters {
         graph.symbol(&parameter.name);
@@ -66,8 +65,8 @@ impl<'g> Lowering<'g, '_> {
         let (rotation, translation) = self.placement(&link.name, &link.placement);
         let joint = &link.joint;
         let (ratio, offset) = (self.value(&joint.ratio), self.value(&joint.offset));
-        let number = joint.coordinate + 1;
-        let motion = |prefix: &str| ratio * self.graph.symbol(&format!("{prefix}{number}"));
+        let motion =
+            |variable: JointVariable| ratio * self.graph.symbol(&variable.symbol(joint.coordinate));
         let (mass, center_of_mass, inertia) = self.bodies(&link.name, &link.bodies);
         let drive = &link.drive;
         let (rotor_inertia, gear_ratio) =
@@ -81,9 +80,9 @@ impl<'g> Lowering<'g, '_> {
             axis: unit_vector(self.vector(&joint.axis), |expr| self.round(expr)),
             coordinate: joint.coordinate,
             ratio,
-            position: motion("q") + offset,
-            velocity: motion("qd"),
-            acceleration: motion("qdd"),
+            position: motion(JointVariable::Position) + offset,
+            velocity: motion(JointVariable::Velocity),
+            acceleration: motion(JointVariable::Acceleration),
             mass,
             center_of_mass,
             inertia,

@@ -2,9 +2,9 @@
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::{self as symbolic, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
 use robot_model::description::{read_toml, read_urdf};
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_numeric::Mechanism;
 use robot_symbolic::{Graph, Polynomial, PolynomialOptions, walk};
 
@@ -25,7 +25,7 @@ fn of_axis(axis: &str) -> (Vec<f64>, Vec<f64>, String) {
     let solved = solver.inverse_dynamics(&q, &qd, &qdd).unwrap().iter().copied().collect();
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-    let function = derivation.functions(FunctionKind::InverseDynamics).remove(0);
+    let function = derivation.functions(FunctionKind::InverseDynamics(Effects::NONE)).remove(0);
     let coded = walk::evaluate(&function.outputs[0].values, |symbol| {
         match graph.symbol_name(symbol).as_str() {
             "q1" => q[0],
@@ -93,7 +93,7 @@ fn the_length_of_an_axis_in_urdf_does_not_matter() {
         let robot = read_urdf("arm.urdf", &text).unwrap_or_else(|found| panic!("{found}")).robot;
         let graph = Graph::new();
         let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let function = derivation.functions(FunctionKind::InverseDynamics).remove(0);
+        let function = derivation.functions(FunctionKind::InverseDynamics(Effects::NONE)).remove(0);
         walk::evaluate(&function.outputs[0].values, |_| 0.3)
     };
     for length in ["1e200", "1e-200", "5e-324", "1.7e308"] {

@@ -2,8 +2,8 @@
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_model::functions::FunctionKind;
 use robot_model::functions::out_of_reach;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::{BaseFrames, Robot};
 use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Formula, Graph, Rational};
@@ -33,7 +33,8 @@ fn check(robot: &Robot, name: &str, seed: u64) -> usize {
     let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
     for _ in 0..STATES {
         let state = state(&mut random, &solver, &robot);
-        let expected = expected(&robot, &solver, FunctionKind::InverseDynamicsFriction, &state);
+        let expected =
+            expected(&robot, &solver, FunctionKind::InverseDynamics(Effects::FRICTION), &state);
         let columns = evaluate(&robot, &columns, &state);
         let values = evaluate(&robot, &values, &state);
         let product = |row: &[f64]| row.iter().zip(&values).map(|(y, p)| y * p).sum::<f64>();

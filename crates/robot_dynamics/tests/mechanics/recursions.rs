@@ -2,8 +2,8 @@
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_model::functions::FunctionKind;
+use robot_dynamics::newton_euler::newton_euler;
+use robot_model::functions::{Effects, FunctionKind};
 use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Graph};
 
@@ -29,17 +29,17 @@ fn driving_forces_and_forces_between_links_agree_with_the_numeric_solver() {
         let joints = [robot.degrees_of_freedom()];
         let links = [2, robot.links.len(), 3];
         let mut held: Vec<(&str, &[Expr<'_>], FunctionKind, &[usize])> = vec![
-            ("Q", &plain.driving_forces, FunctionKind::InverseDynamics, &joints),
+            ("Q", &plain.driving_forces, FunctionKind::InverseDynamics(Effects::NONE), &joints),
             (
                 "Q with loads and friction",
                 &loaded.driving_forces,
-                FunctionKind::InverseDynamicsWrenchFriction,
+                FunctionKind::InverseDynamics(Effects::BOTH),
                 &joints,
             ),
             ("F_l, then M_l", &torsors, FunctionKind::LinkWrenches, &links),
         ];
         if let Some(torques) = &economical {
-            let kind = FunctionKind::InverseDynamicsWrench;
+            let kind = FunctionKind::InverseDynamics(Effects::WRENCH);
             held.push(("the economical Q with loads", torques, kind, &joints));
         }
         let states: Vec<_> = (0..STATES).map(|_| state(&mut random, &solver, &robot)).collect();

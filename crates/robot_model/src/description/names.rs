@@ -7,6 +7,7 @@
 use super::reader::{Named, Reader};
 use super::table::Value;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
+use crate::variable::{JointVariable, WRENCH};
 
 /// No name is longer.
 const MAX_NAME: usize = 64;
@@ -35,11 +36,7 @@ const KEYWORDS: &[(&str, &str)] = &[
 /// What equations and code call by themselves.
 const OWN: &[&str] = &[
     "t",
-    "q",
-    "qd",
-    "qdd",
-    "tau",
-    "wrench",
+    WRENCH,
     "parameters",
     "abs",
     "acos",
@@ -156,7 +153,7 @@ pub(super) fn reserved(name: &str) -> Option<String> {
             return Some(format!("a word of {language}"));
         }
     }
-    if OWN.contains(&name) {
+    if OWN.contains(&name) || JointVariable::from_name(name).is_some() {
         return Some("a name of equations and generated code".to_owned());
     }
     is_coordinate(name).then(|| "a joint's position, velocity, acceleration or force".to_owned())
@@ -164,9 +161,8 @@ pub(super) fn reserved(name: &str) -> Option<String> {
 
 /// `q1`, `qd1`, `qdd1`, `Q1`, `tau1` and so on: what equations call the motion of a joint.
 pub(super) fn is_coordinate(name: &str) -> bool {
-    let digits = |rest: &str| !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
-    let prefixes = ["q", "qd", "qdd", "Q", "tau"];
-    prefixes.iter().any(|prefix| name.strip_prefix(prefix).is_some_and(digits))
+    let letters = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    letters.len() < name.len() && (letters == "Q" || JointVariable::from_name(letters).is_some())
 }
 
 /// Names of one kind, each once.

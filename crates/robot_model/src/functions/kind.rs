@@ -3,18 +3,41 @@
 use super::named::{FrameRef, suffixes};
 use super::reach::out_of_reach;
 use crate::robot::Robot;
+use crate::variable::JointVariable;
+
+/// What acts on the joints beside inertia and gravity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Effects {
+    /// The friction of the joints, equations (4)-(5).
+    pub friction: bool,
+    /// The wrenches that the tips exert, which are further inputs.
+    pub wrench: bool,
+}
+
+impl Effects {
+    /// Neither.
+    pub const NONE: Effects = Effects { friction: false, wrench: false };
+    /// Wrenches alone.
+    pub const WRENCH: Effects = Effects { friction: false, wrench: true };
+    /// Friction alone.
+    pub const FRICTION: Effects = Effects { friction: true, wrench: false };
+    /// Both.
+    pub const BOTH: Effects = Effects { friction: true, wrench: true };
+    /// Every combination, in the order in which functions are listed.
+    pub const ALL: [Effects; 4] =
+        [Effects::NONE, Effects::WRENCH, Effects::FRICTION, Effects::BOTH];
+
+    /// The name of a function with these effects, of its names in the order of [`Effects::ALL`].
+    const fn choose(self, names: [&'static str; 4]) -> &'static str {
+        names[self.wrench as usize + 2 * self.friction as usize]
+    }
+}
 
 /// The functions that can be derived.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FunctionKind {
-    /// Q from q, q̇, q̈.
-    InverseDynamics,
-    /// Q from q, q̇, q̈ and the tips' wrenches.
-    InverseDynamicsWrench,
-    /// Q with friction from q, q̇, q̈.
-    InverseDynamicsFriction,
-    /// Q with friction from q, q̇, q̈ and the tips' wrenches.
-    InverseDynamicsWrenchFriction,
+    /// Q from q, q̇, q̈, with the effects that are asked for.
+    InverseDynamics(Effects),
     /// F_l and M_l of every joint.
     LinkWrenches,
     /// M from q.
@@ -23,14 +46,8 @@ pub enum FunctionKind {
     Bias,
     /// g from q.
     Gravity,
-    /// q̈ from q, q̇, τ.
-    ForwardDynamics,
-    /// q̈ from q, q̇, τ and the tips' wrenches.
-    ForwardDynamicsWrench,
-    /// q̈ with friction from q, q̇, τ.
-    ForwardDynamicsFriction,
-    /// q̈ with friction from q, q̇, τ and the tips' wrenches.
-    ForwardDynamicsWrenchFriction,
+    /// q̈ from q, q̇, τ, with the effects that are asked for.
+    ForwardDynamics(Effects),
     /// The poses of the links' frames from q.
     ForwardKinematics,
     /// The poses of the named frames from q.
@@ -63,18 +80,18 @@ pub enum FunctionKind {
 impl FunctionKind {
     /// All functions but those of single frames.
     pub const ALL: &'static [FunctionKind] = &[
-        FunctionKind::InverseDynamics,
-        FunctionKind::InverseDynamicsWrench,
-        FunctionKind::InverseDynamicsFriction,
-        FunctionKind::InverseDynamicsWrenchFriction,
+        FunctionKind::InverseDynamics(Effects::NONE),
+        FunctionKind::InverseDynamics(Effects::WRENCH),
+        FunctionKind::InverseDynamics(Effects::FRICTION),
+        FunctionKind::InverseDynamics(Effects::BOTH),
         FunctionKind::LinkWrenches,
         FunctionKind::MassMatrix,
         FunctionKind::Bias,
         FunctionKind::Gravity,
-        FunctionKind::ForwardDynamics,
-        FunctionKind::ForwardDynamicsWrench,
-        FunctionKind::ForwardDynamicsFriction,
-        FunctionKind::ForwardDynamicsWrenchFriction,
+        FunctionKind::ForwardDynamics(Effects::NONE),
+        FunctionKind::ForwardDynamics(Effects::WRENCH),
+        FunctionKind::ForwardDynamics(Effects::FRICTION),
+        FunctionKind::ForwardDynamics(Effects::BOTH),
         FunctionKind::ForwardKinematics,
         FunctionKind::FramePoses,
         FunctionKind::Jacobian,
@@ -88,35 +105,101 @@ impl FunctionKind {
         FunctionKind::BaseParameters,
     ];
 
+    /// What is declared of the function.
+    const fn declaration(self) -> Declaration {
+        use FunctionKind as F;
+        use JointVariable::{Position, Torque, Velocity};
+        const STATE: &[JointVariable] = &[Position, Velocity];
+        const MOTION: &[JointVariable] = &JointVariable::MOTION;
+        const DRIVEN: &[JointVariable] = &[Position, Velocity, Torque];
+        match self {
+            F::InverseDynamics(effects) => {
+                let name = effects.choose([
+                    "inverse_dynamics",
+                    "inverse_dynamics_wrench",
+                    "inverse_dynamics_friction",
+                    "inverse_dynamics_wrench_friction",
+                ]);
+                Declaration { effects, motions: true, ..Declaration::new(name, MOTION) }
+            }
+            F::LinkWrenches => Declaration::new("link_wrenches", MOTION),
+            F::MassMatrix => Declaration::of_composites("mass_matrix", &[Position]),
+            F::Bias => Declaration::of_motions("bias", STATE),
+            F::Gravity => Declaration::of_composites("gravity", &[Position]),
+            F::ForwardDynamics(effects) => {
+                let name = effects.choose([
+                    "forward_dynamics",
+                    "forward_dynamics_wrench",
+                    "forward_dynamics_friction",
+                    "forward_dynamics_wrench_friction",
+                ]);
+                Declaration { effects, solves: true, ..Declaration::of_both(name, DRIVEN) }
+            }
+            F::ForwardKinematics => Declaration::new("forward_kinematics", &[Position]),
+            F::FramePoses => Declaration::of_motions("frame_poses", &[Position]),
+            F::Jacobian | F::JacobianOf(_) => Declaration::of_motions("jacobian", &[Position]),
+            F::JacobianDotQd | F::JacobianDotQdOf(_) => {
+                Declaration::of_motions("jacobian_dot_qd", STATE)
+            }
+            F::Energies => Declaration::of_both("energies", STATE),
+            F::CoriolisMatrix => Declaration::of_both("coriolis_matrix", STATE),
+            F::InverseDynamicsDerivatives => {
+                Declaration::of_both("inverse_dynamics_derivatives", MOTION)
+            }
+            F::ForwardDynamicsDerivatives => Declaration {
+                solves: true,
+                ..Declaration::of_both("forward_dynamics_derivatives", DRIVEN)
+            },
+            F::Regressor => Declaration::new("regressor", MOTION),
+            F::RegressorBase => {
+                Declaration { base: true, ..Declaration::new("regressor_base", MOTION) }
+            }
+            F::BaseParameters => {
+                Declaration { base: true, ..Declaration::new("base_parameters", &[]) }
+            }
+        }
+    }
+
     /// The name in code and on the command line; of a function of one frame that of its kind, behind which
     /// [`FunctionKind::full_name`] puts the frame's.
     #[must_use]
     pub const fn name(self) -> &'static str {
+        self.declaration().name
+    }
+
+    /// The arrays over the joints that the function takes, in the order of the call. The wrenches of the tips
+    /// stand behind them where there are any.
+    #[must_use]
+    pub const fn inputs(self) -> &'static [JointVariable] {
+        self.declaration().inputs
+    }
+
+    /// The effects that the function takes into account.
+    #[must_use]
+    pub const fn effects(self) -> Effects {
+        self.declaration().effects
+    }
+
+    /// The same function with other effects, of one that can have any.
+    #[must_use]
+    pub const fn with_effects(self, effects: Effects) -> Option<FunctionKind> {
         match self {
-            FunctionKind::InverseDynamics => "inverse_dynamics",
-            FunctionKind::InverseDynamicsWrench => "inverse_dynamics_wrench",
-            FunctionKind::InverseDynamicsFriction => "inverse_dynamics_friction",
-            FunctionKind::InverseDynamicsWrenchFriction => "inverse_dynamics_wrench_friction",
-            FunctionKind::LinkWrenches => "link_wrenches",
-            FunctionKind::MassMatrix => "mass_matrix",
-            FunctionKind::Bias => "bias",
-            FunctionKind::Gravity => "gravity",
-            FunctionKind::ForwardDynamics => "forward_dynamics",
-            FunctionKind::ForwardDynamicsWrench => "forward_dynamics_wrench",
-            FunctionKind::ForwardDynamicsFriction => "forward_dynamics_friction",
-            FunctionKind::ForwardDynamicsWrenchFriction => "forward_dynamics_wrench_friction",
-            FunctionKind::ForwardKinematics => "forward_kinematics",
-            FunctionKind::FramePoses => "frame_poses",
-            FunctionKind::Jacobian | FunctionKind::JacobianOf(_) => "jacobian",
-            FunctionKind::JacobianDotQd | FunctionKind::JacobianDotQdOf(_) => "jacobian_dot_qd",
-            FunctionKind::Energies => "energies",
-            FunctionKind::CoriolisMatrix => "coriolis_matrix",
-            FunctionKind::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
-            FunctionKind::ForwardDynamicsDerivatives => "forward_dynamics_derivatives",
-            FunctionKind::Regressor => "regressor",
-            FunctionKind::RegressorBase => "regressor_base",
-            FunctionKind::BaseParameters => "base_parameters",
+            FunctionKind::InverseDynamics(_) => Some(FunctionKind::InverseDynamics(effects)),
+            FunctionKind::ForwardDynamics(_) => Some(FunctionKind::ForwardDynamics(effects)),
+            _ => None,
         }
+    }
+
+    /// Whether the recursion over motions and forces is part of the function.
+    #[must_use]
+    pub const fn uses_motions(self) -> bool {
+        self.declaration().motions
+    }
+
+    /// Whether composite inertias are part of the function.
+    #[must_use]
+    pub const fn uses_composites(self) -> bool {
+        self.declaration().composites
     }
 
     /// The frame of a function of one frame.
@@ -163,71 +246,79 @@ impl FunctionKind {
         FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 
-    /// Whether the function takes the tips' wrenches, and is there for a robot with a tip alone.
-    #[must_use]
-    pub fn has_wrench(self) -> bool {
-        matches!(
-            self,
-            FunctionKind::InverseDynamicsWrench
-                | FunctionKind::InverseDynamicsWrenchFriction
-                | FunctionKind::ForwardDynamicsWrench
-                | FunctionKind::ForwardDynamicsWrenchFriction
-        )
-    }
-
-    /// Whether the function has the friction of the joints in it.
-    #[must_use]
-    pub fn has_friction(self) -> bool {
-        matches!(
-            self,
-            FunctionKind::InverseDynamicsFriction
-                | FunctionKind::InverseDynamicsWrenchFriction
-                | FunctionKind::ForwardDynamicsFriction
-                | FunctionKind::ForwardDynamicsWrenchFriction
-        )
-    }
-
     /// Why the robot has no such function; `None` where it has.
     #[must_use]
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
-        let (needs_tip, needs_friction) = (self.has_wrench(), self.has_friction());
+        let Effects { wrench, friction } = self.effects();
         if self.frame().is_some_and(|frame| frame.name(robot).is_none()) {
             return Some("the robot has no such frame");
         }
         if self == FunctionKind::FramePoses && robot.frames.is_empty() {
             return Some("the robot has no named frame; add [tip] or [[frame]] to its file");
         }
-        if needs_tip && robot.tips().next().is_none() {
+        if wrench && robot.tips().next().is_none() {
             return Some("the robot has no tip with a wrench; add [tip] to its file");
         }
-        if needs_friction && !robot.has_friction() {
+        if friction && !robot.has_friction() {
             return Some(
                 "no joint has friction; add `friction` to a link of the file, which `robot-symbolic import --friction` does for the `<dynamics>` of URDF",
             );
         }
-        match self {
-            FunctionKind::RegressorBase | FunctionKind::BaseParameters => out_of_reach(robot),
-            _ => None,
-        }
+        if self.declaration().base { out_of_reach(robot) } else { None }
     }
 
     /// Whether the function solves with the mass matrix, which must not be singular. It is then free to choose
     /// the accelerations of its bias.
     #[must_use]
     pub const fn divides_by_mass_matrix(self) -> bool {
-        matches!(
-            self,
-            FunctionKind::ForwardDynamics
-                | FunctionKind::ForwardDynamicsWrench
-                | FunctionKind::ForwardDynamicsFriction
-                | FunctionKind::ForwardDynamicsWrenchFriction
-                | FunctionKind::ForwardDynamicsDerivatives
-        )
+        self.declaration().solves
     }
 
     /// The functions that a robot has.
     #[must_use]
     pub fn of(robot: &Robot) -> Vec<FunctionKind> {
         FunctionKind::ALL.iter().copied().filter(|kind| kind.missing_in(robot).is_none()).collect()
+    }
+}
+
+/// What is known of a function whatever the robot.
+#[derive(Clone, Copy, Debug)]
+struct Declaration {
+    name: &'static str,
+    inputs: &'static [JointVariable],
+    effects: Effects,
+    /// Whether it is made of the recursion over motions and forces.
+    motions: bool,
+    /// Whether it is made of composite inertias.
+    composites: bool,
+    /// Whether it solves with the mass matrix.
+    solves: bool,
+    /// Whether it is about the base parameters.
+    base: bool,
+}
+
+impl Declaration {
+    const fn new(name: &'static str, inputs: &'static [JointVariable]) -> Declaration {
+        Declaration {
+            name,
+            inputs,
+            effects: Effects::NONE,
+            motions: false,
+            composites: false,
+            solves: false,
+            base: false,
+        }
+    }
+
+    const fn of_motions(name: &'static str, inputs: &'static [JointVariable]) -> Declaration {
+        Declaration { motions: true, ..Declaration::new(name, inputs) }
+    }
+
+    const fn of_composites(name: &'static str, inputs: &'static [JointVariable]) -> Declaration {
+        Declaration { composites: true, ..Declaration::new(name, inputs) }
+    }
+
+    const fn of_both(name: &'static str, inputs: &'static [JointVariable]) -> Declaration {
+        Declaration { motions: true, ..Declaration::of_composites(name, inputs) }
     }
 }

@@ -6,6 +6,6 @@ mod named;
 mod reach;
 
 pub use bundle::{ALL_FUNCTIONS, Bundle, Functions};
-pub use kind::FunctionKind;
+pub use kind::{Effects, FunctionKind};
 pub use named::{FrameRef, WrongName, is_of_frame, named, names};
 pub use reach::{has_shared_coordinates, out_of_reach};

@@ -3,6 +3,7 @@
 use nalgebra::Vector2;
 use robot_document::words;
 use robot_model::robot::{JointKind, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;
 
 use super::labels::{Rectangle, Room};
@@ -193,7 +194,7 @@ impl<'r> Drawing<'r> {
         };
         let [_, reach] = symbols::AXIS;
         let end = self.view.point(&(place.position + place.axis * reach));
-        let coordinate = text::symbol(&format!("q{}", link.joint.coordinate + 1));
+        let coordinate = text::symbol(&JointVariable::Position.symbol(link.joint.coordinate));
         self.label(&coordinate, end, 4.0, "coordinate", Some(index));
         let point = self.view.point(&place.position);
         self.label(&link.name, point, symbols::HALF + 2.0, "name", Some(index));

@@ -1,6 +1,7 @@
 //! The figures of motions and of driving forces.
 
 use robot_model::robot::{JointKind, Robot};
+use robot_model::variable::JointVariable;
 
 use super::{Curve, Figure, Panel};
 use crate::motion::{Energies, Motion};
@@ -17,10 +18,10 @@ pub fn motion_figure(
 ) -> Figure {
     let q: Vec<&[f64]> = motion.states.iter().map(|state| state.q.as_slice()).collect();
     let qd: Vec<&[f64]> = motion.states.iter().map(|state| state.qd.as_slice()).collect();
-    let mut panels = by_unit(robot, "position q", "q", ["rad", "m"], &q);
-    panels.extend(by_unit(robot, "velocity qd", "qd", ["rad/s", "m/s"], &qd));
+    let mut panels = by_unit(robot, "position", JointVariable::Position, &q);
+    panels.extend(by_unit(robot, "velocity", JointVariable::Velocity, &qd));
     if motion.tau.iter().flatten().any(|tau| *tau != 0.0) {
-        panels.extend(by_unit(robot, "drive tau", "tau", ["N m", "N"], &motion.tau));
+        panels.extend(by_unit(robot, "drive", JointVariable::Torque, &motion.tau));
     }
     let curve = |name: &str, values: &[f64]| Curve {
         name: name.to_owned(),
@@ -56,8 +57,8 @@ pub fn shares_figure(robot: &Robot, shares: &Shares) -> Figure {
             is_sum: name == "total",
         };
         Panel {
-            quantity: format!("tau{}", index + 1),
-            unit: if kind == JointKind::Revolute { "N m" } else { "N" }.to_owned(),
+            quantity: JointVariable::Torque.symbol(index),
+            unit: JointVariable::Torque.unit(kind).to_owned(),
             curves: shares.named().into_iter().map(curve).collect(),
         }
     };
@@ -70,24 +71,23 @@ pub fn shares_figure(robot: &Robot, shares: &Shares) -> Figure {
 fn by_unit(
     robot: &Robot,
     quantity: &str,
-    name: &str,
-    [turning, sliding]: [&str; 2],
+    variable: JointVariable,
     samples: &[impl AsRef<[f64]>],
 ) -> Vec<Panel> {
-    let panel = |(kind, unit): (JointKind, &str)| {
+    let panel = |kind: JointKind| {
         let numbers = robot.coordinates.iter().enumerate();
         let numbers = numbers.filter(|(_, coordinate)| coordinate.kind == kind);
         let curve = |(index, _)| Curve {
-            name: format!("{name}{}", index + 1),
+            name: variable.symbol(index),
             values: entries(samples, index),
             is_sum: false,
         };
         let curves: Vec<Curve> = numbers.map(curve).collect();
-        let (quantity, unit) = (quantity.to_owned(), unit.to_owned());
+        let quantity = format!("{quantity} {}", variable.name());
+        let unit = variable.unit(kind).to_owned();
         (!curves.is_empty()).then_some(Panel { quantity, unit, curves })
     };
-    let kinds = [(JointKind::Revolute, turning), (JointKind::Prismatic, sliding)];
-    kinds.into_iter().filter_map(panel).collect()
+    [JointKind::Revolute, JointKind::Prismatic].into_iter().filter_map(panel).collect()
 }
 
 /// An entry of every sample.

@@ -1,6 +1,6 @@
 //! With friction the energy falls.
 
-use robot_build::{FunctionKind, Functions, Options, Source, programs};
+use robot_build::{Effects, FunctionKind, Functions, Options, Source, programs};
 use robot_codegen::Interpreter;
 use robot_simulation::{Dynamics as _, RobotProgram, State, Torques};
 
@@ -58,7 +58,7 @@ fn friction_by_load_agrees_with_the_acceleration() {
     for (index, state) in motion.states.iter().enumerate() {
         let (qdd, tau) = (&motion.qdd[index], &motion.tau[index]);
         let inputs = [("q", &state.q[..]), ("qd", &state.qd[..]), ("qdd", &qdd[..])];
-        let name = FunctionKind::InverseDynamicsFriction.name();
+        let name = FunctionKind::InverseDynamics(Effects::FRICTION).name();
         let found = &interpreter.call(name, &inputs).unwrap()[0].values;
         for (link, (found, given)) in robot.links.iter().zip(found.iter().zip(tau)) {
             let joint = &link.name;
@@ -76,9 +76,9 @@ fn friction_by_load_agrees_with_the_acceleration() {
 fn forward(text: &str) -> robot_build::Programs {
     let source = Source { name: "robot.toml".to_owned(), text: text.to_owned() };
     let functions = Functions::Chosen(vec![
-        FunctionKind::ForwardDynamics,
-        FunctionKind::ForwardDynamicsFriction,
-        FunctionKind::InverseDynamicsFriction,
+        FunctionKind::ForwardDynamics(Effects::NONE),
+        FunctionKind::ForwardDynamics(Effects::FRICTION),
+        FunctionKind::InverseDynamics(Effects::FRICTION),
     ]);
     programs(&source, &Options { functions, ..Options::default() }).unwrap()
 }
@@ -99,8 +99,8 @@ fn forward_error(programs: &robot_build::Programs, given: &[(&str, f64)]) -> f64
             let inputs = [("q", &q[..]), ("qd", &qd[..]), last];
             interpreter.call(kind.name(), &inputs).unwrap()[0].values.clone()
         };
-        let qdd = call(FunctionKind::ForwardDynamicsFriction, ("tau", &tau));
-        let found = call(FunctionKind::InverseDynamicsFriction, ("qdd", &qdd));
+        let qdd = call(FunctionKind::ForwardDynamics(Effects::FRICTION), ("tau", &tau));
+        let found = call(FunctionKind::InverseDynamics(Effects::FRICTION), ("qdd", &qdd));
         let size = tau.iter().fold(0.0_f64, |size, tau| size.max(tau.abs()));
         for (found, tau) in found.iter().zip(&tau) {
             worst = worst.max((found - tau).abs() / size);
@@ -136,7 +136,8 @@ fn forward_dynamics_with_friction_inverts_inverse_dynamics() {
 #[test]
 fn forward_dynamics_with_friction_is_that_of_simulations() {
     let text = robot_file("trttr1");
-    let functions = [&RobotProgram::functions(true)[..], &[FunctionKind::ForwardDynamicsFriction]];
+    let functions =
+        [&RobotProgram::functions(true)[..], &[FunctionKind::ForwardDynamics(Effects::FRICTION)]];
     let functions = Functions::Chosen(functions.concat());
     let source = Source { name: "trttr1.toml".to_owned(), text };
     let programs = programs(&source, &Options { functions, ..Options::default() }).unwrap();
@@ -145,7 +146,7 @@ fn forward_dynamics_with_friction_is_that_of_simulations() {
     let state = State { q: vec![0.1, -0.7, 0.2, 0.3, 1.1], qd: vec![0.5, -1.0, 0.0, -0.3, 2.0] };
     let tau = [40.0, -3.0, 300.0, 8.0, 0.5];
     let inputs = [("q", &state.q[..]), ("qd", &state.qd[..]), ("tau", &tau[..])];
-    let name = FunctionKind::ForwardDynamicsFriction.name();
+    let name = FunctionKind::ForwardDynamics(Effects::FRICTION).name();
     let found = &interpreter.call(name, &inputs).unwrap()[0].values;
     let expected = program.accelerations(&state, &tau).unwrap();
     for (found, expected) in found.iter().zip(expected) {

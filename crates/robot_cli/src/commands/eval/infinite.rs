@@ -4,6 +4,7 @@ use robot_build::{Trigonometry, too_large_angle};
 use robot_codegen::OutputValues;
 use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_numeric::Mechanism;
 
 use super::digits::Digits;
@@ -75,7 +76,8 @@ fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<St
                 .map(|index| {
                     let joint = robot.coordinates.get(*index).map_or("", |one| &one.joint);
                     let position = q.get(*index).copied().unwrap_or_default();
-                    format!("q{} = {} (joint `{joint}`)", index + 1, number(position))
+                    let symbol = JointVariable::Position.symbol(*index);
+                    format!("{symbol} = {} (joint `{joint}`)", number(position))
                 })
                 .collect();
             Some(format!(

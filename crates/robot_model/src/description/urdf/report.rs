@@ -7,6 +7,7 @@ use super::element::Element;
 use super::joint::UrdfJoint;
 use super::unread;
 use crate::diagnostic::{Diagnostic, code};
+use crate::variable::JointVariable;
 
 /// What says nothing of the motion, and its plural.
 const IGNORED: &[(&str, &str)] = &[
@@ -56,7 +57,9 @@ fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: 
     let leading = links.filter(|link| link.joint.kind.is_some() && link.joint.mimic.is_none());
     let names: Vec<String> = leading
         .enumerate()
-        .map(|(number, link)| format!("q{} of `{}`", number + 1, link.joint.name.name))
+        .map(|(index, link)| {
+            format!("{} of `{}`", JointVariable::Position.symbol(index), link.joint.name.name)
+        })
         .collect();
     reader.report(
         Diagnostic::note(
