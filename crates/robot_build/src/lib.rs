@@ -52,7 +52,10 @@ pub use conventions::CONVENTIONS;
 pub use error::{Error, Errors};
 pub use files::{File, MARKER, Output, Ownership, Staleness, Writer, staleness};
 pub use generate::{Generated, generate};
-pub use options::{DEFAULT_BATCH, DEFAULT_FUNCTIONS, Options, functions_named, kinds_named};
+pub use options::{
+    Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
+    functions_named, kinds_named,
+};
 pub use paths::{RobotFile, shown};
 pub use pin::{pin_path, pin_text, robot_inputs};
 pub use pivots::{Pivot, Pivots};

@@ -15,6 +15,7 @@ mod friction;
 mod function;
 mod messages;
 mod motion;
+mod options;
 mod plan;
 mod progress;
 mod reading;

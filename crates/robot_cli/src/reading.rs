@@ -7,16 +7,15 @@ use robot_symbolic::Rational;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::options::help;
 use crate::text;
 
 /// What is taken with a warning.
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct ReadingArguments {
-    /// Take moving links without mass, with a warning
-    #[arg(long)]
+    #[arg(long, help = help("allow_massless"))]
     pub(crate) allow_massless: bool,
-    /// Take inertias that no body has, and such masses of a robot file, with a warning
-    #[arg(long)]
+    #[arg(long, help = help("allow_unphysical"))]
     pub(crate) allow_unphysical: bool,
 }
 

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::TypedValueParser;
 use robot_build::{
-    BaseFrames, Bundle, DEFAULT_BATCH, Functions, Options, RobotFile, Scalar, Source, Trigonometry,
+    BaseFrames, Bundle, Functions, OptionSpec, Options, RobotFile, Source, Trigonometry, Value,
     robot_inputs,
 };
 use robot_model::description::Described;
@@ -15,6 +15,7 @@ use robot_model::snap;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::function::{FunctionName, bundles, functions};
+use crate::options::{CodeOptions, choice, help};
 use crate::plan::pinned_or_searched;
 use crate::reading::ReadingArguments;
 use crate::text;
@@ -24,14 +25,9 @@ use crate::text;
 pub(crate) struct RobotArgument {
     /// The robot file
     file: PathBuf,
-    /// Constant angles this near to a multiple of π/2, in radians, become that multiple; without this
-    /// what the robot file says, or 1e-9
-    #[arg(long, value_name = "RAD", value_parser = snap, allow_hyphen_values = true)]
+    #[arg(long, value_name = "RAD", help = help("snap"), value_parser = snap, allow_hyphen_values = true)]
     snap: Option<f64>,
-    /// Over which parameters of links the base parameters are, and the regressor over them: those in
-    /// the file's frames, or first and second moments in frames of Denavit and Hartenberg, for which
-    /// the regressor needs fewer operations; without this what the robot file says, or file
-    #[arg(long, value_name = "FRAMES", value_parser = base_frames())]
+    #[arg(long, value_name = "FRAMES", help = help("base_frames"), value_parser = base_frames())]
     base_frames: Option<BaseFrames>,
     #[command(flatten)]
     pub(crate) reading: ReadingArguments,
@@ -46,8 +42,7 @@ fn snap(text: &str) -> Result<f64, String> {
 
 /// The names of frames of base parameters.
 fn base_frames() -> impl TypedValueParser<Value = BaseFrames> {
-    let names = BaseFrames::ALL.map(BaseFrames::name);
-    PossibleValuesParser::new(names).map(|name| BaseFrames::from_name(&name).unwrap_or_default())
+    choice("base_frames").map(|name| BaseFrames::from_name(&name).unwrap_or_default())
 }
 
 impl RobotArgument {
@@ -141,38 +136,19 @@ impl OpenRobot<'_> {
 /// What code is made.
 #[derive(Args)]
 pub(crate) struct CodeArguments {
-    /// Functions to generate, several with commas between; `all` for all that the robot has, `jacobian_NAME`
-    /// and `jacobian_dot_qd_NAME` for those of one frame or moving link. Without
-    /// this and --bundle those of the robot file's [code]; where it names none, inverse dynamics in its
-    /// forms and the wrenches in the joints
-    #[arg(long = "function", value_name = "NAME", value_delimiter = ',',
+    #[arg(long = "function", help = help("functions"), value_name = "NAME", value_delimiter = ',',
           value_parser = FunctionName { all: true })]
     functions: Vec<String>,
     #[command(flatten)]
     bundles: BundleArguments,
-    /// The number type of the functions
-    #[arg(long, value_enum, default_value_t = ScalarName::F64)]
-    scalar: ScalarName,
-    /// Add to each function a form `…_generic` over any scalar of the runtime: f64, f32 and lanes
-    #[arg(long)]
-    generic: bool,
-    /// Add to each function a form `…_batch` over slices of states, computed in blocks of so many
-    #[arg(long, value_name = "STATES", require_equals = true)]
-    batch: Option<Option<usize>>,
-    /// Add to each batch a form `…_batch_parallel` over the threads of the crate rayon
-    #[arg(long, requires = "batch")]
-    parallel: bool,
-    /// Multiply and add in one instruction where the target has it: it rounds once
-    #[arg(long)]
-    fused: bool,
+    #[command(flatten)]
+    target: CodeOptions,
 }
 
 /// Functions in one call.
 #[derive(Args)]
 pub(crate) struct BundleArguments {
-    /// A function that computes several in one call, and their common work once; may stand several
-    /// times
-    #[arg(long = "bundle", value_name = "NAME=FUNCTION,…", value_parser = bundle)]
+    #[arg(long = "bundle", help = help("bundles"), value_name = "NAME=FUNCTION,…", value_parser = bundle)]
     bundles: Vec<(String, Vec<String>)>,
 }
 
@@ -191,62 +167,22 @@ impl BundleArguments {
     }
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum ScalarName {
-    F64,
-    F32,
-}
-
-/// Where sines and cosines come from.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum TrigonometryName {
-    /// The runtime's branch-free polynomials, for angles below 2³⁰ rad (2¹⁷ in f32): NaN from there on
-    Polynomial,
-    /// The standard library, for angles of any size
-    Standard,
-}
-
-impl From<TrigonometryName> for Trigonometry {
-    fn from(name: TrigonometryName) -> Trigonometry {
-        match name {
-            TrigonometryName::Standard => Trigonometry::Standard,
-            TrigonometryName::Polynomial => Trigonometry::Polynomial,
-        }
-    }
-}
-
 impl CodeArguments {
     /// The options for code; tells of functions that the robot lacks where all are wanted.
     pub(crate) fn options(
         &self,
         file: &RobotArgument,
         described: &Described,
-        trigonometry: TrigonometryName,
         terminal: &mut Terminal<'_>,
     ) -> Result<Options, Failure> {
         let robot = &described.robot;
-        let scalar = match self.scalar {
-            ScalarName::F64 => Scalar::F64,
-            ScalarName::F32 => Scalar::F32,
-        };
         let functions = match self.functions.as_slice() {
             [] => Functions::Usual,
             names => functions(names, robot)?,
         };
-        let &CodeArguments { generic, batch, parallel, fused, .. } = self;
-        let batch = batch.map(|states| states.unwrap_or(DEFAULT_BATCH));
-        let trigonometry = trigonometry.into();
-        let options = Options {
-            functions,
-            bundles: self.bundles.bundles(robot)?,
-            scalar,
-            generic,
-            batch,
-            parallel,
-            fused,
-            trigonometry,
-            ..file.code_options()?
-        };
+        let bundles = self.bundles.bundles(robot)?;
+        let mut options = Options { functions, bundles, ..file.code_options()? };
+        self.target.set(&mut options);
         let of_file = options.functions == Functions::Usual && options.bundles.is_empty();
         let wanted = if of_file { &described.code.functions } else { &options.functions };
         if *wanted == Functions::All {
@@ -254,4 +190,14 @@ impl CodeArguments {
         }
         Ok(options)
     }
+}
+
+/// Where sines and cosines come from, by its name.
+pub(crate) fn trigonometry() -> impl TypedValueParser<Value = Trigonometry> {
+    choice("trigonometry").map(|word| {
+        let mut options = Options::default();
+        let option = OptionSpec::named("trigonometry");
+        let _ = option.and_then(|option| option.set(&mut options, Value::Word(&word)));
+        options.trigonometry
+    })
 }

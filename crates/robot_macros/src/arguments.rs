@@ -1,32 +1,12 @@
 //! The arguments of `include_robot!`.
 
 use robot_build::{
-    ALL_FUNCTIONS, BaseFrames, Bundle, FunctionKind, Functions, Options, Robot, Scalar,
-    Trigonometry, functions,
+    ALL_FUNCTIONS, Bundle, FunctionKind, Functions, Kind, OPTIONS, OptionSpec, Options, Robot,
+    Value, functions,
 };
 use robot_symbolic::nearest_word;
 use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
-
-/// The keys, for messages.
-const KEYS: [&str; 16] = [
-    "functions",
-    "bundles",
-    "snap",
-    "base_frames",
-    "scalar",
-    "generic",
-    "batch",
-    "parallel",
-    "fused",
-    "trigonometry",
-    "max_operations",
-    "max_stack",
-    "runtime",
-    "allow_outside",
-    "allow_unphysical",
-    "allow_massless",
-];
 
 /// `"path", key = value, …`
 pub(crate) struct Arguments {
@@ -108,42 +88,39 @@ impl Arguments {
     }
 
     fn set(&mut self, key: &Ident, value: &Expr) -> syn::Result<()> {
-        match key.to_string().as_str() {
-            "functions" => self.functions = Some(list(value, Some(ALL_FUNCTIONS))?),
-            "snap" => self.options.snap = Some(number(value)?),
-            "base_frames" => {
-                let known = BaseFrames::ALL.map(|frames| (frames.name(), frames));
-                self.options.base_frames = Some(one_of(value, &known)?);
-            }
-            "scalar" => {
-                let known = [("f64", Scalar::F64), ("f32", Scalar::F32)];
-                self.options.scalar = one_of(value, &known)?;
-            }
-            "generic" => self.options.generic = boolean(value)?,
-            "batch" => self.options.batch = Some(size(value)?),
-            "parallel" => self.options.parallel = boolean(value)?,
-            "fused" => self.options.fused = boolean(value)?,
-            "trigonometry" => {
-                let known = [
-                    ("standard", Trigonometry::Standard),
-                    ("polynomial", Trigonometry::Polynomial),
-                ];
-                self.options.trigonometry = one_of(value, &known)?;
-            }
-            "max_operations" => self.options.max_operations = Some(size(value)?),
-            "max_stack" => self.options.max_stack = Some(size(value)?),
-            "runtime" => self.options.runtime = text(value)?.value(),
-            "allow_outside" => self.allow_outside = boolean(value)?,
-            "allow_unphysical" => self.options.allow_unphysical = boolean(value)?,
-            "allow_massless" => self.options.allow_massless = boolean(value)?,
-            _ => {
-                let near = meant(&key.to_string(), &KEYS);
-                let keys = KEYS.join(", ");
-                let message = format!("there is no option `{key}`{near}; there are {keys}");
-                return Err(syn::Error::new(key.span(), message));
-            }
+        let name = key.to_string();
+        let Some(option) = OptionSpec::named(&name) else {
+            let keys: Vec<&str> = OPTIONS.iter().map(|option| option.name).collect();
+            let (near, keys) = (meant(&name, &keys), keys.join(", "));
+            let message = format!("there is no option `{key}`{near}; there are {keys}");
+            return Err(syn::Error::new(key.span(), message));
+        };
+        if name == "allow_outside" {
+            self.allow_outside = boolean(value)?;
         }
-        Ok(())
+        let word;
+        let given = match option.kind {
+            Kind::Functions => {
+                self.functions = Some(list(value, Some(ALL_FUNCTIONS))?);
+                return Ok(());
+            }
+            // They have a syntax of their own, see `Arguments::parse`.
+            Kind::Bundles => return Ok(()),
+            Kind::Flag => Value::Flag(boolean(value)?),
+            Kind::Count { .. } => Value::Count(size(value)?),
+            Kind::Angle => Value::Number(number(value)?),
+            Kind::Choice(words) => {
+                let words: Vec<(&str, &str)> =
+                    words.iter().map(|(word, _)| (*word, *word)).collect();
+                Value::Word(one_of(value, &words)?)
+            }
+            Kind::Path => {
+                word = text(value)?.value();
+                Value::Word(&word)
+            }
+        };
+        let refused = || syn::Error::new_spanned(value, format!("`{key}` cannot have this value"));
+        option.set(&mut self.options, given).ok_or_else(refused)
     }
 }
 
@@ -243,10 +220,7 @@ fn boolean(value: &Expr) -> syn::Result<bool> {
     }
 }
 
-fn size<N>(value: &Expr) -> syn::Result<N>
-where
-    N: std::str::FromStr<Err: std::fmt::Display>,
-{
+fn size(value: &Expr) -> syn::Result<u64> {
     match literal(value) {
         Some(Lit::Int(literal)) => {
             without_type(literal.suffix(), value)?;

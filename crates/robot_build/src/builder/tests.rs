@@ -1,6 +1,7 @@
 use std::fs;
 
 use super::*;
+use crate::options::OPTIONS;
 
 const ARM: &str = r#"format = 1
 [robot]
@@ -419,4 +420,38 @@ fn a_budget_breaks_the_build() {
     }
     assert!(!package.join("out").exists());
     builder.max_operations(100).max_stack(10_000).compile(&["arm.toml"]).unwrap();
+}
+
+#[test]
+fn each_option_has_its_setter() {
+    type Set = fn(Builder) -> Builder;
+    let setters: [(&str, Set); 16] = [
+        ("functions", |builder| builder.functions(["mass_matrix"])),
+        ("bundles", |builder| builder.bundle("dynamics", ["mass_matrix", "bias"])),
+        ("snap", |builder| builder.snap(1e-6)),
+        ("base_frames", |builder| builder.base_frames(BaseFrames::DenavitHartenberg)),
+        ("scalar", |builder| builder.scalar(Scalar::F32)),
+        ("generic", |builder| builder.generic(true)),
+        ("batch", |builder| builder.batch(16)),
+        ("parallel", |builder| builder.parallel(true)),
+        ("fused", |builder| builder.fused(true)),
+        ("trigonometry", |builder| builder.trigonometry(Trigonometry::Standard)),
+        ("max_operations", |builder| builder.max_operations(300)),
+        ("max_stack", |builder| builder.max_stack(2048)),
+        ("runtime", |builder| builder.runtime("::robot_runtime")),
+        ("allow_outside", |builder| builder.allow_outside(true)),
+        ("allow_unphysical", |builder| builder.allow_unphysical(true)),
+        ("allow_massless", |builder| builder.allow_massless(true)),
+    ];
+    assert_eq!(
+        setters.map(|(name, _)| name).to_vec(),
+        OPTIONS.iter().map(|option| option.name).collect::<Vec<_>>()
+    );
+    for (option, (_, set)) in OPTIONS.iter().zip(setters) {
+        let mut expected = Options::default();
+        if let Some(value) = option.value(option.example) {
+            option.set(&mut expected, value);
+        }
+        assert_eq!(set(Builder::new()).options, expected, "{}", option.name);
+    }
 }

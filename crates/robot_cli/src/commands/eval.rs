@@ -22,8 +22,9 @@ use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
 use crate::function::FunctionName;
+use crate::options::help;
 use crate::progress::watched;
-use crate::robot::{RobotArgument, TrigonometryName};
+use crate::robot::{RobotArgument, trigonometry};
 use crate::settings::Settings;
 use crate::states::{Layout, State};
 
@@ -50,9 +51,8 @@ pub(crate) struct Arguments {
     states: PathBuf,
     #[command(flatten)]
     settings: Settings,
-    /// Where sines and cosines come from
-    #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
-    trigonometry: TrigonometryName,
+    #[arg(long, help = help("trigonometry"), default_value = "polynomial", value_parser = trigonometry())]
+    trigonometry: Trigonometry,
     /// How to print the outputs
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
@@ -141,7 +141,7 @@ impl Arguments {
         };
         let interpreter = Interpreter::new(&programs.module, &self.settings.pairs())
             .map_err(failed)?
-            .with_trigonometry(Trigonometry::from(self.trigonometry));
+            .with_trigonometry(self.trigonometry);
         let mut results = vec![];
         for state in states {
             let inputs = inputs(function, state);
@@ -154,7 +154,7 @@ impl Arguments {
                 state,
                 &outputs,
                 digits,
-                Trigonometry::from(self.trigonometry),
+                self.trigonometry,
             ));
             results.push(outputs);
         }

@@ -6,8 +6,9 @@ use robot_build::{check_runtime_path, generate};
 use crate::Terminal;
 use crate::delivery::OutputArguments;
 use crate::failure::Failure;
+use crate::options::help;
 use crate::progress::watched;
-use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
+use crate::robot::{CodeArguments, RobotArgument};
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -23,11 +24,7 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     #[command(flatten)]
     code: CodeArguments,
-    /// Where sines and cosines come from
-    #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
-    trigonometry: TrigonometryName,
-    /// The path of the runtime in the code
-    #[arg(long, value_name = "PATH", default_value = "::robot_runtime", value_parser = runtime)]
+    #[arg(long, help = help("runtime"), value_name = "PATH", default_value = "::robot_runtime", value_parser = runtime)]
     runtime: String,
     #[command(flatten)]
     output: OutputArguments,
@@ -43,7 +40,7 @@ impl Arguments {
         let output = self.output.open(self.robot.inputs())?;
         let source = self.robot.source()?;
         let robot = self.robot.read(terminal)?;
-        let mut options = self.code.options(&self.robot, &robot, self.trigonometry, terminal)?;
+        let mut options = self.code.options(&self.robot, &robot, terminal)?;
         options.runtime.clone_from(&self.runtime);
         let generated = watched("generating", terminal, || generate(&source, &options))?;
         output.deliver(&generated.code, terminal)

@@ -9,7 +9,7 @@ use crate::Terminal;
 use crate::delivery::{ForceArgument, deliver_folder};
 use crate::failure::Failure;
 use crate::progress::watched;
-use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
+use crate::robot::{CodeArguments, RobotArgument};
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -25,9 +25,6 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     #[command(flatten)]
     code: CodeArguments,
-    /// Where sines and cosines come from; with `standard` the crate needs the standard library
-    #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
-    trigonometry: TrigonometryName,
     /// The folder to write
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -42,7 +39,7 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = self.robot.source()?;
         let robot = self.robot.read(terminal)?;
-        let options = self.code.options(&self.robot, &robot, self.trigonometry, terminal)?;
+        let options = self.code.options(&self.robot, &robot, terminal)?;
         let files = watched("generating", terminal, || package::package(&source, &options))?;
         let writer = self.force.writer(self.robot.inputs());
         deliver_folder(&self.output, &files, self.check, &writer, terminal)

@@ -11,7 +11,7 @@ use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::format::Format;
 use crate::progress::watched;
-use crate::robot::{CodeArguments, RobotArgument, TrigonometryName};
+use crate::robot::{CodeArguments, RobotArgument};
 use crate::text;
 
 #[derive(Args)]
@@ -36,9 +36,6 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     #[command(flatten)]
     code: CodeArguments,
-    /// Where sines and cosines come from; targets without a standard library need `polynomial`
-    #[arg(long, value_enum, default_value_t = TrigonometryName::Polynomial)]
-    trigonometry: TrigonometryName,
     /// Compile as Cargo does in these profiles
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [ProfileName::Dev, ProfileName::Release])]
     profile: Vec<ProfileName>,
@@ -65,7 +62,7 @@ enum ProfileName {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let robot = self.robot.read(terminal)?;
-        let options = self.code.options(&self.robot, &robot, self.trigonometry, terminal)?;
+        let options = self.code.options(&self.robot, &robot, terminal)?;
         let compiler = Compiler {
             rustc: self.rustc.clone(),
             target: self.target.clone(),

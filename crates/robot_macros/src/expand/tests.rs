@@ -163,3 +163,29 @@ fn a_budget_breaks_the_build() {
         assert!(shown.contains(part), "{shown}");
     }
 }
+
+#[test]
+fn each_option_has_its_key() {
+    for option in robot_build::OPTIONS {
+        let text = format!("\"robots/trttr1.toml\", {} = {}", option.name, option.example);
+        let arguments: Arguments = syn::parse_str(&text).unwrap();
+        let mut expected = robot_build::Options::default();
+        if let Some(value) = option.value(option.example) {
+            option.set(&mut expected, value);
+        }
+        assert_eq!(arguments.options, expected, "{text}");
+        let options = arguments.options_for(&planar()).unwrap();
+        match option.name {
+            "functions" => assert_ne!(options.functions, expected.functions),
+            "bundles" => assert_eq!(options.bundles.len(), 1),
+            "allow_outside" => assert!(arguments.allow_outside),
+            _ => assert_eq!(options, expected),
+        }
+    }
+}
+
+fn planar() -> robot_build::Robot {
+    let text = std::fs::read_to_string(package().join("robots/planar_2r.toml")).unwrap();
+    let source = robot_build::Source { name: "planar_2r.toml".to_owned(), text };
+    robot_build::read(&source).unwrap().robot
+}

@@ -4,7 +4,6 @@ use robot_build::{Options, Pivot, Pivots, Programs, Trigonometry};
 
 use crate::Terminal;
 use crate::failure::Failure;
-use crate::robot::TrigonometryName;
 use crate::states::State;
 
 /// The pivots of the mass matrix, where functions solve with it.
@@ -15,14 +14,14 @@ impl Digits {
         programs: &Programs,
         options: &Options,
         given: &[(&str, f64)],
-        trigonometry: TrigonometryName,
+        trigonometry: Trigonometry,
     ) -> Result<Digits, Failure> {
         let bundled = programs.bundles.iter().flat_map(|bundle| &bundle.functions);
         if !programs.functions.iter().chain(bundled).any(|kind| kind.divides_by_mass_matrix()) {
             return Ok(Digits(None));
         }
         let pivots = Pivots::new(&programs.robot, options, given)?;
-        Ok(Digits(Some(pivots.with_trigonometry(Trigonometry::from(trigonometry)))))
+        Ok(Digits(Some(pivots.with_trigonometry(trigonometry))))
     }
 
     /// Says at which states accelerations have few digits.

@@ -1,5 +1,9 @@
 //! What is generated, and how.
 
+mod declared;
+
+pub use declared::{Commands, Group, Kind, OPTIONS, OptionSpec, Value};
+
 use robot_codegen::backend::rust::{RustOptions, Scalar};
 use robot_codegen::{Cost, Fused, Trigonometry};
 use robot_dynamics::economical::Plan;

@@ -1,0 +1,154 @@
+//! The options of generated code on the command line, taken from the one table that declares them.
+
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
+use robot_build::{Commands, Kind, OPTIONS, OptionSpec, Options, Value};
+
+/// What the help says of an option.
+pub(crate) fn help(name: &str) -> &'static str {
+    OptionSpec::named(name).map_or("", |option| option.help)
+}
+
+/// The words that an option may have.
+pub(crate) fn choice(name: &str) -> PossibleValuesParser {
+    match OptionSpec::named(name).map(|option| option.kind) {
+        Some(Kind::Choice(words)) => words_of(words),
+        _ => PossibleValuesParser::new(Vec::<PossibleValue>::new()),
+    }
+}
+
+fn words_of(words: &[(&'static str, &'static str)]) -> PossibleValuesParser {
+    let word = |(word, help): &(&'static str, &'static str)| match *help {
+        "" => PossibleValue::new(*word),
+        help => PossibleValue::new(*word).help(help),
+    };
+    PossibleValuesParser::new(words.iter().map(word).collect::<Vec<_>>())
+}
+
+/// How code is printed and optimized, as the commands that make code take it.
+#[derive(Clone)]
+pub(crate) struct CodeOptions(Vec<(&'static OptionSpec, Given)>);
+
+/// A value from the command line.
+#[derive(Clone)]
+enum Given {
+    Flag,
+    Count(u64),
+    Word(String),
+}
+
+impl CodeOptions {
+    /// The options with what was given.
+    pub(crate) fn set(&self, options: &mut Options) {
+        for (option, given) in &self.0 {
+            let value = match given {
+                Given::Flag => Value::Flag(true),
+                Given::Count(count) => Value::Count(*count),
+                Given::Word(word) => Value::Word(word),
+            };
+            // The parsers of the arguments let no other values pass.
+            let _ = option.set(options, value);
+        }
+    }
+}
+
+/// Those of the table that are a flag with at most one plain value.
+fn listed() -> impl Iterator<Item = &'static OptionSpec> {
+    let plain = |kind| matches!(kind, Kind::Flag | Kind::Count { .. } | Kind::Choice(_));
+    OPTIONS.iter().filter(move |option| option.commands == Commands::Code && plain(option.kind))
+}
+
+fn argument(option: &'static OptionSpec) -> Arg {
+    let argument = Arg::new(option.name)
+        .long(option.flag().trim_start_matches('-').to_owned())
+        .help(option.help);
+    match option.kind {
+        Kind::Count { default } => {
+            let argument = argument.value_name("STATES").value_parser(value_parser!(u64));
+            match default {
+                Some(number) => argument
+                    .num_args(0..=1)
+                    .require_equals(true)
+                    .default_missing_value(number.to_string()),
+                None => argument,
+            }
+        }
+        Kind::Choice(words) => {
+            let usual = words.first().map_or("", |(word, _)| word);
+            argument.value_parser(words_of(words)).default_value(usual)
+        }
+        _ => argument.action(ArgAction::SetTrue),
+    }
+}
+
+impl Args for CodeOptions {
+    fn augment_args(command: Command) -> Command {
+        let arguments = listed().map(argument).map(|argument| match argument.get_id().as_str() {
+            "parallel" => argument.requires("batch"),
+            _ => argument,
+        });
+        command.args(arguments)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        CodeOptions::augment_args(command)
+    }
+}
+
+impl FromArgMatches for CodeOptions {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<CodeOptions, clap::Error> {
+        let given = |option: &'static OptionSpec| {
+            let given = match option.kind {
+                Kind::Flag => matches.get_flag(option.name).then_some(Given::Flag),
+                Kind::Count { .. } => matches.get_one(option.name).copied().map(Given::Count),
+                _ => matches.get_one(option.name).cloned().map(Given::Word),
+            };
+            given.map(|given| (option, given))
+        };
+        Ok(CodeOptions(listed().filter_map(given).collect()))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = CodeOptions::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(clap::Parser)]
+    struct Door {
+        #[command(flatten)]
+        code: CodeOptions,
+    }
+
+    #[test]
+    fn flags_set_what_the_table_sets() {
+        for option in listed() {
+            let value = option.example.trim_matches('"');
+            let mut arguments = vec!["door".to_owned()];
+            match option.kind {
+                Kind::Flag => arguments.push(option.flag()),
+                _ => arguments.push(format!("{}={value}", option.flag())),
+            }
+            if option.name == "parallel" {
+                arguments.push("--batch=16".to_owned());
+            }
+            let door = <Door as clap::Parser>::try_parse_from(&arguments).unwrap();
+            let (mut found, mut expected) = (Options::default(), Options::default());
+            door.code.set(&mut found);
+            option.set(&mut expected, option.value(option.example).unwrap()).unwrap();
+            if option.name == "parallel" {
+                expected.batch = Some(16);
+            }
+            assert_eq!(found, expected, "{arguments:?}");
+        }
+        let alone = <Door as clap::Parser>::try_parse_from(["door", "--batch"]).unwrap();
+        let mut found = Options::default();
+        alone.code.set(&mut found);
+        assert_eq!(found.batch, Some(robot_build::DEFAULT_BATCH));
+        assert!(<Door as clap::Parser>::try_parse_from(["door", "--parallel"]).is_err());
+    }
+}
