@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use robot_model::signs::{Accent, Font, Letter};
+use robot_model::signs::{Accent, Font, FunctionName, Letter};
 
 /// A token, without the spaces around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +56,18 @@ pub(super) fn is_accent(token: &str) -> bool {
 pub(super) fn is_letter(token: &str) -> bool {
     let letter = token.strip_prefix('\\').and_then(Letter::of_latex);
     letter.is_some_and(Letter::is_in_symbols)
+}
+
+/// The function in infix text that a command stands for.
+pub(super) fn function(token: &str) -> Option<&'static str> {
+    match token {
+        r"\tan" => Some("tan"),
+        r"\sgn" => Some(FunctionName::Sign.function().name()),
+        _ => {
+            let name = FunctionName::ALL.into_iter().find(|name| name.latex() == token)?;
+            Some(name.function().name())
+        }
+    }
 }
 
 impl Token<'_> {

@@ -48,6 +48,8 @@ fn what_papers_print_is_read() {
         (r"k_3 \mu_{ab}^{-2} \mathrm{payload} v_{\mathrm{max}}", "k3*muab^(-2)*payload*v_max"),
         (r"\bar c_2 c_2 {\ddot q}_{1}", "c_bar*cos(q2)*qdd1"),
         (r"1.5 \cdot 10^{-3} g \pi", "1.5*10^(-3)*g*pi"),
+        (r"\tan g \tanh^2 g \sgn g \operatorname{tan} g", "tan(g)*tanh(g)^2*sign(g)*tan(g)"),
+        (r"\overrightarrow{g} \bm{g} \textit{l}_6", "overrightarrowg*g*l6"),
     ] {
         assert_eq!(
             infix(latex)

@@ -14,10 +14,6 @@ const SIZES: [&str; 14] = [
     r"\Biggl", r"\bigr", r"\Bigr", r"\biggr", r"\Biggr",
 ];
 
-/// Functions, and what they are in infix text.
-const FUNCTIONS: [(&str, &str); 5] =
-    [(r"\sin", "sin"), (r"\cos", "cos"), (r"\tan", "tan"), (r"\tanh", "tanh"), (r"\sgn", "sign")];
-
 /// Brackets that open, and what closes them.
 const BRACKETS: [(&str, &str); 4] =
     [("(", ")"), ("[", "]"), (r"\{", r"\}"), (r"\lvert", r"\rvert")];
@@ -160,7 +156,7 @@ impl<'t> Translator<'t, '_> {
         if let Some((_, close)) = BRACKETS.iter().find(|(open, _)| *open == text) {
             return self.bracket(if text == r"\lvert" { "abs(" } else { "(" }, close);
         }
-        if let Some((_, name)) = FUNCTIONS.iter().find(|(command, _)| *command == text) {
+        if let Some(name) = lexer::function(text) {
             self.place += 1;
             return self.function(name, here);
         }
@@ -177,9 +173,7 @@ impl<'t> Translator<'t, '_> {
                 self.place += 1;
                 match self.capture()?.as_str() {
                     "sgn" | "sign" => self.function("sign", here),
-                    name if FUNCTIONS.iter().any(|(_, known)| *known == name) => {
-                        self.function(name, here)
-                    }
+                    name @ ("sin" | "cos" | "tan" | "tanh") => self.function(name, here),
                     _ => Err(unknown(text, here)),
                 }
             }
