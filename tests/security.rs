@@ -8,12 +8,11 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use robot_build::{FunctionKind, Functions, Options, Source, generate};
-use robot_document::base::base;
-use robot_document::{EquationOptions, Form, equations};
+use robot_document::base_parameters::base;
+use robot_document::{EquationOptions, Form, Trigonometry, equations};
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::description::{MAX_BYTES, read_toml};
-use robot_symbolic::print::latex::Trigonometry;
 
 fn source(text: String) -> Source {
     Source { name: "robot.toml".to_owned(), text }

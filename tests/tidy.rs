@@ -34,7 +34,7 @@ const LAYERS: [(&str, &[&[&str]]); 2] = [
     (
         "robot_model",
         &[
-            &["space", "unit", "diagnostic", "snap"],
+            &["space", "unit", "diagnostic", "signs", "snap"],
             &["robot", "physics", "variable"],
             &["functions"],
             &["description"],

@@ -2,8 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use robot_document::{SymbolTable, Trigonometry, latex};
 use robot_symbolic::polynomial::{Polynomial, PolynomialOptions};
-use robot_symbolic::print::latex::{LatexStyle, Trigonometry, to_latex_limited};
 use robot_symbolic::{Formula, Graph, print};
 
 /// Nodes of an expression that is printed or expanded.
@@ -28,8 +28,10 @@ fuzz_target!(|text: &str| {
     {
         let _ = again.evaluate(|_| 0.75);
     }
-    if let Ok(latex) = to_latex_limited(expr, &LatexStyle::new(Trigonometry::Short), MAX_SIZE) {
-        robot_fuzz::harmless_latex(&latex);
+    if print::check_length(expr, MAX_SIZE).is_ok()
+        && let Ok(formula) = SymbolTable::spelled(Trigonometry::Short).expression(expr)
+    {
+        robot_fuzz::harmless_latex(&latex::formula(&formula));
     }
     // Expansions take long where they are long.
     if !robot_fuzz::chosen(text.as_bytes(), 8) {

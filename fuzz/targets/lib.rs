@@ -4,9 +4,9 @@ use robot_codegen::backend::rust::{self, RustOptions};
 use robot_model::description::{Described, Options, import, read_toml};
 use robot_model::diagnostic::Diagnostics;
 use robot_check::doctor::{Examination, examine};
+use robot_document::{SymbolTable, Trigonometry, latex};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::{Effects, newton_euler};
-use robot_symbolic::print::latex::{LatexStyle, Trigonometry, to_latex_limited};
 use robot_symbolic::{Graph, print};
 
 /// Robots of more moving links than this are read, but not derived.
@@ -46,13 +46,12 @@ pub fn follow(text: &str, described: &Described) {
     let effects = Effects { wrench: true, friction: true };
     let equations = newton_euler(&mechanism, effects).driving_forces;
     assert_eq!(equations.len(), robot.degrees_of_freedom());
-    let style = LatexStyle::new(Trigonometry::Named);
+    let table = SymbolTable::spelled(Trigonometry::Named);
     for equation in equations {
-        if let Ok(text) = print::to_text_limited(equation, MAX_TERMS) {
-            assert!(!text.is_empty());
-        }
-        if let Ok(latex) = to_latex_limited(equation, &style, MAX_TERMS) {
-            harmless_latex(&latex);
+        let Ok(text) = print::to_text_limited(equation, MAX_TERMS) else { continue };
+        assert!(!text.is_empty());
+        if let Ok(formula) = table.expression(equation) {
+            harmless_latex(&latex::formula(&formula));
         }
     }
     if chosen(text.as_bytes(), 512) {

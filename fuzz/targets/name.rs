@@ -3,15 +3,17 @@
 
 use libfuzzer_sys::fuzz_target;
 use robot_codegen::backend::rust;
+use robot_document::latex::formula;
+use robot_document::math::Math;
 use robot_model::description::{read_toml, read_urdf};
-use robot_symbolic::print::latex::{check_name, symbol_latex};
+use robot_model::signs::check_latex;
 
 fuzz_target!(|text: &str| {
-    if check_name(text).is_ok() {
+    if check_latex(text).is_ok() {
         robot_fuzz::harmless_latex(text);
     }
     let (latex, name) = text.split_once('\n').unwrap_or((text, text));
-    robot_fuzz::harmless_latex(&symbol_latex(name));
+    robot_fuzz::harmless_latex(&formula(&Math::spelled(name)));
     if robot_fuzz::chosen(text.as_bytes(), 4) {
         in_toml(name, latex);
     } else if robot_fuzz::chosen(name.as_bytes(), 4) {
@@ -33,7 +35,7 @@ fn in_toml(name: &str, latex: &str) {
             let parameter = &described.robot.parameters[0];
             identifier(&parameter.name);
             parameter.latex.iter().for_each(|latex| robot_fuzz::harmless_latex(latex));
-            robot_fuzz::harmless_latex(&symbol_latex(&parameter.name));
+            robot_fuzz::harmless_latex(&formula(&Math::spelled(&parameter.name)));
             robot_fuzz::follow(&file, &described);
         }
         Err(found) => robot_fuzz::show(&found),

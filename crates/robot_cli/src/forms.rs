@@ -2,11 +2,10 @@
 
 use clap::{Args, ValueEnum};
 use robot_build::shown;
-use robot_document::{Error, Form};
+use robot_document::{Error, Form, Trigonometry};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
-use robot_symbolic::print::latex::Trigonometry;
 
 use crate::failure::Failure;
 use crate::friction::has_friction;

@@ -97,9 +97,17 @@ pub enum Error {
         /// What there is.
         available: Centimetres,
     },
-    /// LaTeX that is not read back; no robot file leads to it.
-    #[error("LaTeX of the equations cannot be laid out, {0}")]
-    Layout(#[from] ReadError),
+    /// Parts within parts within parts.
+    #[error(
+        "an expression has more than {limit} parentheses, fractions and indices within each other"
+    )]
+    TooDeep {
+        /// The most that are laid out.
+        limit: usize,
+    },
+    /// LaTeX of a symbol that cannot be laid out; what a robot file may have can be.
+    #[error("LaTeX of a symbol cannot be laid out, {0}")]
+    Symbol(#[from] ReadError),
 }
 
 /// A length in tenths of a millimetre, so that errors can be compared.

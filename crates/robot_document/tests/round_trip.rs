@@ -6,11 +6,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use robot_document::base_parameters::base;
 use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
 use robot_document::math::Math;
-use robot_document::meaning::meaning;
-use robot_document::{EquationOptions, Equations, Form, base::base, equations};
+use robot_document::meaning::{Looks, meaning};
+use robot_document::{EquationOptions, Equations, Form, Trigonometry, equations};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::newton_euler::newton_euler;
@@ -18,7 +19,6 @@ use robot_dynamics::quantity::Kind;
 use robot_model::description::read_toml;
 use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::{BaseFrames, Robot};
-use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 /// What a proof by polynomials may cost.
@@ -85,7 +85,7 @@ fn read_back<'g>(
     width: f64,
     graph: &'g Graph,
 ) -> Result<BTreeMap<String, Expr<'g>>, robot_document::Error> {
-    let symbols = printed.notation.symbols();
+    let looks = Looks::new(&printed.symbols).unwrap();
     let mut values: BTreeMap<String, Expr<'g>> = BTreeMap::new();
     // Definitions are in order; the quantities by them may stand before.
     let (definitions, quantities): (Vec<_>, Vec<_>) =
@@ -97,12 +97,12 @@ fn read_back<'g>(
             .map(|equation| NumberedEquation { label: None, equation: equation.clone() })
             .collect();
         let latex = latex::equations(&list, Layout::of_centimetres(width))?;
-        let read = latex::read_equations(&latex, symbols).unwrap();
+        let read = latex::read_equations(&latex).unwrap();
         assert_eq!(read.len(), list.len(), "{latex}");
         for ([left, right], one) in read.iter().zip(&list) {
             assert_eq!(latex::formula(left), latex::formula(&one.equation.left));
             let mut sides = right.pieces().split(|piece| *piece == Math::Sign('=')).map(|side| {
-                meaning(&Math::row(side.to_vec()), graph, printed.notation.trigonometry())
+                meaning(&Math::row(side.to_vec()), graph, &looks)
                     .unwrap_or_else(|error| panic!("{error}: {latex}"))
                     .substitute(|name| values.get(name).copied())
             });

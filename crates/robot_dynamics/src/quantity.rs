@@ -80,22 +80,6 @@ pub struct Symbol {
     pub component: Option<usize>,
 }
 
-impl Symbol {
-    /// The LaTeX, as the paper has it: `Q_{2}`, `F_{l_x}^{5}`, `F_{x}^{5}`.
-    #[must_use]
-    pub fn latex(&self) -> String {
-        let number = self.number;
-        let Some(component) = self.component else {
-            return format!("{}_{{{number}}}", self.kind.name());
-        };
-        let axis = ["x", "y", "z"][component.min(2)];
-        match self.kind.name().split_once('_') {
-            Some((letter, index)) => format!("{letter}_{{{index}_{axis}}}^{{{number}}}"),
-            None => format!("{}_{{{axis}}}^{{{number}}}", self.kind.name()),
-        }
-    }
-}
-
 impl std::fmt::Display for Symbol {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{}{}", self.kind.name(), self.number)?;

@@ -2,13 +2,14 @@
 //!
 //! A robot file is read by [`description`] into a checked [`robot::Robot`], whose values are formulas
 //! with [`unit`]s; what is wrong with it is a [`diagnostic`] with a place, a reason and a remedy.
-//! [`functions`] names what can be derived from a robot. Nothing here knows how.
+//! [`functions`] names what can be derived from a robot. Nothing here knows how. [`signs`] is the alphabet of formulas.
 
 pub mod description;
 pub mod diagnostic;
 pub mod functions;
 pub mod physics;
 pub mod robot;
+pub mod signs;
 pub mod snap;
 mod space;
 pub mod unit;

@@ -1,10 +1,9 @@
 //! Formulas on the page, as MathML.
 
-use robot_document::Notation;
 use robot_document::math::Math;
 use robot_document::mathml::{self, Content, Markup};
+use robot_document::{SymbolTable, Trigonometry};
 use robot_model::robot::Robot;
-use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{Formula, Graph};
 
 use crate::html::{Element, element, holding};
@@ -36,26 +35,26 @@ fn of_markup(markup: Markup) -> Element {
 /// How the symbols of a robot look.
 pub(crate) struct Symbols {
     /// `None` where two symbols look alike: then they are shown by their names.
-    notation: Option<Notation>,
+    table: Option<SymbolTable>,
 }
 
 impl Symbols {
     /// The symbols of a robot.
     pub(crate) fn of(robot: &Robot) -> Symbols {
-        Symbols { notation: Notation::new(robot, Trigonometry::Named).ok() }
+        Symbols { table: SymbolTable::new(robot, Trigonometry::Named).ok() }
     }
 
     /// A symbol by its name.
     pub(crate) fn symbol(&self, name: &str) -> Element {
-        let look = self.notation.as_ref().and_then(|notation| notation.symbol(name).ok());
-        look.map_or_else(|| holding("i", name), |look| math(&look))
+        let table = self.table.as_ref();
+        table.map_or_else(|| holding("i", name), |table| math(&table.look(name)))
     }
 
     /// A formula of the robot file.
     pub(crate) fn formula(&self, formula: &Formula) -> Element {
         let graph = Graph::new();
         let value = formula.lower(&graph, &mut |name| graph.symbol(name));
-        let look = self.notation.as_ref().and_then(|notation| notation.expression(value).ok());
+        let look = self.table.as_ref().and_then(|table| table.expression(value).ok());
         look.map_or_else(|| holding("i", text::plain(formula)), |look| math(&look))
     }
 }

@@ -1,6 +1,6 @@
 //! What the robot file says, in tables: joints, masses, parameters.
 
-use robot_document::words;
+use robot_document::robot::words;
 use robot_model::robot::{Body, Inertia, Link, Parameter, Robot};
 use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;

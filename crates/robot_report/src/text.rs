@@ -1,6 +1,6 @@
 //! Values of robot files in words and numbers.
 
-use robot_document::words;
+use robot_document::robot::words;
 use robot_model::robot::{Move, Placement, Robot};
 use robot_symbolic::Formula;
 

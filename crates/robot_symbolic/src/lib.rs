@@ -18,10 +18,9 @@
 //!   is read; [`Graph::parse`] makes an expression of text at once;
 //! - [`walk`] evaluates, substitutes and differentiates;
 //! - [`Polynomial`] is the canonical form: equality, expansion, collection by symbols;
-//! - [`mod@print`] writes expressions and polynomials as text that reads back and as LaTeX.
+//! - [`mod@print`] writes expressions and polynomials as text that reads back.
 //!
 //! ```
-//! use robot_symbolic::print::latex::{LatexStyle, Trigonometry, polynomial_to_latex};
 //! use robot_symbolic::{Graph, Polynomial, PolynomialOptions, polynomial, print};
 //!
 //! let graph = Graph::new();
@@ -32,11 +31,6 @@
 //! assert_eq!(expanded.to_text().unwrap(), "m*l^2*qdd1 + m*l*g*sin(q1)");
 //! let mass = &expanded.collect(&["qdd1"])[0].1;
 //! assert_eq!(mass.to_text().unwrap(), "m*l^2");
-//! let style = LatexStyle::new(Trigonometry::Named);
-//! assert_eq!(
-//!     polynomial_to_latex(&expanded, &style, print::default_rank).unwrap(),
-//!     r"m l^{2} \ddot{q}_1 + m l g \sin q_1"
-//! );
 //!
 //! let other = graph.parse("l*m*g*sin(q1) + qdd1*m*l^2*(sin(q1)^2 + cos(q1)^2)").unwrap();
 //! assert!(polynomial::equal(torque, other)?);

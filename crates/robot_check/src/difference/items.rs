@@ -1,6 +1,6 @@
 //! What the files of two robots say: parameters, links, joints and frames.
 
-use robot_document::words;
+use robot_document::robot::words;
 use robot_model::robot::{Body, Frame, Joint, Link, Move, Parameter, Payload, Placement, Robot};
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Formula, print};

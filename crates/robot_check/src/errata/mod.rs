@@ -9,6 +9,7 @@
 mod dimension;
 mod entries;
 mod evidence;
+mod latex;
 mod printed;
 mod slip;
 mod symbols;

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
+use super::latex::to_infix;
 use robot_model::description::is_finite;
 use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
-use robot_symbolic::formula::latex::to_infix;
 use robot_symbolic::{Formula, ParseError};
 
 use super::entries::{Entry, entries, unnamed};

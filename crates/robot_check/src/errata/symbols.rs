@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use robot_symbolic::formula::latex::symbol_key;
-use robot_symbolic::print::latex::symbol_latex;
-
+use robot_document::latex;
+use robot_document::math::Math;
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
+
+use super::latex::symbol_key;
 
 /// Signs over a letter that only say that it is a vector.
 const VECTOR_SIGNS: [&str; 5] = [r"\bar", r"\overline", r"\vec", r"\overrightarrow", r"\widetilde"];
@@ -46,7 +47,7 @@ impl Symbols {
     }
 
     fn insert(&mut self, name: &str, latex: Option<&str>) {
-        let spelt = symbol_key(&symbol_latex(name));
+        let spelt = symbol_key(&latex::formula(&Math::spelled(name)));
         self.names.entry(spelt).or_insert_with(|| name.to_owned());
         if let Some(latex) = latex {
             self.names.insert(symbol_key(latex), name.to_owned());
@@ -61,7 +62,7 @@ impl Symbols {
             let orders = [format!("{vector}^{number}"), format!("{vector}_{number}")];
             self.vectors.extend(orders.map(|key| (key, name.clone())));
         }
-        let key = symbol_key(&symbol.latex());
+        let key = symbol_key(&latex::formula(&Math::quantity(symbol)));
         if let Some((lower, upper)) = key.split_once('^') {
             let (letter, index) = lower.split_once('_').unwrap_or((lower, ""));
             self.quantities.insert(format!("{letter}^{upper}_{index}"), name.clone());

@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use robot_build::BaseFrames;
-use robot_document::base::{BaseEntry, BaseSet, base};
+use robot_document::base_parameters::{BaseEntry, BaseSet, base};
 use robot_model::robot::Robot;
 use serde_json::{Map, Value, json};
 

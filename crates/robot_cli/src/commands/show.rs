@@ -2,7 +2,7 @@
 
 use clap::Args;
 use robot_build::{FrameRef, FunctionKind, Options, functions, snapping, unsolvable};
-use robot_document::words;
+use robot_document::robot::words;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
 

@@ -98,7 +98,7 @@ fn driving_forces<'g>(
         let symbol = driving_force(index);
         let polynomial = Polynomial::of(value, &PolynomialOptions::default())
             .map_err(|error| Error::TooLong { reason: error.to_string() })?;
-        let (name, left) = (symbol.to_string(), shapes::quantity(symbol));
+        let (name, left) = (symbol.to_string(), Math::quantity(symbol));
         equations.push(writer.of_polynomial(name, left, &polynomial)?);
     }
     Ok(equations)

@@ -6,7 +6,8 @@ use rustc_hash::FxHashSet;
 use super::naming::{Named, worth_naming};
 use super::{Equation, Group, Writer, of_driving_force, shapes};
 use crate::error::Error;
-use crate::order::is_motion;
+use crate::layout::is_motion;
+use crate::math::Math;
 
 /// Letters for combinations of parameters, and for expressions of the state.
 const PARAMETER_LETTERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
@@ -23,7 +24,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (mut groups, named) = definitions(writer, &values, &target)?;
     let mut equations: Vec<Equation> = vec![];
     for quantity in &quantities {
-        let (name, left) = (quantity.symbol.to_string(), shapes::quantity(quantity.symbol));
+        let (name, left) = (quantity.symbol.to_string(), Math::quantity(quantity.symbol));
         equations.push(writer.of_expression(name, left, named.rewritten(quantity.value))?);
     }
     groups.push(Group {
@@ -49,7 +50,7 @@ pub(super) fn definitions<'h>(
         (PARAMETER_LETTERS, false, "Combinations of parameters"),
         (STATE_LETTERS, true, "Expressions of the state"),
     ] {
-        let letter = writer.notation.free_letter(&letters);
+        let letter = writer.symbols.free_letter(&letters);
         let shape = letter.chars().next().unwrap_or('x');
         let mut equations = vec![];
         let chosen = worthy.iter().filter(|expr| moving.contains(&expr.id()) == of_state);
@@ -58,7 +59,7 @@ pub(super) fn definitions<'h>(
             let left = shapes::indexed(shape, &[number]);
             let value = named.rewritten(*expr);
             writer.define(&name, left)?;
-            let left = writer.notation.symbol(&name)?;
+            let left = writer.symbols.look(&name);
             equations.push(writer.of_expression(name.clone(), left, value)?);
             named.name(*expr, &name);
         }

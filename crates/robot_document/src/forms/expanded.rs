@@ -6,8 +6,9 @@ use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
 use super::loads::{friction_shares, whole};
-use super::{Equation, Group, Writer, of_driving_force, shapes};
+use super::{Equation, Group, Writer, of_driving_force};
 use crate::error::Error;
+use crate::math::Math;
 
 /// What an expansion may cost: under a second, and more terms than anybody reads.
 const LIMITS: PolynomialOptions = PolynomialOptions {
@@ -43,7 +44,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (of_quantities, of_joints) = polynomials.split_at(quantities.len().min(polynomials.len()));
     let (mut forces, mut equations): (Vec<Equation>, Vec<Equation>) = (vec![], vec![]);
     for (quantity, polynomial) in quantities.iter().zip(of_quantities) {
-        let left = shapes::quantity(quantity.symbol);
+        let left = Math::quantity(quantity.symbol);
         equations.push(writer.of_polynomial(quantity.symbol.to_string(), left, polynomial)?);
     }
     for (force, polynomial) in joints.into_iter().zip(of_joints) {

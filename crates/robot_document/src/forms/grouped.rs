@@ -49,7 +49,7 @@ fn introduction(writer: &Writer<'_, '_>) -> String {
 
 /// The entries of the mass matrix on and above its diagonal, row by row: Mᵢⱼ = ∂Qᵢ/∂q̈ⱼ.
 fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]) -> Section<'g> {
-    let letter = writer.notation.free_letter(&MASS);
+    let letter = writer.symbols.free_letter(&MASS);
     let rates = motions(writer, "qdd");
     let columns: Vec<_> = rates.iter().map(|rate| walk::derivatives(forces, *rate)).collect();
     let mut coefficients = vec![];
@@ -82,7 +82,7 @@ fn velocities<'g>(
         true => (&CHRISTOFFEL, "Christoffel symbols"),
         false => (&VELOCITY, "Coefficients of velocities"),
     };
-    let letter = writer.notation.free_letter(letters);
+    let letter = writer.symbols.free_letter(letters);
     let graph = writer.graph;
     let half = graph.number(Rational::new(1, 2).unwrap_or(Rational::ONE));
     let rates = motions(writer, "qd");

@@ -8,10 +8,10 @@ use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
 use robot_symbolic::{Expr, walk};
 
+use super::Writer;
 use super::coefficients::{Coefficient, Section, Sum};
-use super::{Writer, shapes};
+use crate::layout::is_rate;
 use crate::math::Math;
-use crate::order::is_rate;
 
 /// Letters of the shares of gravity and of the wrenches.
 const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
@@ -25,7 +25,7 @@ pub(super) fn gravity<'g>(
 ) -> Section<'g> {
     let wrenches = wrench_names(writer);
     let values = at_rest(writer, forces, &|name| wrenches.iter().any(|known| known == name));
-    single(writer, "Gravity", writer.notation.free_letter(&GRAVITY), values, sums)
+    single(writer, "Gravity", writer.symbols.free_letter(&GRAVITY), values, sums)
 }
 
 /// The shares of the wrenches of the tips, Jᵀ times the wrench.
@@ -42,7 +42,7 @@ pub(super) fn wrenches<'g>(
             *value += slope * component;
         }
     }
-    single(writer, "Wrenches of the tips", writer.notation.free_letter(&WRENCH), values, sums)
+    single(writer, "Wrenches of the tips", writer.symbols.free_letter(&WRENCH), values, sums)
 }
 
 /// A coefficient for each driving force.
@@ -136,7 +136,7 @@ fn joint_force<'g>(
         }
         // Without the dot of a quantity, so that text reads back.
         let name = symbol.to_string().replace('.', "_");
-        let shape = shapes::quantity(symbol);
+        let shape = Math::quantity(symbol);
         let named = writer.graph.symbol(&name);
         joints.coefficients.push(Coefficient { name, shape, value });
         named

@@ -18,13 +18,11 @@ use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_model::snap;
-use robot_symbolic::print::latex::Trigonometry;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialError, PolynomialOptions};
 
 use crate::error::Error;
+use crate::layout::{Order, SymbolTable, Trigonometry};
 use crate::math::Math;
-use crate::notation::Notation;
-use crate::order::Order;
 
 /// How the equations are put.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -103,7 +101,7 @@ pub struct Equations {
     /// The equations, in groups in the order in which they are read.
     pub groups: Vec<Group>,
     /// The look of all symbols.
-    pub notation: Notation,
+    pub symbols: SymbolTable,
 }
 
 /// Equations that belong together.
@@ -175,7 +173,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         robot,
         options,
         graph: &graph,
-        notation: Notation::new(robot, options.trigonometry)?,
+        symbols: SymbolTable::new(robot, options.trigonometry)?,
         order: Order::new(robot),
     };
     let groups = match options.form {
@@ -189,7 +187,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         return Err(Error::TooManyExpressions { limit: MAX_NODES });
     }
     let groups = groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
-    Ok(Equations { groups, notation: writer.notation })
+    Ok(Equations { groups, symbols: writer.symbols })
 }
 
 /// What the forms share.
@@ -197,7 +195,7 @@ struct Writer<'r, 'g> {
     robot: &'r Robot,
     options: &'r EquationOptions,
     graph: &'g Graph,
-    notation: Notation,
+    symbols: SymbolTable,
     order: Order<'r>,
 }
 
@@ -246,13 +244,13 @@ impl<'g> Writer<'_, 'g> {
     /// Defines a combination of parameters.
     fn define_parameter(&mut self, name: &str, shape: Math) -> Result<(), Error> {
         self.order.define_parameter(name);
-        self.notation.define(name, shape)
+        self.symbols.define(name, shape)
     }
 
     /// Defines a symbol.
     fn define(&mut self, name: &str, shape: Math) -> Result<(), Error> {
         self.order.define(name);
-        self.notation.define(name, shape)
+        self.symbols.define(name, shape)
     }
 
     /// An equation whose right side is a polynomial.
@@ -263,14 +261,14 @@ impl<'g> Writer<'_, 'g> {
         value: &Polynomial<'_>,
     ) -> Result<Equation, Error> {
         let text = value.to_text_by(|atom| self.order.rank(atom))?;
-        let right = self.notation.polynomial(value, &self.order)?;
+        let right = self.symbols.polynomial(value, &self.order)?;
         Ok(Equation { name, text, left, right })
     }
 
     /// An equation whose right side is an expression as it is built.
     fn of_expression(&self, name: String, left: Math, value: Expr<'_>) -> Result<Equation, Error> {
         let text = robot_symbolic::print::to_text(value)?;
-        let right = self.notation.expression(value)?;
+        let right = self.symbols.expression(value)?;
         Ok(Equation { name, text, left, right })
     }
 

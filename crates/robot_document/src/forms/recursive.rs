@@ -57,7 +57,7 @@ fn figures<'h>(
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
     let mechanism = writer.derivation().mechanism;
-    let letter = writer.notation.free_letter(&["m", "M", "A", "B"]);
+    let letter = writer.symbols.free_letter(&["m", "M", "A", "B"]);
     let mut figures: Vec<(String, Math, Expr<'_>)> = vec![];
     for (link, number) in mechanism.links.iter().zip(1..) {
         let shape = shapes::indexed(letter.chars().next().unwrap_or('m'), &[number]);
@@ -79,7 +79,7 @@ fn figures<'h>(
     for (name, shape, expr) in figures {
         let value = named.rewritten(expr);
         writer.define(&name, shape)?;
-        let left = writer.notation.symbol(&name)?;
+        let left = writer.symbols.look(&name);
         group.equations.push(writer.of_expression(name.clone(), left, value)?);
         named.name(expr, &name);
     }
@@ -99,7 +99,7 @@ impl Look {
         match self {
             Look::Letter(letter) => shapes::component(letter, number, &[component]),
             Look::Paper(kind) => {
-                shapes::quantity(Symbol { kind, number, component: Some(component) })
+                Math::quantity(Symbol { kind, number, component: Some(component) })
             }
         }
     }
@@ -120,7 +120,7 @@ fn vector_equations(
         let name = format!("{name}{number}.{}", shapes::axis_name(component));
         let value = named.rewritten(expr);
         writer.define(&name, look.shape(number, component))?;
-        let left = writer.notation.symbol(&name)?;
+        let left = writer.symbols.look(&name);
         equations.push(sum(writer, name.clone(), left, value)?);
         if !is_leaf(expr) {
             named.name(expr, &name);
@@ -138,7 +138,7 @@ fn driving_forces(
     for (index, force) in forces.iter().enumerate() {
         let symbol = driving_force(index);
         let value = named.rewritten(*force);
-        equations.push(sum(writer, symbol.to_string(), shapes::quantity(symbol), value)?);
+        equations.push(sum(writer, symbol.to_string(), Math::quantity(symbol), value)?);
     }
     Ok(Group {
         title: "Driving forces".to_owned(),

@@ -10,7 +10,7 @@ use super::coefficients::{
 };
 use super::loads::{frictions, wrenches};
 use super::{Equation, Group, Writer, driving_force, shapes};
-use crate::base::{self, Formulas, Term, Written};
+use crate::base_parameters::{self as base, Formulas, Term, Written};
 use crate::error::Error;
 use crate::math::{Fence, Math};
 
@@ -121,10 +121,10 @@ fn standard<'g>(
             text = symbol;
         } else {
             writer.define_parameter(&text, base::shape(parameter.quantity, "", parameter.link))?;
-            let left = writer.notation.symbol(&text)?;
+            let left = writer.symbols.look(&text);
             equations.push(writer.of_polynomial(text.clone(), left, value)?);
         }
-        written.push(Some(Written { math: writer.notation.symbol(&text)?, text }));
+        written.push(Some(Written { math: writer.symbols.look(&text), text }));
     }
     Ok((equations, written))
 }
@@ -140,12 +140,12 @@ fn parameter<'g>(
     if let Some(name) = symbol_of(value) {
         return Ok(writer.graph.symbol(&name));
     }
-    let formulas = Formulas { notation: &writer.notation, order: &writer.order };
+    let formulas = Formulas { symbols: &writer.symbols, order: &writer.order };
     let value = formulas.of_polynomial(value)?;
     // By the file's own symbols the formula would be the value once more.
     let is_defined = |(place, _): &(usize, Expr<'g>)| {
         let written = standard.get(*place).and_then(Option::as_ref);
-        written.is_some_and(|written| writer.notation.is_defined(&written.text))
+        written.is_some_and(|written| writer.symbols.is_defined(&written.text))
     };
     let formula = match parameter.terms.iter().any(is_defined) {
         true => formulas.of_parameter(parameter, standard)?,
@@ -163,7 +163,7 @@ fn parameter<'g>(
     }
     let right = base::chained(&formula, &value);
     writer.define_parameter(&name, look)?;
-    let left = writer.notation.symbol(&name)?;
+    let left = writer.symbols.look(&name);
     let symbol = writer.graph.symbol(&name);
     equations.push(Equation { name, text: formula.text, left, right });
     Ok(symbol)
@@ -205,7 +205,7 @@ fn coefficients<'g>(
     parameters: &[Option<Expr<'g>>],
     sums: &mut [Sum<'g>],
 ) -> Section<'g> {
-    let letter = writer.notation.free_letter(&REGRESSOR);
+    let letter = writer.symbols.free_letter(&REGRESSOR);
     let mut coefficients = vec![];
     for ((row, values), sum) in (1..).zip(columns.chunks(parameters.len().max(1))).zip(sums) {
         let used =
@@ -244,14 +244,14 @@ fn inline<'g>(
                 Some(value) if value.is_zero() => {}
                 Some(value) => terms.push(product(writer, parameter, value)?),
                 None => {
-                    let math = writer.notation.symbol(&name)?;
+                    let math = writer.symbols.look(&name);
                     terms.push(Term { negative: false, written: Written { text: name, math } });
                 }
             }
         }
         let symbol = driving_force(index);
         let Written { text, math } = base::sum(&terms);
-        let (name, left) = (symbol.to_string(), shapes::quantity(symbol));
+        let (name, left) = (symbol.to_string(), Math::quantity(symbol));
         equations.push(Equation { name, text, left, right: math });
     }
     let title = TITLE.to_owned();
@@ -266,7 +266,7 @@ fn product<'g>(
     parameter: Expr<'g>,
     coefficient: &Polynomial<'g>,
 ) -> Result<Term, Error> {
-    let formulas = Formulas { notation: &writer.notation, order: &writer.order };
+    let formulas = Formulas { symbols: &writer.symbols, order: &writer.order };
     if coefficient.len() == 1 {
         let product = base::polynomials(&[parameter * coefficient.to_expr()])?;
         let written = product.iter().map(|product| formulas.of_polynomial(product)).next();
@@ -279,7 +279,7 @@ fn product<'g>(
     let symbol = parameter.as_symbol();
     let name = symbol.map(|symbol| writer.graph.symbol_name(symbol)).unwrap_or_default();
     let fenced = Math::Fenced(Fence::Parentheses, Box::new(sum.written.math));
-    let math = Math::Row(vec![writer.notation.symbol(&name)?, fenced]);
+    let math = Math::Row(vec![writer.symbols.look(&name), fenced]);
     let text = format!("{name}*({})", sum.written.text);
     Ok(Term { negative: sum.negative, written: Written { text, math } })
 }

@@ -1,25 +1,6 @@
 //! What quantities and defined symbols look like.
 
-use robot_dynamics::quantity::Symbol;
-
-use crate::math::{Math, Script};
-
-/// `Q_{1}`, `F_{l_x}^{5}`, as the paper prints them.
-pub(super) fn quantity(symbol: Symbol) -> Math {
-    let number = Math::integer(symbol.number);
-    let name = symbol.kind.name();
-    let (letter, index) = name.split_once('_').unwrap_or((name, ""));
-    let base = Math::Letter(letter.chars().next().unwrap_or('Q'));
-    let Some(component) = symbol.component else {
-        return base.with_lower(number);
-    };
-    let axis = axis(component);
-    let lower = match index.chars().next() {
-        Some(index) => Math::Letter(index).with_lower(axis),
-        None => axis,
-    };
-    Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(number) }))
-}
+use crate::math::Math;
 
 /// `ω_{2,x}`, `J_{2,xy}`
 pub(super) fn component(letter: char, number: usize, axes: &[usize]) -> Math {

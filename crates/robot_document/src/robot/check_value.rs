@@ -2,9 +2,8 @@
 
 use super::{heading, paragraph};
 use crate::document::{Block, Inline, Table};
-use crate::error::Error;
+use crate::layout::SymbolTable;
 use crate::math::Math;
-use crate::notation::Notation;
 
 /// A state and its joint torques, found without the equations. Numbers of the state are as they are printed.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,11 +21,7 @@ pub struct CheckValue {
 }
 
 /// The check value as a table.
-pub(super) fn blocks(
-    value: &CheckValue,
-    has_tip: bool,
-    notation: &Notation,
-) -> Result<Vec<Block>, Error> {
+pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -> Vec<Block> {
     let CheckValue { positions, velocities, accelerations, wrench, forces } = value;
     let mut rows = vec![];
     for (index, force) in forces.iter().enumerate() {
@@ -37,12 +32,12 @@ pub(super) fn blocks(
         row.push(vec![number(&format!("{force:.8}"))]);
         rows.push(row);
     }
-    let name = |prefix: &str| -> Result<Vec<Inline>, Error> {
-        let shape = notation.symbol(&format!("{prefix}1"))?;
-        Ok(vec![Inline::Math(without_index(shape))])
+    let name = |prefix: &str| {
+        let shape = symbols.look(&format!("{prefix}1"));
+        vec![Inline::Math(without_index(shape))]
     };
     let driving = vec![Inline::Math(Math::Letter('Q'))];
-    let head = vec![vec![], name("q")?, name("qd")?, name("qdd")?, driving];
+    let head = vec![vec![], name("q"), name("qd"), name("qdd"), driving];
     let mut blocks = vec![
         heading("A check value"),
         paragraph(
@@ -59,7 +54,7 @@ pub(super) fn blocks(
     }
     let caption = "State and driving forces, SI units.".to_owned();
     blocks.push(Block::Table(Table { caption, head, rows }));
-    Ok(blocks)
+    blocks
 }
 
 fn number(text: &str) -> Inline {

@@ -3,6 +3,7 @@
 mod check_value;
 mod symbols;
 mod tables;
+pub mod words;
 
 use robot_model::robot::Robot;
 
@@ -34,15 +35,15 @@ pub fn document(
     let Some((_, first)) = parts.first() else {
         return Ok(Document { title: robot.name.clone(), blocks });
     };
-    blocks.extend(tables::blocks(robot, &first.notation)?);
+    blocks.extend(tables::blocks(robot, &first.symbols)?);
     blocks.extend(conventions(options)?);
     for (form, part) in &parts {
         blocks.extend(equation_blocks(*form, part));
     }
-    blocks.extend(symbols::blocks(robot, &parts)?);
+    blocks.extend(symbols::blocks(robot, &parts));
     if let Some(check) = check {
         let has_tip = robot.tips().next().is_some();
-        blocks.extend(check_value::blocks(check, has_tip, &first.notation)?);
+        blocks.extend(check_value::blocks(check, has_tip, &first.symbols));
     }
     Ok(Document { title: format!("Equations of motion of {}", robot.name), blocks })
 }

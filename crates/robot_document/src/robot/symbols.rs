@@ -5,14 +5,13 @@ use robot_symbolic::print::exact_text;
 
 use super::heading;
 use crate::document::{Block, Inline};
-use crate::error::Error;
 use crate::forms::{Equations, Form};
 use crate::math::Math;
 
 /// What the symbols of the robot mean.
-pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Result<Vec<Block>, Error> {
-    let Some((_, first)) = parts.first() else { return Ok(vec![]) };
-    let notation = &first.notation;
+pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
+    let Some((_, first)) = parts.first() else { return vec![] };
+    let symbols = &first.symbols;
     let mut items = vec![];
     for (index, coordinate) in robot.coordinates.iter().enumerate() {
         let (position, unit) = match coordinate.kind {
@@ -21,33 +20,29 @@ pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Result<Vec<B
         };
         let name = format!("q{}", index + 1);
         items.push(vec![
-            Inline::Math(notation.symbol(&name)?),
+            Inline::Math(symbols.look(&name)),
             Inline::text(format!(" \u{2014} {position} of the joint {}, {unit}", coordinate.joint)),
         ]);
     }
     for parameter in &robot.parameters {
-        items.push(parameter_item(notation.symbol(&parameter.name)?, parameter));
+        items.push(parameter_item(symbols.look(&parameter.name), parameter));
     }
     for (frame, wrench) in robot.tips() {
         let [force, moment] = [(&wrench.force, "force", "N"), (&wrench.moment, "moment", "N m")]
             .map(|(names, what, unit)| {
-                let symbols: Result<Vec<Math>, Error> =
-                    names.iter().map(|name| notation.symbol(name)).collect();
-                symbols.map(|symbols| {
-                    let mut item = vec![];
-                    for (place, symbol) in symbols.into_iter().enumerate() {
-                        item.push(Inline::text(if place == 0 { "" } else { ", " }));
-                        item.push(Inline::Math(symbol));
-                    }
-                    let text =
-                        format!(" \u{2014} {what} that {} exerts, in its axes, {unit}", frame.name);
-                    item.push(Inline::Text(text));
-                    item
-                })
+                let mut item = vec![];
+                for (place, name) in names.iter().enumerate() {
+                    item.push(Inline::text(if place == 0 { "" } else { ", " }));
+                    item.push(Inline::Math(symbols.look(name)));
+                }
+                let text =
+                    format!(" \u{2014} {what} that {} exerts, in its axes, {unit}", frame.name);
+                item.push(Inline::Text(text));
+                item
             });
-        items.extend([force?, moment?]);
+        items.extend([force, moment]);
     }
-    Ok(vec![heading("Symbols"), Block::List(items)])
+    vec![heading("Symbols"), Block::List(items)]
 }
 
 fn parameter_item(symbol: Math, parameter: &Parameter) -> Vec<Inline> {

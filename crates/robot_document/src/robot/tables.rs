@@ -7,22 +7,22 @@ use robot_symbolic::{Expr, Formula, Graph, walk};
 use super::{heading, paragraph};
 use crate::document::{Block, Inline, Table};
 use crate::error::Error;
+use crate::layout::SymbolTable;
 use crate::math::Math;
-use crate::notation::Notation;
-use crate::words;
+use crate::robot::words;
 
 type Cell = Vec<Inline>;
 
 /// Tables of the links, of their masses, and of the named frames.
-pub(super) fn blocks(robot: &Robot, notation: &Notation) -> Result<Vec<Block>, Error> {
-    let formulas = Formulas { graph: Graph::new(), notation };
+pub(super) fn blocks(robot: &Robot, symbols: &SymbolTable) -> Result<Vec<Block>, Error> {
+    let formulas = Formulas { graph: Graph::new(), symbols };
     let mut blocks = vec![heading("The robot"), gravity(robot, &formulas)?];
     blocks.push(Block::Table(links(robot, &formulas)?));
     blocks.push(paragraph(
         "T is a displacement along the axes of the frame that is reached so far, R a rotation about one \
          of its axes.",
     ));
-    blocks.push(Block::Table(masses(robot, notation)?));
+    blocks.push(Block::Table(masses(robot, symbols)?));
     if !robot.frames.is_empty() {
         blocks.push(Block::Table(frames(robot, &formulas)?));
     }
@@ -31,13 +31,13 @@ pub(super) fn blocks(robot: &Robot, notation: &Notation) -> Result<Vec<Block>, E
 
 struct Formulas<'n> {
     graph: Graph,
-    notation: &'n Notation,
+    symbols: &'n SymbolTable,
 }
 
 impl Formulas<'_> {
     fn math(&self, formula: &Formula) -> Result<Math, Error> {
         let value = formula.lower(&self.graph, &mut |name| self.graph.symbol(name));
-        self.notation.expression(value)
+        self.symbols.expression(value)
     }
 
     fn vector(&self, formulas: &[Formula; 3]) -> Result<Cell, Error> {
@@ -101,7 +101,7 @@ fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
             carrier(robot, link.parent),
             vec![Inline::text(words::motion(link.joint.kind))],
             formulas.vector(&link.joint.axis)?,
-            vec![Inline::Math(formulas.notation.symbol(&name)?)],
+            vec![Inline::Math(formulas.symbols.look(&name))],
             formulas.placement(&link.placement)?,
         ]);
     }
@@ -131,10 +131,10 @@ fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
 }
 
 /// A value of a table: long constants to six digits.
-fn figure(notation: &Notation, value: Expr<'_>) -> Result<Math, Error> {
+fn figure(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
     let long = robot_symbolic::print::to_text(value).is_ok_and(|text| text.len() > LONG_FIGURE);
     if !long || !walk::symbols(&[value]).is_empty() {
-        return notation.expression(value);
+        return symbols.expression(value);
     }
     let number = value.evaluate(|_| f64::NAN);
     let places = (5.0 - number.abs().log10().floor()).clamp(0.0, 12.0) as usize;
@@ -147,7 +147,7 @@ fn figure(notation: &Notation, value: Expr<'_>) -> Result<Math, Error> {
 const LONG_FIGURE: usize = 10;
 
 /// Mass, centre of mass and tensor of each link, in the link's axes; columns of zeros are left out.
-fn masses(robot: &Robot, notation: &Notation) -> Result<Table, Error> {
+fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     let graph = Graph::new();
     let options = MechanismOptions::EXACT.with_snap(None, robot);
     let mechanism = Mechanism::new(robot, &graph, &options);
@@ -170,7 +170,7 @@ fn masses(robot: &Robot, notation: &Notation) -> Result<Table, Error> {
         let mut row =
             vec![vec![Inline::Math(Math::integer(index + 1))], vec![Inline::text(&link.name)]];
         for value in columns.iter().filter_map(|column| values.get(*column)) {
-            row.push(vec![Inline::Math(figure(notation, *value)?)]);
+            row.push(vec![Inline::Math(figure(symbols, *value)?)]);
         }
         rows.push(row);
     }

@@ -1,17 +1,16 @@
 //! LaTeX of a symbol in a robot file.
 
-use robot_symbolic::print::latex::check_name;
-
 use super::reader::Reader;
 use super::strings;
 use super::table::Value;
 use crate::diagnostic::{Diagnostic, code};
+use crate::signs::check_latex;
 
 impl Reader<'_> {
     /// The LaTeX of a symbol.
     pub(super) fn latex(&mut self, value: Value<'_>) -> Option<String> {
         let text = self.string(value, "the LaTeX of a symbol in quotes")?;
-        let Err(error) = check_name(text) else {
+        let Err(error) = check_latex(text) else {
             return Some(text.to_string());
         };
         let span = strings::place(self.text, &value.span(), text, error.span);

@@ -1,7 +1,7 @@
 //! The drawing of a layout.
 
 use nalgebra::Vector2;
-use robot_document::words;
+use robot_document::robot::words;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;

@@ -15,12 +15,15 @@ pub struct ParseError {
 }
 
 impl ParseError {
-    pub(crate) fn new(span: Range<usize>, message: impl Into<String>) -> ParseError {
+    /// What is wrong at a place.
+    #[must_use]
+    pub fn new(span: Range<usize>, message: impl Into<String>) -> ParseError {
         ParseError { span, message: message.into(), help: None }
     }
 
+    /// The error with what to write instead.
     #[must_use]
-    pub(crate) fn help(mut self, help: impl Into<String>) -> ParseError {
+    pub fn help(mut self, help: impl Into<String>) -> ParseError {
         self.help = Some(help.into());
         self
     }

@@ -2,7 +2,6 @@
 
 mod error;
 mod fold;
-pub mod latex;
 mod lexer;
 mod parser;
 

@@ -1,4 +1,4 @@
-//! Expressions and polynomials as infix text and as LaTeX.
+//! Expressions and polynomials as infix text, and what printers of other notations ask of them.
 //!
 //! Text reads back: [`crate::Graph::parse`] of the text of an expression gives the expression
 //! itself, and of a polynomial's text an expression with that polynomial, within the limits of the
@@ -6,7 +6,6 @@
 //! printed). Nothing recurses, and an expression whose parts are shared so often that its text
 //! would fill the memory is refused beforehand.
 
-pub mod latex;
 mod number;
 mod polynomial;
 #[cfg(test)]
@@ -20,7 +19,7 @@ use rustc_hash::FxHashMap;
 use crate::expr::{Expr, View};
 use crate::walk;
 
-pub use number::exact_text;
+pub use number::{Magnitude, exact_text};
 pub use polynomial::{ArrangedTerm, default_rank};
 pub use text::{to_text, to_text_limited};
 
@@ -56,18 +55,13 @@ pub(crate) enum Piece<'g> {
     Operand(Expr<'g>, Level),
 }
 
-/// The text of an expression, by a notation that gives each node its level and pieces, with a pair
-/// of parentheses.
+/// The text of an expression, by a notation that gives each node its level and pieces.
 pub(crate) fn write<'g>(
     root: Expr<'g>,
     limit: u64,
-    parentheses: [&'static str; 2],
     notation: impl Fn(Expr<'g>) -> (Level, Vec<Piece<'g>>),
 ) -> Result<String, TooLarge> {
-    let operations = written_operations(root);
-    if operations > limit {
-        return Err(TooLarge { operations, limit });
-    }
+    check_length(root, limit)?;
     let mut text = String::new();
     let mut pending = vec![Piece::Operand(root, Level::Sum)];
     while let Some(piece) = pending.pop() {
@@ -77,14 +71,24 @@ pub(crate) fn write<'g>(
                 let (level, pieces) = notation(expr);
                 let wrapped = level < least;
                 if wrapped {
-                    text.push_str(parentheses[0]);
-                    pending.push(Piece::Text(parentheses[1].into()));
+                    text.push('(');
+                    pending.push(Piece::Text(")".into()));
                 }
                 pending.extend(pieces.into_iter().rev());
             }
         }
     }
     Ok(text)
+}
+
+/// Refuses an expression that would be too long written out.
+///
+/// # Errors
+///
+/// Where it has more than `limit` operations, each shared one counted at every use.
+pub fn check_length(expr: Expr<'_>, limit: u64) -> Result<(), TooLarge> {
+    let operations = written_operations(expr);
+    if operations > limit { Err(TooLarge { operations, limit }) } else { Ok(()) }
 }
 
 /// The number of nodes of an expression as a tree.
@@ -105,7 +109,8 @@ fn written_operations(root: Expr<'_>) -> u64 {
 const MAX_POWER: u32 = crate::formula::MAX_EXPONENT as u32;
 
 /// `(x, n)` where the expression is the product that [`Expr::powi`] makes of `x` and `n`.
-pub(crate) fn as_power(expr: Expr<'_>) -> (Expr<'_>, u32) {
+#[must_use]
+pub fn as_power(expr: Expr<'_>) -> (Expr<'_>, u32) {
     power_within(expr, MAX_POWER)
 }
 

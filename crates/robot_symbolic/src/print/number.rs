@@ -19,19 +19,53 @@ pub fn exact_text(value: &Rational) -> String {
         .unwrap_or_else(|| format!("{numerator}/{denominator}"))
 }
 
-/// The absolute value as text that reads back, and how tightly it binds.
-///
-/// Floating-point constants print as the shortest decimal that rounds to them; infinities and NaN
-/// as `(0/0)`, which is as little a number as they are.
-pub(crate) fn magnitude_text(number: &Number) -> (String, Level) {
-    match number {
-        Number::Rational(value) => {
-            let text = exact_text(&value.abs());
-            let level = if text.contains('/') { Level::Product } else { Level::Atom };
-            (text, level)
+/// The absolute value of a number as a printer needs it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Magnitude {
+    /// Digits, perhaps with a point: `7`, `0.35`.
+    Decimal(String),
+    /// A quotient of integers, where the value is no decimal.
+    Quotient([String; 2]),
+    /// Digits, and the power of ten that they are multiplied with: `1.5`, `-7`.
+    Scientific([String; 2]),
+    /// An infinity, or no number at all.
+    NotANumber,
+}
+
+impl Magnitude {
+    /// The absolute value of a number. Floating-point constants are the shortest decimals that round to
+    /// them.
+    #[must_use]
+    pub fn of(number: &Number) -> Magnitude {
+        let pair = |(a, b): (&str, &str)| [a.to_owned(), b.to_owned()];
+        match number {
+            Number::Rational(value) => {
+                let text = exact_text(&value.abs());
+                match text.split_once('/') {
+                    Some(parts) => Magnitude::Quotient(pair(parts)),
+                    None => Magnitude::Decimal(text),
+                }
+            }
+            Number::Real(value) if value.is_finite() => {
+                let text = format!("{:?}", value.abs());
+                match text.split_once('e') {
+                    Some(parts) => Magnitude::Scientific(pair(parts)),
+                    None => Magnitude::Decimal(text),
+                }
+            }
+            Number::Real(_) => Magnitude::NotANumber,
         }
-        Number::Real(value) if value.is_finite() => (format!("{:?}", value.abs()), Level::Atom),
-        Number::Real(_) => ("(0/0)".to_owned(), Level::Atom),
+    }
+}
+
+/// The absolute value as text that reads back, and how tightly it binds. What is not a number is
+/// `(0/0)`, which is as little a number.
+pub(crate) fn magnitude_text(number: &Number) -> (String, Level) {
+    match Magnitude::of(number) {
+        Magnitude::Decimal(digits) => (digits, Level::Atom),
+        Magnitude::Quotient([above, below]) => (format!("{above}/{below}"), Level::Product),
+        Magnitude::Scientific([digits, exponent]) => (format!("{digits}e{exponent}"), Level::Atom),
+        Magnitude::NotANumber => ("(0/0)".to_owned(), Level::Atom),
     }
 }
 

@@ -30,7 +30,7 @@ pub fn to_text(expr: Expr<'_>) -> Result<String, TooLarge> {
 ///
 /// Where the text would have more than `limit` operations.
 pub fn to_text_limited(expr: Expr<'_>, limit: u64) -> Result<String, TooLarge> {
-    write(expr, limit, ["(", ")"], notation)
+    write(expr, limit, notation)
 }
 
 fn notation(expr: Expr<'_>) -> (Level, Vec<Piece<'_>>) {

@@ -1,0 +1,68 @@
+//! LaTeX of published formulas, put into the infix text that [`Formula`](robot_symbolic::Formula) reads.
+//!
+//! What is read is what papers print and what `robot_document` writes: symbols with indices
+//! and accents, products by juxtaposition, fractions, roots, brackets, and sines and cosines in
+//! three spellings: `\sin q_2`, `s_2` or `c_{23}`, and `sq_2` or `c^2q_5`.
+
+mod lexer;
+mod symbol;
+#[cfg(test)]
+mod tests;
+mod translate;
+
+use std::ops::Range;
+
+use robot_symbolic::ParseError;
+
+/// Which name a symbol's LaTeX stands for, given its [`symbol_key`].
+pub(super) type Names<'a> = dyn Fn(&str) -> Option<String> + 'a;
+
+/// A formula as infix text, and where its parts stand in the LaTeX.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Infix {
+    text: String,
+    /// Where each piece of the text begins, and the bytes of the LaTeX that it comes from.
+    pieces: Vec<(usize, Range<usize>)>,
+    /// The end of the LaTeX.
+    end: usize,
+}
+
+impl Infix {
+    /// The infix text.
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The bytes of the LaTeX that some bytes of the infix text come from.
+    pub(super) fn source(&self, span: &Range<usize>) -> Range<usize> {
+        let last = self.pieces.partition_point(|(start, _)| *start < span.end.max(span.start + 1));
+        let first = self.pieces.partition_point(|(start, _)| *start <= span.start);
+        let pieces = self.pieces.get(first.saturating_sub(1)..last).unwrap_or_default();
+        let start = pieces.iter().map(|(_, source)| source.start).min();
+        let end = pieces.iter().map(|(_, source)| source.end).max();
+        match start.zip(end) {
+            Some((start, end)) if span.start < self.text.len() => start..end,
+            _ => self.end..self.end,
+        }
+    }
+}
+
+/// The infix text of a formula in LaTeX.
+///
+/// `names` gives the name of a symbol by its [`symbol_key`]. A symbol that it does not know has the
+/// letters and digits of its LaTeX for a name. An upper index is part of a symbol where `names` knows
+/// it so, and a power where it is an integer. A repeated sign at a line break, as in `a + \\ + b`,
+/// counts once.
+///
+/// # Errors
+///
+/// The first thing that is not read, with its bytes and a remedy.
+pub(super) fn to_infix(latex: &str, names: &Names<'_>) -> Result<Infix, ParseError> {
+    translate::translate(latex, names)
+}
+
+/// What tells a symbol from others in LaTeX: its text without spaces, braces and fonts; `F_l_x^5` of
+/// `F_{l_x}^{5}`.
+pub(super) fn symbol_key(latex: &str) -> String {
+    lexer::key(&lexer::tokens(latex))
+}

@@ -1,0 +1,166 @@
+//! Symbols with their indices, and functions of angles in the short spellings `s_2`, `c_{23}`.
+
+use std::ops::Range;
+
+use robot_symbolic::ParseError;
+use robot_symbolic::formula::is_reserved;
+
+use super::lexer::{is_accent, is_font, is_letter};
+use super::translate::{Translator, unknown};
+
+/// An index of a symbol.
+#[derive(Clone)]
+struct Index {
+    key: String,
+    /// Its first token.
+    place: usize,
+    span: Range<usize>,
+}
+
+impl Translator<'_, '_> {
+    /// Whether a symbol or an angle in brackets comes next.
+    pub(super) fn starts_symbol(&self) -> bool {
+        let text = self.peek();
+        let accented = is_font(text) || is_accent(text);
+        accented || text.starts_with(|letter: char| letter.is_ascii_alphabetic()) || is_letter(text)
+    }
+
+    /// A symbol with its indices, or a sine or cosine in a short spelling.
+    pub(super) fn symbol(&mut self) -> Result<(), ParseError> {
+        let first = self.here();
+        if !(self.starts_symbol() || self.peek() == "{") {
+            return Err(unknown(self.peek(), first));
+        }
+        let base = self.capture()?;
+        let [lower, upper] = self.indices()?;
+        let span = first.start..self.before();
+        let key = match &lower {
+            Some(index) => format!("{base}_{}", index.key),
+            None => base.clone(),
+        };
+        let whole = upper.as_ref().map(|index| format!("{key}^{}", index.key));
+        if let Some(name) = whole.as_ref().and_then(|whole| (self.names)(whole)) {
+            self.emit(&name, span);
+            return Ok(());
+        }
+        let function = match base.as_str() {
+            "s" => "sin",
+            "c" => "cos",
+            _ => "",
+        };
+        let integer = upper.as_ref().is_none_or(|index| index.key.parse::<i64>().is_ok());
+        if !function.is_empty() && integer && (self.names)(&key).is_none() {
+            let exponent = upper.clone().map(|index| (index.key, index.span));
+            match &lower {
+                Some(index) => return self.of_index(function, first, index, exponent),
+                None if self.starts_symbol() || matches!(self.peek(), "(" | r"\left") => {
+                    return self.applied(function, first, exponent);
+                }
+                None => {}
+            }
+        }
+        match upper {
+            Some(index) if integer => {
+                self.name(&key, span);
+                self.exponent(&index.key, index.span)
+            }
+            _ => {
+                self.name(whole.as_ref().unwrap_or(&key), span);
+                Ok(())
+            }
+        }
+    }
+
+    /// The lower and the upper index at hand, in either order.
+    fn indices(&mut self) -> Result<[Option<Index>; 2], ParseError> {
+        let mut indices = [None, None];
+        loop {
+            let here = self.here();
+            let side = match self.peek() {
+                "_" => 0,
+                "^" => 1,
+                _ => return Ok(indices),
+            };
+            if indices.get(side).is_some_and(Option::is_some) {
+                return self.fault("a second index at one symbol", "put the first in brackets");
+            }
+            self.place += 1;
+            let place = self.place;
+            let key = self.capture()?;
+            let index = Some(Index { key, place, span: here.start..self.before() });
+            if let Some(free) = indices.get_mut(side) {
+                *free = index;
+            }
+        }
+    }
+
+    /// `s_2`, `c_{23}`, `s_{\theta}`: a function of the sum of numbered joints, or of an angle.
+    fn of_index(
+        &mut self,
+        function: &str,
+        first: Range<usize>,
+        index: &Index,
+        exponent: Option<(String, Range<usize>)>,
+    ) -> Result<(), ParseError> {
+        match joints(&index.key) {
+            Some(angle) => {
+                self.emit(function, first);
+                self.emit(&format!("({angle})"), index.span.clone());
+            }
+            None => {
+                let after = self.place;
+                self.emit(function, first);
+                self.place = index.place;
+                self.argument()?;
+                self.place = after;
+            }
+        }
+        match exponent {
+            Some((exponent, place)) => self.exponent(&exponent, place),
+            None => Ok(()),
+        }
+    }
+
+    /// The name of a symbol, or a plain one made of its LaTeX.
+    fn name(&mut self, key: &str, span: Range<usize>) {
+        let name = (self.names)(key).unwrap_or_else(|| plain(key));
+        self.emit(&name, span);
+    }
+}
+
+/// `q2+q3` of `23`, `q2-q3` of `2-3`, `q2+q10` of `2,10`.
+fn joints(index: &str) -> Option<String> {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let apart = index.contains(',');
+    let mut angle = String::new();
+    let mut rest = index;
+    while !rest.is_empty() {
+        let minus = rest.starts_with('-');
+        rest = rest.strip_prefix(['-', '+', ',']).unwrap_or(rest);
+        let end = rest.find(['-', '+', ',']).unwrap_or(rest.len());
+        let (numbers, after) = rest.split_at(end);
+        if !digits(numbers) {
+            return None;
+        }
+        let single = !apart && !numbers.contains('0');
+        let count = if single { 1 } else { numbers.len() };
+        for number in 0..numbers.len() / count {
+            let joint = numbers.get(number * count..(number + 1) * count)?;
+            angle.push(if minus && number == 0 { '-' } else { '+' });
+            angle.push('q');
+            angle.push_str(joint);
+        }
+        rest = after;
+    }
+    angle.strip_prefix('+').map(str::to_owned).or((!angle.is_empty()).then_some(angle))
+}
+
+/// A name of the letters and digits of a key.
+fn plain(key: &str) -> String {
+    if key == r"\pi" {
+        return "pi".to_owned();
+    }
+    let name: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
+    let begins = name.starts_with(|first: char| first.is_ascii_alphabetic());
+    if begins && !is_reserved(&name) { name } else { format!("_{name}") }
+}

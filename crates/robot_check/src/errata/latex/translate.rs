@@ -1,0 +1,385 @@
+//! Tokens to infix text, by descent: groups nest no deeper than [`MAX_DEPTH`].
+
+use std::ops::Range;
+
+use robot_symbolic::ParseError;
+use robot_symbolic::formula::{MAX_DEPTH, MAX_TOKENS};
+
+use super::lexer::{self, FRACTIONS, Token, is_accent, is_font};
+use super::{Infix, Names};
+
+/// Sizes of brackets.
+const SIZES: [&str; 14] = [
+    r"\left", r"\right", r"\big", r"\Big", r"\bigg", r"\Bigg", r"\bigl", r"\Bigl", r"\biggl",
+    r"\Biggl", r"\bigr", r"\Bigr", r"\biggr", r"\Biggr",
+];
+
+/// Brackets that open, and what closes them.
+const BRACKETS: [(&str, &str); 4] =
+    [("(", ")"), ("[", "]"), (r"\{", r"\}"), (r"\lvert", r"\rvert")];
+
+/// LaTeX in infix text.
+pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseError> {
+    let tokens = lexer::tokens(latex);
+    if tokens.len() > MAX_TOKENS {
+        let message = format!("the formula has more than {MAX_TOKENS} signs");
+        return Err(ParseError::new(0..latex.len(), message).help("split it into several"));
+    }
+    let infix = Infix { text: String::new(), pieces: vec![], end: latex.len() };
+    let mut translator = Translator { tokens: &tokens, place: 0, depth: 0, names, infix };
+    translator.sum(None)?;
+    Ok(translator.infix)
+}
+
+/// What is read, and what has been written of it.
+pub(super) struct Translator<'t, 'n> {
+    tokens: &'t [Token<'t>],
+    pub(super) place: usize,
+    depth: usize,
+    pub(super) names: &'n Names<'n>,
+    infix: Infix,
+}
+
+impl<'t> Translator<'t, '_> {
+    pub(super) fn peek(&self) -> &'t str {
+        self.tokens.get(self.place).map_or("", |token| token.text)
+    }
+
+    /// The bytes of the token at hand; empty at the end.
+    pub(super) fn here(&self) -> Range<usize> {
+        let end = self.infix.end;
+        self.tokens.get(self.place).map_or(end..end, |token| token.span.clone())
+    }
+
+    fn take(&mut self, text: &str) -> bool {
+        let found = self.peek() == text;
+        self.place += usize::from(found);
+        found
+    }
+
+    pub(super) fn emit(&mut self, text: &str, source: Range<usize>) {
+        self.infix.pieces.push((self.infix.text.len(), source));
+        self.infix.text.push_str(text);
+    }
+
+    pub(super) fn fault<T>(&self, message: impl Into<String>, help: &str) -> Result<T, ParseError> {
+        Err(ParseError::new(self.here(), message).help(help))
+    }
+
+    fn deeper(&mut self) -> Result<(), ParseError> {
+        self.depth += 1;
+        match self.depth > MAX_DEPTH {
+            true => self.fault(
+                format!("the formula is nested deeper than {MAX_DEPTH} levels"),
+                "give inner parts names of their own",
+            ),
+            false => Ok(()),
+        }
+    }
+
+    /// A sum up to what closes it, which is taken; up to the end where that is `None`.
+    fn sum(&mut self, close: Option<&str>) -> Result<(), ParseError> {
+        self.deeper()?;
+        let open = self.here();
+        let mut after_operand = false;
+        // The sign before a line break, which may be repeated after it.
+        let mut broken = None;
+        loop {
+            let (text, here) = (self.peek(), self.here());
+            if self.closes(close) {
+                break;
+            }
+            match text {
+                "" => {
+                    return Err(ParseError::new(open, "a bracket or group is not closed")
+                        .help("add what closes it"));
+                }
+                r"\\" => {
+                    let last = self.infix.text.chars().next_back();
+                    broken = last.filter(|sign| matches!(sign, '+' | '-'));
+                    self.place += 1;
+                    continue;
+                }
+                "+" | "-" | "*" | "/" | r"\cdot" | r"\times" | r"\ast" => {
+                    self.place += 1;
+                    let repeated = broken.take().is_some_and(|sign| text.starts_with(sign));
+                    // A plus sign with nothing before it says nothing.
+                    let needed = text != "+" || after_operand;
+                    if needed && !repeated {
+                        self.emit(if text.len() > 1 { "*" } else { text }, here);
+                    }
+                    after_operand = false;
+                    continue;
+                }
+                "{" if self.tokens.get(self.place + 1).is_some_and(|next| next.text == "}") => {
+                    self.place += 2;
+                    continue;
+                }
+                _ => {}
+            }
+            if after_operand {
+                self.emit("*", here.start..here.start);
+            }
+            self.operand()?;
+            after_operand = true;
+            broken = None;
+        }
+        self.depth -= 1;
+        Ok(())
+    }
+
+    /// Takes what closes a sum, its size included.
+    fn closes(&mut self, close: Option<&str>) -> bool {
+        let Some(close) = close else {
+            return self.peek().is_empty();
+        };
+        let sized = SIZES.contains(&self.peek())
+            && self.tokens.get(self.place + 1).is_some_and(|next| next.text == close);
+        self.place += usize::from(sized);
+        self.take(close)
+    }
+
+    fn operand(&mut self) -> Result<(), ParseError> {
+        let sized = SIZES.contains(&self.peek());
+        while SIZES.contains(&self.peek()) {
+            self.place += 1;
+        }
+        let (text, here) = (self.peek(), self.here());
+        if sized && text == "|" {
+            return self.bracket("abs(", "|");
+        }
+        if first_digit(text).is_some() {
+            self.place += 1;
+            self.emit(text, here);
+            return self.power();
+        }
+        if let Some((_, close)) = BRACKETS.iter().find(|(open, _)| *open == text) {
+            return self.bracket(if text == r"\lvert" { "abs(" } else { "(" }, close);
+        }
+        if let Some(name) = lexer::function(text) {
+            self.place += 1;
+            return self.function(name, here);
+        }
+        match text {
+            "{" => self.group(),
+            _ if FRACTIONS.contains(&text) => self.fraction(),
+            r"\sqrt" => {
+                self.place += 1;
+                self.emit("sqrt", here);
+                self.argument()?;
+                self.power()
+            }
+            r"\operatorname" | r"\mathop" => {
+                self.place += 1;
+                match self.capture()?.as_str() {
+                    "sgn" | "sign" => self.function("sign", here),
+                    name @ ("sin" | "cos" | "tan" | "tanh") => self.function(name, here),
+                    _ => Err(unknown(text, here)),
+                }
+            }
+            _ => self.symbol(),
+        }
+    }
+
+    /// A sum in brackets, the opening one at hand, and its power.
+    fn bracket(&mut self, open: &str, close: &str) -> Result<(), ParseError> {
+        let here = self.here();
+        self.place += 1;
+        self.emit(open, here);
+        self.sum(Some(close))?;
+        self.closed();
+        self.power()
+    }
+
+    /// `)`, from the token before.
+    fn closed(&mut self) {
+        let before = self.tokens.get(self.place.saturating_sub(1));
+        let source = before.map_or(0..0, |token| token.span.clone());
+        self.emit(")", source);
+    }
+
+    /// A group is a bracket that does not print, or the letter of a symbol with an index.
+    fn group(&mut self) -> Result<(), ParseError> {
+        let end = self.group_end(self.place);
+        if self.tokens.get(end).is_some_and(|next| next.text == "_") {
+            return self.symbol();
+        }
+        self.bracket("(", "}")
+    }
+
+    /// The token after a group.
+    fn group_end(&self, start: usize) -> usize {
+        let mut open = 0_usize;
+        for (place, token) in self.tokens.iter().enumerate().skip(start) {
+            match token.text {
+                "{" => open += 1,
+                "}" => open = open.saturating_sub(1),
+                _ => {}
+            }
+            if open == 0 {
+                return place + 1;
+            }
+        }
+        self.tokens.len()
+    }
+
+    /// The argument of a command as a sum in brackets: a group, or one token.
+    pub(super) fn argument(&mut self) -> Result<(), ParseError> {
+        let here = self.here();
+        self.deeper()?;
+        self.emit("(", here.clone());
+        if self.take("{") {
+            self.sum(Some("}"))?;
+        } else if let Some(digit) = first_digit(self.peek()) {
+            self.emit(digit, here);
+            self.place += 1;
+        } else {
+            self.operand()?;
+        }
+        self.closed();
+        self.depth -= 1;
+        Ok(())
+    }
+
+    fn fraction(&mut self) -> Result<(), ParseError> {
+        let here = self.here();
+        self.place += 1;
+        self.emit("(", here.clone());
+        self.argument()?;
+        self.emit("/", here);
+        self.argument()?;
+        self.closed();
+        self.power()
+    }
+
+    /// `^2`, where it follows.
+    fn power(&mut self) -> Result<(), ParseError> {
+        let here = self.here();
+        if !self.take("^") {
+            return Ok(());
+        }
+        let exponent = self.capture()?;
+        self.exponent(&exponent, here)?;
+        match self.peek() {
+            "^" => self.fault("a second power", "put the first one in brackets"),
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn exponent(
+        &mut self,
+        exponent: &str,
+        start: Range<usize>,
+    ) -> Result<(), ParseError> {
+        let span = start.start..self.before().max(start.end);
+        match exponent.parse::<i64>() {
+            Ok(value) if value < 0 => self.emit(&format!("^({value})"), span),
+            Ok(value) => self.emit(&format!("^{value}"), span),
+            Err(_) => {
+                let message = "expected an integer as the exponent";
+                return Err(ParseError::new(span, message).help(r"write a root as `\sqrt{x}`"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The end of the token before.
+    pub(super) fn before(&self) -> usize {
+        let before = self.place.checked_sub(1).and_then(|place| self.tokens.get(place));
+        before.map_or(0, |token| token.span.end)
+    }
+
+    /// The key of a group, or of one letter, digit or command.
+    pub(super) fn capture(&mut self) -> Result<String, ParseError> {
+        let start = self.place;
+        match self.peek() {
+            "{" => {
+                self.place = self.group_end(start);
+                let tokens = self.tokens.get(start..self.place).unwrap_or_default();
+                match tokens.last() {
+                    Some(last) if last.text == "}" => Ok(lexer::key(tokens)),
+                    _ => {
+                        self.place = start;
+                        self.fault("this group is not closed", "add `}`")
+                    }
+                }
+            }
+            "" | "}" | "_" | "^" | r"\\" => self.fault(
+                "expected a group or a sign",
+                "an index, a power, an accent and a font have something after them",
+            ),
+            text if is_font(text) || is_accent(text) => {
+                self.place += 1;
+                self.deeper()?;
+                let inside = self.capture()?;
+                self.depth -= 1;
+                Ok(if is_font(text) { inside } else { format!("{text}{inside}") })
+            }
+            // Without braces one digit is an argument: more are a slip that print shows.
+            text => match first_digit(text) {
+                Some(_) if text.len() > 1 => self.fault(
+                    format!("`{text}` without braces: only its first digit is meant by LaTeX"),
+                    &format!("write `{{{text}}}`"),
+                ),
+                _ => {
+                    self.place += 1;
+                    Ok(text.to_owned())
+                }
+            },
+        }
+    }
+
+    /// A function, by its command: a power of it, then what it is of.
+    fn function(&mut self, name: &str, start: Range<usize>) -> Result<(), ParseError> {
+        let here = self.here();
+        let exponent = if self.take("^") { Some((self.capture()?, here)) } else { None };
+        self.applied(name, start, exponent)
+    }
+
+    /// A function of what follows: a bracket, or a symbol with perhaps a number before it.
+    pub(super) fn applied(
+        &mut self,
+        name: &str,
+        start: Range<usize>,
+        exponent: Option<(String, Range<usize>)>,
+    ) -> Result<(), ParseError> {
+        let here = self.here();
+        self.emit(name, start);
+        self.emit("(", here.clone());
+        self.deeper()?;
+        let number = first_digit(self.peek()).is_some();
+        self.operand()?;
+        if number && self.starts_symbol() {
+            self.emit("*", here.clone());
+            self.operand()?;
+        }
+        self.depth -= 1;
+        let last = self.infix.pieces.last().and_then(|(place, _)| self.infix.text.get(*place..));
+        if last.is_some_and(|piece| piece.starts_with('^')) {
+            let message = "a power of the function, or of what it is of?";
+            let help = format!(r"write `\{name}^{{2}} x` or `\{name}({{x^{{2}}}})`");
+            return Err(ParseError::new(here.start..self.before(), message).help(help));
+        }
+        self.closed();
+        match exponent {
+            Some((exponent, place)) => self.exponent(&exponent, place),
+            None => Ok(()),
+        }
+    }
+}
+
+fn first_digit(text: &str) -> Option<&str> {
+    text.get(..1).filter(|first| first.as_bytes().iter().all(u8::is_ascii_digit))
+}
+
+pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
+    let shown: String = text.chars().take(24).flat_map(char::escape_debug).collect();
+    let message = match text {
+        "" => "the formula ends where something is missing".to_owned(),
+        _ => format!("`{shown}` is not read here"),
+    };
+    ParseError::new(span, message).help(
+        "read are symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, brackets, indices \
+         and powers",
+    )
+}

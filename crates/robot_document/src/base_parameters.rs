@@ -1,0 +1,306 @@
+//! The base parameters of a robot: what of its inertias and drives the driving forces tell.
+
+use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, base_parameters};
+use robot_dynamics::functions::Derivation;
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_model::functions::out_of_reach;
+use robot_model::robot::Robot;
+use robot_model::signs::Font;
+use robot_model::snap;
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
+
+use crate::error::Error;
+use crate::forms::{Equation, Group, MAX_NODES};
+use crate::latex;
+use crate::layout::{Order, SymbolTable, Trigonometry};
+use crate::math::{Fence, Math};
+
+/// What expansions may cost: more terms than anybody reads.
+const LIMITS: PolynomialOptions =
+    PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
+
+/// What helps where formulas of base parameters are too long.
+const SHORTER: &str =
+    "angles between frames that are multiples of π/2 make them shorter (`--snap`)";
+
+/// What the names mean.
+pub(crate) const NAMES: &str = "XX to ZZ are entries of a link's tensor of inertia about the origin of \
+    its frame, in its axes and with their signs, MX, MY, MZ its first moment, M its mass; IA is a drive's \
+    reflected inertia, FV, FP, FN its friction, FO its offset, IC the coupling of its rotor. The number of \
+    the link follows; an R marks what others are regrouped under.";
+
+/// The base parameters of a robot, written.
+#[derive(Clone, Debug)]
+pub struct BaseSet {
+    /// The names of the standard parameters, in the order of the full regressor's columns.
+    pub standard: Vec<String>,
+    /// The base parameters, in the order of their columns.
+    pub list: Vec<BaseEntry>,
+    /// Whether figures are rounded, see [`BaseParameters::rounded`].
+    pub rounded: bool,
+}
+
+/// A base parameter, written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BaseEntry {
+    /// The name in text, `ZZR_2`.
+    pub name: String,
+    /// The name in print.
+    pub left: Math,
+    /// The column of the full regressor that is this one's.
+    pub column: Option<usize>,
+    /// The formula in standard parameters: those with one figure stand in one term.
+    pub formula: Written,
+    /// The figure of each standard parameter by its place, as text that reads back.
+    pub figures: Vec<(usize, String)>,
+    /// The value in the file's parameters.
+    pub value: Written,
+}
+
+/// A formula in both notations that a reader may want.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Written {
+    /// Infix text that reads back.
+    pub text: String,
+    /// What it looks like.
+    pub math: Math,
+}
+
+/// Finds the base parameters of a robot and writes their formulas; `snap` as in
+/// [`EquationOptions::snap`](crate::EquationOptions::snap).
+///
+/// # Errors
+///
+/// A robot whose base parameters are out of reach; formulas that are too long to be of use; symbols
+/// that would look alike.
+pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
+    snap.map(snap::check).transpose()?;
+    let graph = Graph::limited(MAX_NODES);
+    let set = written(robot, snap, &graph);
+    if graph.is_full() {
+        // What was written on the way means nothing then.
+        let reason = format!("more than {MAX_NODES} expressions are needed for them; {SHORTER}");
+        return Err(Error::Base { reason });
+    }
+    set
+}
+
+fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, Error> {
+    let options = MechanismOptions::EXACT.with_snap(snap, robot);
+    let derivation = Derivation::new(robot, graph, &options, None);
+    let found = found(&derivation)?;
+    let symbols = SymbolTable::new(robot, Trigonometry::Named)?;
+    let formulas = Formulas { symbols: &symbols, order: &Order::new(robot) };
+    let standard: Vec<Option<Written>> = found
+        .standard
+        .iter()
+        .map(|(parameter, _)| {
+            let math = shape(parameter.quantity, "", parameter.link);
+            Some(Written { text: parameter.name(), math })
+        })
+        .collect();
+    let mut list = vec![];
+    for (parameter, value) in found.base.iter().zip(&polynomials(&found.nominal())?) {
+        let figures = figures(parameter)?;
+        let places = parameter.terms.iter().map(|(place, _)| *place);
+        let texts: Result<Vec<_>, Error> =
+            places.zip(&figures).map(|(place, figure)| Ok((place, figure.to_text()?))).collect();
+        list.push(BaseEntry {
+            name: parameter.name(),
+            left: look(parameter),
+            column: parameter.full_column(),
+            formula: formulas.of_parameter(parameter, &standard)?,
+            figures: texts?,
+            value: formulas.of_polynomial(value)?,
+        });
+    }
+    let standard = standard.into_iter().flatten().map(|one| one.text).collect();
+    Ok(BaseSet { standard, list, rounded: found.rounded })
+}
+
+impl BaseSet {
+    /// The formulas as displayed equations, each with the value behind the formula.
+    #[must_use]
+    pub fn group(&self) -> Group {
+        let equations = self.list.iter().map(BaseEntry::equation).collect();
+        let group = Group::of_definitions("Base parameters", equations);
+        Group { introduction: NAMES.to_owned(), ..group }
+    }
+}
+
+impl BaseEntry {
+    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; where nothing is regrouped, `MY_2 = 0.1`.
+    fn equation(&self) -> Equation {
+        let formula = if self.figures.len() > 1 { &self.formula } else { &self.value };
+        Equation {
+            name: self.name.clone(),
+            text: self.value.text.clone(),
+            left: self.left.clone(),
+            right: chained(formula, &self.value),
+        }
+    }
+}
+
+/// `formula = value`, or one of them where they look alike, as sums of masses do.
+pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
+    let mut right = formula.math.pieces().to_vec();
+    if latex::formula(&formula.math) != latex::formula(&value.math) {
+        right.push(Math::Sign('='));
+        right.extend_from_slice(value.math.pieces());
+    }
+    Math::row(right)
+}
+
+/// The base parameters, or why there are none.
+pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameters<'g>, Error> {
+    base_parameters(derivation).ok_or_else(|| Error::Base {
+        reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
+    })
+}
+
+/// Figures and values, expanded.
+pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
+    Polynomial::of_all(values, &LIMITS)
+        .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })
+}
+
+/// The figures of a base parameter, expanded.
+fn figures<'g>(parameter: &BaseParameter<'g>) -> Result<Vec<Polynomial<'g>>, Error> {
+    let figures: Vec<Expr<'g>> = parameter.terms.iter().map(|(_, figure)| *figure).collect();
+    polynomials(&figures)
+}
+
+/// What the name of a base parameter looks like.
+pub(crate) fn look(parameter: &BaseParameter<'_>) -> Math {
+    shape(parameter.kept.quantity, parameter.mark(), parameter.kept.link)
+}
+
+/// What a name looks like: slanted letters that belong together, the number of the link below.
+pub(crate) fn shape(quantity: Quantity, mark: &str, link: usize) -> Math {
+    let letters = quantity.symbol().chars().chain(mark.chars());
+    let letters = Math::row(letters.map(Math::Letter).collect());
+    let base = match letters {
+        letter @ Math::Letter(_) => letter,
+        word => Math::Styled(Font::Italic, Box::new(word)),
+    };
+    base.with_lower(Math::integer(link + 1))
+}
+
+/// Writes formulas of base parameters.
+pub(crate) struct Formulas<'w> {
+    pub(crate) symbols: &'w SymbolTable,
+    pub(crate) order: &'w Order<'w>,
+}
+
+impl Formulas<'_> {
+    /// A value in the file's parameters.
+    pub(crate) fn of_polynomial(&self, value: &Polynomial<'_>) -> Result<Written, Error> {
+        let text = value.to_text_by(|atom| self.order.rank(atom))?;
+        Ok(Written { text, math: self.symbols.polynomial(value, self.order)? })
+    }
+
+    /// The formula of a base parameter in standard ones, which are written as `standard` has them: the
+    /// kept one comes first, and those with one figure stand together. `None` is left out.
+    pub(crate) fn of_parameter(
+        &self,
+        parameter: &BaseParameter<'_>,
+        standard: &[Option<Written>],
+    ) -> Result<Written, Error> {
+        let figures = figures(parameter)?;
+        let mut groups: Vec<(Term, Vec<&Written>)> = vec![];
+        let mut terms: Vec<_> = parameter.terms.iter().zip(&figures).collect();
+        terms.sort_by_key(|((place, _), _)| *place != parameter.column);
+        for ((place, _), figure) in terms {
+            let Some(Some(name)) = standard.get(*place) else { continue };
+            let factor = self.factor(figure)?;
+            match groups.iter_mut().find(|(known, _)| *known == factor) {
+                Some((_, names)) => names.push(name),
+                None => groups.push((factor, vec![name])),
+            }
+        }
+        let terms: Vec<Term> =
+            groups.iter().map(|(factor, names)| product(factor, names)).collect();
+        Ok(sum(&terms))
+    }
+
+    /// A figure as a factor: nothing for 1, sums in parentheses.
+    fn factor(&self, figure: &Polynomial<'_>) -> Result<Term, Error> {
+        let written = self.of_polynomial(figure)?;
+        if figure.len() > 1 {
+            let math = Math::Fenced(Fence::Parentheses, Box::new(written.math));
+            let written = Written { text: format!("({})", written.text), math };
+            return Ok(Term { negative: false, written });
+        }
+        let factor = Term::of(written);
+        match factor.written.text.as_str() {
+            "1" => Ok(Term { written: Written::default(), ..factor }),
+            _ => Ok(factor),
+        }
+    }
+}
+
+/// A term of a sum, or a factor of one, without its sign; a factor 1 is empty.
+#[derive(PartialEq)]
+pub(crate) struct Term {
+    pub(crate) negative: bool,
+    pub(crate) written: Written,
+}
+
+impl Term {
+    /// A term, or a sum, whose first sign stands for the whole.
+    pub(crate) fn of(written: Written) -> Term {
+        let text = written.text.strip_prefix('-').map(str::to_owned);
+        let math = match written.math.pieces() {
+            [Math::Sign('-'), magnitude @ ..] => Math::row(magnitude.to_vec()),
+            _ => written.math.clone(),
+        };
+        let negative = text.is_some();
+        Term { negative, written: Written { text: text.unwrap_or(written.text), math } }
+    }
+}
+
+/// The sum of terms; 0 where there is none.
+pub(crate) fn sum(terms: &[Term]) -> Written {
+    if terms.is_empty() {
+        return Written { text: "0".to_owned(), math: Math::integer(0) };
+    }
+    let (mut text, mut pieces) = (String::new(), vec![]);
+    for (place, Term { negative, written }) in terms.iter().enumerate() {
+        let (sign, spaced) = if *negative { ('-', " - ") } else { ('+', " + ") };
+        if place > 0 || *negative {
+            text.push_str(if place > 0 { spaced } else { "-" });
+            pieces.push(Math::Sign(sign));
+        }
+        text.push_str(&written.text);
+        pieces.extend_from_slice(written.math.pieces());
+    }
+    Written { text, math: Math::row(pieces) }
+}
+
+/// The figure times the sum of the names.
+fn product(factor: &Term, names: &[&Written]) -> Term {
+    let text = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(" + ");
+    let mut sum = vec![];
+    for name in names {
+        if !sum.is_empty() {
+            sum.push(Math::Sign('+'));
+        }
+        sum.extend_from_slice(name.math.pieces());
+    }
+    let Term { negative, written } = factor;
+    let is_one = written.text.is_empty();
+    let mut pieces = written.math.pieces().to_vec();
+    // What follows a sine would seem to be in its argument.
+    if pieces.iter().any(Math::is_function) {
+        pieces.push(Math::Sign('·'));
+    }
+    let text = if names.len() == 1 || (is_one && !negative) {
+        pieces.extend(sum);
+        text
+    } else {
+        pieces.push(Math::Fenced(Fence::Parentheses, Box::new(Math::Row(sum))));
+        format!("({text})")
+    };
+    let text = if is_one { text } else { format!("{}*{text}", written.text) };
+    Term { negative: *negative, written: Written { text, math: Math::row(pieces) } }
+}

@@ -1,0 +1,295 @@
+//! Long formulas on several lines.
+//!
+//! A line is broken before a `+` or `-` outside of fences; where a term alone does not fit, also
+//! between its factors, after a `·`, and at signs within its parentheses. A product
+//! that takes several lines starts on its own one, and goes on further in.
+
+use super::math::{Fence, Math};
+use super::width::width;
+use crate::error::{Centimetres, Error};
+use crate::forms::Equation;
+
+/// A piece that cannot be broken further is wider than a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooWide {
+    /// What the piece needs, pt.
+    pub needed: f64,
+}
+
+/// The formula on lines no wider than `first`, `rest`: widths in points of the first line and of the
+/// following ones.
+///
+/// # Errors
+///
+/// A piece that does not fit.
+pub fn broken(math: &Math, first: f64, rest: f64) -> Result<Vec<Math>, TooWide> {
+    let mut lines = Lines { first, rest, reserve: 0.0, done: vec![], line: vec![] };
+    for term in terms(math.pieces()) {
+        lines.add(term, Joint::Sign)?;
+    }
+    lines.end();
+    Ok(lines.done.into_iter().map(Math::row).collect())
+}
+
+/// An equals sign with its spaces, pt.
+const EQUALS: f64 = 13.4;
+/// The indent of further lines, and the spaces around the sign that they start with, pt.
+const INDENT: f64 = 14.5;
+
+/// The right side of an equation on lines beside its left side, which leaves them `available`
+/// points.
+///
+/// # Errors
+///
+/// A piece that does not fit.
+pub(crate) fn right_side(equation: &Equation, available: f64) -> Result<Vec<Math>, Error> {
+    let rest = available - INDENT;
+    broken(&equation.right, available - EQUALS, rest).map_err(|wide| Error::Narrow {
+        name: equation.name.clone(),
+        needed: Centimetres::from_points(wide.needed),
+        available: Centimetres::from_points(rest),
+    })
+}
+
+/// How a piece is joined to the one before it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Joint {
+    /// By the sign that it starts with.
+    Sign,
+    /// As a factor.
+    Factor,
+}
+
+/// More than a closing parenthesis takes, pt.
+const PARENTHESIS: f64 = 6.0;
+/// The further indent of lines within a product, pt.
+const DEEPER: f64 = 10.0;
+
+struct Lines {
+    first: f64,
+    rest: f64,
+    /// What the closing parentheses to come will need.
+    reserve: f64,
+    done: Vec<Vec<Math>>,
+    line: Vec<Math>,
+}
+
+impl Lines {
+    fn limit(&self) -> f64 {
+        match self.done.is_empty() {
+            true => self.first - self.reserve,
+            false => self.further(&self.line),
+        }
+    }
+
+    /// What a further line that starts with these pieces may take.
+    fn further(&self, pieces: &[Math]) -> f64 {
+        let indent = if is_within_product(pieces) { DEEPER } else { 0.0 };
+        self.rest - self.reserve - indent
+    }
+
+    fn end(&mut self) {
+        if !self.line.is_empty() || self.done.is_empty() {
+            self.done.push(std::mem::take(&mut self.line));
+        }
+    }
+
+    /// Adds pieces to the line, or to a new one, or piece by piece.
+    fn add(&mut self, pieces: &[Math], joint: Joint) -> Result<(), TooWide> {
+        let mut longer = self.line.clone();
+        longer.extend_from_slice(pieces);
+        if width(&Math::Row(longer.clone())) <= self.limit() {
+            self.line = longer;
+            return Ok(());
+        }
+        let dot = Math::Sign('·');
+        let joined: Vec<Math> = match joint {
+            Joint::Factor if !is_within_product(pieces) => {
+                std::iter::once(dot).chain(pieces.iter().cloned()).collect()
+            }
+            _ => pieces.to_vec(),
+        };
+        let alone = width(&Math::Row(joined.clone()));
+        if !self.line.is_empty() && alone <= self.further(&joined) {
+            self.end();
+            self.line = joined;
+            return Ok(());
+        }
+        let is_product = !pieces.iter().any(|piece| matches!(piece, Math::Fenced(..)));
+        if joint == Joint::Sign && is_product && !self.line.is_empty() {
+            self.end();
+        }
+        self.split(pieces, joint, alone)
+    }
+
+    /// Adds pieces that fit no line as they are.
+    fn split(&mut self, pieces: &[Math], joint: Joint, needed: f64) -> Result<(), TooWide> {
+        if let [signs @ .., Math::Fenced(Fence::Parentheses, inside)] = pieces
+            && signs.iter().all(|piece| matches!(piece, Math::Sign(_)))
+        {
+            self.reserve += PARENTHESIS;
+            self.add(&[signs, &[Math::Sign('(')]].concat(), joint)?;
+            for term in terms(inside.pieces()) {
+                self.add(term, Joint::Sign)?;
+            }
+            self.reserve -= PARENTHESIS;
+            self.line.push(Math::Sign(')'));
+            return Ok(());
+        }
+        let factors = factors(pieces);
+        if factors.len() < 2 {
+            return Err(TooWide { needed });
+        }
+        for (place, factor) in factors.into_iter().enumerate() {
+            self.add(factor, if place == 0 { joint } else { Joint::Factor })?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether a line that starts with these pieces goes on with a product.
+pub(crate) fn is_within_product(line: &[Math]) -> bool {
+    line.starts_with(&[Math::Sign('·')])
+}
+
+/// The terms of a sum, each with its sign; a minus after an equals sign stays with that.
+pub fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
+    let stay = |before: &Math, next: &Math| {
+        !matches!(next, Math::Sign('+' | '-' | '=')) || matches!(before, Math::Sign('='))
+    };
+    pieces.chunk_by(stay).filter(|term| !term.is_empty())
+}
+
+/// The factors of a term: a sign stays with the first one, a function with its argument.
+fn factors(pieces: &[Math]) -> Vec<&[Math]> {
+    pieces.chunk_by(|before, _| stays_with_next(before)).collect()
+}
+
+fn stays_with_next(piece: &Math) -> bool {
+    match piece {
+        Math::Sign(_) | Math::Function(_) | Math::Letter('s' | 'c') => true,
+        Math::Script(script) => stays_with_next(&script.base) && script.lower.is_none(),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::latex::{formula, read};
+
+    fn math(latex: &str) -> Math {
+        read(latex).unwrap()
+    }
+
+    fn lines(latex: &str, first: f64, rest: f64) -> Vec<String> {
+        broken(&math(latex), first, rest).unwrap().iter().map(formula).collect()
+    }
+
+    #[test]
+    fn lines_break_before_signs_where_they_must() {
+        let sum = "a_1 + b_2 - c_3";
+        assert_eq!(lines(sum, 60.0, 60.0), [sum]);
+        assert_eq!(lines(sum, 50.0, 50.0), ["a_1 + b_2", "-c_3"]);
+        assert_eq!(lines(sum, 20.0, 50.0), ["a_1", "+b_2 - c_3"]);
+        // A sign after an equals sign is the number's.
+        assert_eq!(lines("a + b = -0.125", 45.0, 60.0), ["a+ b", "= - 0.125"]);
+    }
+
+    #[test]
+    fn a_long_product_starts_on_a_line_of_its_own() {
+        let sum = r"a - 0.0125 \sin q_1 \cos q_1 \sin q_2 \cos q_2 + b";
+        let expected = ["a", r"-0.0125 \sin q_1 \cos q_1", r"\cdot \sin q_2 \cos q_2 + b"];
+        assert_eq!(lines(sum, 100.0, 100.0), expected);
+    }
+
+    #[test]
+    fn sums_in_parentheses_break_within() {
+        let sum = r"m \left(a_1 + a_2 + a_3 + a_4\right) + b";
+        assert_eq!(lines(sum, 80.0, 80.0), ["m( a_1 + a_2 + a_3", "+a_4 ) + b"]);
+    }
+
+    /// What closing parentheses needed is free again behind them.
+    #[test]
+    fn lines_behind_parentheses_are_as_long_as_before() {
+        let long = |letter: &str| [1, 2, 3, 4, 5, 6].map(|k| format!("{letter}_{k}")).join(" + ");
+        let sum = format!(r"m \left({}\right) + n \left({}\right)", long("a"), long("b"));
+        let tail = "+c_1 + c_2 + c_3 + c_4";
+        let limit = width(&math(tail)) + 0.5;
+        let found = lines(&format!("{sum} {tail} + c_5"), limit, limit);
+        assert_eq!(found.last().map(String::as_str), Some("+c_5"), "{found:?}");
+        assert!(found.contains(&tail.to_owned()), "{found:?}");
+    }
+
+    /// In 10 pt type an equals sign is 7.78 pt wide, with two thick spaces of 2.78 pt; further lines
+    /// start with a quad, 10 pt, and a sign with two medium spaces of 2.22 pt.
+    #[test]
+    fn a_right_side_leaves_room_for_the_equals_sign_and_the_indent() {
+        let sums: Vec<String> = (1..6).map(random_sum).collect();
+        let right = math(&sums.join(" + "));
+        let left = math("Q_1");
+        let equation = Equation { name: "Q1".to_owned(), text: String::new(), left, right };
+        let (mut several, mut tight) = (0, f64::INFINITY);
+        for available in (120..400).map(f64::from) {
+            let lines = right_side(&equation, available).unwrap();
+            for (place, line) in lines.iter().enumerate() {
+                let before = if place == 0 { 7.78 + 2.0 * 2.78 } else { 10.0 + 2.0 * 2.22 };
+                let room = available - before - width(line);
+                assert!(room >= 0.0, "{available} pt, line {place}: {room} pt");
+                tight = tight.min(room);
+            }
+            several += usize::from(lines.len() > 1);
+        }
+        // Nor is more left than needed.
+        assert!(several > 100 && tight < 1.0, "{several} {tight}");
+    }
+
+    #[test]
+    fn a_piece_without_a_break_is_refused() {
+        let wide = broken(&math("1.23456789012345678901"), 50.0, 50.0).unwrap_err();
+        assert!(wide.needed > 100.0, "{wide:?}");
+        assert!(broken(&math("a + b_{1234567890123}"), 50.0, 50.0).is_err());
+    }
+
+    /// Nothing is lost, no line is too wide, whatever the width.
+    #[test]
+    fn lines_fit_and_hold_all() {
+        for seed in 1..200_u32 {
+            let sum = math(&random_sum(seed));
+            let [first, rest] = [seed % 60 + 70, seed % 90 + 90].map(f64::from);
+            let lines = broken(&sum, first, rest).unwrap();
+            let mut found = String::new();
+            for (place, line) in lines.iter().enumerate() {
+                let limit = if place == 0 { first } else { rest };
+                assert!(width(line) <= limit, "seed {seed}: {} {line:?}", width(line));
+                found.push_str(&formula(line));
+            }
+            let bare = |latex: &str| {
+                let fences = latex.replace(r"\left(", "(").replace(r"\right)", ")");
+                fences.replace(r"\cdot", "").replace([' ', '{', '}'], "")
+            };
+            assert_eq!(bare(&found), bare(&formula(&sum)), "seed {seed}");
+        }
+    }
+
+    fn random_sum(seed: u32) -> String {
+        let mut state = seed;
+        let mut next = |below: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 16) % below
+        };
+        let factors = [r"\sin q_1", r"\cos^{2} q_2", "m_3", r"\dot{q}_1", "l_{4}^{2}"];
+        let mut sum = String::from("1.5");
+        for _ in 0..next(12) + 1 {
+            sum.push_str(if next(2) == 0 { " + " } else { " - " });
+            for _ in 0..next(8) + 1 {
+                sum.push_str(factors[next(5) as usize]);
+                sum.push(' ');
+            }
+            if next(3) == 0 {
+                sum.push_str(r"\left(a_1 + 0.25 b_{2} - c_3 \dot{q}_2 + d\right)");
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,194 @@
+//! Formulas as layout: what stands beside, above and below what, in no notation.
+//!
+//! The printers, one per notation, walk this tree; line breaking measures and cuts it. A symbol of
+//! the robot keeps its name, so that a printer can say which parameter or coordinate it shows.
+
+use robot_model::signs::{Accent, Font, FunctionName};
+
+/// A formula, or a piece of one.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Math {
+    /// A number as its digits: `0.35`.
+    Number(String),
+    /// An italic letter, Greek ones as themselves: `q`, `ω`; also signs of the size of a letter: `∞`.
+    Letter(char),
+    /// An upright word.
+    Word(String),
+    /// One of `+ - · = , : ; . / * ( )` between or beside other pieces.
+    Sign(char),
+    /// The upright name of a function, before its argument: `sin`, `tanh`, `sgn`.
+    Function(FunctionName),
+    /// A symbol of the equations.
+    Symbol(Symbol),
+    /// Pieces side by side. Neighbours without a sign between them are factors.
+    Row(Vec<Math>),
+    /// Indices.
+    Script(Box<Script>),
+    /// A sign above or below a piece.
+    Accent(Accent, Box<Math>),
+    /// A piece in another font.
+    Styled(Font, Box<Math>),
+    /// Numerator and denominator.
+    Fraction(Box<[Math; 2]>),
+    /// A square root.
+    Root(Box<Math>),
+    /// A piece between fences.
+    Fenced(Fence, Box<Math>),
+    /// Rows of entries, in brackets.
+    Matrix(Vec<Vec<Math>>),
+}
+
+/// A symbol of the equations, with what it looks like.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Symbol {
+    /// The name in text: a parameter, `q2`, `qdd2`, `F_l5.x`.
+    pub name: String,
+    /// What it looks like.
+    pub shape: Box<Math>,
+}
+
+/// A base with indices.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Script {
+    /// What the indices belong to.
+    pub base: Math,
+    /// Below to the right.
+    pub lower: Option<Math>,
+    /// Above to the right.
+    pub upper: Option<Math>,
+}
+
+/// What stands around a piece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Fence {
+    /// `( )`
+    Parentheses,
+    /// `| |`
+    Bars,
+}
+
+/// Nothing.
+impl Default for Math {
+    fn default() -> Math {
+        Math::Row(vec![])
+    }
+}
+
+impl Math {
+    /// `base_lower`
+    #[must_use]
+    pub fn with_lower(self, lower: Math) -> Math {
+        Math::Script(Box::new(Script { base: self, lower: Some(lower), upper: None }))
+    }
+
+    /// `base^upper`
+    #[must_use]
+    pub fn with_upper(self, upper: Math) -> Math {
+        Math::Script(Box::new(Script { base: self, lower: None, upper: Some(upper) }))
+    }
+
+    /// A number of the program's own, such as an index.
+    #[must_use]
+    pub fn integer(value: usize) -> Math {
+        Math::Number(value.to_string())
+    }
+
+    /// Pieces side by side; one piece is itself.
+    #[must_use]
+    pub fn row(mut pieces: Vec<Math>) -> Math {
+        match (pieces.len(), pieces.pop()) {
+            (1, Some(single)) => single,
+            (_, Some(last)) => {
+                pieces.push(last);
+                Math::Row(pieces)
+            }
+            (_, None) => Math::Row(pieces),
+        }
+    }
+
+    /// The pieces side by side that this is.
+    #[must_use]
+    pub fn pieces(&self) -> &[Math] {
+        match self {
+            Math::Row(pieces) => pieces,
+            single => std::slice::from_ref(single),
+        }
+    }
+
+    /// The names of the symbols within, each once, in order of appearance.
+    #[must_use]
+    pub fn symbols(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = vec![];
+        let mut pending = vec![self];
+        while let Some(math) = pending.pop() {
+            match math {
+                Math::Symbol(symbol) if !names.contains(&symbol.name.as_str()) => {
+                    names.push(&symbol.name);
+                }
+                _ => pending.extend(math.parts().into_iter().rev()),
+            }
+        }
+        names
+    }
+
+    /// Whether something within, the look of symbols included, has an upper index.
+    #[must_use]
+    pub fn has_upper_index(&self) -> bool {
+        let mut pending = vec![self];
+        while let Some(math) = pending.pop() {
+            match math {
+                Math::Symbol(symbol) => pending.push(&symbol.shape),
+                Math::Script(script) if script.upper.is_some() => return true,
+                _ => pending.extend(math.parts()),
+            }
+        }
+        false
+    }
+
+    /// Whether the piece is a function, perhaps with a power, that waits for its argument.
+    #[must_use]
+    pub fn is_function(&self) -> bool {
+        match self {
+            Math::Function(_) => true,
+            Math::Script(script) => script.base.is_function(),
+            _ => false,
+        }
+    }
+
+    /// Whether a thin space keeps the piece apart from the one before it: factors, one of which is a word
+    /// in italics, such as `ZZR` with an index.
+    #[must_use]
+    pub fn is_apart_from(&self, before: &Math) -> bool {
+        let is_factor = |piece: &Math| {
+            !matches!(piece, Math::Sign(_) | Math::Fenced(..) | Math::Fraction(_))
+                && !piece.is_function()
+        };
+        (self.is_word() || before.is_word()) && is_factor(self) && is_factor(before)
+    }
+
+    fn is_word(&self) -> bool {
+        match self {
+            Math::Symbol(symbol) => symbol.shape.is_word(),
+            Math::Script(script) => script.base.is_word(),
+            Math::Styled(Font::Italic, inside) => matches!(**inside, Math::Row(_)),
+            _ => false,
+        }
+    }
+
+    /// The pieces directly within; of a symbol none.
+    fn parts(&self) -> Vec<&Math> {
+        match self {
+            Math::Row(pieces) => pieces.iter().collect(),
+            Math::Script(script) => {
+                std::iter::once(&script.base).chain(&script.lower).chain(&script.upper).collect()
+            }
+            Math::Accent(_, inside)
+            | Math::Styled(_, inside)
+            | Math::Root(inside)
+            | Math::Fenced(_, inside) => vec![inside],
+            Math::Fraction(parts) => parts.iter().collect(),
+            Math::Matrix(rows) => rows.iter().flatten().collect(),
+            _ => vec![],
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The order of factors and terms.
+//!
+//! Factors: components of wrenches, masses and inertias, other parameters, sines and cosines, what a
+//! form defines, then coordinates, velocities and accelerations; each by number. Terms are in the
+//! order of their factors, higher powers of the first one first.
+
+use robot_model::robot::{Parameter, Robot};
+use robot_symbolic::print::default_rank;
+use robot_symbolic::{Expr, View};
+use rustc_hash::FxHashMap;
+
+/// The place of a factor: its group, its subgroup, its number.
+pub type Rank = (u8, u8, usize);
+
+/// The order for a robot.
+#[derive(Clone, Debug)]
+pub struct Order<'r> {
+    parameters: FxHashMap<&'r str, Rank>,
+    defined: FxHashMap<String, Rank>,
+}
+
+impl<'r> Order<'r> {
+    /// The order of the robot's symbols: parameters as the file lists them.
+    #[must_use]
+    pub fn new(robot: &'r Robot) -> Order<'r> {
+        let rank = |(place, parameter): (usize, &'r Parameter)| {
+            (parameter.name.as_str(), (0, u8::from(!is_inertial(parameter)), place))
+        };
+        let parameters = robot.parameters.iter().enumerate().map(rank).collect();
+        Order { parameters, defined: FxHashMap::default() }
+    }
+
+    /// Adds a symbol that a form defines.
+    pub fn define(&mut self, name: &str) {
+        let rank = (8, 0, self.defined.len());
+        self.defined.insert(name.to_owned(), rank);
+    }
+
+    /// Adds a combination of masses and inertias that a form defines.
+    pub fn define_parameter(&mut self, name: &str) {
+        let rank = (0, 0, self.defined.len());
+        self.defined.insert(name.to_owned(), rank);
+    }
+
+    /// The place of a factor.
+    #[must_use]
+    pub fn rank(&self, atom: Expr<'_>) -> Rank {
+        let View::Symbol(symbol) = atom.view() else {
+            return (2 * default_rank(atom), 0, 0);
+        };
+        let name = atom.graph().symbol_name(symbol);
+        if let Some(rank) = self.parameters.get(name.as_str()) {
+            return *rank;
+        }
+        if let Some(rank) = self.defined.get(&name) {
+            return *rank;
+        }
+        let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+        let number = digits.parse().unwrap_or_default();
+        // Motions stand at the end of a term, wrenches at its beginning.
+        match name.strip_suffix(digits) {
+            Some("q") => (9, 0, number),
+            Some("qd") => (9, 1, number),
+            Some("qdd") => (9, 2, number),
+            _ => (0, 0, number),
+        }
+    }
+}
+
+/// Whether a parameter is a mass or an inertia, by its unit.
+fn is_inertial(parameter: &Parameter) -> bool {
+    let dimension = parameter.unit.as_ref().map(|unit| unit.dimension);
+    dimension.is_some_and(|dimension| dimension.mass == 1 && dimension.time == 0)
+}
+
+/// Whether a name is a coordinate's or one of its rates': `q1`, `qd2`, `qdd3`.
+pub(crate) fn is_motion(name: &str) -> bool {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    letters.len() < name.len() && matches!(letters, "q" | "qd" | "qdd")
+}
+
+/// Whether a name is a velocity's or an acceleration's.
+pub(crate) fn is_rate(name: &str) -> bool {
+    is_motion(name) && name.starts_with("qd")
+}

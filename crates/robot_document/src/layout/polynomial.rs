@@ -1,0 +1,132 @@
+//! The layout of polynomials as sums of terms.
+
+use robot_model::signs::FunctionName;
+use robot_symbolic::print::ArrangedTerm;
+use robot_symbolic::{Expr, Function, Id, View};
+use rustc_hash::FxHashMap;
+
+use super::Trigonometry;
+use super::expression::{Expressions, magnitude_pieces, raise};
+use super::math::{Fence, Math};
+use super::symbols::SymbolTable;
+use crate::error::Error;
+
+/// The sum of arranged terms; 0 if there are none.
+pub(super) fn sum(terms: &[ArrangedTerm<'_>], table: &SymbolTable) -> Result<Math, Error> {
+    let mut setter = Terms { table, powers: FxHashMap::default() };
+    let mut pieces = vec![];
+    for (place, term) in terms.iter().enumerate() {
+        match (place, term.negative) {
+            (0, false) => {}
+            (_, true) => pieces.push(Math::Sign('-')),
+            (_, false) => pieces.push(Math::Sign('+')),
+        }
+        pieces.extend(setter.term(term)?);
+    }
+    if terms.is_empty() {
+        pieces.push(Math::integer(0));
+    }
+    Ok(Math::row(pieces))
+}
+
+struct Terms<'t> {
+    table: &'t SymbolTable,
+    powers: FxHashMap<(Id, u32), Vec<Math>>,
+}
+
+impl Terms<'_> {
+    /// `c x y²`, over its denominator where it has one.
+    fn term(&mut self, term: &ArrangedTerm<'_>) -> Result<Vec<Math>, Error> {
+        let above = self.factors(term, |exponent| exponent > 0)?;
+        let below = self.factors(term, |exponent| exponent < 0)?;
+        let is_one = term.coefficient.is_one();
+        let mut pieces = magnitude_pieces(&term.coefficient);
+        if below.is_empty() {
+            if is_one && !above.is_empty() {
+                return Ok(above);
+            }
+            pieces.extend(above);
+            return Ok(pieces);
+        }
+        // A decimal belongs above the bar, a fraction before it.
+        let belongs_above = matches!(pieces.as_slice(), [Math::Number(_)]);
+        let numerator = match (belongs_above && !is_one, above.is_empty()) {
+            (false, true) => vec![Math::integer(1)],
+            (false, false) => above,
+            (true, _) => pieces.iter().cloned().chain(above).collect(),
+        };
+        if belongs_above {
+            pieces.clear();
+        }
+        pieces.push(Math::Fraction(Box::new([Math::row(numerator), Math::row(below)])));
+        Ok(pieces)
+    }
+
+    /// The factors on one side of the fraction bar.
+    fn factors(
+        &mut self,
+        term: &ArrangedTerm<'_>,
+        side: fn(i32) -> bool,
+    ) -> Result<Vec<Math>, Error> {
+        let mut pieces = vec![];
+        let mut open = false;
+        for (atom, exponent) in term.factors.iter().filter(|(_, exponent)| side(*exponent)) {
+            // What follows an angle without parentheses would seem to belong to it.
+            if open && !is_circular(*atom) {
+                pieces.push(Math::Sign('·'));
+            }
+            pieces.extend(if is_alone_below(term, *atom) {
+                Expressions(self.table).pieces(*atom)?
+            } else {
+                self.power(*atom, exponent.unsigned_abs())?
+            });
+            open = is_circular(*atom) && self.table.trigonometry() == Trigonometry::Named;
+        }
+        Ok(pieces)
+    }
+
+    fn power(&mut self, atom: Expr<'_>, exponent: u32) -> Result<Vec<Math>, Error> {
+        if let Some(known) = self.powers.get(&(atom.id(), exponent)) {
+            return Ok(known.clone());
+        }
+        let setter = Expressions(self.table);
+        let pieces = match atom.view() {
+            View::Call(function, argument) if FunctionName::of(function).is_some() => {
+                setter.named_power(function, argument, exponent)?
+            }
+            View::Symbol(_) | View::Pi | View::Call(..) => raised(setter.pieces(atom)?, exponent),
+            _ => power_of(vec![fenced(setter.pieces(atom)?)], exponent),
+        };
+        self.powers.insert((atom.id(), exponent), pieces.clone());
+        Ok(pieces)
+    }
+}
+
+/// A power; in parentheses where there is an upper index already.
+fn raised(pieces: Vec<Math>, exponent: u32) -> Vec<Math> {
+    let fence = exponent > 1 && pieces.iter().any(Math::has_upper_index);
+    power_of(if fence { vec![fenced(pieces)] } else { pieces }, exponent)
+}
+
+fn power_of(mut pieces: Vec<Math>, exponent: u32) -> Vec<Math> {
+    if exponent > 1 {
+        raise(&mut pieces, exponent);
+    }
+    pieces
+}
+
+fn fenced(pieces: Vec<Math>) -> Math {
+    Math::Fenced(Fence::Parentheses, Box::new(Math::row(pieces)))
+}
+
+/// Whether an atom is a sum that stands alone below its fraction bar.
+fn is_alone_below(term: &ArrangedTerm<'_>, atom: Expr<'_>) -> bool {
+    let mut below = term.factors.iter().filter(|(_, exponent)| *exponent < 0);
+    below.next() == Some(&(atom, -1))
+        && below.next().is_none()
+        && matches!(atom.view(), View::Add(..) | View::Sub(..))
+}
+
+fn is_circular(atom: Expr<'_>) -> bool {
+    matches!(atom.view(), View::Call(Function::Sin | Function::Cos, _))
+}

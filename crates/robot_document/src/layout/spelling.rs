@@ -1,0 +1,103 @@
+//! What symbols and quantities look like.
+
+use robot_dynamics::quantity::Symbol;
+use robot_model::signs::{Accent, Letter};
+
+use super::math::{Math, Script};
+
+impl Math {
+    /// The look of a symbol by its name: `q2` has the index 2, `qd2` and `qdd2` dots on the q as well,
+    /// `Jx1` has the index x1, `alpha1` is α with the index 1, `v_max` has the upright index max, and
+    /// `payload` is an upright word.
+    #[must_use]
+    pub fn spelled(name: &str) -> Math {
+        let mut parts = name.split(['_', '.']).filter(|part| !part.is_empty());
+        let Some(first) = parts.next() else {
+            return Math::Word(name.to_owned());
+        };
+        let (mut base, mut indices) = leading(first);
+        indices.extend(parts.map(word));
+        let lower = Math::row(indices.join(&Math::Sign(',')));
+        if !indices.is_empty()
+            && let Some(last) = base.pop()
+        {
+            base.push(last.with_lower(lower));
+        }
+        Math::row(base)
+    }
+
+    /// The look of a quantity, `Q_1`, `F_{l_x}^{5}`, as the paper prints it.
+    #[must_use]
+    pub fn quantity(symbol: Symbol) -> Math {
+        let number = Math::integer(symbol.number);
+        let name = symbol.kind.name();
+        let (letter, index) = name.split_once('_').unwrap_or((name, ""));
+        let base = Math::Letter(letter.chars().next().unwrap_or('Q'));
+        let Some(component) = symbol.component else {
+            return base.with_lower(number);
+        };
+        let axis = Math::Letter(['x', 'y', 'z'][component.min(2)]);
+        let lower = match index.chars().next() {
+            Some(index) => Math::Letter(index).with_lower(axis),
+            None => axis,
+        };
+        Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(number) }))
+    }
+}
+
+/// The letter of a name, and what goes below it.
+fn leading(part: &str) -> (Vec<Math>, Vec<Vec<Math>>) {
+    let letters = part.trim_end_matches(|c: char| c.is_ascii_digit());
+    let digits = part.get(letters.len()..).unwrap_or_default();
+    let index = match digits {
+        "" => vec![],
+        _ => vec![vec![Math::Number(digits.to_owned())]],
+    };
+    let rate = |accent| vec![Math::Accent(accent, Box::new(Math::Letter('q')))];
+    let mut characters = letters.chars();
+    let first = characters.next();
+    let tail = characters.as_str();
+    match (letters, first) {
+        ("qd", _) => (rate(Accent::Dot), index),
+        ("qdd", _) => (rate(Accent::DoubleDot), index),
+        // J, Jx, Ixx: a letter with axes below.
+        (_, Some(first)) if first.is_ascii_uppercase() && !tail.is_empty() && is_axes(tail) => {
+            let mut index = axes(tail);
+            if !digits.is_empty() {
+                index.push(Math::Number(digits.to_owned()));
+            }
+            (vec![Math::Letter(first)], vec![index])
+        }
+        (_, None) => (vec![Math::Number(digits.to_owned())], vec![]),
+        _ => (word(letters), index),
+    }
+}
+
+fn is_axes(text: &str) -> bool {
+    text.len() <= 2 && text.bytes().all(|byte| matches!(byte, b'x' | b'y' | b'z'))
+}
+
+fn axes(text: &str) -> Vec<Math> {
+    text.chars().map(Math::Letter).collect()
+}
+
+/// A letter or a number as it is, a Greek letter by its name, else an upright word.
+fn word(text: &str) -> Vec<Math> {
+    if let Some(letter) = Letter::greek(text) {
+        return vec![Math::Letter(letter.character)];
+    }
+    let letters = text.trim_end_matches(|c: char| c.is_ascii_digit());
+    let digits = text.get(letters.len()..).unwrap_or_default();
+    let mut pieces = match letters {
+        "" => vec![],
+        _ if is_axes(text) => return axes(text),
+        single if single.len() == 1 && single.bytes().all(|byte| byte.is_ascii_alphabetic()) => {
+            single.chars().map(Math::Letter).collect()
+        }
+        _ => return vec![Math::Word(text.to_owned())],
+    };
+    if !digits.is_empty() {
+        pieces.push(Math::Number(digits.to_owned()));
+    }
+    pieces
+}

@@ -1,0 +1,182 @@
+//! How the symbols of a robot look, and formulas made of expressions.
+
+use robot_model::robot::Robot;
+use robot_model::signs::check_latex;
+use robot_symbolic::{Expr, Polynomial, walk};
+use rustc_hash::FxHashMap;
+
+use super::expression::Expressions;
+use super::math::{Math, Symbol};
+use super::{Order, Trigonometry, polynomial};
+use crate::error::Error;
+use crate::latex;
+
+/// The look of a robot's symbols, of further ones that a form of the equations defines, and of sines
+/// and cosines.
+#[derive(Clone, Debug)]
+pub struct SymbolTable {
+    trigonometry: Trigonometry,
+    entries: FxHashMap<String, Entry>,
+    /// The names of symbols by what they print as, but for those that would read as a sine.
+    printed: FxHashMap<String, String>,
+    /// The names of symbols that a form defines.
+    defined: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+struct Entry {
+    shape: Math,
+    latex: String,
+}
+
+impl SymbolTable {
+    /// A table in which every symbol is spelled by its name.
+    #[must_use]
+    pub fn spelled(trigonometry: Trigonometry) -> SymbolTable {
+        let (entries, printed) = (FxHashMap::default(), FxHashMap::default());
+        SymbolTable { trigonometry, entries, printed, defined: vec![] }
+    }
+
+    /// The robot's coordinates, parameters and wrenches as its file wants them to look.
+    ///
+    /// # Errors
+    ///
+    /// Two symbols that look alike.
+    pub fn new(robot: &Robot, trigonometry: Trigonometry) -> Result<SymbolTable, Error> {
+        let mut table = SymbolTable::spelled(trigonometry);
+        for number in 1..=robot.degrees_of_freedom() {
+            for prefix in ["q", "qd", "qdd"] {
+                table.add(&format!("{prefix}{number}"), None)?;
+            }
+        }
+        for parameter in &robot.parameters {
+            table.add(&parameter.name, parameter.latex.as_deref())?;
+        }
+        for (_, wrench) in robot.tips() {
+            let names = wrench.force.iter().chain(&wrench.moment);
+            for (name, given) in names.zip(&wrench.latex) {
+                table.add(name, given.as_deref())?;
+            }
+        }
+        Ok(table)
+    }
+
+    /// Adds a symbol that looks as its LaTeX has it; LaTeX that could do more than print is not used.
+    fn add(&mut self, name: &str, given: Option<&str>) -> Result<(), Error> {
+        let shape = match given.filter(|given| check_latex(given).is_ok()) {
+            Some(given) => latex::read_symbol(given)?,
+            None => Math::spelled(name),
+        };
+        self.insert(name, shape)
+    }
+
+    /// Defines a further symbol.
+    ///
+    /// # Errors
+    ///
+    /// A symbol that there is already, or that looks like another one.
+    pub fn define(&mut self, name: &str, shape: Math) -> Result<(), Error> {
+        if self.entries.contains_key(name) {
+            return Err(Error::Taken { name: name.to_owned() });
+        }
+        self.defined.push(name.to_owned());
+        self.insert(name, shape)
+    }
+
+    fn insert(&mut self, name: &str, shape: Math) -> Result<(), Error> {
+        let latex = latex::formula(&shape);
+        let other = match self.is_like_sine(&latex) {
+            true => None,
+            false => self.printed.insert(latex.clone(), name.to_owned()),
+        };
+        if let Some(other) = other.filter(|other| other != name) {
+            return Err(Error::Alike { name: name.to_owned(), other, latex });
+        }
+        self.entries.insert(name.to_owned(), Entry { shape, latex });
+        Ok(())
+    }
+
+    /// How sines and cosines look.
+    #[must_use]
+    pub fn trigonometry(&self) -> Trigonometry {
+        self.trigonometry
+    }
+
+    /// The names of all symbols with what they look like, but for those that would read as a sine.
+    pub fn shapes(&self) -> impl Iterator<Item = (&str, &Math)> {
+        let entry = |name: &String| self.entries.get(name).map(|entry| &entry.shape);
+        self.printed.values().filter_map(move |name| Some((name.as_str(), entry(name)?)))
+    }
+
+    /// Whether a form of the equations defines the symbol.
+    #[must_use]
+    pub fn is_defined(&self, name: &str) -> bool {
+        self.defined.iter().any(|known| known == name)
+    }
+
+    /// A letter that no symbol has with an index, neither in text nor in print; the last one where
+    /// all are taken.
+    #[must_use]
+    pub fn free_letter(&self, candidates: &[&'static str]) -> &'static str {
+        let taken = |letter: &str| {
+            let sine = self.trigonometry != Trigonometry::Named && matches!(letter, "s" | "c");
+            sine || self.entries.iter().any(|(name, Entry { latex, .. })| {
+                let tail = name.strip_prefix(letter);
+                tail.is_some_and(|tail| tail.starts_with(|c: char| c.is_ascii_digit() || c == '_'))
+                    || latex.strip_prefix(letter).is_some_and(|tail| tail.starts_with(['_', '^']))
+            })
+        };
+        let free = candidates.iter().find(|letter| !taken(letter));
+        free.or(candidates.last()).copied().unwrap_or("x")
+    }
+
+    /// The look of a symbol; one that the table does not have is spelled by its name.
+    #[must_use]
+    pub fn look(&self, name: &str) -> Math {
+        let known = self.entries.get(name).map(|entry| entry.shape.clone());
+        let shape = Box::new(known.unwrap_or_else(|| Math::spelled(name)));
+        Math::Symbol(Symbol { name: name.to_owned(), shape })
+    }
+
+    /// The sum that a polynomial is.
+    ///
+    /// # Errors
+    ///
+    /// A symbol that looks like a sine; an argument that is too long to be written out.
+    pub fn polynomial(&self, value: &Polynomial<'_>, order: &Order<'_>) -> Result<Math, Error> {
+        self.check(&value.atoms())?;
+        polynomial::sum(&value.arranged(|atom| order.rank(atom)), self)
+    }
+
+    /// An expression as it is built.
+    ///
+    /// # Errors
+    ///
+    /// A symbol that looks like a sine; an expression that is too long to be written out.
+    pub fn expression(&self, value: Expr<'_>) -> Result<Math, Error> {
+        self.check(&[value])?;
+        Ok(Math::row(Expressions(self).pieces(value)?))
+    }
+
+    /// Refuses symbols that would read as sines and cosines.
+    fn check(&self, values: &[Expr<'_>]) -> Result<(), Error> {
+        for value in values {
+            for symbol in walk::symbols(&[*value]) {
+                let name = value.graph().symbol_name(symbol);
+                let latex = self.entries.get(&name).map(|entry| &entry.latex);
+                if let Some(latex) = latex.filter(|latex| self.is_like_sine(latex)) {
+                    return Err(Error::LikeSine { name, latex: latex.clone() });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn is_like_sine(&self, latex: &str) -> bool {
+        match self.trigonometry {
+            Trigonometry::Named => false,
+            Trigonometry::Short => latex.starts_with("s_") || latex.starts_with("c_"),
+            Trigonometry::Paper => latex == "s" || latex == "c",
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! LaTeX: formulas, documents, and the way back from LaTeX that people wrote.
+
+mod document;
+mod equations;
+mod formula;
+mod read;
+mod read_back;
+mod text;
+
+pub(crate) use document::natural_width;
+pub use document::{Page, document};
+pub use equations::{Layout, equations};
+pub use formula::formula;
+pub(crate) use read::read_symbol;
+pub use read::{ReadError, read};
+pub use read_back::read_equations;
+pub use text::text;

@@ -1,0 +1,124 @@
+//! Text from robot files as LaTeX: it prints, and does nothing else.
+
+use robot_model::signs::Letter;
+
+/// Letters outside of ASCII for which LaTeX has accents.
+const ACCENTED: &[(&str, &str)] = &[
+    ("ÀÈÌÒÙàèòù", "`"),
+    ("ÁÉÍÓÚÝáéóúýĆćŃńŚśŹź", "'"),
+    ("ÂÊÎÔÛâêôû", "^"),
+    ("ÄËÏÖÜäëöüÿ", "\""),
+    ("ÃÑÕãñõ", "~"),
+];
+/// What their letters are without the accents, in the same order.
+const BARE: &[&str] = &["AEIOUaeou", "AEIOUYaeouyCcNnSsZz", "AEIOUaeou", "AEIOUaeouy", "ANOano"];
+
+/// Other characters.
+const OTHERS: &[(char, &str)] = &[
+    ('\\', r"\textbackslash{}"),
+    ('~', r"\textasciitilde{}"),
+    ('^', r"\textasciicircum{}"),
+    ('<', r"\(<\)"),
+    ('>', r"\(>\)"),
+    ('|', r"\(|\)"),
+    ('"', "''"),
+    ('ß', r"\ss{}"),
+    ('æ', r"\ae{}"),
+    ('Æ', r"\AE{}"),
+    ('ø', r"\o{}"),
+    ('Ø', r"\O{}"),
+    ('å', r"\aa{}"),
+    ('Å', r"\AA{}"),
+    ('ł', r"\l{}"),
+    ('Ł', r"\L{}"),
+    ('ç', r"\c{c}"),
+    ('Ç', r"\c{C}"),
+    ('í', r"\'{\i}"),
+    ('ì', r"\`{\i}"),
+    ('î', r"\^{\i}"),
+    ('ï', "\\\"{\\i}"),
+    ('–', "--"),
+    ('—', "---"),
+    ('‘', "`"),
+    ('’', "'"),
+    ('“', "``"),
+    ('”', "''"),
+    ('…', r"\dots{}"),
+    ('§', r"\S{}"),
+    ('°', r"\(^\circ\)"),
+    ('·', r"\(\cdot\)"),
+    ('×', r"\(\times\)"),
+    ('±', r"\(\pm\)"),
+    ('²', r"\(^2\)"),
+    ('³', r"\(^3\)"),
+    ('µ', r"\(\mu\)"),
+    ('\u{a0}', "~"),
+];
+
+/// Words longer than this many letters may be broken anywhere after as many.
+const LONG_WORD: usize = 12;
+
+/// Text for paragraphs. Characters that Computer Modern lacks print as their code: `[U+4E2D]`.
+#[must_use]
+pub fn text(text: &str) -> String {
+    let mut latex = String::new();
+    let mut letters = 0;
+    for character in text.chars() {
+        letters = if character == ' ' { 0 } else { letters + 1 };
+        if letters > LONG_WORD {
+            latex.push_str(r"\allowbreak{}");
+            letters = 1;
+        }
+        match character {
+            '#' | '$' | '%' | '&' | '{' | '}' | '_' => {
+                latex.push('\\');
+                latex.push(character);
+            }
+            // Two of them in a row would be a dash or a ligature.
+            '-' | '`' | '\'' | ',' | '?' | '!' if latex.ends_with(character) => {
+                latex.push_str("{}");
+                latex.push(character);
+            }
+            '\n' | '\t' => latex.push(' '),
+            ' '..='~' if OTHERS.iter().all(|(other, _)| *other != character) => {
+                latex.push(character);
+            }
+            other => latex.push_str(&outside(other)),
+        }
+    }
+    latex
+}
+
+/// A character that is not printed as it is.
+fn outside(character: char) -> String {
+    if let Some((_, latex)) = OTHERS.iter().find(|(other, _)| *other == character) {
+        return (*latex).to_owned();
+    }
+    if let Some(letter) = Letter::of_character(character) {
+        return format!(r"\(\{}\)", letter.latex);
+    }
+    for ((letters, accent), bare) in ACCENTED.iter().zip(BARE) {
+        let place = letters.chars().position(|letter| letter == character);
+        if let Some(letter) = place.and_then(|place| bare.chars().nth(place)) {
+            return format!(r"\{accent}{{{letter}}}");
+        }
+    }
+    format!("[U+{:04X}]", u32::from(character))
+}
+
+/// The letters of an upright word in a formula.
+pub(super) fn in_math(word: &str) -> String {
+    let mut latex = String::new();
+    for character in word.chars() {
+        match character {
+            '#' | '$' | '%' | '&' | '{' | '}' | '_' => {
+                latex.push('\\');
+                latex.push(character);
+            }
+            ' ' => latex.push_str(r"\ "),
+            '!'..='~' if !matches!(character, '\\' | '^' | '~') => latex.push(character),
+            other => latex.push_str(&format!("[U+{:04X}]", u32::from(other))),
+        }
+    }
+    latex
+}

@@ -1,0 +1,6 @@
+//! The notations, a printer each.
+
+pub mod html;
+pub mod latex;
+pub mod mathml;
+pub mod typst;

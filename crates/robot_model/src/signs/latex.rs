@@ -1,0 +1,235 @@
+//! LaTeX given for names, from a small grammar: nothing that passes can do more than print a symbol.
+//!
+//! This is the one gate: robot files are held to it when they are read, and print asks it again for robots
+//! that were made in code.
+
+use std::ops::Range;
+
+use super::{Accent, Font, Letter};
+
+/// LaTeX given for a name that does more than print a symbol.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct LatexError {
+    /// The offending bytes.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub message: &'static str,
+}
+
+const MAX_LENGTH: usize = 64;
+const MAX_DEPTH: usize = 8;
+
+/// What the grammar needs to know of the group that it is in.
+#[derive(Clone, Copy, Default)]
+struct Group {
+    start: usize,
+    /// Something that an index may belong to has been seen.
+    base: bool,
+    lower: bool,
+    upper: bool,
+}
+
+/// Whether LaTeX given for a name only prints a symbol: `item*`, where an item is a letter, a digit,
+/// one of `* + - , . ( )`, a Greek letter or another sign, a group `{…}`, or an accent or a font with
+/// its group; after it at most one `_` and one `^`, each followed by an item, or primes for the
+/// latter. At most 64 bytes.
+///
+/// # Errors
+///
+/// The first place where the text leaves the grammar, and why.
+pub fn check_latex(latex: &str) -> Result<(), LatexError> {
+    let fault = |span: Range<usize>, message| Err(LatexError { span, message });
+    if latex.is_empty() {
+        return fault(0..0, "empty");
+    }
+    if latex.len() > MAX_LENGTH {
+        return fault(0..latex.len(), "longer than 64 bytes");
+    }
+    let mut walk = Walk { latex, groups: vec![Group::default()], waiting: None };
+    let mut position = 0;
+    while position < latex.len() {
+        let end = token_end(latex, position);
+        if let Err(message) = walk.token(position..end) {
+            return fault(position..end, message);
+        }
+        position = end;
+    }
+    match (walk.waiting, walk.groups.as_slice()) {
+        (Some((span, message)), _) => fault(span, message),
+        (None, [whole]) if whole.base => Ok(()),
+        (None, [_]) => fault(0..latex.len(), "nothing to print"),
+        (None, [.., open]) => fault(open.start..open.start + 1, "never closed"),
+        (None, []) => Ok(()),
+    }
+}
+
+/// The way through a text.
+struct Walk<'l> {
+    latex: &'l str,
+    groups: Vec<Group>,
+    /// An accent or an index that waits for its argument, and what is wrong where none comes.
+    waiting: Option<(Range<usize>, &'static str)>,
+}
+
+impl Walk<'_> {
+    fn token(&mut self, here: Range<usize>) -> Result<(), &'static str> {
+        let token = self.latex.get(here.clone()).unwrap_or_default();
+        let command = token.strip_prefix('\\').unwrap_or_default();
+        let next = self.latex.as_bytes().get(here.end).copied();
+        let before =
+            here.start.checked_sub(1).and_then(|at| self.latex.as_bytes().get(at)).copied();
+        let depth = self.groups.len();
+        let Some(group) = self.groups.last_mut() else {
+            return Err("closes nothing");
+        };
+        match token.as_bytes() {
+            [b'{'] => {
+                item(group, self.waiting.take().is_some());
+                if depth > MAX_DEPTH {
+                    return Err("too many groups within groups");
+                }
+                self.groups.push(Group { start: here.start, ..Group::default() });
+            }
+            [b'}'] if self.waiting.is_some() || depth == 1 || !group.base => {
+                return Err("a group ends without content, or closes nothing");
+            }
+            [b'}'] => {
+                self.groups.pop();
+            }
+            [index @ (b'_' | b'^')] => {
+                let taken = if *index == b'_' { &mut group.lower } else { &mut group.upper };
+                if self.waiting.is_some() || *taken || !group.base {
+                    return Err("a second index, or one that belongs to nothing");
+                }
+                *taken = true;
+                self.waiting = Some((here, "an index without content"));
+            }
+            // A prime is an upper index, and so are several together.
+            [b'\''] => {
+                let again = before == Some(b'\'');
+                if self.waiting.is_some() || !group.base || (group.upper && !again) {
+                    return Err("a second upper index, or a prime that belongs to nothing");
+                }
+                group.upper = true;
+            }
+            [b'\\', ..] if takes_group(command) => {
+                item(group, self.waiting.take().is_some());
+                if next != Some(b'{') {
+                    return Err("takes a group `{…}`");
+                }
+                self.waiting = Some((here, "takes a group `{…}`"));
+            }
+            [b'\\', ..] => {
+                if !Letter::of_latex(command).is_some_and(Letter::is_in_symbols) {
+                    return Err("this command is not allowed");
+                }
+                item(group, self.waiting.take().is_some());
+            }
+            [b' '] if self.waiting.is_none() => {}
+            [byte] if byte.is_ascii_alphanumeric() || b"*+-,.()".contains(byte) => {
+                item(group, self.waiting.take().is_some());
+            }
+            _ => return Err("this character is not allowed"),
+        }
+        Ok(())
+    }
+}
+
+/// Whether a command, without its backslash, is an accent or a font.
+fn takes_group(command: &str) -> bool {
+    Accent::of_latex(command).is_some() || Font::of_latex(command).is_some()
+}
+
+/// An item of a group: a new base, or the argument of what waited for it.
+fn item(group: &mut Group, argument: bool) {
+    if !argument {
+        group.lower = false;
+        group.upper = false;
+    }
+    group.base = true;
+}
+
+/// The end of the token that begins at `start`: a command, or a character.
+fn token_end(text: &str, start: usize) -> usize {
+    let rest = text.get(start..).unwrap_or_default();
+    let letters = |part: &str| part.bytes().take_while(u8::is_ascii_alphabetic).count();
+    match rest.strip_prefix('\\') {
+        Some(name) if letters(name) > 0 => start + 1 + letters(name),
+        Some(name) => start + 1 + name.chars().next().map_or(0, char::len_utf8),
+        None => start + rest.chars().next().map_or(1, char::len_utf8),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check_latex;
+
+    #[test]
+    fn symbols_pass() {
+        for text in [
+            "l_1",
+            "J_x^{*5}",
+            "F_{l_x}^6",
+            "\\theta_{12}",
+            "\\bar{J}_{z}^{*}",
+            "b_5",
+            "q'",
+            "\\mathrm{I}_{xx}",
+            "{J_x}^2",
+            "\\ell_1",
+            "m_{1,2}",
+            "\\alpha\\beta_1",
+            "J _x",
+            "q''_1",
+            "q_1'",
+            "v_(1.5)",
+        ] {
+            assert_eq!(check_latex(text), Ok(()), "{text}");
+        }
+    }
+
+    #[test]
+    fn programs_and_errors_do_not() {
+        for text in [
+            "",
+            "\\input{x}",
+            "\\write18{x}",
+            "\\def\\x{y}",
+            "\\catcode",
+            "a_",
+            "a^",
+            "_a",
+            "a_b_c",
+            "a^b^c",
+            "a'^b",
+            "a^b'",
+            "'",
+            "a_'",
+            "{",
+            "}",
+            "{}",
+            "a}{b",
+            "a%b",
+            "$a$",
+            "a&b",
+            "a#1",
+            "a~b",
+            "\\\\",
+            "\\bar x",
+            "\\bar",
+            "a_{}",
+            "a_ b",
+            "\\",
+            "é",
+            "a\nb",
+            "\\^a",
+            "\u{202e}",
+            "{{{{{{{{{{a}}}}}}}}}}",
+            " ",
+        ] {
+            assert!(check_latex(text).is_err(), "{text}");
+        }
+        assert!(check_latex(&"a".repeat(65)).is_err());
+    }
+}
