@@ -7,6 +7,7 @@ mod book;
 mod check;
 mod code;
 mod compare;
+mod demo;
 mod diff;
 mod equations;
 mod eval;
