@@ -8,7 +8,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::pages::{Block, blocks, pages_in};
+use robot_testing::pages::{Block, blocks, pages_in};
+
 use crate::shell::{Done, Shell};
 
 fn root() -> PathBuf {

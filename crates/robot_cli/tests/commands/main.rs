@@ -17,8 +17,6 @@ mod help;
 mod interrupted;
 mod json_schema;
 mod outputs;
-#[path = "../../../../tests/common/pages.rs"]
-mod pages;
 mod plans;
 mod prove;
 mod reading;

@@ -1,9 +1,6 @@
 //! Every option of the economical recursion, forced on and off alone and among all others, against
 //! the numeric solver. An option counts as in effect where it changes the expressions; the tests
 //! fail where one never does.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use std::collections::BTreeMap;
 
@@ -18,7 +15,7 @@ use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph};
 
-use common::{evaluate, largest_difference, magnitude, robot_files};
+use robot_testing::{evaluate, largest_difference, magnitude, robot_files};
 
 const STATES: usize = 8;
 const TOLERANCE: f64 = 1e-12;
@@ -248,7 +245,7 @@ fn check_all(what: &str, robots: impl IntoIterator<Item = (String, u64, Robot)>,
 #[test]
 fn options_on_robot_files() {
     let robot = |(name, text): (String, String)| {
-        let robot = common::read(&name, &text);
+        let robot = robot_testing::read(&name, &text);
         (name, 11, robot)
     };
     let robots = robot_files().into_iter().map(robot);
@@ -322,7 +319,7 @@ fn arm(centre: f64, lever: f64, axis: &str) -> Robot {
         link("2", [0.3, 0.0, 0.2], "z", [centre, 0.0, 0.0]),
         link("3", [lever, 0.0, 0.3], axis, [0.0, 0.1, 0.2]),
     ];
-    common::read("arm", &text.concat())
+    robot_testing::read("arm", &text.concat())
 }
 
 /// Whether an option of one link changes anything; the torques are right in any case.

@@ -6,12 +6,16 @@ use robot_symbolic::{Expr, walk};
 
 /// The coordinates and their derivatives by time.
 pub struct Motion<'g> {
+    /// q.
     pub q: Vec<Expr<'g>>,
+    /// q̇.
     pub qd: Vec<Expr<'g>>,
+    /// q̈.
     pub qdd: Vec<Expr<'g>>,
 }
 
 impl<'g> Motion<'g> {
+    /// The symbols `q1`, `qd1`, `qdd1` and so on.
     pub fn new(mechanism: &Mechanism<'g>) -> Motion<'g> {
         let symbols = |prefix: &str| {
             let numbers = 1..=mechanism.degrees_of_freedom;

@@ -78,6 +78,7 @@ pub struct Off {
 }
 
 impl Off {
+    /// The largest difference, in parts of `size`.
     pub fn of(layout: &Layout<'_>, found: &[f64], expected: &[f64], size: f64) -> Off {
         assert_eq!(found.len(), expected.len(), "{}", layout.entry(0));
         let errors = found.iter().zip(expected).map(|(a, b)| (a - b).abs() / size);

@@ -12,9 +12,6 @@
 //!
 //! Rates are taken by the complex step. Y π = τ is in `regressor.rs`, power with wrenches at the tips,
 //! from poses alone, in `power.rs`, Lagrange's equations as polynomials in `lagrange.rs`.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use std::collections::BTreeMap;
 
@@ -27,9 +24,9 @@ use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph};
 
-use common::complex_step::derivative;
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, robot_files, with_free_axes};
+use robot_testing::complex_step::derivative;
+use robot_testing::place::{Layout, Off};
+use robot_testing::{evaluate, magnitude, robot_files, with_free_axes};
 
 const STATES: usize = 3;
 const TOLERANCE: f64 = 1e-11;
@@ -301,7 +298,7 @@ fn check(robot: &Robot, seed: u64, name: &str) {
 #[test]
 fn identities_of_every_robot_file() {
     for (name, text) in robot_files() {
-        check(&common::read(&name, &text), 5, &name);
+        check(&robot_testing::read(&name, &text), 5, &name);
     }
 }
 

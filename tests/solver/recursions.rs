@@ -1,8 +1,5 @@
 //! The two recursions on symbols against the numeric solver, which shares nothing with them: for
 //! every robot file and for random robots, serial and branched.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -14,8 +11,8 @@ use robot_numeric::robots;
 use robot_numeric::{self, Loads};
 use robot_symbolic::{Expr, Graph};
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, robot_files};
+use robot_testing::place::{Layout, Off};
+use robot_testing::{evaluate, magnitude, robot_files};
 
 const STATES: usize = 50;
 const TOLERANCE: f64 = 1e-12;
@@ -95,7 +92,7 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
 #[test]
 fn every_robot_file_agrees_with_the_numeric_solver() {
     for (name, text) in robot_files() {
-        let worst = check(&common::read(&name, &text), 7, &name);
+        let worst = check(&robot_testing::read(&name, &text), 7, &name);
         println!("{name}: worst error {worst:.1e} of the largest torque");
     }
 }
@@ -127,7 +124,7 @@ fn random_trees_agree_with_the_numeric_solver() {
 
 #[test]
 fn quantities_carry_the_papers_names() {
-    let robot = common::robot("trttr1");
+    let robot = robot_testing::robot("trttr1");
     let graph = Graph::new();
     let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
     let solution = newton_euler(&mechanism, Effects { wrench: true, friction: false });

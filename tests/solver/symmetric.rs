@@ -1,8 +1,5 @@
 //! Last links whose mass is spread alike all round their joint axes: no driving force depends on their
 //! joints' positions, and code does not take their sines.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_build::{Functions, Options, Source, programs};
 use robot_codegen::Module;
@@ -49,7 +46,7 @@ fn arm(last: &Last) -> String {
 /// angles whose sines the code takes.
 fn sines(last: &Last) -> usize {
     let text = arm(last);
-    let robot = common::read("arm.toml", &text);
+    let robot = robot_testing::read("arm.toml", &text);
     let graph = Graph::new();
     let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
     // Working frames in the file's axes, so that no sine of an odd angle comes in.
@@ -95,7 +92,7 @@ fn what_is_not_symmetric_is_turned() {
 #[test]
 fn a_wrench_at_the_tip_needs_the_turn() {
     let (name, text) =
-        common::robot_files().into_iter().find(|(name, _)| name == "puma560").unwrap();
+        robot_testing::robot_files().into_iter().find(|(name, _)| name == "puma560").unwrap();
     let source = Source { name, text };
     let options = Options { functions: Functions::All, ..Options::default() };
     let module = programs(&source, &options).unwrap().module;

@@ -1,9 +1,6 @@
 //! The code against the numeric solver: the straight-line programs through the interpreter for
 //! hundreds of random robots, and the Rust that they are printed as, compiled, for every robot file
 //! and twenty random ones.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -17,8 +14,8 @@ use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 
-use common::solver::{expected, inputs, state};
-use common::{largest_difference, magnitude, robot_files};
+use robot_testing::solver::{expected, inputs, state};
+use robot_testing::{largest_difference, magnitude, robot_files};
 
 const TOLERANCE: f64 = 1e-12;
 const FUNCTIONS: [FunctionKind; 5] = [
@@ -112,7 +109,7 @@ impl Case {
 #[test]
 fn the_programs_of_every_robot_file() {
     for (name, text) in robot_files() {
-        let worst = Case::new(&name, common::read(&name, &text), 11, 50).interpret();
+        let worst = Case::new(&name, robot_testing::read(&name, &text), 11, 50).interpret();
         println!("{name}: worst error {worst:.1e}");
     }
 }
@@ -159,7 +156,8 @@ fn the_programs_of_long_chains() {
 #[test]
 fn the_compiled_code_of_every_robot_file_and_of_twenty_random_robots() {
     let files = robot_files().into_iter();
-    let files = files.map(|(name, text)| Case::new(&name, common::read(&name, &text), 11, 50));
+    let files =
+        files.map(|(name, text)| Case::new(&name, robot_testing::read(&name, &text), 11, 50));
     let random_cases = (500..520).map(|seed| {
         let recipe = Recipe { drives: seed % 2 == 0, ..Recipe::tree(1 + seed as usize % 8) };
         let robot = robots::robot(&mut Random::new(seed), &recipe);

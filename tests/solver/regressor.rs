@@ -1,7 +1,4 @@
 //! The regressor against the numeric solver's, and against the driving forces that it stands for.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_build::{BaseFrames, Functions, Options, programs_of};
 use robot_dynamics::functions::Derivation;
@@ -13,8 +10,8 @@ use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Graph, Rational, operations};
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, robot_files, with_free_axes};
+use robot_testing::place::{Layout, Off};
+use robot_testing::{evaluate, magnitude, robot_files, with_free_axes};
 
 const STATES: usize = 8;
 const TOLERANCE: f64 = 1e-11;
@@ -97,7 +94,7 @@ fn check(robot: &Robot, seed: u64, name: &str) {
 #[test]
 fn regressors_of_every_robot_file() {
     for (name, text) in robot_files() {
-        check(&common::read(&name, &text), 3, &name);
+        check(&robot_testing::read(&name, &text), 3, &name);
     }
 }
 
@@ -147,7 +144,7 @@ fn regressors_cost_little_without_a_search() {
     let budgets =
         [("puma560", 935, 184), ("ur5", 1045, 189), ("iiwa", 1391, 253), ("panda", 1410, 254)];
     for (name, flops, entries) in budgets {
-        let robot = common::robot(name);
+        let robot = robot_testing::robot(name);
         let graph = Graph::new();
         let derivation = Derivation::new(&robot, &graph, &OPTIONS, None);
         let regressor = regressor(&derivation);
@@ -165,7 +162,7 @@ fn base_regressors_cost_no_more_than_they_did() {
     let bounds =
         [("puma560", 614, 646), ("ur5", 493, 540), ("iiwa", 942, 1127), ("panda", 1040, 1150)];
     for (name, denavit_hartenberg, file) in bounds {
-        let robot = common::robot(name);
+        let robot = robot_testing::robot(name);
         let most = [(BaseFrames::DenavitHartenberg, denavit_hartenberg), (BaseFrames::File, file)];
         for (frames, most) in most {
             let options = Options {

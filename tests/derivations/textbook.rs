@@ -1,8 +1,5 @@
 //! Planar arms against formulas of the textbooks, derived by hand: M, C, g and the tip's Jacobian as
 //! polynomials, whose differences from the functions' are zero after expansion.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::LinkPlan;
@@ -17,7 +14,7 @@ type Entries = (FunctionKind, Vec<String>);
 
 /// Holds functions against formulas, under the default plan of the recursion and in the file's frames.
 fn hold(name: &str, textbook: &[Entries]) {
-    let robot = common::robot(name);
+    let robot = robot_testing::robot(name);
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &MechanismOptions::EXACT, None);
     let basic = derivation.with_plan(&Plan::uniform(robot.links.len(), &LinkPlan::BASIC));

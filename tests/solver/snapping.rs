@@ -1,15 +1,12 @@
 //! Truncated angles: whatever tolerance takes them for multiples of π/2, the code computes the robot
 //! with the angles so taken, and no option of the recursion divides by what is left of them.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_build::{FunctionKind, Functions, Options, Source, programs, snapping};
 use robot_codegen::Interpreter;
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
 
-use common::{largest_difference, magnitude};
+use robot_testing::{largest_difference, magnitude};
 
 const TOLERANCE: f64 = 1e-12;
 const STATES: usize = 20;

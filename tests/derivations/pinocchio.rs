@@ -1,8 +1,5 @@
 //! The generated programs against values computed by Pinocchio (see `tests/fixtures/oracle`): every
 //! function that it has, for six arms.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use std::collections::BTreeMap;
 
@@ -13,7 +10,7 @@ use robot_model::robot::LINK_PARAMETERS;
 use robot_model::robot::Robot;
 use serde_json::Value;
 
-use common::{largest_difference, magnitude};
+use robot_testing::{largest_difference, magnitude};
 
 const ARMS: [&str; 6] = ["ur5", "panda", "iiwa", "puma560", "stanford", "scara"];
 
@@ -49,13 +46,14 @@ fn frame_at(link: &str) -> String {
 
 /// An arm of the project with a frame at each of these bodies that has none.
 fn with_frames<'n>(name: &str, bodies: impl Iterator<Item = &'n String>) -> Robot {
-    let known = common::robot(name).frames;
-    let (_, mut text) = common::robot_files().into_iter().find(|(file, _)| file == name).unwrap();
+    let known = robot_testing::robot(name).frames;
+    let (_, mut text) =
+        robot_testing::robot_files().into_iter().find(|(file, _)| file == name).unwrap();
     for body in bodies.filter(|body| known.iter().all(|frame| frame.name != **body)) {
         let frame = frame_at(body);
         text.push_str(&format!("\n[[frame]]\nname = \"{frame}\"\nparent = \"{body}\"\n"));
     }
-    common::read(name, &text)
+    robot_testing::read(name, &text)
 }
 
 /// An arm's programs and the states of its fixture.

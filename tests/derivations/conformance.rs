@@ -1,8 +1,5 @@
 //! The rows of `conformance/`: URDF texts with a state and the torques that are derived by hand, or with
 //! the errors that they must end in; and the page that sets other programs beside them.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
@@ -12,7 +9,7 @@ use robot_model::robot::Robot;
 use robot_numeric::Mechanism;
 use toml::{Table, Value};
 
-use common::largest_difference;
+use robot_testing::largest_difference;
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/conformance");
 const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/conformance.md");

@@ -1,21 +1,11 @@
 //! The example `identification`, small: estimates are off by what the noise allows, and no more.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-#[path = "common/pages.rs"]
-mod pages;
-#[path = "../examples/identification/report.rs"]
-mod report;
-#[path = "../examples/identification/study.rs"]
-mod study;
-#[path = "../examples/identification/trajectory.rs"]
-mod trajectory;
-
 use nalgebra::DVector;
 use robot_numeric::random::Random;
 
-use study::{NOISE, PARAMETERS};
-use trajectory::{JOINTS, Trajectory};
+use crate::report;
+use crate::study::{self, NOISE, PARAMETERS};
+use crate::trajectory::{JOINTS, Trajectory};
 
 const SEED: u64 = 7;
 const SAMPLES: u32 = 300;
@@ -90,7 +80,7 @@ fn the_regressor_times_the_true_parameters_is_the_torque() {
 
 #[test]
 fn the_page_shows_what_the_example_prints() {
-    let blocks = pages::blocks(include_str!("../docs/users/identification.md"));
+    let blocks = robot_testing::pages::blocks(include_str!("../../docs/users/identification.md"));
     let shown = blocks.iter().find(|block| block.is("printed")).unwrap();
     assert_eq!(shown.text, report::report(report::SEED).unwrap().0);
 }

@@ -1,8 +1,5 @@
 //! Every dynamic function against the numeric solver: for every robot file, for random chains and
 //! trees, under plans drawn at random.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::functions::{Derivation, Output, search_plan};
@@ -15,10 +12,10 @@ use robot_numeric::robots;
 use robot_symbolic::differentiate::{forward, reverse};
 use robot_symbolic::{Expr, Graph, operations};
 
-use common::place::{Layout, Off};
-use common::plans::random_plan;
-use common::solver::{expected, state};
-use common::{evaluate, magnitude, robot_files, with_free_axes};
+use robot_testing::place::{Layout, Off};
+use robot_testing::plans::random_plan;
+use robot_testing::solver::{expected, state};
+use robot_testing::{evaluate, magnitude, robot_files, with_free_axes};
 
 const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;
@@ -103,7 +100,7 @@ fn report(what: &str, worst: [f64; KINDS.len()]) {
 fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
     for (name, text) in robot_files() {
         let mut worst = [0.0; KINDS.len()];
-        check(&common::read(&name, &text), 3, &name, &mut worst);
+        check(&robot_testing::read(&name, &text), 3, &name, &mut worst);
         report(&name, worst);
     }
 }
@@ -142,7 +139,7 @@ fn check_links(mut robot: Robot, name: &str) {
 #[test]
 fn jacobians_of_links_agree_with_the_numeric_solver() {
     for (name, text) in robot_files() {
-        check_links(common::read(&name, &text), &name);
+        check_links(robot_testing::read(&name, &text), &name);
     }
     for seed in 0..12 {
         let recipe = Recipe { mimic: seed % 3 == 0, ..Recipe::tree(2 + seed as usize % 7) };
@@ -269,7 +266,7 @@ fn searched_plans_keep_the_operations_of_functions_low() {
         ("ur5", FunctionKind::ForwardDynamics, 390, 5),
     ];
     for (name, kind, flops, divisions) in budgets {
-        let robot = common::robot(name);
+        let robot = robot_testing::robot(name);
         let options = MechanismOptions::ROUNDED;
         let found = search_plan(&robot, &options, &[kind]).unwrap();
         let graph = Graph::new();

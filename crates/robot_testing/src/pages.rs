@@ -1,5 +1,4 @@
 //! The pages of the book as tests see them: code blocks.
-#![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
 
 use std::path::{Path, PathBuf};
 

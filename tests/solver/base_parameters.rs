@@ -1,7 +1,4 @@
 //! Base parameters: as many as stacked regressors have rank, and the same driving forces.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use nalgebra::DMatrix;
 use robot_dynamics::base_parameters::{BaseParameters, base_parameters};
@@ -14,8 +11,8 @@ use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Graph, Number, Rational};
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude, read, robot_files, with_free_axes};
+use robot_testing::place::{Layout, Off};
+use robot_testing::{evaluate, magnitude, read, robot_files, with_free_axes};
 
 const STATES: usize = 6;
 const TOLERANCE: f64 = 1e-11;

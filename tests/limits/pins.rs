@@ -1,12 +1,9 @@
 //! The plans that are pinned beside the robot files are those that a search finds.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
-mod common;
-
-use common::robot_files;
 use robot_build::{Source, pin_text, read};
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
+use robot_testing::robot_files;
 
 /// A change of the recursion or of the search shows here: `robot-symbolic search` writes the pins anew.
 #[test]

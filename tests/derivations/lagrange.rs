@@ -1,8 +1,5 @@
 //! A second derivation, from energy: Lagrange's equations by symbolic differentiation of T − V
 //! agree with the Newton–Euler iterations exactly, the difference zero after expansion.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -13,7 +10,7 @@ use robot_numeric::robots;
 use robot_symbolic::Graph;
 use robot_symbolic::polynomial::expands_to_zero;
 
-use common::energy::{Motion, energies};
+use robot_testing::energy::{Motion, energies};
 
 /// Checks each coordinate's equation; the number of recursions that were compared.
 fn check(robot: &Robot, name: &str) -> usize {
@@ -46,7 +43,7 @@ fn check(robot: &Robot, name: &str) -> usize {
 #[test]
 fn trttr1_and_the_planar_arms() {
     for name in ["trttr1", "planar_2r", "planar_3r"] {
-        assert_eq!(check(&common::robot(name), name), 2);
+        assert_eq!(check(&robot_testing::robot(name), name), 2);
     }
 }
 

@@ -1,5 +1,4 @@
 //! The operations that the documents state are those of the code.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 use robot_build::{Bundle, FunctionKind, Functions, Options, RobotFile, programs};
 use robot_codegen::Counts;

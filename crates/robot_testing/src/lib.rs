@@ -1,8 +1,13 @@
-//! What several tests share: robots, states, and values of expressions at them.
-#![allow(dead_code, unreachable_pub, reason = "each test file uses its own part")]
+//! What tests of several crates share: robots, states, values of expressions at them, and the pages of the book.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "only tests use it, and a test that fails panics"
+)]
 
 pub mod complex_step;
 pub mod energy;
+pub mod pages;
 pub mod place;
 pub mod plans;
 pub mod solver;
@@ -14,6 +19,9 @@ use robot_model::robot::{Parameter, Robot};
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Rational, walk};
+
+/// A robot file of the project: an arm of two links in a vertical plane.
+pub const PLANAR_2R: &str = include_str!("../../../robots/planar_2r.toml");
 
 /// The robot files of the project, by name.
 pub fn robot_files() -> Vec<(String, String)> {

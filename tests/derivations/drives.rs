@@ -1,8 +1,5 @@
 //! Gyroscopic rotors, derived a second time: the rotor as a body of its own, a link on the carrier that
 //! turns with its joint's coordinate, and the equations of Lagrange for that.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_dynamics::economical::{
     Plan, Recursion,
@@ -16,7 +13,7 @@ use robot_numeric::robots;
 use robot_symbolic::polynomial::expands_to_zero;
 use robot_symbolic::{Expr, Formula, Graph};
 
-use common::energy::{Motion, energies};
+use robot_testing::energy::{Motion, energies};
 
 const PLAIN: Effects = Effects { wrench: false, friction: false };
 
@@ -47,7 +44,7 @@ fn arm(axes: [&str; 3], kinds: [&str; 3]) -> Robot {
         link(2),
         link(3)
     );
-    common::read("arm.toml", &text)
+    robot_testing::read("arm.toml", &text)
 }
 
 /// The robot with every gyroscopic rotor as a link of its own, its inertia taken out of its carrier's.
@@ -221,7 +218,7 @@ fn a_rotor_on_the_base_is_its_reflected_inertia() {
     };
     let graph = Graph::new();
     let forces = |text: &str| {
-        let robot = common::read("a.toml", text);
+        let robot = robot_testing::read("a.toml", text);
         let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
         newton_euler(&mechanism, PLAIN).driving_forces
     };

@@ -1,8 +1,5 @@
 //! Two hundred random trees with two tips against the numeric solver: through the paper's iterations,
 //! the economical recursion and the interpreter of the generated programs.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
@@ -15,8 +12,8 @@ use robot_numeric::robots;
 use robot_numeric::{self, Loads};
 use robot_symbolic::Graph;
 
-use common::place::{Layout, Off};
-use common::{evaluate, magnitude};
+use robot_testing::place::{Layout, Off};
+use robot_testing::{evaluate, magnitude};
 
 const STATES: usize = 6;
 const TOLERANCE: f64 = 1e-12;

@@ -1,7 +1,4 @@
 //! Power balance: what the drives put in is what the energy gains and what the tip gives away.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
-
-mod common;
 
 use nalgebra::DVector;
 use robot_dynamics::functions::Derivation;
@@ -12,8 +9,8 @@ use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
 use robot_symbolic::Graph;
 
-use common::energy::{Motion, energies};
-use common::{evaluate, robot_files};
+use robot_testing::energy::{Motion, energies};
+use robot_testing::{evaluate, robot_files};
 
 /// The power that the tips give to their surroundings, by the numeric solver's Jacobians.
 fn tip_power(robot: &Robot, solver: &robot_numeric::Mechanism, state: &State) -> f64 {
@@ -58,7 +55,7 @@ fn check(robot: &Robot, name: &str, seed: u64) {
 #[test]
 fn of_every_robot_file() {
     for (name, text) in robot_files() {
-        check(&common::read(&name, &text), &name, 3);
+        check(&robot_testing::read(&name, &text), &name, 3);
     }
 }
 

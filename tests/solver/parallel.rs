@@ -1,5 +1,4 @@
 //! Batches over threads give the bytes of batches on one.
-#![allow(clippy::unwrap_used, reason = "a test that fails panics")]
 
 robot_macros::include_robot!(
     "robots/ur5.toml",
