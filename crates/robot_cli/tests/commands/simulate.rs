@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::pages::blocks;
+use robot_testing::pages::blocks;
 use crate::{WRIST, complaint, folder, output, robot, run, run_with};
 
 /// The columns of CSV by name.
