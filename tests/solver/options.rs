@@ -134,6 +134,13 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
         let option = format!("meeting, {}", if turned { "turned" } else { "at home" });
         found.push(Forced { option, shown: Shown::MassMatrix, off: base.clone(), on });
     }
+    found.extend(units_of_length(&base, links));
+    found
+}
+
+/// Each length that can be the unit, and none.
+fn units_of_length(base: &Plan, links: usize) -> Vec<Forced> {
+    let mut found = vec![];
     for unit in (0..links).map(|link| (link, link % 3)) {
         let on = Plan { unit_length: Some(unit), ..base.clone() };
         for (what, shown) in [("", Shown::Torques), (", accelerations", Shown::Accelerations)] {

@@ -73,10 +73,7 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         FunctionKind::InverseDynamicsFriction => torques(&[], true),
         FunctionKind::InverseDynamicsWrenchFriction => torques(wrenches, true),
         FunctionKind::LinkWrenches => {
-            let found = &solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links];
-            let entries = |vector: Vector3<f64>| vector.as_slice().to_vec();
-            let forces = found.iter().flat_map(|link| entries(link.contact_force));
-            forces.chain(found.iter().flat_map(|link| entries(link.contact_moment))).collect()
+            contacts(&solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links])
         }
         FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
         FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
@@ -95,25 +92,40 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         FunctionKind::JacobianOf(frame) => jacobian(frame),
         FunctionKind::JacobianDotQd => frames.flat_map(drift).collect(),
         FunctionKind::JacobianDotQdOf(frame) => drift(frame),
-        FunctionKind::Energies => {
-            let energies = solver.energies(q, qd).unwrap();
-            vec![energies.kinetic, energies.potential]
-        }
+        FunctionKind::Energies => energies(solver, state),
         FunctionKind::CoriolisMatrix => rows(&solver.coriolis_matrix(q, qd).unwrap()),
-        FunctionKind::InverseDynamicsDerivatives => {
-            let found = solver.inverse_dynamics_derivatives(q, qd, qdd, &[]).unwrap();
-            [rows(&found.dq), rows(&found.dqd)].concat()
-        }
-        FunctionKind::ForwardDynamicsDerivatives => {
-            let found = solver.forward_dynamics_derivatives(q, qd, tau, &[]).unwrap();
-            [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
-        }
+        FunctionKind::InverseDynamicsDerivatives => inverse_derivatives(solver, state),
+        FunctionKind::ForwardDynamicsDerivatives => forward_derivatives(solver, state),
         FunctionKind::Regressor => {
             let columns = solver.regressor(q, qd, qdd).unwrap();
             rows(&columns.columns(0, LINK_PARAMETERS * links).into_owned())
         }
         other => panic!("nothing to hold `{}` against", other.name()),
     }
+}
+
+/// The forces in the joints of the links, then the moments.
+fn contacts(links: &[robot_numeric::LinkDynamics]) -> Vec<f64> {
+    let entries = |vector: Vector3<f64>| vector.as_slice().to_vec();
+    let forces = links.iter().flat_map(|link| entries(link.contact_force));
+    forces.chain(links.iter().flat_map(|link| entries(link.contact_moment))).collect()
+}
+
+fn energies(solver: &Mechanism, state: &State) -> Vec<f64> {
+    let found = solver.energies(&state.q, &state.qd).unwrap();
+    vec![found.kinetic, found.potential]
+}
+
+fn inverse_derivatives(solver: &Mechanism, state: &State) -> Vec<f64> {
+    let State { q, qd, qdd, .. } = state;
+    let found = solver.inverse_dynamics_derivatives(q, qd, qdd, &[]).unwrap();
+    [rows(&found.dq), rows(&found.dqd)].concat()
+}
+
+fn forward_derivatives(solver: &Mechanism, state: &State) -> Vec<f64> {
+    let State { q, qd, tau, .. } = state;
+    let found = solver.forward_dynamics_derivatives(q, qd, tau, &[]).unwrap();
+    [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
 }
 
 /// q̈ with friction, by the rounds that the functions take where friction is by load.
