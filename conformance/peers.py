@@ -116,7 +116,7 @@ def right(row):
 
 
 def ours(row):
-    """What `tests/conformance.rs` holds this project to."""
+    """What `tests/derivations/conformance.rs` holds this project to."""
     if "refused" in row:
         return "refuses, " + " ".join(row["refused"])
     warned = row.get("warned", [])
@@ -179,7 +179,7 @@ def head(count, versions, tally):
 
 Each row is a small URDF file with a state and the right torques, derived by hand, or the reason why no program should take it:
 see [conformance/](../conformance/README.md), where anybody can run it. This page is written by
-`conformance/peers.py`; the column *here* is held by `tests/conformance.rs`. Torques are in N m, forces in N.
+`conformance/peers.py`; the column *here* is held by `tests/derivations/conformance.rs`. Torques are in N m, forces in N.
 In bold: an answer that differs from the right one. *Silent* means that nothing was written to standard output or error.
 
 A difference is not always a fault: *reads it* stands where a refusal is a limit of this project and no fault of the file; Pinocchio and MuJoCo leave checks to others, MuJoCo counts damping and friction in inverse

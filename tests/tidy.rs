@@ -1,14 +1,14 @@
 //! The house rules that a compiler does not hold: which crate and which module may know which, how long a file
-//! may be, how large a crate.
+//! may be, how large a crate, and that packages stand alone.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// The crates along the arrow of ARCHITECTURE.md: each may depend on those before it.
-const CRATES: [&str; 14] = [
+const CRATES: [&str; 15] = [
     "robot_runtime",
     "robot_symbolic",
     "robot_model",
@@ -23,11 +23,15 @@ const CRATES: [&str; 14] = [
     "robot_numeric",
     "robot_check",
     "robot_cli",
+    "robot_testing",
 ];
 
-/// Who may depend on the numeric solver: what judges, and the command that asks it. Nothing that derives,
-/// prints or generates.
-const JUDGES: [&str; 2] = ["robot_check", "robot_cli"];
+/// Who may depend on the numeric solver: what judges, the command that asks it, and what tests share. Nothing
+/// that derives, prints or generates.
+const JUDGES: [&str; 3] = ["robot_check", "robot_cli", "robot_testing"];
+
+/// Packages that are never published: their sources may use files of the whole project.
+const UNPUBLISHED: [&str; 1] = ["robot_testing"];
 
 /// The modules of crates in layers: each may use those of its own layer and of those before.
 const LAYERS: [(&str, &[&[&str]]); 2] = [
@@ -195,4 +199,78 @@ fn files_are_short_and_no_crate_dwarfs_the_others() {
     let all: usize = lines.values().sum();
     let large: Vec<_> = lines.iter().filter(|(_, count)| **count * 100 > all * LARGEST).collect();
     assert!(large.is_empty(), "of {all} lines: {large:?}");
+}
+
+/// The files that a source includes by paths as they are written: `include_str!("a")`, `include!("a")`,
+/// `#[path = "a"]`.
+fn included(text: &str) -> Vec<&str> {
+    let openings = ["include_str!(\"", "include_bytes!(\"", "include!(\"", "#[path = \""];
+    let found = openings.iter().flat_map(|opening| text.split(opening).skip(1));
+    found.filter_map(|rest| rest.split('"').next()).collect()
+}
+
+/// A path without `.` and `..`, as text alone.
+fn plain(path: &Path) -> PathBuf {
+    let mut found = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => drop(found.pop()),
+            Component::CurDir => {}
+            part => found.push(part),
+        }
+    }
+    found
+}
+
+#[test]
+fn included_files_are_found_in_sources() {
+    let text = "include_str!(\"a\") include_bytes!(\"b\") #[path = \"../c.rs\"] include!(\"d\")";
+    let mut found = included(text);
+    found.sort_unstable();
+    assert_eq!(found, ["../c.rs", "a", "b", "d"]);
+    assert_eq!(plain(Path::new("/x/src/../../y/./z")), Path::new("/y/z"));
+}
+
+#[test]
+fn packages_include_nothing_from_outside() {
+    let mut wrong = vec![];
+    for name in CRATES {
+        let package = root().join("crates").join(name);
+        for path in sources(&package) {
+            let text = fs::read_to_string(&path).unwrap();
+            let folder = path.parent().unwrap();
+            let is_test = path.starts_with(package.join("tests"));
+            for file in included(&text) {
+                let outside = !plain(&folder.join(file)).starts_with(&package);
+                // Tests are not packed, and may read files of the project; code of another package they may not.
+                let may = is_test && !file.ends_with(".rs") || UNPUBLISHED.contains(&name);
+                if outside && !may {
+                    wrong.push(format!("{} includes {file}", path.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// What a package is made of, by its manifest.
+#[test]
+fn packages_say_what_they_are() {
+    let workspace: toml::Table =
+        fs::read_to_string(root().join("Cargo.toml")).unwrap().parse().unwrap();
+    let pin = format!("={}", workspace["workspace"]["package"]["version"].as_str().unwrap());
+    for name in CRATES.iter().filter(|name| !UNPUBLISHED.contains(name)) {
+        let folder = root().join("crates").join(name);
+        let manifest: toml::Table =
+            fs::read_to_string(folder.join("Cargo.toml")).unwrap().parse().unwrap();
+        let package = manifest["package"].as_table().unwrap();
+        for key in ["description", "readme", "keywords", "categories", "license", "include"] {
+            assert!(package.contains_key(key), "{name} has no `{key}`");
+        }
+        for file in ["README.md", "LICENSE-MIT", "LICENSE-APACHE"] {
+            assert!(folder.join(file).is_file(), "{name} has no {file}");
+        }
+        let version = &workspace["workspace"]["dependencies"][name]["version"];
+        assert_eq!(version.as_str(), Some(&*pin), "{name}");
+    }
 }

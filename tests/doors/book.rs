@@ -1,7 +1,8 @@
 //! The package of the book's page for Rust developers.
 
+use robot_testing::pages::blocks;
+
 use crate::package::{Package, dependency};
-use crate::pages::blocks;
 
 const PAGE: &str = include_str!("../../docs/users/rust.md");
 

@@ -17,8 +17,9 @@ use robot_model::robot::Robot;
 use robot_numeric::random::{Random, State};
 use robot_symbolic::Graph;
 
-use crate::common::solver::{expected, inputs, state};
-use crate::common::{self, largest_difference, magnitude, robot_files};
+use robot_testing::solver::{expected, inputs, state};
+use robot_testing::{largest_difference, magnitude, robot_files};
+
 use crate::package::{Package, dependency};
 
 const STATES: usize = 4;
@@ -83,7 +84,7 @@ struct Case {
 
 impl Case {
     fn new(name: &str, text: &str) -> Case {
-        let robot = common::read(name, text);
+        let robot = robot_testing::read(name, text);
         let all = FunctionKind::of(&robot);
         // Without inputs there is nothing to compute once more: it has a test of its own.
         let called = |kind: &FunctionKind| *kind != FunctionKind::BaseParameters;

@@ -7,15 +7,11 @@
 mod book;
 mod build_script;
 mod bundles;
-#[path = "../common/mod.rs"]
-mod common;
 mod forms;
 mod generated_crate;
 mod include_macro;
 mod kinds;
 mod package;
-#[path = "../common/pages.rs"]
-mod pages;
 mod payload;
 mod reference;
 mod single;

@@ -15,9 +15,6 @@ use crate::generate::{header, module_name, rust_text, unnamed_header};
 use crate::options::Options;
 use crate::programs::{Programs, programs};
 
-/// The Rust version that generated code needs.
-const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
-
 /// The files of a crate that holds a robot's functions, in a fixed order.
 ///
 /// The crate has no dependencies: the runtime's modules are part of it. Only with
@@ -119,14 +116,15 @@ impl Parts<'_> {
              name = \"{name}\"\n\
              version = \"0.1.0\"\n\
              edition = \"2024\"\n\
-             rust-version = \"{RUST_VERSION}\"\n\
+             rust-version = \"{}\"\n\
              description = \"Dynamics of the robot {robot}\"\n\
              readme = \"README.md\"\n\
              publish = false\n\n\
              [features]\n\
              {default}# Fused multiply-add and square root by the standard library.\n\
              std = []\n{feature}{dependency}",
-            header(self.source)
+            header(self.source),
+            robot_runtime::RUST_VERSION,
         )
     }
 

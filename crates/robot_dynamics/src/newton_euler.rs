@@ -20,7 +20,7 @@ use crate::vector::{Matrix, Vector};
 /// The motion of a link, in its own frame.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkMotion<'g> {
-    /// [R]ᵢ of the parent: link components to parent components.
+    /// \[R\]ᵢ of the parent: link components to parent components.
     pub rotation: Matrix<'g>,
     /// r̄ᵢ: the origin in parent components, m.
     pub origin: Vector<'g>,

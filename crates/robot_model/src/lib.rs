@@ -1,7 +1,7 @@
 //! What a robot is, and how it is read.
 //!
 //! A robot file is read by [`description`] into a checked [`robot::Robot`], whose values are formulas
-//! with [`unit`]s; what is wrong with it is a [`diagnostic`] with a place, a reason and a remedy.
+//! with [`mod@unit`]s; what is wrong with it is a [`diagnostic`] with a place, a reason and a remedy.
 //! [`functions`] names what can be derived from a robot. Nothing here knows how. [`signs`] is the alphabet of formulas.
 
 pub mod description;

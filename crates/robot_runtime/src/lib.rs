@@ -100,4 +100,4 @@ mod sources;
 
 pub use self::runtime::*;
 #[cfg(feature = "sources")]
-pub use self::sources::SOURCES;
+pub use self::sources::{RUST_VERSION, SOURCES};

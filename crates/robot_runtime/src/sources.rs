@@ -1,5 +1,8 @@
 //! The text of this crate's modules.
 
+/// The oldest Rust that the module, and code that is generated for it, needs.
+pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
+
 /// Path and text of every file of the run-time module, its root `mod.rs` first.
 ///
 /// A generator of self-contained crates writes them as they stand into a folder `runtime` beside

@@ -1,5 +1,6 @@
 //! The double-precision functions against values exact to some 30 digits.
 #![expect(clippy::duplicate_mod, reason = "the functions with either rounding")]
+#![allow(clippy::incompatible_msrv, reason = "the Rust of the project runs the tests")]
 
 use std::f64::consts::FRAC_PI_2;
 

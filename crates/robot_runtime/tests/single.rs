@@ -1,5 +1,6 @@
 //! The single-precision functions against those of double precision, which are exact beside them.
 #![expect(clippy::duplicate_mod, reason = "the functions with either rounding")]
+#![allow(clippy::incompatible_msrv, reason = "the Rust of the project runs the tests")]
 
 use robot_runtime::trig::single::LIMIT;
 use robot_runtime::{FUSED, Scalar, root::software_sqrt_f32, sin_cos_array};

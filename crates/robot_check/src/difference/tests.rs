@@ -7,7 +7,7 @@ use super::*;
 
 /// The plane arm with another mass of its second link.
 fn arm(mass: &str) -> Robot {
-    let text = include_str!("../../../../robots/planar_2r.toml");
+    let text = robot_testing::PLANAR_2R;
     let mut robot = description::read("robot.toml", text).unwrap().robot;
     let value = robot_symbolic::Rational::from_decimal(mass);
     robot.parameters.iter_mut().find(|one| one.name == "m2").unwrap().value = value;
@@ -78,12 +78,12 @@ fn robots_that_share_no_states_say_so() {
 
 #[test]
 fn snapping_and_a_payload_are_what_the_file_says() {
-    let text = include_str!("../../../../robots/planar_2r.toml");
+    let text = robot_testing::PLANAR_2R;
     let read = |text: &str| description::read("robot.toml", text).unwrap().robot;
     let snapping = text.replacen("[robot]\n", "[robot]\nsnap = 1e-4\n", 1);
     let carrying = format!("{text}\n[payload]\nparent = \"2\"\n");
     let said = |text: &str, name: &str| {
-        let found = compared(&read(include_str!("../../../../robots/planar_2r.toml")), &read(text));
+        let found = compared(&read(robot_testing::PLANAR_2R), &read(text));
         let [Change::Changed { kind: ItemKind::Robot, properties, .. }, ..] = &found.changes[..]
         else {
             panic!("{:?}", found.changes);

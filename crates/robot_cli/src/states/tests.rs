@@ -1,7 +1,7 @@
 use super::*;
 
 fn layout() -> Layout {
-    let text = include_str!("../../../../robots/planar_2r.toml");
+    let text = robot_testing::PLANAR_2R;
     let described = robot_model::description::read_toml("planar_2r.toml", text).unwrap();
     Layout::of(&described.robot)
 }

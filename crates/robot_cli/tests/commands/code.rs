@@ -43,14 +43,14 @@ fn options_reach_the_code() {
         "::robot_runtime::sin_cos_array",
         "pub fn inverse_dynamics_generic<T: ::robot_runtime::Scalar>",
         "pub fn mass_matrix_batch",
-        "as_chunks::<8>",
+        "blocks::<_, 8>",
         "::robot_runtime::Scalar::mul_add",
         "pub fn forward_dynamics_derivatives",
     ] {
         assert!(shown.contains(part), "{part}");
     }
     let shown = output(&["generate", &file, "--batch=4"], "");
-    assert!(shown.contains("as_chunks::<4>"));
+    assert!(shown.contains("blocks::<_, 4>"));
     assert!(!shown.contains("mul_add") && !shown.contains("_generic"));
     let shown = output(&["generate", &file, "--batch", "--parallel"], "");
     assert!(shown.contains("::rayon::join") && !shown.contains("feature = \"rayon\""));

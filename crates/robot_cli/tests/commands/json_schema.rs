@@ -16,6 +16,51 @@ pub(crate) fn validate(schema: &Value, value: &Value, place: &str) -> Result<(),
     Ok(())
 }
 
+/// Rules for the entries of a table and for the elements of a list.
+fn parts_hold(
+    keyword: &str,
+    rule: &Value,
+    value: &Value,
+    properties: Option<&Value>,
+    place: &str,
+) -> Result<(), String> {
+    match (keyword, value) {
+        ("properties", Value::Object(table)) => {
+            for (key, rule) in rule.as_object().unwrap() {
+                if let Some(value) = table.get(key) {
+                    validate(rule, value, &format!("{place}.{key}"))?;
+                }
+            }
+        }
+        ("additionalProperties", Value::Object(table)) => {
+            for (key, value) in table {
+                if properties.is_some_and(|known| known.get(key).is_some()) {
+                    continue;
+                }
+                match rule {
+                    Value::Bool(allowed) if !allowed => {
+                        return Err(format!("{place}.{key} is not known"));
+                    }
+                    Value::Bool(_) => {}
+                    rule => validate(rule, value, &format!("{place}.{key}"))?,
+                }
+            }
+        }
+        ("propertyNames", Value::Object(table)) => {
+            for key in table.keys() {
+                validate(rule, &Value::String(key.clone()), place)?;
+            }
+        }
+        ("items", Value::Array(values)) => {
+            for (index, value) in values.iter().enumerate() {
+                validate(rule, value, &format!("{place}[{index}]"))?;
+            }
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
 /// Rules that concern another type than the value's hold, as the standard says.
 fn holds(
     keyword: &str,
@@ -39,39 +84,9 @@ fn holds(
         ("required", Value::Object(table)) => {
             rule.as_array().unwrap().iter().all(|key| table.contains_key(key.as_str().unwrap()))
         }
-        ("properties", Value::Object(table)) => {
-            for (key, rule) in rule.as_object().unwrap() {
-                if let Some(value) = table.get(key) {
-                    validate(rule, value, &format!("{place}.{key}"))?;
-                }
-            }
-            true
-        }
-        ("additionalProperties", Value::Object(table)) => {
-            for (key, value) in table {
-                if properties.is_some_and(|known| known.get(key).is_some()) {
-                    continue;
-                }
-                match rule {
-                    Value::Bool(allowed) if !allowed => {
-                        return Err(format!("{place}.{key} is not known"));
-                    }
-                    Value::Bool(_) => {}
-                    rule => validate(rule, value, &format!("{place}.{key}"))?,
-                }
-            }
-            true
-        }
-        ("propertyNames", Value::Object(table)) => {
-            for key in table.keys() {
-                validate(rule, &Value::String(key.clone()), place)?;
-            }
-            true
-        }
-        ("items", Value::Array(values)) => {
-            for (index, value) in values.iter().enumerate() {
-                validate(rule, value, &format!("{place}[{index}]"))?;
-            }
+        ("properties" | "additionalProperties" | "propertyNames", Value::Object(_))
+        | ("items", Value::Array(_)) => {
+            parts_hold(keyword, rule, value, properties, place)?;
             true
         }
         ("minItems", Value::Array(values)) => values.len() >= count(),

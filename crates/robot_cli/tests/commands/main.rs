@@ -7,6 +7,7 @@ mod book;
 mod check;
 mod code;
 mod compare;
+mod demo;
 mod diff;
 mod equations;
 mod eval;
@@ -16,8 +17,6 @@ mod help;
 mod interrupted;
 mod json_schema;
 mod outputs;
-#[path = "../../../../tests/common/pages.rs"]
-mod pages;
 mod plans;
 mod prove;
 mod reading;

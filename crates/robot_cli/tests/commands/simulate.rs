@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::pages::blocks;
 use crate::{WRIST, complaint, folder, output, robot, run, run_with};
+use robot_testing::pages::blocks;
 
 /// The columns of CSV by name.
 fn column(csv: &str, name: &str) -> Vec<f64> {

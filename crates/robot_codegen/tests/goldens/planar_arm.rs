@@ -154,11 +154,11 @@ pub mod planar_arm {
             let qd = qd.get(..count).unwrap_or_default();
             let qdd = qdd.get(..count).unwrap_or_default();
             let tau = tau.get_mut(..count).unwrap_or_default();
-            let (q, q_rest) = q.as_chunks::<8>();
-            let (qd, qd_rest) = qd.as_chunks::<8>();
-            let (qdd, qdd_rest) = qdd.as_chunks::<8>();
-            let (tau, tau_rest) = tau.as_chunks_mut::<8>();
-            for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(tau) {
+            let (q, q_rest) = ::robot_runtime::blocks::<_, 8>(q);
+            let (qd, qd_rest) = ::robot_runtime::blocks::<_, 8>(qd);
+            let (qdd, qdd_rest) = ::robot_runtime::blocks::<_, 8>(qdd);
+            let (tau, tau_rest) = ::robot_runtime::blocks_mut::<_, 8>(tau);
+            for (((q, qd), qdd), tau) in q.zip(qd).zip(qdd).zip(tau) {
                 self.inverse_dynamics_block(q, qd, qdd, tau);
             }
             if !tau_rest.is_empty() {
@@ -299,10 +299,10 @@ pub mod planar_arm {
             let q = q.get(..count).unwrap_or_default();
             let m = m.get_mut(..count).unwrap_or_default();
             let trace = trace.get_mut(..count).unwrap_or_default();
-            let (q, q_rest) = q.as_chunks::<8>();
-            let (m, m_rest) = m.as_chunks_mut::<8>();
-            let (trace, trace_rest) = trace.as_chunks_mut::<8>();
-            for ((q, m), trace) in q.iter().zip(m).zip(trace) {
+            let (q, q_rest) = ::robot_runtime::blocks::<_, 8>(q);
+            let (m, m_rest) = ::robot_runtime::blocks_mut::<_, 8>(m);
+            let (trace, trace_rest) = ::robot_runtime::blocks_mut::<_, 8>(trace);
+            for ((q, m), trace) in q.zip(m).zip(trace) {
                 self.mass_matrix_block(q, m, trace);
             }
             if !m_rest.is_empty() {

@@ -8,10 +8,10 @@ use robot_model::robot::{BaseFrames, Robot};
 use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Formula, Graph, Rational};
 
-use crate::common::place::{Layout, Off};
-use crate::common::solver::{expected, state};
-use crate::common::{evaluate, magnitude, robot};
 use crate::{STATES, TOLERANCE, robots};
+use robot_testing::place::{Layout, Off};
+use robot_testing::solver::{expected, state};
+use robot_testing::{evaluate, magnitude, robot};
 
 fn output<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
     let functions = derivation.functions(kind).into_iter();

@@ -5,8 +5,8 @@ use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_numeric::random::Random;
 use robot_symbolic::Graph;
 
-use crate::common::plans::random_plan;
-use crate::common::read;
+use robot_testing::plans::random_plan;
+use robot_testing::read;
 
 /// V = m g z of a post that turns about the vertical: no joint feels it, and it is constant.
 #[test]

@@ -8,11 +8,11 @@ use robot_model::robot::Robot;
 use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Graph};
 
-use crate::common::place::{Layout, Off};
-use crate::common::plans::random_plan;
-use crate::common::solver::{expected, state};
-use crate::common::{evaluate, magnitude};
 use crate::{STATES, TOLERANCE, robots};
+use robot_testing::place::{Layout, Off};
+use robot_testing::plans::random_plan;
+use robot_testing::solver::{expected, state};
+use robot_testing::{evaluate, magnitude};
 
 /// All functions but those over base parameters, which are in `base_parameters.rs`.
 fn kinds(robot: &Robot) -> impl Iterator<Item = FunctionKind> {

@@ -1,12 +1,10 @@
 //! The mechanics in symbols against the numeric solver, which shares nothing with them: both recursions,
 //! every function and the base parameters, for a few robots of each kind. What the tests of the whole
-//! project hold for hundreds of robots (`tests/recursions.rs` and so on) is held here in seconds.
+//! project hold for hundreds of robots (`tests/solver/recursions.rs` and so on) is held here in seconds.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod axes;
 mod base_parameters;
-#[path = "../../../../tests/common/mod.rs"]
-mod common;
 mod energies;
 mod functions;
 mod recursions;
@@ -15,7 +13,7 @@ use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 
-use common::with_free_axes;
+use robot_testing::with_free_axes;
 
 /// States at which values are held.
 const STATES: usize = 3;
@@ -27,7 +25,7 @@ const TOLERANCE: f64 = 1e-11;
 /// figures are parameters, and robots whose joint axes are: a name and a seed for states with each.
 fn robots() -> Vec<(String, Robot, u64)> {
     let files = ["trttr1", "scara", "stanford", "puma560"];
-    let files = files.map(|name| (name.to_owned(), common::robot(name), 3));
+    let files = files.map(|name| (name.to_owned(), robot_testing::robot(name), 3));
     let random = |seed: u64, recipe: &Recipe| robots::robot(&mut Random::new(seed), recipe);
     let chains = (0..8).map(|seed| {
         let recipe = Recipe::serial(1 + seed as usize % 6);

@@ -7,10 +7,10 @@ use robot_model::functions::{Effects, FunctionKind};
 use robot_numeric::random::Random;
 use robot_symbolic::{Expr, Graph};
 
-use crate::common::place::{Layout, Off};
-use crate::common::solver::{expected, state};
-use crate::common::{evaluate, magnitude};
 use crate::{STATES, TOLERANCE, robots};
+use robot_testing::place::{Layout, Off};
+use robot_testing::solver::{expected, state};
+use robot_testing::{evaluate, magnitude};
 
 #[test]
 fn driving_forces_and_forces_between_links_agree_with_the_numeric_solver() {

@@ -48,13 +48,8 @@ pub(super) fn read(
     let present = mass.is_some();
     let others = ["center_of_mass", "inertia"].map(|key| table.has(key));
     if !present && !is_massless && (moving || others.contains(&true)) {
-        reader.report(
-            Diagnostic::error(code::MISSING_KEY, format!("the link `{}` has no mass", name.name))
-                .at(&table.span, "`mass` is missing here")
-                .because("a link without mass falls out of the equations in silence")
-                .help("add `mass`, or `massless = true` where it is meant")
-                .graded(reader.options.massless()),
-        );
+        let missing = mass_missing(&name.name).at(&table.span, "`mass` is missing here");
+        reader.report(missing.graded(reader.options.massless()));
     }
     let center = match required(reader, table, "center_of_mass", present, "[0, 0, 0]") {
         Some(entry) => {
@@ -81,6 +76,12 @@ pub(super) fn read(
         inertia: tensor.inertia,
     };
     Some((body, place))
+}
+
+fn mass_missing(link: &str) -> Diagnostic {
+    Diagnostic::error(code::MISSING_KEY, format!("the link `{link}` has no mass"))
+        .because("a link without mass falls out of the equations in silence")
+        .help("add `mass`, or `massless = true` where it is meant")
 }
 
 fn required<'a>(

@@ -1,4 +1,4 @@
-//! The stable codes of diagnostics. Each has a page, docs/diagnostics/CODE.md.
+//! The stable codes of diagnostics. Each has a page, `diagnostics/CODE.md` of this package.
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {
@@ -12,7 +12,7 @@ macro_rules! codes {
         pub fn page(code: &str) -> Option<&'static str> {
             match code {
                 $($code => Some(include_str!(
-                    concat!("../../../../docs/diagnostics/", $code, ".md")
+                    concat!(env!("CARGO_MANIFEST_DIR"), "/diagnostics/", $code, ".md")
                 )),)*
                 _ => None,
             }

@@ -24,7 +24,7 @@ pub(super) fn sqrt_f32(x: f32) -> f32 {
 
 macro_rules! software_sqrt {
     (
-        $name:ident, $float:ident, $integer:ident,
+        $name:ident, $float:ident, $integer:ident, $unsigned:ident,
         magic = $magic:literal, split = $split:literal, bias = $bias:literal, scale = $scale:literal
     ) => {
         /// Square root of `x` by additions and multiplications without a branch: the halved
@@ -36,13 +36,13 @@ macro_rules! software_sqrt {
         pub fn $name(x: $float) -> $float {
             // Masks come from signs of differences of bits: LLVM turns comparisons into jumps.
             let mask = |negative: $integer| negative >> ($integer::BITS - 1);
-            let of_bits = |bits: $integer| $float::from_bits(bits.cast_unsigned());
+            let of_bits = |bits: $integer| $float::from_bits(bits as $unsigned);
             let power_of_two =
                 |exponent: $integer| of_bits(exponent << ($float::MANTISSA_DIGITS - 1));
-            let bits = x.to_bits().cast_signed();
-            const ONE: $integer = $float::to_bits(1.0).cast_signed();
-            const INFINITY: $integer = $float::INFINITY.to_bits().cast_signed();
-            const NAN: $integer = $float::NAN.to_bits().cast_signed();
+            let bits = x.to_bits() as $integer;
+            const ONE: $integer = $float::to_bits(1.0) as $integer;
+            const INFINITY: $integer = $float::INFINITY.to_bits() as $integer;
+            const NAN: $integer = $float::NAN.to_bits() as $integer;
 
             // 0, ∞ and NaN are their own roots and a number below zero has none; the computation
             // is led past them with +0, whose root has no bits.
@@ -61,7 +61,7 @@ macro_rules! software_sqrt {
                 y * (1.5 - half * y * y)
             }
             let half = 0.5 * a;
-            let halved = (a.to_bits() >> 1).cast_signed();
+            let halved = (a.to_bits() >> 1) as $integer;
             let y = of_bits(halved.wrapping_neg().wrapping_add($magic));
             let y = newton(half, newton(half, newton(half, newton(half, y))));
             let s = a * y;
@@ -72,7 +72,7 @@ macro_rules! software_sqrt {
             let square_low = ((high * high - square) + 2.0 * high * low) + low * low;
             let root = s + 0.5 * y * ((a - square) - square_low);
             let root = root * power_of_two((up_or_down >> 1).wrapping_neg().wrapping_add($bias));
-            of_bits(root.to_bits().cast_signed() | special)
+            of_bits(root.to_bits() as $integer | special)
         }
     };
 }
@@ -81,6 +81,7 @@ software_sqrt!(
     software_sqrt_f64,
     f64,
     i64,
+    u64,
     magic = 0x5fe6_eb50_c7b5_37a9,
     split = 134_217_729.0,
     bias = 1023,
@@ -90,6 +91,7 @@ software_sqrt!(
     software_sqrt_f32,
     f32,
     i32,
+    u32,
     magic = 0x5f37_59df,
     split = 4097.0,
     bias = 127,

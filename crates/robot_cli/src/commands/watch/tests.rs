@@ -9,7 +9,7 @@ use tempfile::TempDir;
 use super::*;
 use crate::reading::ReadingArguments;
 
-const ARM: &str = include_str!("../../../../../robots/planar_2r.toml");
+const ARM: &str = robot_testing::PLANAR_2R;
 
 fn changed(from: &str, to: &str) -> String {
     assert!(ARM.contains(from), "{from}");

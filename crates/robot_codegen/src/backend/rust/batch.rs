@@ -114,7 +114,7 @@ impl Methods<'_, '_> {
         let states = with(&outputs, "states");
         let zeros: Vec<&Expr> = slices.outputs.iter().map(|(_, _, zero)| zero).collect();
         let rest = output_rests.first();
-        let (pattern, blocks) = zip(used.iter().chain(&outputs).map(|name| plain_item(name)));
+        let (pattern, blocks) = zipped(used.iter().chain(&outputs).map(|name| plain_item(name)));
         let docs = doc::attributes(&[
             format!(
                 "`{}` of many states, {lanes} at a time: entry i of each slice is of state i.",
@@ -133,8 +133,8 @@ impl Methods<'_, '_> {
                 let count = #count;
                 #(let #used = #used.get(..count).unwrap_or_default();)*
                 #(let #outputs = #outputs.get_mut(..count).unwrap_or_default();)*
-                #(let (#used, #used_rests) = #used.as_chunks::<#lanes>();)*
-                #(let (#outputs, #output_rests) = #outputs.as_chunks_mut::<#lanes>();)*
+                #(let (#used, #used_rests) = #runtime::blocks::<_, #lanes>(#used);)*
+                #(let (#outputs, #output_rests) = #runtime::blocks_mut::<_, #lanes>(#outputs);)*
                 for #pattern in #blocks {
                     self.#block(#(#used,)* #(#outputs),*);
                 }
@@ -332,7 +332,13 @@ fn columns<A, B>(pairs: impl Iterator<Item = (A, B)>) -> (Vec<A>, Vec<B>) {
 /// `((q, qd), tau)` and `q.iter().zip(qd).zip(tau)`
 fn zip(mut items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
     let (first, value) = items.next().unwrap_or_else(|| (parse_quote!(()), parse_quote!([(); 0])));
-    items.fold((first, parse_quote!(#value.iter())), |(pattern, zipped), (next, value)| {
+    zipped([(first, parse_quote!(#value.iter()))].into_iter().chain(items))
+}
+
+/// `((q, qd), tau)` and `q.zip(qd).zip(tau)`, where all are iterators.
+fn zipped(items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
+    let all = items.reduce(|(pattern, zipped), (next, value)| {
         (parse_quote!((#pattern, #next)), parse_quote!(#zipped.zip(#value)))
-    })
+    });
+    all.unwrap_or_else(|| (parse_quote!(()), parse_quote!([(); 0].iter())))
 }

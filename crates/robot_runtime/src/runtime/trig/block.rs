@@ -1,5 +1,6 @@
 //! Functions of whole arrays of angles, shaped so that LLVM vectorises them.
 
+use super::super::batch::{blocks, blocks_mut};
 use super::super::scalar::Scalar;
 
 /// Whether the target has vector registers of floating-point numbers.
@@ -75,12 +76,12 @@ pub(crate) fn in_blocks<const BLOCK: usize, T: Scalar, const N: usize>(
         copy(&block.1, &mut cosines);
         return (sines, cosines);
     }
-    let results = sines.as_chunks_mut().0.iter_mut().zip(cosines.as_chunks_mut().0);
-    for (angles, (sines, cosines)) in angles.as_chunks::<BLOCK>().0.iter().zip(results) {
+    let results = blocks_mut::<_, BLOCK>(&mut sines).0.zip(blocks_mut(&mut cosines).0);
+    for (angles, (sines, cosines)) in blocks(angles).0.zip(results) {
         block_out_of_line(angles, sines, cosines, &function);
     }
     let last = (angles.last_chunk::<BLOCK>(), sines.last_chunk_mut(), cosines.last_chunk_mut());
-    if let (false, (Some(angles), Some(sines), Some(cosines))) = (N.is_multiple_of(BLOCK), last) {
+    if let (false, (Some(angles), Some(sines), Some(cosines))) = (N % BLOCK == 0, last) {
         block_out_of_line(angles, sines, cosines, &function);
     }
     (sines, cosines)

@@ -90,8 +90,8 @@ fn compute<const ONCE: bool>(angle: f64) -> (f64, f64) {
 fn nan_beyond_limit(angle: f64) -> f64 {
     const SIGN: u64 = 1 << (u64::BITS - 1);
     let carried = angle.abs().to_bits().wrapping_add(SIGN - LIMIT.to_bits());
-    let beyond = carried.cast_signed() >> (u64::BITS - 1);
-    f64::from_bits(angle.to_bits() | beyond.cast_unsigned())
+    let beyond = carried as i64 >> (u64::BITS - 1);
+    f64::from_bits(angle.to_bits() | beyond as u64)
 }
 
 /// `angle` less `k` right angles, as a number less a rest that counts where the number is tiny.

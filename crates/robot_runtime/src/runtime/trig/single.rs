@@ -46,8 +46,8 @@ pub fn sin_cos(angle: f32) -> (f32, f32) {
 fn nan_beyond_limit(angle: f32) -> f32 {
     const SIGN: u32 = 1 << (u32::BITS - 1);
     let carried = angle.abs().to_bits().wrapping_add(SIGN - LIMIT.to_bits());
-    let beyond = carried.cast_signed() >> (u32::BITS - 1);
-    f32::from_bits(angle.to_bits() | beyond.cast_unsigned())
+    let beyond = carried as i32 >> (u32::BITS - 1);
+    f32::from_bits(angle.to_bits() | beyond as u32)
 }
 
 /// `angle` less `k` right angles.

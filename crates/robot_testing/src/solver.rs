@@ -1,0 +1,164 @@
+//! What the numeric solver says about functions, and the states and inputs to ask for.
+
+use nalgebra::{DMatrix, Vector3};
+use robot_model::functions::{Effects, FrameRef, FunctionKind};
+use robot_model::robot::LINK_PARAMETERS;
+use robot_model::robot::{Friction, Robot};
+use robot_numeric::random::{Random, State};
+use robot_numeric::{self, Loads, Mechanism};
+
+/// A random state with wrenches on the tips only.
+pub fn state(random: &mut Random, solver: &Mechanism, robot: &Robot) -> State {
+    let mut state = random.state(solver);
+    for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
+        if frame.wrench.is_none() {
+            *wrench = robot_numeric::Wrench::zero();
+        }
+    }
+    state
+}
+
+/// The values of inputs at a state, by their names; those of wrenches are in the order of the tips.
+pub fn inputs(
+    robot: &Robot,
+    names: impl Iterator<Item = String>,
+    state: &State,
+) -> Vec<(String, Vec<f64>)> {
+    let frames = robot.frames.iter().zip(&state.wrenches);
+    let tips = frames.filter(|(frame, _)| frame.wrench.is_some());
+    let mut wrenches = tips.map(|(_, w)| w.force.iter().chain(&w.moment).copied().collect());
+    let value = |name: String| {
+        let values = match name.as_str() {
+            "q" => state.q.clone(),
+            "qd" => state.qd.clone(),
+            "qdd" => state.qdd.clone(),
+            "tau" => state.tau.clone(),
+            _ => wrenches.next().unwrap(),
+        };
+        (name, values)
+    };
+    names.map(value).collect()
+}
+
+/// What the solver says the functions of a kind yield, one after another; of the regressor the
+/// columns of the links.
+pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
+    let State { q, qd, qdd, tau, wrenches } = state;
+    let torques = |wrenches: &[robot_numeric::Wrench], friction| {
+        let loads = Loads { wrenches: wrenches.to_vec(), friction };
+        solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
+    };
+    let accelerations =
+        |wrenches| solver.forward_dynamics(q, qd, tau, wrenches).unwrap().as_slice().to_vec();
+    let jacobian = |frame: FrameRef| {
+        let found = match frame {
+            FrameRef::Named(index) => solver.frame_jacobian(q, index),
+            FrameRef::Link(index) => solver.link_jacobian(q, index),
+        };
+        found.unwrap().transpose().as_slice().to_vec()
+    };
+    let drift = |frame: FrameRef| {
+        let found = match frame {
+            FrameRef::Named(index) => solver.frame_jacobian_dot_qd(q, qd, index),
+            FrameRef::Link(index) => solver.link_jacobian_dot_qd(q, qd, index),
+        };
+        found.unwrap().as_slice().to_vec()
+    };
+    let frames = FrameRef::usual(robot).into_iter();
+    // The solver has gyroscopic rotors as links behind those of the robot.
+    let links = robot.links.len();
+    match kind {
+        FunctionKind::InverseDynamics(Effects::NONE) => torques(&[], false),
+        FunctionKind::InverseDynamics(Effects::WRENCH) => torques(wrenches, false),
+        FunctionKind::InverseDynamics(Effects::FRICTION) => torques(&[], true),
+        FunctionKind::InverseDynamics(Effects::BOTH) => torques(wrenches, true),
+        FunctionKind::LinkWrenches => {
+            contacts(&solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links])
+        }
+        FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
+        FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
+        FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
+        FunctionKind::ForwardDynamics(Effects::NONE) => accelerations(&[]),
+        FunctionKind::ForwardDynamics(Effects::WRENCH) => accelerations(wrenches),
+        FunctionKind::ForwardDynamics(Effects::FRICTION) => {
+            with_friction(robot, solver, state, &[])
+        }
+        FunctionKind::ForwardDynamics(Effects::BOTH) => {
+            with_friction(robot, solver, state, wrenches)
+        }
+        FunctionKind::ForwardKinematics => {
+            poses(&solver.forward_kinematics(q).unwrap().links[..links])
+        }
+        FunctionKind::FramePoses => poses(&solver.forward_kinematics(q).unwrap().frames),
+        FunctionKind::Jacobian => frames.flat_map(jacobian).collect(),
+        FunctionKind::JacobianOf(frame) => jacobian(frame),
+        FunctionKind::JacobianDotQd => frames.flat_map(drift).collect(),
+        FunctionKind::JacobianDotQdOf(frame) => drift(frame),
+        FunctionKind::Energies => energies(solver, state),
+        FunctionKind::CoriolisMatrix => rows(&solver.coriolis_matrix(q, qd).unwrap()),
+        FunctionKind::InverseDynamicsDerivatives => inverse_derivatives(solver, state),
+        FunctionKind::ForwardDynamicsDerivatives => forward_derivatives(solver, state),
+        FunctionKind::Regressor => {
+            let columns = solver.regressor(q, qd, qdd).unwrap();
+            rows(&columns.columns(0, LINK_PARAMETERS * links).into_owned())
+        }
+        other => panic!("nothing to hold `{}` against", other.name()),
+    }
+}
+
+/// The forces in the joints of the links, then the moments.
+fn contacts(links: &[robot_numeric::LinkDynamics]) -> Vec<f64> {
+    let entries = |vector: Vector3<f64>| vector.as_slice().to_vec();
+    let forces = links.iter().flat_map(|link| entries(link.contact_force));
+    forces.chain(links.iter().flat_map(|link| entries(link.contact_moment))).collect()
+}
+
+fn energies(solver: &Mechanism, state: &State) -> Vec<f64> {
+    let found = solver.energies(&state.q, &state.qd).unwrap();
+    vec![found.kinetic, found.potential]
+}
+
+fn inverse_derivatives(solver: &Mechanism, state: &State) -> Vec<f64> {
+    let State { q, qd, qdd, .. } = state;
+    let found = solver.inverse_dynamics_derivatives(q, qd, qdd, &[]).unwrap();
+    [rows(&found.dq), rows(&found.dqd)].concat()
+}
+
+fn forward_derivatives(solver: &Mechanism, state: &State) -> Vec<f64> {
+    let State { q, qd, tau, .. } = state;
+    let found = solver.forward_dynamics_derivatives(q, qd, tau, &[]).unwrap();
+    [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
+}
+
+/// q̈ with friction, by the rounds that the functions take where friction is by load.
+fn with_friction(
+    robot: &Robot,
+    solver: &Mechanism,
+    state: &State,
+    wrenches: &[robot_numeric::Wrench],
+) -> Vec<f64> {
+    let State { q, qd, tau, .. } = state;
+    let none = Friction::none();
+    let by_load = robot.links.iter().any(|link| link.friction.coulomb != none.coulomb);
+    let mut qdd = match by_load {
+        true => solver.forward_dynamics(q, qd, tau, wrenches).unwrap().as_slice().to_vec(),
+        false => tau.clone(),
+    };
+    for _ in 0..if by_load { 8 } else { 1 } {
+        let friction = solver.friction_torques(q, qd, &qdd, wrenches).unwrap();
+        let driving: Vec<f64> = tau.iter().zip(&friction).map(|(tau, f)| tau - f).collect();
+        qdd = solver.forward_dynamics(q, qd, &driving, wrenches).unwrap().as_slice().to_vec();
+    }
+    qdd
+}
+
+/// Rotations row by row, then origins.
+fn poses(poses: &[robot_numeric::Pose]) -> Vec<f64> {
+    let rotations = poses.iter().flat_map(|pose| pose.rotation.transpose().as_slice().to_vec());
+    let origins = poses.iter().flat_map(|pose| pose.translation.as_slice().to_vec());
+    rotations.chain(origins).collect()
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
+    matrix.transpose().as_slice().to_vec()
+}

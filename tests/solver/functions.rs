@@ -1,0 +1,279 @@
+//! Every dynamic function against the numeric solver: for every robot file, for random chains and
+//! trees, under plans drawn at random.
+
+use robot_dynamics::economical::{Plan, Recursion};
+use robot_dynamics::functions::{Derivation, Output, search_plan};
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
+use robot_model::functions;
+use robot_model::functions::{Effects, FrameRef, FunctionKind};
+use robot_model::robot::Robot;
+use robot_numeric::random::{Random, Recipe, State};
+use robot_numeric::robots;
+use robot_symbolic::differentiate::{forward, reverse};
+use robot_symbolic::{Expr, Graph, operations};
+
+use robot_testing::place::{Layout, Off};
+use robot_testing::plans::random_plan;
+use robot_testing::solver::{expected, state};
+use robot_testing::{evaluate, magnitude, robot_files, with_free_axes};
+
+const STATES: usize = 12;
+const TOLERANCE: f64 = 1e-11;
+
+/// The functions that are held against the solver here; those with loads are in `recursions.rs`.
+const KINDS: [FunctionKind; 15] = [
+    FunctionKind::MassMatrix,
+    FunctionKind::Bias,
+    FunctionKind::Gravity,
+    FunctionKind::ForwardDynamics(Effects::NONE),
+    FunctionKind::ForwardDynamics(Effects::WRENCH),
+    FunctionKind::ForwardDynamics(Effects::FRICTION),
+    FunctionKind::ForwardDynamics(Effects::BOTH),
+    FunctionKind::ForwardKinematics,
+    FunctionKind::FramePoses,
+    FunctionKind::Jacobian,
+    FunctionKind::JacobianDotQd,
+    FunctionKind::Energies,
+    FunctionKind::CoriolisMatrix,
+    FunctionKind::InverseDynamicsDerivatives,
+    FunctionKind::ForwardDynamicsDerivatives,
+];
+
+fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Output<'g>> {
+    let functions = derivation.functions(kind).into_iter();
+    let outputs: Vec<_> = functions.flat_map(|function| function.outputs).collect();
+    for output in &outputs {
+        assert_eq!(output.values.len(), output.shape.iter().product::<usize>(), "{}", output.name);
+    }
+    outputs
+}
+
+fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
+    outputs(derivation, kind).into_iter().flat_map(|output| output.values).collect()
+}
+
+/// The worst error of each function, relative to its largest value over the states.
+fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64; KINDS.len()]) {
+    let mut random = Random::new(seed);
+    let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
+    let states: Vec<State> = (0..STATES).map(|_| state(&mut random, &solver, robot)).collect();
+    let graph = Graph::new();
+    let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
+    let drawn: Vec<Plan> = (0..3).map(|_| random_plan(&mut random, robot)).collect();
+    let mut derivations = vec![derivation];
+    derivations.extend(drawn.iter().map(|plan| derivations[0].with_plan(plan)).collect::<Vec<_>>());
+    for (kind, worst) in KINDS.iter().zip(worst) {
+        if kind.missing_in(robot).is_some() {
+            continue;
+        }
+        let expected: Vec<_> =
+            states.iter().map(|state| expected(robot, &solver, *kind, state)).collect();
+        let size = magnitude(expected.iter().flatten()).max(1e-3);
+        // The several ways to the derivatives have a test of their own.
+        let slow = *kind == FunctionKind::InverseDynamicsDerivatives;
+        let derivations = derivations.iter().take(if slow { 1 } else { usize::MAX });
+        for (number, derivation) in derivations.enumerate() {
+            let outputs = outputs(derivation, *kind);
+            let layout = Layout::of(robot, &outputs);
+            let roots: Vec<_> = outputs.into_iter().flat_map(|output| output.values).collect();
+            for (state, expected) in states.iter().zip(&expected) {
+                let found = evaluate(robot, &roots, state);
+                let off = Off::of(&layout, &found, expected, size);
+                let function = kind.name();
+                assert!(
+                    off.error <= TOLERANCE,
+                    "{name}, seed {seed}, plan {number}: {function} is {off}\n{drawn:?}"
+                );
+                *worst = worst.max(off.error);
+            }
+        }
+    }
+}
+
+fn report(what: &str, worst: [f64; KINDS.len()]) {
+    for (kind, worst) in KINDS.iter().zip(worst) {
+        println!("{what}, {}: worst error {worst:.1e} of the largest value", kind.name());
+    }
+}
+
+#[test]
+fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
+    for (name, text) in robot_files() {
+        let mut worst = [0.0; KINDS.len()];
+        check(&robot_testing::read(&name, &text), 3, &name, &mut worst);
+        report(&name, worst);
+    }
+}
+
+/// The Jacobians of the links of a robot, and those that the kind alone gives where there are no frames,
+/// against the solver.
+fn check_links(mut robot: Robot, name: &str) {
+    let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+    let mut random = Random::new(5);
+    let states: Vec<State> = (0..3).map(|_| state(&mut random, &solver, &robot)).collect();
+    let links = (0..robot.links.len()).map(FrameRef::Link);
+    let of_links = links
+        .flat_map(|link| [FunctionKind::JacobianOf(link), FunctionKind::JacobianDotQdOf(link)]);
+    let hold = |robot: &Robot, kind: FunctionKind| {
+        let graph = Graph::new();
+        let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
+        let outputs = outputs(&derivation, kind);
+        let layout = Layout::of(robot, &outputs);
+        let roots = values(&derivation, kind);
+        for state in &states {
+            let expected = expected(robot, &solver, kind, state);
+            let found = evaluate(robot, &roots, state);
+            let off = Off::of(&layout, &found, &expected, magnitude(&expected).max(1.0));
+            assert!(off.error <= TOLERANCE, "{name}, {kind:?} is {off}");
+        }
+    };
+    of_links.for_each(|kind| hold(&robot, kind));
+    // Without named frames the kind alone is of the last link of each branch.
+    robot.frames.clear();
+    let last = FrameRef::usual(&robot);
+    assert!(!last.is_empty(), "{name}");
+    hold(&robot, FunctionKind::Jacobian);
+    hold(&robot, FunctionKind::JacobianDotQd);
+}
+
+#[test]
+fn jacobians_of_links_agree_with_the_numeric_solver() {
+    for (name, text) in robot_files() {
+        check_links(robot_testing::read(&name, &text), &name);
+    }
+    for seed in 0..12 {
+        let recipe = Recipe { mimic: seed % 3 == 0, ..Recipe::tree(2 + seed as usize % 7) };
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        check_links(robot, &format!("tree {seed}"));
+    }
+    // Without the economical recursion.
+    (0..3).for_each(|seed| check_links(with_free_axes(seed), "free axes"));
+}
+
+#[test]
+fn every_name_of_a_function_gives_the_function_of_that_name() {
+    for seed in 0..8 {
+        let robot = robots::robot(&mut Random::new(seed), &Recipe::tree(5));
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let names = functions::names(&robot);
+        assert!(names.len() > robot.links.len());
+        for (name, kind) in names {
+            assert_eq!(functions::named(&robot, &name), Ok(kind), "{name}");
+            if kind.frame().is_some() {
+                let functions = derivation.functions(kind);
+                assert_eq!(functions.len(), 1, "{name}");
+                assert_eq!(functions[0].name, name);
+            }
+        }
+    }
+}
+
+#[test]
+fn functions_of_random_chains_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 0..64 {
+        let recipe = Recipe::serial(1 + seed as usize % 8);
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        check(&robot, seed, "chain", &mut worst);
+    }
+    report("chains", worst);
+}
+
+#[test]
+fn functions_of_random_trees_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 1000..1040 {
+        let joints = 2 + seed as usize % 9;
+        let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(joints) };
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        check(&robot, seed, "tree", &mut worst);
+    }
+    report("trees", worst);
+}
+
+#[test]
+fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 2000..2012 {
+        let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        check(&robots::parametrised(&robot), seed, "parameters", &mut worst);
+    }
+    report("parameters", worst);
+}
+
+/// The derivatives by composite quantities, and by differentiating the torques forward and in
+/// reverse; [`FunctionKind::InverseDynamicsDerivatives`] is the cheapest of them.
+#[test]
+fn three_ways_to_the_derivatives_agree_with_the_numeric_solver() {
+    for seed in 4000..4024 {
+        let recipe = Recipe { mimic: true, ..Recipe::tree(1 + seed as usize % 7) };
+        let mut random = Random::new(seed);
+        let robot = robots::robot(&mut random, &recipe);
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+        let graph = Graph::new();
+        let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::ROUNDED);
+        let recursion = Recursion::new(&mechanism, &random_plan(&mut random, &robot)).unwrap();
+        let torques = recursion.inverse_dynamics(false);
+        let of = |prefix: &str| -> Vec<Expr<'_>> {
+            (1..=torques.len()).map(|k| graph.symbol(&format!("{prefix}{k}"))).collect()
+        };
+        let composite = recursion.torque_derivatives().unwrap();
+        let ways = [
+            [composite.positions.rows(), composite.velocities.rows()].concat(),
+            [forward(&torques, &of("q")).concat(), forward(&torques, &of("qd")).concat()].concat(),
+            [reverse(&torques, &of("q")).concat(), reverse(&torques, &of("qd")).concat()].concat(),
+        ];
+        for _ in 0..STATES {
+            let state = state(&mut random, &solver, &robot);
+            let expected =
+                expected(&robot, &solver, FunctionKind::InverseDynamicsDerivatives, &state);
+            let size = magnitude(&expected).max(1e-3);
+            for (way, roots) in ways.iter().enumerate() {
+                let found = evaluate(&robot, roots, &state);
+                let order = robot.degrees_of_freedom();
+                let layout = Layout::new(&robot, "∂τ/∂q, then ∂τ/∂q̇", &[2, order, order]);
+                let off = Off::of(&layout, &found, &expected, size);
+                assert!(off.error <= TOLERANCE, "seed {seed}, way {way}: {off}");
+            }
+        }
+    }
+}
+
+/// Joint axes that depend on parameters leave no working frames to choose: every function then
+/// comes from the links' own frames.
+#[test]
+fn functions_of_robots_with_free_axes_agree_with_the_numeric_solver() {
+    let mut worst = [0.0; KINDS.len()];
+    for seed in 3000..3008 {
+        let robot = with_free_axes(seed);
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        assert!(derivation.recursion.is_none());
+        check(&robot, seed, "free axes", &mut worst);
+    }
+    report("free axes", worst);
+}
+
+/// Figures that must not be exceeded: multiplications and additions, and divisions.
+#[test]
+fn searched_plans_keep_the_operations_of_functions_low() {
+    let budgets = [
+        ("puma560", FunctionKind::MassMatrix, 138, 0),
+        ("ur5", FunctionKind::MassMatrix, 102, 0),
+        ("puma560", FunctionKind::ForwardDynamics(Effects::NONE), 495, 4),
+        ("ur5", FunctionKind::ForwardDynamics(Effects::NONE), 390, 5),
+    ];
+    for (name, kind, flops, divisions) in budgets {
+        let robot = robot_testing::robot(name);
+        let options = MechanismOptions::ROUNDED;
+        let found = search_plan(&robot, &options, &[kind]).unwrap();
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &options, Some(found.plan));
+        let count = operations(&values(&derivation, kind), |_| false);
+        assert_eq!(count.flops(), found.operations, "{name}, {}", kind.name());
+        assert!(count.flops() <= flops, "{name}, {}: {} operations", kind.name(), count.flops());
+        assert!(count.divisions <= divisions, "{name}: {} divisions", count.divisions);
+    }
+}

@@ -1,0 +1,14 @@
+//! What is derived and generated against the numeric solver, which shares nothing with the derivations: every
+//! function and option, for the robot files and for random robots.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
+
+mod base_parameters;
+mod functions;
+mod generated;
+mod options;
+mod parallel;
+mod recursions;
+mod regressor;
+mod snapping;
+mod symmetric;
+mod trees;
