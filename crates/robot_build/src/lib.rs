@@ -51,15 +51,15 @@ pub use builder::{Builder, compile};
 pub use conventions::CONVENTIONS;
 pub use error::{Error, Errors};
 pub use files::{File, MARKER, Output, Ownership, Staleness, Writer, staleness};
-pub use generate::{Generated, generate};
+pub use generate::{Generated, generate, names};
 pub use options::{DEFAULT_BATCH, DEFAULT_FUNCTIONS, Options, functions_named, kinds_named};
 pub use paths::{RobotFile, shown};
 pub use pin::{pin_path, pin_text, robot_inputs};
 pub use pivots::{Pivot, Pivots};
 pub use problems::Problem;
 pub use programs::{Programs, planned, programs, programs_of, read, read_with};
-pub use robot_codegen::Trigonometry;
-pub use robot_codegen::backend::rust::{Scalar, identifier};
+pub use robot_codegen::backend::rust::{Names, identifier};
+pub use robot_codegen::{Scalar, Trigonometry};
 pub use robot_dynamics::economical::Plan;
 pub use robot_model::diagnostic::{Source, visible};
 pub use robot_model::functions::{

@@ -14,10 +14,10 @@ pub mod passes;
 pub mod program;
 mod rounding;
 pub mod spec;
-pub mod stack;
 mod stage;
 mod trigonometry;
 
+pub use backend::common::Scalar;
 pub use cost::Cost;
 pub use counts::{Counts, FunctionCounts, PassCounts};
 pub use error::{Error, Errors};

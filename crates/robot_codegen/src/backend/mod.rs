@@ -1,3 +1,8 @@
-//! Printers of compiled modules.
+//! Printers of compiled modules: [`common`] has what a printer of any language needs, beside it stands
+//! a module for each language.
 
+pub mod common;
 pub mod rust;
+mod target;
+
+pub use target::{Language, SourceFile, Target};

@@ -6,10 +6,10 @@ use crate::support::{
     self,
     random::{ENTRIES, Random},
 };
-use robot_codegen::backend::rust::{RustOptions, Scalar, Wrapping, generate};
+use robot_codegen::backend::rust::{LANGUAGE, RustOptions, Wrapping, generate};
 use robot_codegen::program::{Layout, Limits};
 use robot_codegen::spec::{FunctionSpec, ModuleSpec, ParameterSpec};
-use robot_codegen::{Fused, Interpreter, Module, Options, Trigonometry};
+use robot_codegen::{Fused, Interpreter, Module, Options, Scalar, Trigonometry};
 use robot_symbolic::Graph;
 
 const STATES: usize = 20;
@@ -94,7 +94,7 @@ fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
     let spec = support::random::module(&graph, &mut random, 30_000);
     let module = Module::compile(&spec, &Options::default()).unwrap();
     // A name for each operation: the most statements that the program can have.
-    let limits = Limits { expression: 1, ..Limits::default() };
+    let limits = Limits { expression: 1, ..LANGUAGE.limits };
     assert!(Layout::new(&module.functions[0].core, &limits).statements() > 20_000);
     let states = states(&mut random);
     let options = RustOptions { limits, ..RustOptions::default() };

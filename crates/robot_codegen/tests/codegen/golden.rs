@@ -7,7 +7,8 @@ use std::path::Path;
 
 use crate::support;
 
-use robot_codegen::backend::rust::{ConstantItem, ConstantValue, RustOptions, generate};
+use robot_codegen::backend::common::{ConstantItem, ConstantValue};
+use robot_codegen::backend::rust::{RustOptions, generate};
 use robot_codegen::{Module, Options, Trigonometry};
 use robot_symbolic::Graph;
 
