@@ -6,5 +6,6 @@
 mod compiled;
 mod errors;
 mod golden;
+mod reserved;
 #[path = "../support/mod.rs"]
 mod support;
