@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod compiled;
+mod coverage;
 mod errors;
 mod golden;
 mod reserved;
