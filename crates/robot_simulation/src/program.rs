@@ -215,13 +215,12 @@ pub(crate) fn check_functions(programs: &Programs, needed: &[FunctionKind]) -> R
 }
 
 /// All outputs of a function, one after the other.
-pub(crate) fn values(
+fn values(
     interpreter: &Interpreter<'_>,
     kind: FunctionKind,
     inputs: &[(&str, &[f64])],
 ) -> Result<Vec<f64>, Error> {
-    let outputs = interpreter.call(kind.name(), inputs)?;
-    Ok(outputs.into_iter().flat_map(|output| output.values).collect())
+    Ok(interpreter.function(kind.name())?.call(inputs)?)
 }
 
 /// a − b.
