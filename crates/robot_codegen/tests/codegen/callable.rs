@@ -109,10 +109,10 @@ fn speed_of_a_log_of_states() {
     let start = std::time::Instant::now();
     let pairs = q.iter().zip(&v);
     let named = pairs.map(|(q, v)| interpreter.call("f", &[("q", q), ("v", v)]).unwrap());
-    let named: f64 = named.map(|outputs| outputs[0].values[0]).sum();
+    let named: f64 = named.flat_map(|outputs| outputs[0].values.clone()).sum();
     let by_name = start.elapsed();
     let start = std::time::Instant::now();
-    let found: f64 = by_columns(callable, &inputs, states).iter().map(|row| row[0]).sum();
+    let found: f64 = by_columns(callable, &inputs, states).iter().flatten().sum();
     println!("{states} states: {by_name:?} by name, {:?} by columns", start.elapsed());
     assert_eq!(found, named);
 }

@@ -49,7 +49,7 @@ fn input((name, symbols): (&str, [&str; 2])) -> InputSpec {
 fn specification(graph: &Graph) -> ModuleSpec<'_> {
     let mut sum: Expr<'_> = graph.integer(0);
     for (index, name) in PARAMETERS.iter().enumerate() {
-        sum = sum + graph.symbol(name).powi(2) * (index as i64 + 1);
+        sum += graph.symbol(name).powi(2) * (index as i64 + 1);
     }
     let symbols = INPUTS.iter().flat_map(|(_, symbols)| symbols).map(|name| graph.symbol(name));
     let symbols: Vec<Expr<'_>> = symbols.collect();
