@@ -83,3 +83,48 @@ fn every_robot_builds_in_both_profiles() {
     let shown = package.run(&["test", "--package", "trttr1", "--features", "trttr1/std"]);
     assert!(shown.contains("link_wrenches_gives_its_check_value ... ok"), "{shown}");
 }
+
+/// Names of the robot, its parameters and its bundles that Rust reserves, or that a module has for itself; the crate's
+/// own tests compare the check values.
+#[test]
+fn a_robot_with_words_of_rust_for_names_builds() {
+    let package = Package::new("reserved", "[dependencies]\nmatch_ = { path = \"generated\" }\n");
+    package.write("src/lib.rs", "//! Nothing but its dependency.\n");
+    let robot = r#"
+        format = 1
+        [robot]
+        name = "match"
+        gravity = [0, "-self", 0]
+        [parameters]
+        self = 9.81
+        match = 1.0
+        fn = 0.5
+        crate = 5.0
+        gen = 0.42
+        f64 = 3.0
+        parameters = 0.4
+        [code]
+        functions = ["inverse_dynamics", "mass_matrix"]
+        bundles = { new = ["bias", "mass_matrix"], inverse_dynamics_sc = ["gravity"], fn = ["energies"] }
+        [[link]]
+        name = "fn"
+        joint = { type = "revolute", axis = "z" }
+        mass = "crate"
+        center_of_mass = ["fn", 0, 0]
+        inertia = { zz = "gen", unchecked = true }
+        [[link]]
+        name = "impl"
+        joint = { type = "revolute", axis = "z" }
+        origin = { xyz = ["match", 0, 0] }
+        mass = "f64"
+        center_of_mass = ["parameters", 0, 0]
+        inertia = { zz = "gen", unchecked = true }
+    "#;
+    package.write("match.toml", robot);
+    generate(&package.path("match.toml"), &package.path("generated"), &["--batch=8", "--generic"]);
+    let shown = package.run(&["test", "--package", "match_", "--tests"]);
+    for function in ["inverse_dynamics", "mass_matrix", "new_2", "inverse_dynamics_sc", "fn"] {
+        let test = format!("test {function}_gives_its_check_value ... ok");
+        assert!(shown.contains(&test), "{test}: {shown}");
+    }
+}

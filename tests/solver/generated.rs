@@ -8,8 +8,8 @@ use std::process::Command;
 
 use nalgebra::DVector;
 use robot_build::{Effects, FunctionKind, Functions, Options, Programs, programs_of};
-use robot_codegen::Interpreter;
-use robot_codegen::backend::rust::{self, RustOptions, Scalar};
+use robot_codegen::backend::rust::{self, RustOptions};
+use robot_codegen::{Interpreter, Scalar};
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;

@@ -2,14 +2,13 @@
 //!
 //! Operations are exact: the multiplications, additions and divisions of one call, as
 //! `robot-symbolic stats` counts them. A build has no compiler to ask for the stack; it holds the
-//! estimate of [`robot_codegen::stack::estimate`] against the limit. `robot-symbolic prove` holds what
+//! estimate of [`robot_codegen::backend::rust::stack::estimate`] against the limit. `robot-symbolic prove` holds what
 //! release builds take against the same limit.
 
 use std::fmt;
 
-use robot_codegen::backend::rust::Scalar;
+use robot_codegen::backend::rust::stack;
 use robot_codegen::module::Function;
-use robot_codegen::stack;
 use robot_model::description::{Budget, Limit};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code};
 use robot_model::functions::FunctionKind;
@@ -120,12 +119,8 @@ impl Cost<'_> {
 }
 
 fn figures<'f>(programs: &Programs, function: &'f Function, options: &Options) -> [Cost<'f>; 2] {
-    let scalar = match options.scalar {
-        Scalar::F64 => 8,
-        Scalar::F32 => 4,
-    };
     let operations = programs.module.counts(function).call.operations();
-    let stack = stack::estimate(function, scalar);
+    let stack = stack::estimate(function, options.scalar.size());
     [(Figure::Operations, operations), (Figure::Stack, stack)].map(|(figure, found)| Cost {
         function: &function.name,
         figure,

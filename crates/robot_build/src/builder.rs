@@ -4,8 +4,7 @@ mod output;
 
 use std::path::{Path, PathBuf};
 
-use robot_codegen::Trigonometry;
-use robot_codegen::backend::rust::Scalar;
+use robot_codegen::{Scalar, Trigonometry};
 use robot_dynamics::economical::Plan;
 use robot_model::functions::Bundle;
 use robot_model::robot::BaseFrames;

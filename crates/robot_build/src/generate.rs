@@ -1,8 +1,8 @@
 //! From the text of a robot file to the text of a Rust module.
 
-use robot_codegen::backend::rust::{
-    self, ConstantItem, ConstantValue, Parallel, RustOptions, Setter, SetterArgument, Wrapping,
-};
+use robot_codegen::backend::Target;
+use robot_codegen::backend::common::{ConstantItem, ConstantValue, Setter, SetterArgument};
+use robot_codegen::backend::rust::{self, LANGUAGE, Names, Parallel, RustOptions, Wrapping};
 use robot_codegen::{FunctionCounts, Module};
 use robot_dynamics::mechanism::Snap;
 use robot_model::diagnostic::{Diagnostics, Source};
@@ -59,7 +59,11 @@ pub(crate) fn module_name(module: &Module) -> String {
 /// What each function of a module costs, by its name.
 pub(crate) fn counts(module: &Module) -> Vec<(String, FunctionCounts)> {
     let functions = module.functions.iter();
-    functions.map(|function| (function.name.clone(), module.counts(function))).collect()
+    let counts = functions.map(|function| {
+        let counts = module.counts(function).laid_out(function, &LANGUAGE.limits);
+        (function.name.clone(), counts)
+    });
+    counts.collect()
 }
 
 /// The text of the module.
@@ -69,7 +73,26 @@ pub(crate) fn rust_text(
     options: &Options,
     wrapping: Wrapping,
 ) -> Result<String, Errors> {
-    let options = RustOptions {
+    let printer = rust_options(programs, source, options, wrapping);
+    let files = printer.files(&programs.module);
+    let files = files.map_err(|errors| Errors::of_code(&source.name, &errors))?;
+    Ok(files.into_iter().map(|file| file.text).collect())
+}
+
+/// The names that the items of the printed module have.
+#[must_use]
+pub fn names(programs: &Programs) -> Names {
+    rust::names(&programs.module, &setters(&programs.robot))
+}
+
+/// How the module is printed.
+fn rust_options(
+    programs: &Programs,
+    source: &Source,
+    options: &Options,
+    wrapping: Wrapping,
+) -> RustOptions {
+    RustOptions {
         header: vec![header(source)],
         runtime: options.runtime.clone(),
         trigonometry: options.trigonometry,
@@ -83,12 +106,9 @@ pub(crate) fn rust_text(
         },
         wrapping,
         constants: constants(&programs.robot),
-        setters: programs.robot.payload.iter().map(with_payload).collect(),
+        setters: setters(&programs.robot),
         ..RustOptions::default()
-    };
-    let code = rust::generate(&programs.module, &options)
-        .map_err(|errors| Errors::of_code(&source.name, &errors))?;
-    Ok(code.to_text())
+    }
 }
 
 /// Where generated text comes from. The folder of the file stays out of it, so that the same file
@@ -112,6 +132,10 @@ pub(crate) fn unnamed_header() -> String {
 pub(crate) fn file_name(source: &Source) -> &str {
     let separators = ['/', '\\'];
     source.name.rsplit(separators).next().unwrap_or(&source.name)
+}
+
+fn setters(robot: &Robot) -> Vec<Setter> {
+    robot.payload.iter().map(with_payload).collect()
 }
 
 /// `with_payload(mass, center_of_mass, inertia)`.

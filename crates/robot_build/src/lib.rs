@@ -51,7 +51,7 @@ pub use builder::{Builder, compile};
 pub use conventions::CONVENTIONS;
 pub use error::{Error, Errors};
 pub use files::{File, MARKER, Output, Ownership, Staleness, Writer, staleness};
-pub use generate::{Generated, generate};
+pub use generate::{Generated, generate, names};
 pub use options::{
     Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
     functions_named, kinds_named,
@@ -61,8 +61,8 @@ pub use pin::{pin_path, pin_text, robot_inputs};
 pub use pivots::{Pivot, Pivots};
 pub use problems::Problem;
 pub use programs::{Programs, planned, programs, programs_of, read, read_with};
-pub use robot_codegen::Trigonometry;
-pub use robot_codegen::backend::rust::{Scalar, check_runtime_path, identifier};
+pub use robot_codegen::backend::rust::{Names, check_runtime_path, identifier};
+pub use robot_codegen::{Scalar, Trigonometry};
 pub use robot_dynamics::economical::Plan;
 pub use robot_model::diagnostic::{Source, visible};
 pub use robot_model::functions::{

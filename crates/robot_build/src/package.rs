@@ -4,14 +4,14 @@ mod call;
 mod readme;
 
 use robot_codegen::Trigonometry;
-use robot_codegen::backend::rust::{self, Wrapping};
+use robot_codegen::backend::rust::{self, Names, Wrapping};
 use robot_model::diagnostic::Source;
 
 use crate::budget;
 use crate::check::{CheckValue, check_value};
 use crate::error::Errors;
 use crate::files::File;
-use crate::generate::{header, module_name, rust_text, unnamed_header};
+use crate::generate::{header, names, rust_text, unnamed_header};
 use crate::options::Options;
 use crate::programs::{Programs, programs};
 
@@ -44,7 +44,8 @@ pub fn package_of(
 ) -> Result<Vec<File>, Errors> {
     let options = Options { runtime: "crate::runtime".to_owned(), ..options.clone() };
     let checks = checks(source, programs, &options)?;
-    let parts = Parts { source, options: &options, programs, checks: &checks };
+    let names = names(programs);
+    let parts = Parts { source, options: &options, programs, names, checks: &checks };
     let mut files = vec![
         file("Cargo.toml", parts.manifest()),
         file("README.md", readme::readme(&parts)),
@@ -87,13 +88,32 @@ struct Parts<'a> {
     source: &'a Source,
     options: &'a Options,
     programs: &'a Programs,
+    /// What the printed items are called.
+    names: Names,
     checks: &'a [CheckValue],
 }
 
 impl Parts<'_> {
     /// The name of the crate.
-    fn name(&self) -> String {
-        module_name(&self.programs.module)
+    fn name(&self) -> &str {
+        &self.names.module
+    }
+
+    /// The method of a function.
+    fn method<'n>(&'n self, function: &'n str) -> &'n str {
+        let functions = &self.programs.module.functions;
+        let index = functions.iter().position(|known| known.name == function);
+        index.and_then(|index| self.names.functions.get(index)).map_or(function, String::as_str)
+    }
+
+    /// For each output of a function, how it is reached from the result of a call.
+    fn outputs(&self, function: &str) -> Vec<String> {
+        match self.programs.module.function(function) {
+            Some(function) if function.outputs.len() > 1 => {
+                rust::output_names(function).iter().map(|name| format!(".{name}")).collect()
+            }
+            _ => vec![String::new()],
+        }
     }
 
     fn needs_std(&self) -> bool {

@@ -5,6 +5,7 @@ use std::fmt;
 use robot_codegen::{Interpreter, Module, Rounded, Trigonometry};
 use robot_dynamics::functions::Derivation;
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_symbolic::Graph;
 
 use crate::error::{Error, Errors};
@@ -78,7 +79,8 @@ impl Pivots {
     ///
     /// Positions of another number.
     pub fn smallest(&self, q: &[f64]) -> Result<Option<Pivot>, robot_codegen::Errors> {
-        let values = self.interpreter.call_rounded("pivots", &[("q", q)])?;
+        let values =
+            self.interpreter.call_rounded("pivots", &[(JointVariable::Position.name(), q)])?;
         let (pivots, diagonal) = values.split_at(values.len() / 2);
         let found = pivots.iter().zip(diagonal).zip(&self.joints).map(|((pivot, whole), joint)| {
             let part = pivot.value / whole.value.abs();

@@ -1,6 +1,6 @@
 //! A robot's functions as the code generator takes them.
 
-use robot_codegen::backend::rust::markdown;
+use robot_codegen::backend::common::markdown;
 use robot_codegen::spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
 use robot_dynamics::functions::{Derivation, Function, Input, Output};
 use robot_model::functions::{Bundle, FunctionKind};

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use robot_build::{Functions, Options, Source, budget, generate, package, programs};
-use robot_codegen::stack;
+use robot_codegen::backend::rust::stack;
 use robot_model::functions::{Effects, FunctionKind};
 
 const ROBOT: &str = include_str!("../../../robots/planar_2r.toml");

@@ -29,8 +29,8 @@ pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
     let mechanism = Mechanism::nominal(&programs.robot).map_err(|error| error.to_string())?;
     let interpreter = Interpreter::new(&programs.module, &[]).map_err(|error| error.to_string())?;
     let call = |function: &str, inputs: &[(&str, &[f64])]| -> Result<Vec<f64>, String> {
-        let outputs = interpreter.call(function, inputs).map_err(|error| error.to_string())?;
-        Ok(outputs.into_iter().flat_map(|output| output.values).collect())
+        let function = interpreter.function(function).map_err(|error| error.to_string())?;
+        function.call(inputs).map_err(|error| error.to_string())
     };
     let mut random = Random::new(SEED);
     // A robot with a singular mass matrix has no forward dynamics.

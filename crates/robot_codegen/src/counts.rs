@@ -29,16 +29,15 @@ pub struct Counts {
     pub cos: usize,
     /// Those pairs of a multiplication and an addition that are one fused instruction.
     pub fused: usize,
-    /// Named values in the text.
+    /// Named values in the text, if it is laid out ([`FunctionCounts::laid_out`]).
     pub temporaries: usize,
 }
 
 impl Counts {
-    /// The counts of a program, as a backend lays it out by default.
+    /// The counts of a program.
     #[must_use]
     pub fn of(program: &Program) -> Counts {
-        let temporaries = Layout::new(program, &Limits::default()).statements();
-        Counts { temporaries, ..Counts::of_operations(program, |_| true) }
+        Counts::of_operations(program, |_| true)
     }
 
     /// The operations that are left for the call when a constructor does the rest.
@@ -119,6 +118,13 @@ impl FunctionCounts {
             .filter(|(value, operation)| needed[value.index()] && !operation.is_leaf())
             .count();
         FunctionCounts { call, constructor: constructor_counts }
+    }
+
+    /// The same with the named values of the function's arithmetic in a text within such limits.
+    #[must_use]
+    pub fn laid_out(mut self, function: &Function, limits: &Limits) -> FunctionCounts {
+        self.call.temporaries = Layout::new(&function.core, limits).statements();
+        self
     }
 }
 

@@ -136,6 +136,30 @@ pub enum Error {
         /// The number given.
         found: usize,
     },
+    /// Another number of columns than a function has entries of inputs or outputs.
+    #[error("function `{function}` has {expected} entries of {kind}, not {found}")]
+    Columns {
+        /// The function.
+        function: String,
+        /// Which: `inputs` or `outputs`.
+        kind: &'static str,
+        /// The number of entries.
+        expected: usize,
+        /// The number of columns given.
+        found: usize,
+    },
+    /// Inputs or outputs at different numbers of states.
+    #[error(
+        "function `{function}` is given {expected} and {found} states; give all for the same states"
+    )]
+    States {
+        /// The function.
+        function: String,
+        /// The number of states of the others.
+        expected: usize,
+        /// The number of states of another input or output.
+        found: usize,
+    },
     /// An option of a backend that is no Rust path.
     #[error("the runtime path `{path}` is no path of Rust, such as `::robot_runtime`")]
     RuntimePath {

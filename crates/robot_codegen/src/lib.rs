@@ -14,14 +14,14 @@ pub mod passes;
 pub mod program;
 mod rounding;
 pub mod spec;
-pub mod stack;
 mod stage;
 mod trigonometry;
 
+pub use backend::common::Scalar;
 pub use cost::Cost;
 pub use counts::{Counts, FunctionCounts, PassCounts};
 pub use error::{Error, Errors};
-pub use interpreter::{Interpreter, OutputValues};
+pub use interpreter::{Callable, Interpreter, OutputValues};
 pub use module::Module;
 pub use passes::{Fused, Options, Resubstitution, Schedule};
 pub use program::Program;

@@ -1,5 +1,7 @@
 //! A compiled module: what a backend prints and the interpreter runs.
 
+use std::fmt::{self, Display, Formatter};
+
 use crate::counts::{Counts, FunctionCounts, PassCounts};
 use crate::error::Errors;
 use crate::lower;
@@ -55,6 +57,27 @@ pub struct Output {
     pub unit: String,
     /// `[]` for a scalar, `[n]` for a vector, `[rows, columns]` for a matrix.
     pub shape: Vec<usize>,
+}
+
+/// The inputs with their lengths, the programs, and the values of `core` that are the outputs.
+impl Display for Function {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let inputs = self.inputs.iter();
+        let inputs = inputs.map(|input| format!("{}[{}]", input.name, input.symbols.len()));
+        let inputs: Vec<String> = inputs.collect();
+        writeln!(formatter, "function {}({})", self.name, inputs.join(", "))?;
+        if !self.angles.results().is_empty() {
+            writeln!(formatter, "\nangles:\n{}", self.angles)?;
+        }
+        writeln!(formatter, "core:\n{}", self.core)?;
+        let mut results = self.core.results().iter();
+        for output in &self.outputs {
+            let values: Vec<String> =
+                results.by_ref().take(output.len()).map(ToString::to_string).collect();
+            writeln!(formatter, "{}{:?} = {}", output.name, output.shape, values.join(", "))?;
+        }
+        Ok(())
+    }
 }
 
 impl Output {

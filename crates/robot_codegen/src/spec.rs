@@ -1,7 +1,7 @@
 //! What is to become code: named expressions over named inputs and parameters.
 //!
 //! Documentation is Markdown of the caller's own, printed as it is: text that the caller does not control, a
-//! remark of a robot file, goes through [`markdown`](crate::backend::rust::markdown) before it becomes part of
+//! remark of a robot file, goes through [`markdown`](crate::backend::common::markdown) before it becomes part of
 //! it. The documentation of parameters alone is text of such a file, and names and units are: they are made
 //! harmless where they are printed.
 

@@ -33,7 +33,7 @@ pub use probe::{Probe, Root};
 
 use object_file::Object;
 use robot_build::budget::max_stack;
-use robot_build::{Options, Programs, Source, identifier};
+use robot_build::{Options, Programs, Source, names};
 
 /// What the functions of one object file are.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -93,9 +93,9 @@ pub fn prove(
 
 /// Holds the stack of each function against its budget.
 fn hold_stack(module: &mut Module, programs: &Programs, options: &Options) {
-    for function in &programs.module.functions {
+    for (function, name) in programs.module.functions.iter().zip(names(programs).functions) {
         let limit = max_stack(programs, options, &function.name);
-        let path = format!("Model::{}", identifier(&function.name));
+        let path = format!("Model::{name}");
         let found = module.functions.iter_mut().find(|found| found.name == path);
         if let (Some(limit), Some(found)) = (limit, found)
             && found.figures.stack > limit

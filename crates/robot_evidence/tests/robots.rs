@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 
 use robot_build::{Functions, Options, RobotFile, Trigonometry, programs};
-use robot_codegen::stack;
+use robot_codegen::backend::rust::stack;
 use robot_evidence::{Compiler, Evidence, Module, Profile, Violation, prove};
 
 const PROFILES: [Profile; 2] = [Profile::Dev, Profile::Release];

@@ -3,6 +3,7 @@
 use robot_build::{Effects, FunctionKind, Pivot, Pivots, Programs, Trigonometry, too_large_angle};
 use robot_codegen::Interpreter;
 use robot_model::robot::{Friction, JointKind, Robot};
+use robot_model::variable::JointVariable::{Acceleration, Position, Torque, Velocity};
 use robot_symbolic::Formula;
 
 use crate::dynamics::{DryFriction, Dynamics, State};
@@ -83,7 +84,7 @@ impl<'p> RobotProgram<'p> {
     ///
     /// A state with another number of coordinates.
     pub fn energies(&self, state: &State) -> Result<[f64; 2], Error> {
-        let inputs = [("q", state.q.as_slice()), ("qd", &state.qd)];
+        let inputs = [(Position.name(), state.q.as_slice()), (Velocity.name(), &state.qd)];
         let values = values(&self.interpreter, FunctionKind::Energies, &inputs)?;
         match values.as_slice() {
             &[kinetic, potential] => Ok([kinetic, potential]),
@@ -113,7 +114,11 @@ impl Dynamics for RobotProgram<'_> {
         let found = match self.friction {
             Some(_) => balance(self, state, tau, &vec![Mode::Free; tau.len()])?.qdd,
             None => {
-                let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("tau", tau)];
+                let inputs = [
+                    (Position.name(), state.q.as_slice()),
+                    (Velocity.name(), &state.qd),
+                    (Torque.name(), tau),
+                ];
                 self.values(FunctionKind::ForwardDynamics(Effects::NONE), &inputs)?
             }
         };
@@ -155,7 +160,7 @@ impl DryFriction for RobotProgram<'_> {
     }
 
     fn mass_matrix(&self, q: &[f64]) -> Result<Vec<f64>, Cause> {
-        self.values(FunctionKind::MassMatrix, &[("q", q)])
+        self.values(FunctionKind::MassMatrix, &[(Position.name(), q)])
     }
 
     fn driving_forces(
@@ -164,7 +169,11 @@ impl DryFriction for RobotProgram<'_> {
         qdd: &[f64],
         friction: bool,
     ) -> Result<Vec<f64>, Cause> {
-        let inputs = [("q", state.q.as_slice()), ("qd", &state.qd), ("qdd", qdd)];
+        let inputs = [
+            (Position.name(), state.q.as_slice()),
+            (Velocity.name(), &state.qd),
+            (Acceleration.name(), qdd),
+        ];
         let kind = match friction {
             true => FunctionKind::InverseDynamics(Effects::FRICTION),
             false => FunctionKind::InverseDynamics(Effects::NONE),
@@ -215,13 +224,12 @@ pub(crate) fn check_functions(programs: &Programs, needed: &[FunctionKind]) -> R
 }
 
 /// All outputs of a function, one after the other.
-pub(crate) fn values(
+fn values(
     interpreter: &Interpreter<'_>,
     kind: FunctionKind,
     inputs: &[(&str, &[f64])],
 ) -> Result<Vec<f64>, Error> {
-    let outputs = interpreter.call(kind.name(), inputs)?;
-    Ok(outputs.into_iter().flat_map(|output| output.values).collect())
+    Ok(interpreter.function(kind.name())?.call(inputs)?)
 }
 
 /// a − b.

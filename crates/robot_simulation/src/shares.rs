@@ -4,10 +4,11 @@ use robot_build::{Effects, FunctionKind, Programs, Trigonometry, too_large_angle
 use robot_codegen::Interpreter;
 use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
-use robot_model::variable::JointVariable;
+use robot_model::variable::JointVariable::{Acceleration, Position, Torque, Velocity};
+use robot_model::variable::WRENCH;
 
 use crate::error::Error;
-use crate::program::{check_functions, difference, values};
+use crate::program::{check_functions, difference};
 use crate::table::Table;
 use crate::trajectory::Trajectory;
 
@@ -72,7 +73,7 @@ impl Shares {
     pub fn table(&self) -> Table {
         let mut table = Table::default();
         table.push("t", self.t.clone());
-        table.push_numbered(JointVariable::Torque.name(), &self.total);
+        table.push_numbered(Torque.name(), &self.total);
         for (name, series) in self.named().into_iter().filter(|(name, _)| *name != "total") {
             table.push_numbered(name, series);
         }
@@ -96,84 +97,95 @@ pub fn shares(
     let wrench = trajectory.wrenches.is_some();
     check_functions(programs, &Shares::functions(friction, wrench))?;
     let interpreter = Interpreter::new(&programs.module, given)?;
-    let mut shares = Shares { t: trajectory.t.clone(), ..Shares::default() };
-    shares.friction = friction.then(Vec::new);
-    shares.wrench = wrench.then(Vec::new);
-    let motion = trajectory.q.iter().zip(&trajectory.qd).zip(&trajectory.qdd);
-    for (index, ((q, qd), qdd)) in motion.enumerate() {
-        let sample = Sample { q, qd, qdd, wrenches: wrenches(&programs.robot, trajectory, index) };
-        sample.add(&interpreter, &mut shares)?;
-        if shares.total.last().is_some_and(|total| total.iter().any(|torque| !torque.is_finite())) {
-            let t = number(trajectory.t.get(index).copied().unwrap_or_default());
-            let angle = too_large_angle(&programs.robot, q, Trigonometry::default());
-            let why = angle.unwrap_or_else(|| {
-                "look at the size of the trajectory and of the parameters".to_owned()
-            });
-            let message = format!("at t = {t} s torques have no finite value; {why}");
-            return Err(Error::input(message));
+    let loads = wrenches(&programs.robot, trajectory);
+    let motion = Motion { interpreter: &interpreter, trajectory, loads: &loads };
+    let shares = motion.shares(friction)?;
+    for ((total, t), q) in shares.total.iter().zip(&shares.t).zip(&trajectory.q) {
+        if total.iter().all(|torque| torque.is_finite()) {
+            continue;
         }
+        let angle = too_large_angle(&programs.robot, q, Trigonometry::default());
+        let why = angle.unwrap_or_else(|| {
+            "look at the size of the trajectory and of the parameters".to_owned()
+        });
+        let message = format!("at t = {} s torques have no finite value; {why}", number(*t));
+        return Err(Error::input(message));
     }
     Ok(shares)
 }
 
-/// The wrenches of a sample by the names of the functions' inputs.
-fn wrenches<'t>(
-    robot: &Robot,
+/// The wrench of each tip along a trajectory, by the names of the functions' inputs.
+fn wrenches(robot: &Robot, trajectory: &Trajectory) -> Vec<(String, Series)> {
+    let Some(samples) = &trajectory.wrenches else { return vec![] };
+    let name = |tip| format!("{WRENCH}{}", robot.wrench_suffix(tip));
+    let of_tip = |tip: usize| {
+        let chunk = |sample: &Vec<f64>| sample.chunks(6).nth(tip).unwrap_or_default().to_vec();
+        samples.iter().map(chunk).collect()
+    };
+    let tips = robot.tips().enumerate();
+    tips.map(|(tip, (frame, _))| (name(frame), of_tip(tip))).collect()
+}
+
+/// A trajectory whose joint torques are computed.
+struct Motion<'t> {
+    interpreter: &'t Interpreter<'t>,
     trajectory: &'t Trajectory,
-    index: usize,
-) -> Vec<(String, &'t [f64])> {
-    let components = trajectory.wrenches.as_ref().and_then(|samples| samples.get(index));
-    let chunks = components.map_or(&[][..], Vec::as_slice).chunks(6);
-    let single = robot.tips().count() == 1;
-    let name = |tip: &str| if single { "wrench".to_owned() } else { format!("wrench_{tip}") };
-    robot.tips().zip(chunks).map(|((frame, _), chunk)| (name(&frame.name), chunk)).collect()
+    loads: &'t [(String, Series)],
 }
 
-/// A moment of a trajectory.
-struct Sample<'t> {
-    q: &'t [f64],
-    qd: &'t [f64],
-    qdd: &'t [f64],
-    wrenches: Vec<(String, &'t [f64])>,
-}
-
-impl Sample<'_> {
-    /// Adds the shares of this moment.
-    fn add(&self, interpreter: &Interpreter<'_>, shares: &mut Shares) -> Result<(), Error> {
-        use FunctionKind as Kind;
-        let call = |kind, inputs: &[(&str, &[f64])]| values(interpreter, kind, inputs);
-        let (q, qd, qdd) = (("q", self.q), ("qd", self.qd), ("qdd", self.qdd));
-        let matrix = call(Kind::MassMatrix, &[q])?;
-        let rows = matrix.chunks(self.q.len().max(1));
-        let product = |row: &[f64]| row.iter().zip(self.qdd).map(|(m, qdd)| m * qdd).sum();
-        let inertia: Vec<f64> = rows.map(product).collect();
-        let gravity = call(Kind::Gravity, &[q])?;
-        let coriolis = difference(&call(Kind::Bias, &[q, qd])?, &gravity);
-        let mut parts = vec![inertia.clone(), coriolis.clone(), gravity.clone()];
-        let motion = [q, qd, qdd];
-        let loads = self.wrenches.iter().map(|(name, wrench)| (name.as_str(), *wrench));
-        let loaded: Vec<(&str, &[f64])> = motion.into_iter().chain(loads).collect();
-        let wrench = shares.wrench.is_some();
-        let of = |friction| Kind::InverseDynamics(Effects { friction, wrench });
-        let (free, rubbing) = (of(false), of(true));
-        if let Some(friction) = &mut shares.friction {
-            let share = difference(&call(rubbing, &loaded)?, &call(free, &loaded)?);
-            parts.push(share.clone());
-            friction.push(share);
-        }
-        if let Some(wrench) = &mut shares.wrench {
-            let share = difference(
-                &call(free, &loaded)?,
-                &call(Kind::InverseDynamics(Effects::NONE), &motion)?,
-            );
-            parts.push(share.clone());
-            wrench.push(share);
-        }
-        let total = |entry: usize| parts.iter().filter_map(|part| part.get(entry)).sum();
-        shares.total.push((0..self.q.len()).map(total).collect());
-        shares.inertia.push(inertia);
-        shares.coriolis.push(coriolis);
-        shares.gravity.push(gravity);
-        Ok(())
+impl Motion<'_> {
+    /// The outputs of a function at all times.
+    fn series(&self, kind: FunctionKind, inputs: &[(&str, &[Vec<f64>])]) -> Result<Series, Error> {
+        let callable = self.interpreter.function(kind.name())?;
+        Ok(callable.states(self.trajectory.t.len(), inputs)?)
     }
+
+    fn shares(&self, friction: bool) -> Result<Shares, Error> {
+        use FunctionKind as Kind;
+        let Trajectory { t, q, qd, qdd, wrenches } = self.trajectory;
+        let motion = [(Position, q), (Velocity, qd), (Acceleration, qdd)]
+            .map(|(variable, samples)| (variable.name(), samples.as_slice()));
+        let loads = self.loads.iter().map(|(name, wrench)| (name.as_str(), wrench.as_slice()));
+        let loaded: Vec<(&str, &[Vec<f64>])> = motion.into_iter().chain(loads).collect();
+        let matrices = self.series(Kind::MassMatrix, &motion[..1])?;
+        let inertia: Series =
+            matrices.iter().zip(qdd).map(|(matrix, qdd)| product(matrix, qdd)).collect();
+        let gravity = self.series(Kind::Gravity, &motion[..1])?;
+        let coriolis = differences(&self.series(Kind::Bias, &motion[..2])?, &gravity);
+        let wrench = wrenches.is_some();
+        let of = |friction| Kind::InverseDynamics(Effects { friction, wrench });
+        let without = match friction || wrench {
+            true => self.series(of(false), &loaded)?,
+            false => vec![],
+        };
+        let friction = friction.then(|| self.series(of(true), &loaded)).transpose()?;
+        let friction = friction.map(|with| differences(&with, &without));
+        let unloaded = wrench.then(|| self.series(Kind::InverseDynamics(Effects::NONE), &motion));
+        let wrench = unloaded.transpose()?.map(|unloaded| differences(&without, &unloaded));
+        let mut shares =
+            Shares { t: t.clone(), total: vec![], inertia, coriolis, gravity, friction, wrench };
+        let parts = shares.named();
+        let parts = parts.into_iter().filter(|(name, _)| *name != "total");
+        let parts: Vec<&Series> = parts.map(|(_, series)| series).collect();
+        shares.total = (0..t.len()).map(|time| sum(&parts, time)).collect();
+        Ok(shares)
+    }
+}
+
+/// M q̈ of a mass matrix, row by row.
+fn product(matrix: &[f64], qdd: &[f64]) -> Vec<f64> {
+    let rows = matrix.chunks(qdd.len().max(1));
+    rows.map(|row| row.iter().zip(qdd).map(|(m, qdd)| m * qdd).sum()).collect()
+}
+
+/// a − b at all times.
+fn differences(a: &[Vec<f64>], b: &[Vec<f64>]) -> Series {
+    a.iter().zip(b).map(|(a, b)| difference(a, b)).collect()
+}
+
+/// The sum of some shares at a time.
+fn sum(parts: &[&Series], time: usize) -> Vec<f64> {
+    let samples = || parts.iter().filter_map(|part| part.get(time));
+    let entries = samples().map(Vec::len).max().unwrap_or_default();
+    (0..entries).map(|entry| samples().filter_map(|sample| sample.get(entry)).sum()).collect()
 }

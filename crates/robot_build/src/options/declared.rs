@@ -1,8 +1,7 @@
 //! The options of generated code, each declared once: the macro, the command line, the builder's tests and the
 //! table of the book take names, values and words from here.
 
-use robot_codegen::Trigonometry;
-use robot_codegen::backend::rust::Scalar;
+use robot_codegen::{Scalar, Trigonometry};
 use robot_model::robot::BaseFrames;
 
 use super::{DEFAULT_BATCH, Options};

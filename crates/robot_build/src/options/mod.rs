@@ -4,8 +4,8 @@ mod declared;
 
 pub use declared::{Commands, Group, Kind, OPTIONS, OptionSpec, Value};
 
-use robot_codegen::backend::rust::{RustOptions, Scalar};
-use robot_codegen::{Cost, Fused, Trigonometry};
+use robot_codegen::backend::rust::RustOptions;
+use robot_codegen::{Cost, Fused, Scalar, Trigonometry};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::description::{self, Code, MAX_BUNDLES, check_bundle_name};

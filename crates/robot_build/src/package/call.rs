@@ -1,6 +1,6 @@
 //! Calls of generated functions as Rust text, for tests and examples.
 
-use robot_codegen::backend::rust::{self, Scalar};
+use robot_codegen::Scalar;
 
 use super::Parts;
 use crate::check::CheckValue;
@@ -16,34 +16,31 @@ pub(super) fn model_expression(parts: &Parts<'_>) -> String {
         return "Model::new(&Parameters::NOMINAL)".to_owned();
     }
     let stated = parts.checks.first().map_or(&[][..], |check| check.parameters.as_slice());
-    let fields = parameters.iter().map(|parameter| {
+    let fields = parameters.iter().zip(&parts.names.parameters).map(|(parameter, name)| {
         let stated = stated.iter().find(|(name, _)| *name == parameter.name);
         let value = parameter.nominal.or(stated.map(|(_, value)| *value)).unwrap_or(1.0);
-        format!("{}: {value:?}", rust::identifier(&parameter.name))
+        format!("{name}: {value:?}")
     });
     format!("Model::new(&Parameters {{ {} }})", fields.collect::<Vec<_>>().join(", "))
 }
 
 /// The call of a function at its check state.
-pub(super) fn call(model: &str, check: &CheckValue) -> String {
+pub(super) fn call(parts: &Parts<'_>, model: &str, check: &CheckValue) -> String {
     let inputs: Vec<String> =
         check.inputs.iter().map(|(_, entries)| format!("&{entries:?}")).collect();
-    format!("{model}.{}({})", rust::identifier(&check.function), inputs.join(", "))
+    format!("{model}.{}({})", parts.method(&check.function), inputs.join(", "))
 }
 
 /// A test of a function against its check value.
 pub(super) fn test(parts: &Parts<'_>, check: &CheckValue) -> String {
-    let name = rust::identifier(&check.function);
+    // No method has the reserved word before the underscore.
+    let name = parts.method(&check.function).trim_end_matches('_');
     let model = model_expression(parts);
     let mut text = format!(
         "\n#[test]\nfn {name}_gives_its_check_value() {{\n    let model = {model};\n    let result = {};\n",
-        call("model", check)
+        call(parts, "model", check)
     );
-    for output in &check.outputs {
-        let field = match check.outputs.len() {
-            1 => String::new(),
-            _ => format!(".{}", rust::identifier(&output.name)),
-        };
+    for (output, field) in check.outputs.iter().zip(parts.outputs(&check.function)) {
         let found = match output.shape.len() {
             0 => format!("&[result{field}]"),
             1 => format!("&result{field}"),

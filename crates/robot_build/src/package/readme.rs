@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use robot_codegen::backend::rust;
+use robot_codegen::backend::common;
 use robot_model::robot::JointKind;
 
 use super::Parts;
@@ -40,7 +40,7 @@ pub(super) fn readme(parts: &Parts<'_>) -> String {
 
 /// Text of the robot file on one line, as Markdown that means nothing but the text.
 fn plain(text: &str) -> String {
-    rust::markdown(text).join(" ")
+    common::markdown(text).join(" ")
 }
 
 fn line_of(text: &mut String, line: std::fmt::Arguments<'_>) {
@@ -60,7 +60,7 @@ fn usage(text: &mut String, parts: &Parts<'_>, check: &CheckValue) {
     section(text, "Use");
     let (name, model) = (parts.name(), model_expression(parts));
     line_of(text, format_args!("```rust\nuse {name}::*;\n\nlet model = {model};"));
-    line_of(text, format_args!("let result = {};\n```", call("model", check)));
+    line_of(text, format_args!("let result = {};\n```", call(parts, "model", check)));
 }
 
 fn joints(text: &mut String, parts: &Parts<'_>) {
@@ -82,13 +82,14 @@ fn parameters(text: &mut String, parts: &Parts<'_>) {
     }
     section(text, "Parameters");
     line_of(text, format_args!("| field | meaning | unit | nominal |\n|---|---|---|---|"));
-    for parameter in &parts.programs.module.parameters {
+    let fields = parts.programs.module.parameters.iter().zip(&parts.names.parameters);
+    for (parameter, field) in fields {
         let nominal = parameter.nominal.map(|value| format!("{value:?}")).unwrap_or_default();
         line_of(
             text,
             format_args!(
                 "| {} | {} | {} | {nominal} |",
-                plain(&rust::identifier(&parameter.name)),
+                plain(field),
                 plain(&parameter.doc),
                 plain(&parameter.unit),
             ),
@@ -106,7 +107,7 @@ fn functions(text: &mut String, parts: &Parts<'_>) {
             once.add, once.div,
         ];
         let columns = columns.map(|count| format!(" {count} |")).concat();
-        line_of(text, format_args!("| `{name}` |{columns}"));
+        line_of(text, format_args!("| `{}` |{columns}", parts.method(&name)));
     }
 }
 

@@ -142,12 +142,14 @@ impl Arguments {
         let interpreter = Interpreter::new(&programs.module, &self.settings.pairs())
             .map_err(failed)?
             .with_trigonometry(self.trigonometry);
+        let callable = interpreter.function(&function.name).map_err(failed)?;
+        let inputs = inputs(function, states);
+        let given: Vec<(&str, &[Vec<f64>])> =
+            inputs.iter().map(|(name, entries)| (*name, entries.as_slice())).collect();
+        let values = callable.states(states.len(), &given).map_err(failed)?;
         let mut results = vec![];
-        for state in states {
-            let inputs = inputs(function, state);
-            let given: Vec<(&str, &[f64])> =
-                inputs.iter().map(|(name, entries)| (*name, entries.as_slice())).collect();
-            let outputs = interpreter.call(&function.name, &given).map_err(failed)?;
+        for (state, values) in states.iter().zip(values) {
+            let outputs = callable.named(values);
             wrong.extend(infinite::messages(
                 &programs.robot,
                 &self.settings.pairs(),
@@ -194,11 +196,14 @@ fn missing_inputs(function: &Function, state: &State) -> Vec<String> {
         .collect()
 }
 
-/// The inputs of a function at a state; a wrench that is not given is 0.
-fn inputs<'f>(function: &'f Function, state: &State) -> Vec<(&'f str, Vec<f64>)> {
+/// The inputs of a function, each at all states; a wrench that is not given is 0.
+fn inputs<'f>(function: &'f Function, states: &[State]) -> Vec<(&'f str, Vec<Vec<f64>>)> {
     let inputs = function.inputs.iter().map(|input| {
-        let entries = state.array(&input.name).map(<[f64]>::to_vec);
-        (input.name.as_str(), entries.unwrap_or_else(|| vec![0.0; input.symbols.len()]))
+        let entries = |state: &State| {
+            let entries = state.array(&input.name).map(<[f64]>::to_vec);
+            entries.unwrap_or_else(|| vec![0.0; input.symbols.len()])
+        };
+        (input.name.as_str(), states.iter().map(entries).collect())
     });
     inputs.collect()
 }

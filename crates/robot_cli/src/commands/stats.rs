@@ -3,6 +3,7 @@
 use clap::Args;
 use robot_build::ablation::{Ablation, ablation};
 use robot_build::{Functions, Options, programs, snapping};
+use robot_codegen::backend::rust::LANGUAGE;
 use robot_codegen::{Counts, FunctionCounts, Module};
 use robot_model::description::Described;
 use serde_json::{Map, Value, json};
@@ -77,7 +78,10 @@ impl Arguments {
         let counts: Vec<(&str, FunctionCounts)> = module
             .functions
             .iter()
-            .map(|function| (function.name.as_str(), module.counts(function)))
+            .map(|function| {
+                let counts = module.counts(function).laid_out(function, &LANGUAGE.limits);
+                (function.name.as_str(), counts)
+            })
             .collect();
         match self.format {
             Format::Json => {

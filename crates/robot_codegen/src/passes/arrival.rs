@@ -10,7 +10,7 @@ use crate::program::Program;
 
 /// Orders the terms of each sum and the factors of each product by when they are known. Reassociates.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(super) fn run(program: &Program) -> Program {
     ordered(program, false).view.program()
 }
 
@@ -41,8 +41,9 @@ pub(super) fn ordered(program: &Program, fused: bool) -> Waiting {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::passes::latency::{PRODUCT, SUM};
     use crate::passes::testing::assert_same_values;
-    use crate::passes::waiting::{PRODUCT, SUM, longest_chain};
+    use crate::passes::waiting::longest_chain;
     use crate::program::{Builder, Source};
 
     #[test]

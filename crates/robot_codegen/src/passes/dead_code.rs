@@ -4,7 +4,7 @@ use crate::program::{Operation, Program, Value};
 
 /// Removes what no result needs; the order of the rest stays.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(super) fn run(program: &Program) -> Program {
     let mut needed = vec![false; program.operations().len()];
     for value in program.results() {
         needed[value.index()] = true;

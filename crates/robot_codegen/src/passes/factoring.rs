@@ -10,7 +10,7 @@ use crate::program::Program;
 /// What depends on parameters alone costs nothing at a call: x p + x r becomes x (p + r) with the
 /// sum in the constructor. Reassociates.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(super) fn run(program: &Program) -> Program {
     let mut view = Nary::new(program);
     let mut uses = view.uses();
     let mut pending: Vec<Id> = (0..view.len() as Id).rev().collect();

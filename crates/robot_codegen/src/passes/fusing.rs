@@ -7,7 +7,7 @@ use crate::program::{Builder, Operation, Program, Value};
 ///
 /// Without a fused instruction on the target, not a bit changes.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(crate) fn run(program: &Program) -> Program {
     let fusible = fusible(program);
     let mut builder = Builder::new();
     let mut values: Vec<Value> = Vec::with_capacity(fusible.len());

@@ -6,19 +6,20 @@
 //! Each pass is a function in a file of its own and proved on random programs to keep the values:
 //! to the last bit where it does not reassociate, else to rounding.
 
-pub mod arrival;
-pub mod dead_code;
-pub mod factoring;
-pub mod fusing;
+mod arrival;
+mod dead_code;
+mod factoring;
+pub(crate) mod fusing;
+mod latency;
 mod nary;
-pub mod pair_reuse;
-pub mod product_last;
-pub mod resubstitution;
-pub mod schedule;
-pub mod signs;
+mod pair_reuse;
+pub(crate) mod product_last;
+mod resubstitution;
+mod schedule;
+mod signs;
 #[cfg(test)]
 mod testing;
-pub mod value_numbering;
+mod value_numbering;
 mod waiting;
 
 use self::resubstitution::Samples;
@@ -34,17 +35,17 @@ const MAX_WORK: usize = 100_000;
 /// Which passes run, and what they minimise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// [`factoring`] of sums.
+    /// `factoring` of sums.
     pub factoring: bool,
-    /// [`pair_reuse`] in sums and products.
+    /// `pair_reuse` in sums and products.
     pub pair_reuse: bool,
-    /// How far [`resubstitution`] looks.
+    /// How far `resubstitution` looks.
     pub resubstitution: Resubstitution,
     /// How often these run in turn, at most; they end when none saves anything.
     pub rounds: usize,
-    /// The order of sums and products: [`arrival`], and [`product_last`] where multiply-adds follow.
+    /// The order of sums and products: `arrival`, and `product_last` where multiply-adds follow.
     pub arrival: bool,
-    /// [`signs`] into differences.
+    /// `signs` into differences.
     pub signs: bool,
     /// Whether products and sums become multiply-adds.
     pub fused: Fused,
@@ -88,7 +89,7 @@ impl Options {
     }
 }
 
-/// How far [`resubstitution`] looks.
+/// How far `resubstitution` looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resubstitution {
     /// Not at all.

@@ -17,7 +17,7 @@ const LONGEST: usize = 64;
 /// Terms pair up to a common sign. What depends on parameters alone is joined in any case, for it
 /// costs nothing at a call. Reassociates.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(super) fn run(program: &Program) -> Program {
     let mut view = Nary::new(program);
     for kind in [Kind::Product, Kind::Sum] {
         Rows::new(&mut view, kind).reduce(&mut view);

@@ -2,14 +2,15 @@
 //! can be a fused multiply-add.
 
 use super::arrival;
+use super::latency::{PRODUCT, QUOTIENT, of_call};
 use super::nary::{Id, Node, Term};
-use super::waiting::{PRODUCT, QUOTIENT, Waiting, of_call};
+use super::waiting::Waiting;
 use crate::program::Program;
 
 /// Orders sums and products by [`arrival`]; then lets each sum that starts with a product of its own start
 /// with the first of its terms that is none, where no result is known later for it. Reassociates.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(crate) fn run(program: &Program) -> Program {
     let waiting = arrival::ordered(program, true);
     let mut order = Order { needed: vec![u32::MAX; waiting.ids().len()], waiting };
     order.run();
@@ -100,7 +101,9 @@ mod tests {
     use super::*;
     use crate::counts::Counts;
     use crate::passes::fusing;
-    use crate::passes::testing::{Random, assert_same_values, inputs_only, random_polynomials};
+    use robot_symbolic::Random;
+
+    use crate::passes::testing::{assert_same_values, inputs_only, random_polynomials};
     use crate::program::{Builder, Source, Value};
 
     #[test]
@@ -191,12 +194,12 @@ mod tests {
         for _ in 0..20 {
             let recent = pool.len() - 12;
             let [x, y, z, u, v] =
-                [(); 5].map(|()| pool[recent * random.below(2) + random.below(12)]);
+                [(); 5].map(|()| pool[recent * random.index(2) + random.index(12)]);
             let (xy, zu) = (b.mul(x, y), b.mul(z, u));
-            let products = if random.below(2) == 0 { b.add(xy, zu) } else { b.sub(xy, zu) };
-            let zuxy = if random.below(3) == 0 { b.mul(products, zu) } else { products };
+            let products = if random.index(2) == 0 { b.add(xy, zu) } else { b.sub(xy, zu) };
+            let zuxy = if random.index(3) == 0 { b.mul(products, zu) } else { products };
             let sum = b.add(zuxy, v);
-            pool.push(match random.below(6) {
+            pool.push(match random.index(6) {
                 0 => b.div(sum, x),
                 1 => b.div(y, sum),
                 2 => b.call(Function::Abs, sum),

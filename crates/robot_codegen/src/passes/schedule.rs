@@ -24,7 +24,7 @@ const LONG: usize = 6000;
 
 /// Orders the statements. Not a bit changes.
 #[must_use]
-pub fn run(program: &Program, schedule: Schedule) -> Program {
+pub(super) fn run(program: &Program, schedule: Schedule) -> Program {
     match schedule {
         Schedule::Construction => program.clone(),
         Schedule::Throughput if program.operations().len() <= LONG => throughput::run(program),

@@ -8,7 +8,7 @@ const DEPTH: usize = 12;
 /// Lets the negatives of values that nothing else uses sink to a difference, which turns round, or
 /// to a constant factor. No bits of a finite result change but the signs of zeros.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(super) fn run(program: &Program) -> Program {
     let mut signs =
         Signs { program, uses: program.uses(), flipped: vec![false; program.operations().len()] };
     for operation in program.operations() {

@@ -1,36 +1,15 @@
 //! Random programs for the tests of passes.
 
-use robot_symbolic::Function;
+use robot_symbolic::{Function, Random};
 
 use super::dead_code;
 use crate::counts::Counts;
 use crate::program::{Builder, Operation, Program, Source, Value};
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-pub(super) struct Random(u64);
-
-impl Random {
-    pub(super) fn new(seed: u64) -> Random {
-        Random(seed)
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub(super) fn below(&mut self, limit: usize) -> usize {
-        (self.bits() % limit as u64) as usize
-    }
-
-    /// Between 1/4 and 7/4, or the negative of such a number.
-    fn real(&mut self) -> f64 {
-        let size = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64 * 1.5 + 0.25;
-        if self.below(2) == 0 { size } else { -size }
-    }
+/// Between 1/4 and 7/4, or the negative of such a number.
+fn real(random: &mut Random) -> f64 {
+    let size = random.uniform(0.25, 1.75);
+    if random.index(2) == 0 { size } else { -size }
 }
 
 const SEEDS: u64 = 200;
@@ -44,7 +23,7 @@ const UNDECIDED: f64 = 1e100;
 
 /// A program with loads of parameters and inputs, many sums and products, and some of the rest.
 pub(super) fn random_program(seed: u64) -> Program {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut builder = Builder::new();
     let mut pool: Vec<Value> = (0..4).map(|index| builder.load(Source::Parameter(index))).collect();
     pool.extend((0..4).map(|index| builder.load(Source::Input(index))));
@@ -52,46 +31,46 @@ pub(super) fn random_program(seed: u64) -> Program {
     for constant in [2.0, 0.5, 1.0, -3.0] {
         pool.push(builder.constant(constant));
     }
-    for _ in 0..20 + random.below(60) {
-        let [a, b, c] = [0; 3].map(|_| pool[random.below(pool.len())]);
-        let value = match random.below(24) {
+    for _ in 0..20 + random.index(60) {
+        let [a, b, c] = [0; 3].map(|_| pool[random.index(pool.len())]);
+        let value = match random.index(24) {
             0..=5 => builder.add(a, b),
             6..=8 => builder.sub(a, b),
             9..=15 => builder.mul(a, b),
             16 | 17 => builder.neg(a),
             18 => builder.push(Operation::MulAdd(a, b, c)),
             19 => builder.div(a, b),
-            function => builder.call(FUNCTIONS[(function + random.below(2)) % 5], a),
+            function => builder.call(FUNCTIONS[(function + random.index(2)) % 5], a),
         };
         pool.push(value);
     }
-    let results = (0..1 + random.below(5)).map(|_| pool[pool.len() - 1 - random.below(12)]);
+    let results = (0..1 + random.index(5)).map(|_| pool[pool.len() - 1 - random.index(12)]);
     builder.finish(results.collect())
 }
 
 /// Sums of products of few loads, some of them of parameters: much to take out, to join and to find again.
 pub(super) fn random_polynomials(seed: u64) -> Program {
-    let mut random = Random(seed ^ 0x9017);
+    let mut random = Random::new(seed ^ 0x9017);
     let mut builder = Builder::new();
     let mut pool: Vec<Value> = (0..3).map(|index| builder.load(Source::Parameter(index))).collect();
     pool.extend((0..4).map(|index| builder.load(Source::Input(index))));
     let mut results = vec![];
-    for _ in 0..2 + random.below(5) {
+    for _ in 0..2 + random.index(5) {
         let mut sum: Option<Value> = None;
-        for _ in 0..2 + random.below(5) {
-            let mut product = pool[random.below(pool.len())];
-            for _ in 0..random.below(4) {
-                let factor = pool[random.below(pool.len())];
+        for _ in 0..2 + random.index(5) {
+            let mut product = pool[random.index(pool.len())];
+            for _ in 0..random.index(4) {
+                let factor = pool[random.index(pool.len())];
                 product = builder.mul(product, factor);
             }
             sum = Some(match sum {
                 None => product,
-                Some(sum) if random.below(3) == 0 => builder.sub(sum, product),
+                Some(sum) if random.index(3) == 0 => builder.sub(sum, product),
                 Some(sum) => builder.add(sum, product),
             });
         }
         results.extend(sum);
-        if random.below(3) == 0 {
+        if random.index(3) == 0 {
             pool.extend(sum);
         }
     }
@@ -162,8 +141,8 @@ fn values_with_bounds(program: &Program, load: impl Fn(Source) -> f64) -> Vec<(f
 
 /// Both programs at random loads, as pairs of values with the bound of the first.
 fn compare(program: &Program, other: &Program, seed: u64) -> Vec<(f64, f64, f64)> {
-    let mut random = Random(seed ^ 0x5eed);
-    let table: Vec<f64> = (0..16).map(|_| random.real()).collect();
+    let mut random = Random::new(seed ^ 0x5eed);
+    let table: Vec<f64> = (0..16).map(|_| real(&mut random)).collect();
     let load = |source: Source| match source {
         Source::Parameter(index) => table[index as usize],
         Source::Input(index) => table[4 + index as usize],

@@ -4,7 +4,7 @@ use crate::program::{Builder, Program, Value};
 
 /// Rebuilds the program so that each operation is there once. No bits of a finite result change.
 #[must_use]
-pub fn run(program: &Program) -> Program {
+pub(super) fn run(program: &Program) -> Program {
     let mut builder = Builder::new();
     let mut values: Vec<Value> = Vec::with_capacity(program.operations().len());
     for operation in program.operations() {

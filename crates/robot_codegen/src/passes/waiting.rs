@@ -1,28 +1,8 @@
 //! When values are known: cycles from the start of a call, were there room for everything at once.
-//!
-//! The figures are those of current x86-64 cores (Zen 4, after Fog's instruction tables); on 64-bit ARM
-//! cores their ratios are much the same.
 
-use robot_symbolic::Function;
-
+use super::latency::{FUSED, PRODUCT, QUOTIENT, SUM, latency, of_call};
 use super::nary::{Id, Nary, Node, Term};
-use crate::program::{Operation, Program};
-
-/// From the operands of a sum to its value.
-pub(super) const SUM: u32 = 3;
-/// From the factors of a product to its value.
-pub(super) const PRODUCT: u32 = 3;
-/// From the operands of a multiply-add to its value.
-pub(super) const FUSED: u32 = 4;
-/// From the operands of a quotient to its value.
-pub(super) const QUOTIENT: u32 = 13;
-/// From the argument of a function to its value.
-const CALL: u32 = 20;
-
-/// From the argument of a function to its value; a reciprocal is a quotient.
-pub(super) fn of_call(function: Function) -> u32 {
-    if function == Function::RecipPositive { QUOTIENT } else { CALL }
-}
+use crate::program::Program;
 
 /// Cycles from the start of a program to the last of its results.
 pub(super) fn longest_chain(program: &Program) -> u32 {
@@ -32,18 +12,6 @@ pub(super) fn longest_chain(program: &Program) -> u32 {
         known.push(ready + latency(*operation));
     }
     program.results().iter().map(|value| known[value.index()]).max().unwrap_or(0)
-}
-
-/// Cycles from the operands of an operation to its value; signs are part of the instructions that follow.
-fn latency(operation: Operation) -> u32 {
-    match operation {
-        Operation::Constant(_) | Operation::Load(_) | Operation::Neg(_) => 0,
-        Operation::Add(..) | Operation::Sub(..) => SUM,
-        Operation::Mul(..) => PRODUCT,
-        Operation::MulAdd(..) => FUSED,
-        Operation::Div(..) => QUOTIENT,
-        Operation::Call(function, _) => of_call(function),
-    }
 }
 
 /// A program as sums and products, and when the nodes settled so far are known.
@@ -128,10 +96,13 @@ impl Waiting {
 
 #[cfg(test)]
 mod tests {
+    use robot_symbolic::Function;
+
     use super::*;
     use crate::passes::arrival;
+    use crate::passes::latency::CALL;
     use crate::passes::testing::{inputs_only, random_polynomials};
-    use crate::program::{Builder, Source, Value};
+    use crate::program::{Builder, Operation, Source, Value};
 
     fn end(waiting: &Waiting) -> u32 {
         let results = waiting.view.results.iter();

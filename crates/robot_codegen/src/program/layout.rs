@@ -1,13 +1,13 @@
 //! How a program is laid out as text: which values have names, in what blocks.
 //!
 //! A backend prints each named value as a statement and every other value inside the one expression
-//! that uses it. rustc overflows its stack on a few thousand `let`s in one block, so statements stand
+//! that uses it. Compilers do not take thousands of statements in one block well, so statements stand
 //! in blocks out of which only those values leave that are used later; very long programs are cut
 //! into functions in the same way.
 
 use super::{Operation, Program, Value};
 
-/// Limits of the text.
+/// Limits of the text; what they are is for each language to say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Operations in one expression, at most; 1 names every value.
@@ -18,13 +18,6 @@ pub struct Limits {
     pub function: usize,
     /// Statements in each of those several, at most.
     pub part: usize,
-}
-
-impl Default for Limits {
-    /// Expressions of 6 operations, blocks of 256 statements, functions of 8,000 or of 1,024 each.
-    fn default() -> Limits {
-        Limits { expression: 6, block: 256, function: 8000, part: 1024 }
-    }
 }
 
 /// Statements that stand together.

@@ -7,6 +7,7 @@
 mod builder;
 mod constant;
 mod layout;
+mod print;
 
 pub use builder::Builder;
 pub(crate) use constant::DoubleDouble;

@@ -4,13 +4,13 @@ use std::fmt::Write;
 
 use crate::support::{
     self,
-    random::{ENTRIES, Random},
+    random::{ENTRIES, real},
 };
-use robot_codegen::backend::rust::{RustOptions, Scalar, Wrapping, generate};
+use robot_codegen::backend::rust::{LANGUAGE, RustOptions, Wrapping, generate};
 use robot_codegen::program::{Layout, Limits};
 use robot_codegen::spec::{FunctionSpec, ModuleSpec, ParameterSpec};
-use robot_codegen::{Fused, Interpreter, Module, Options, Trigonometry};
-use robot_symbolic::Graph;
+use robot_codegen::{Fused, Interpreter, Module, Options, Scalar, Trigonometry};
+use robot_symbolic::{Graph, Random};
 
 const STATES: usize = 20;
 
@@ -30,7 +30,7 @@ fn main_text(states: &[[f64; 2 * ENTRIES]]) -> String {
 }
 
 fn states(random: &mut Random) -> Vec<[f64; 2 * ENTRIES]> {
-    (0..STATES).map(|_| std::array::from_fn(|_| random.real())).collect()
+    (0..STATES).map(|_| std::array::from_fn(|_| real(random))).collect()
 }
 
 /// Holds the bits that a program printed against those that the interpreter gives, which it returns.
@@ -72,7 +72,7 @@ fn hold_with(
 fn compiled_code_gives_the_bits_of_the_interpreter() {
     let sources = [Trigonometry::Polynomial, Trigonometry::Standard];
     for (seed, trigonometry) in (0..4).zip(sources.into_iter().cycle()) {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         let graph = Graph::new();
         let spec = support::random::module(&graph, &mut random, 400);
         let module = Module::compile(&spec, &Options::default()).unwrap();
@@ -89,12 +89,12 @@ fn compiled_code_gives_the_bits_of_the_interpreter() {
 
 #[test]
 fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     let graph = Graph::new();
     let spec = support::random::module(&graph, &mut random, 30_000);
     let module = Module::compile(&spec, &Options::default()).unwrap();
     // A name for each operation: the most statements that the program can have.
-    let limits = Limits { expression: 1, ..Limits::default() };
+    let limits = Limits { expression: 1, ..LANGUAGE.limits };
     assert!(Layout::new(&module.functions[0].core, &limits).statements() > 20_000);
     let states = states(&mut random);
     let options = RustOptions { limits, ..RustOptions::default() };
@@ -128,7 +128,7 @@ fn nothing_generated_is_unused() {
 /// Without feature `fma` of the target a multiply-add is a product and a sum, as in the interpreter.
 #[test]
 fn fused_code_gives_the_bits_of_the_interpreter() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let graph = Graph::new();
     let spec = support::random::module(&graph, &mut random, 300);
     let options = Options { fused: Fused::WhereTarget, ..Options::default() };

@@ -1,8 +1,8 @@
 //! Every error of the crate, by its name, from the outside.
 
-use robot_codegen::backend::rust::{RustOptions, Scalar, generate};
+use robot_codegen::backend::rust::{RustOptions, generate};
 use robot_codegen::spec::*;
-use robot_codegen::{Error, Errors, Interpreter, Module, Options};
+use robot_codegen::{Error, Errors, Interpreter, Module, Options, Scalar};
 use robot_symbolic::{Expr, Graph};
 
 use crate::support::arm::{joints, vector};

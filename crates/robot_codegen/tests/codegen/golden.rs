@@ -7,7 +7,8 @@ use std::path::Path;
 
 use crate::support;
 
-use robot_codegen::backend::rust::{ConstantItem, ConstantValue, RustOptions, generate};
+use robot_codegen::backend::common::{ConstantItem, ConstantValue};
+use robot_codegen::backend::rust::{RustOptions, generate};
 use robot_codegen::{Module, Options, Trigonometry};
 use robot_symbolic::Graph;
 
@@ -39,16 +40,33 @@ fn options() -> RustOptions {
 
 #[test]
 fn the_planar_arm_is_generated_as_committed() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens/planar_arm.rs");
     let text = generate(&compiled(&Graph::new()), &options()).unwrap().to_text();
+    hold("planar_arm.rs", &text);
+}
+
+/// The text form of programs: the constructor's and those of functions with and without accelerations.
+#[test]
+fn programs_of_the_planar_arm_are_as_committed() {
+    let module = compiled(&Graph::new());
+    hold("programs/constructor.txt", &module.constructor.to_string());
+    for function in &module.functions {
+        hold(&format!("programs/{}.txt", function.name), &function.to_string());
+    }
+}
+
+/// Holds a text against the committed file of that name.
+#[track_caller]
+pub(crate) fn hold(name: &str, text: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens").join(name);
     if std::env::var_os("UPDATE_GOLDENS").is_some() {
-        std::fs::write(&path, &text).unwrap();
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
     }
     let committed = std::fs::read_to_string(&path).unwrap();
     let committed = committed.replace("\r\n", "\n");
     let pairs = committed.lines().zip(text.lines());
     for (number, (committed, now)) in pairs.enumerate() {
-        assert_eq!(committed, now, "line {}; UPDATE_GOLDENS=1 writes it anew", number + 1);
+        assert_eq!(committed, now, "{name}:{}; UPDATE_GOLDENS=1 writes it anew", number + 1);
     }
-    assert_eq!(committed.len(), text.len());
+    assert_eq!(committed.len(), text.len(), "{name}");
 }

@@ -3,8 +3,11 @@
 // Helpers of tests fail as tests do.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod callable;
 mod compiled;
+mod coverage;
 mod errors;
 mod golden;
+mod reserved;
 #[path = "../support/mod.rs"]
 mod support;

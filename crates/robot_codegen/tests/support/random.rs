@@ -1,28 +1,11 @@
 //! Random modules from a seed.
 
 use robot_codegen::spec::*;
-use robot_symbolic::{Expr, Graph, Rational};
+use robot_symbolic::{Expr, Graph, Random, Rational};
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub(crate) fn below(&mut self, limit: usize) -> usize {
-        (self.bits() % limit as u64) as usize
-    }
-
-    /// Between −2 and 2.
-    pub(crate) fn real(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 51) as f64 - 2.0
-    }
+/// Between −2 and 2.
+pub(crate) fn real(random: &mut Random) -> f64 {
+    random.uniform(-2.0, 2.0)
 }
 
 pub(crate) const PARAMETERS: usize = 6;
@@ -55,7 +38,7 @@ pub(crate) fn module<'g>(
                 name: name.clone(),
                 doc: String::new(),
                 unit: String::new(),
-                nominal: Some(random.real()),
+                nominal: Some(real(random)),
             })
             .collect(),
         functions: vec![FunctionSpec {
@@ -75,30 +58,30 @@ fn input(name: &str, symbols: Vec<String>) -> InputSpec {
 fn operation<'g>(graph: &'g Graph, random: &mut Random, pool: &[Expr<'g>]) -> Expr<'g> {
     let pick = |random: &mut Random| {
         let recent = pool.len().min(30);
-        let start = if random.below(4) == 0 { 0 } else { pool.len() - recent };
-        pool[start + random.below(pool.len() - start)]
+        let start = if random.index(4) == 0 { 0 } else { pool.len() - recent };
+        pool[start + random.index(pool.len() - start)]
     };
     let (a, b) = (pick(random), pick(random));
     let bounded = |x: Expr<'g>| x / (x * x + 1);
-    match random.below(22) {
+    match random.index(22) {
         0..=5 => a + b,
         6..=9 => a - b,
         10..=15 => bounded(a) * b,
         16 => a / (b * b + 2),
-        17 => graph.number(Rational::new(random.below(2000) as i64 - 1000, 700).unwrap()) * a,
+        17 => graph.number(Rational::new(random.index(2000) as i64 - 1000, 700).unwrap()) * a,
         18 => -a,
         19 => (a * a + 1).sqrt() / 2,
-        20 => match random.below(4) {
+        20 => match random.index(4) {
             0 => a.sign() + bounded(b),
             1 => a.abs() - bounded(b).abs(),
             2 => a.tanh(),
-            _ => graph.number(Rational::new(random.below(9) as i64, 7).unwrap()).cos() * b,
+            _ => graph.number(Rational::new(random.index(9) as i64, 7).unwrap()).cos() * b,
         },
         _ => {
-            let angle = graph.symbol(&format!("q{}", 1 + random.below(ENTRIES)));
-            let angle = if random.below(3) == 0 { angle * 2 + graph.symbol("p1") } else { angle };
-            let angle = if random.below(6) == 0 { bounded(a) } else { angle };
-            if random.below(2) == 0 { angle.sin() * a } else { angle.cos() + b }
+            let angle = graph.symbol(&format!("q{}", 1 + random.index(ENTRIES)));
+            let angle = if random.index(3) == 0 { angle * 2 + graph.symbol("p1") } else { angle };
+            let angle = if random.index(6) == 0 { bounded(a) } else { angle };
+            if random.index(2) == 0 { angle.sin() * a } else { angle.cos() + b }
         }
     }
 }

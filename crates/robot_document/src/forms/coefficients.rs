@@ -1,5 +1,6 @@
 //! Coefficients with names, and the driving forces as sums of their products.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
@@ -104,10 +105,10 @@ fn driving_forces<'g>(
     Ok(equations)
 }
 
-/// The coordinates, or the rates that the prefix is of.
-pub(super) fn motions<'g>(writer: &Writer<'_, 'g>, prefix: &str) -> Vec<Expr<'g>> {
-    let numbers = 1..=writer.robot.degrees_of_freedom();
-    numbers.map(|number| writer.graph.symbol(&format!("{prefix}{number}"))).collect()
+/// The symbols of a variable of the joints.
+pub(super) fn motions<'g>(writer: &Writer<'_, 'g>, variable: JointVariable) -> Vec<Expr<'g>> {
+    let symbols = writer.robot.symbols(variable);
+    symbols.iter().map(|symbol| writer.graph.symbol(symbol)).collect()
 }
 
 /// The polynomials of all coefficients but those of friction, where they are short enough.

@@ -1,5 +1,6 @@
 //! The grouped form: Q = M(q) q̈ + C(q, q̇) q̇ + g(q), a function for each coefficient.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Rational, walk};
 
 use super::coefficients::{Coefficient, Section, Sum, by_name, expanded, motions};
@@ -50,7 +51,7 @@ fn introduction(writer: &Writer<'_, '_>) -> String {
 /// The entries of the mass matrix on and above its diagonal, row by row: Mᵢⱼ = ∂Qᵢ/∂q̈ⱼ.
 fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]) -> Section<'g> {
     let letter = writer.symbols.free_letter(&MASS);
-    let rates = motions(writer, "qdd");
+    let rates = motions(writer, JointVariable::Acceleration);
     let columns: Vec<_> = rates.iter().map(|rate| walk::derivatives(forces, *rate)).collect();
     let mut coefficients = vec![];
     for row in 0..sums.len() {
@@ -85,7 +86,7 @@ fn velocities<'g>(
     let letter = writer.symbols.free_letter(letters);
     let graph = writer.graph;
     let half = graph.number(Rational::new(1, 2).unwrap_or(Rational::ONE));
-    let rates = motions(writer, "qd");
+    let rates = motions(writer, JointVariable::Velocity);
     let second = |first: &Expr<'g>| -> Vec<Vec<Expr<'g>>> {
         let slopes = walk::derivatives(forces, *first);
         rates.iter().map(|rate| walk::derivatives(&slopes, *rate)).collect()

@@ -1,5 +1,6 @@
 //! From a formula to the expression that it stands for.
 
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Function, Graph, Rational};
 use rustc_hash::FxHashMap;
 
@@ -197,7 +198,8 @@ impl<'g> Reader<'g, '_> {
                     let width = if apart || negative { digits.len() } else { 1 };
                     for digits in digits.as_bytes().chunks(width) {
                         let digits = std::str::from_utf8(digits).ok()?;
-                        let joint = self.graph.symbol(&format!("q{digits}"));
+                        let index = digits.parse::<usize>().ok()?.checked_sub(1)?;
+                        let joint = self.graph.symbol(&JointVariable::Position.symbol(index));
                         sum = if negative { sum - joint } else { sum + joint };
                     }
                 }

@@ -5,6 +5,7 @@
 //! order of their factors, higher powers of the first one first.
 
 use robot_model::robot::{Parameter, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::print::default_rank;
 use robot_symbolic::{Expr, View};
 use rustc_hash::FxHashMap;
@@ -55,15 +56,12 @@ impl<'r> Order<'r> {
         if let Some(rank) = self.defined.get(&name) {
             return *rank;
         }
-        let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
-        let number = digits.parse().unwrap_or_default();
         // Motions stand at the end of a term, wrenches at its beginning.
-        match name.strip_suffix(digits) {
-            Some("q") => (9, 0, number),
-            Some("qd") => (9, 1, number),
-            Some("qdd") => (9, 2, number),
-            _ => (0, 0, number),
+        if let Some((variable, index)) = motion(&name) {
+            return (9, variable as u8, index + 1);
         }
+        let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+        (0, 0, digits.parse().unwrap_or_default())
     }
 }
 
@@ -75,11 +73,15 @@ fn is_inertial(parameter: &Parameter) -> bool {
 
 /// Whether a name is a coordinate's or one of its rates': `q1`, `qd2`, `qdd3`.
 pub(crate) fn is_motion(name: &str) -> bool {
-    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    letters.len() < name.len() && matches!(letters, "q" | "qd" | "qdd")
+    motion(name).is_some()
+}
+
+/// The variable of a name that is of a joint's motion.
+fn motion(name: &str) -> Option<(JointVariable, usize)> {
+    JointVariable::parse(name).filter(|(variable, _)| JointVariable::MOTION.contains(variable))
 }
 
 /// Whether a name is a velocity's or an acceleration's.
 pub(crate) fn is_rate(name: &str) -> bool {
-    is_motion(name) && name.starts_with("qd")
+    motion(name).is_some_and(|(variable, _)| variable != JointVariable::Position)
 }

@@ -2,6 +2,7 @@
 
 use robot_dynamics::quantity::Symbol;
 use robot_model::signs::{Accent, Letter};
+use robot_model::variable::JointVariable;
 
 use super::math::{Math, Script};
 
@@ -57,9 +58,9 @@ fn leading(part: &str) -> (Vec<Math>, Vec<Vec<Math>>) {
     let mut characters = letters.chars();
     let first = characters.next();
     let tail = characters.as_str();
-    match (letters, first) {
-        ("qd", _) => (rate(Accent::Dot), index),
-        ("qdd", _) => (rate(Accent::DoubleDot), index),
+    match (JointVariable::from_name(letters), first) {
+        (Some(JointVariable::Velocity), _) => (rate(Accent::Dot), index),
+        (Some(JointVariable::Acceleration), _) => (rate(Accent::DoubleDot), index),
         // J, Jx, Ixx: a letter with axes below.
         (_, Some(first)) if first.is_ascii_uppercase() && !tail.is_empty() && is_axes(tail) => {
             let mut index = axes(tail);

@@ -2,6 +2,7 @@
 
 use robot_model::robot::Robot;
 use robot_model::signs::check_latex;
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Polynomial, walk};
 use rustc_hash::FxHashMap;
 
@@ -44,17 +45,16 @@ impl SymbolTable {
     /// Two symbols that look alike.
     pub fn new(robot: &Robot, trigonometry: Trigonometry) -> Result<SymbolTable, Error> {
         let mut table = SymbolTable::spelled(trigonometry);
-        for number in 1..=robot.degrees_of_freedom() {
-            for prefix in ["q", "qd", "qdd"] {
-                table.add(&format!("{prefix}{number}"), None)?;
+        for index in 0..robot.degrees_of_freedom() {
+            for variable in JointVariable::MOTION {
+                table.add(&variable.symbol(index), None)?;
             }
         }
         for parameter in &robot.parameters {
             table.add(&parameter.name, parameter.latex.as_deref())?;
         }
         for (_, wrench) in robot.tips() {
-            let names = wrench.force.iter().chain(&wrench.moment);
-            for (name, given) in names.zip(&wrench.latex) {
+            for (name, given) in wrench.components().zip(&wrench.latex) {
                 table.add(name, given.as_deref())?;
             }
         }

@@ -1,5 +1,7 @@
 //! A state with its driving forces, for whoever copies the equations.
 
+use robot_model::variable::JointVariable;
+
 use super::{heading, paragraph};
 use crate::document::{Block, Inline, Table};
 use crate::layout::SymbolTable;
@@ -37,7 +39,8 @@ pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -
         vec![Inline::Math(without_index(shape))]
     };
     let driving = vec![Inline::Math(Math::Letter('Q'))];
-    let head = vec![vec![], name("q"), name("qd"), name("qdd"), driving];
+    let [q, qd, qdd] = JointVariable::MOTION.map(|variable| name(variable.name()));
+    let head = vec![vec![], q, qd, qdd, driving];
     let mut blocks = vec![
         heading("A check value"),
         paragraph(

@@ -1,6 +1,7 @@
 //! The list of symbols with their units and values.
 
 use robot_model::robot::{JointKind, Parameter, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::print::exact_text;
 
 use super::heading;
@@ -18,7 +19,7 @@ pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
             JointKind::Revolute => ("angle", "rad"),
             JointKind::Prismatic => ("displacement", "m"),
         };
-        let name = format!("q{}", index + 1);
+        let name = JointVariable::Position.symbol(index);
         items.push(vec![
             Inline::Math(symbols.look(&name)),
             Inline::text(format!(" \u{2014} {position} of the joint {}, {unit}", coordinate.joint)),

@@ -2,6 +2,7 @@
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::robot::{Move, Placement, Robot};
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use super::{heading, paragraph};
@@ -94,7 +95,7 @@ fn carrier(robot: &Robot, link: Option<usize>) -> Cell {
 fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     let mut rows = vec![];
     for (index, link) in robot.links.iter().enumerate() {
-        let name = format!("q{}", link.joint.coordinate + 1);
+        let name = JointVariable::Position.symbol(link.joint.coordinate);
         rows.push(vec![
             vec![Inline::Math(Math::integer(index + 1))],
             vec![Inline::text(&link.name)],

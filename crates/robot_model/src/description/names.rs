@@ -12,58 +12,16 @@ use crate::variable::{JointVariable, WRENCH};
 /// No name is longer.
 const MAX_NAME: usize = 64;
 
-/// Words of the languages that code is generated in; those of several are listed once.
-const KEYWORDS: &[(&str, &str)] = &[
-    (
-        "abstract as async await become box break const continue crate do dyn else enum extern \
-      false final fn for gen if impl in let loop macro match mod move mut override priv pub ref \
-      return self static struct super trait true try type typeof union unsafe unsized use \
-      virtual where while yield Self",
-        "Rust",
-    ),
-    (
-        "auto bool case char constexpr default double float goto inline int long nullptr register \
-      restrict short signed sizeof switch thread_local typedef unsigned void volatile",
-        "C",
-    ),
-    (
-        "and assert class def del elif except finally from global import is lambda nonlocal not or \
-      pass raise with None True False",
-        "Python",
-    ),
-];
-
-/// What equations and code call by themselves.
+/// What equations and states call by themselves, and the functions of formulas.
 const OWN: &[&str] = &[
-    "t",
-    WRENCH,
-    "parameters",
-    "abs",
-    "acos",
-    "asin",
-    "atan",
-    "atan2",
-    "cos",
-    "exp",
-    "log",
-    "pi",
-    "pow",
-    "sign",
-    "sin",
-    "sqrt",
-    "tan",
-    "tanh",
-    "f32",
-    "f64",
-    "core",
-    "std",
-    "alloc",
+    "t", WRENCH, "abs", "acos", "asin", "atan", "atan2", "cos", "exp", "log", "pi", "pow", "sign",
+    "sin", "sqrt", "tan", "tanh",
 ];
 
 /// What a name is for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// `[A-Za-z_][A-Za-z0-9_]{0,63}` that no language keeps for itself.
+    /// `[A-Za-z_][A-Za-z0-9_]{0,63}` that means nothing else in a robot file or an equation.
     Identifier,
     /// `[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}`, not `base`.
     Label,
@@ -146,15 +104,11 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
         .help(format!("names are {rule}"))
 }
 
-/// Who keeps the name for himself.
+/// Why a name is reserved, if it is. Words of the languages that code is generated in are not: a printer of code
+/// adapts them.
 pub(super) fn reserved(name: &str) -> Option<String> {
-    for (words, language) in KEYWORDS {
-        if words.split_whitespace().any(|word| word == name) {
-            return Some(format!("a word of {language}"));
-        }
-    }
     if OWN.contains(&name) || JointVariable::from_name(name).is_some() {
-        return Some("a name of equations and generated code".to_owned());
+        return Some("a name of equations".to_owned());
     }
     is_coordinate(name).then(|| "a joint's position, velocity, acceleration or force".to_owned())
 }
@@ -238,11 +192,12 @@ mod tests {
     }
 
     #[test]
-    fn words_of_code_and_equations_are_reserved() {
-        for name in ["fn", "Self", "lambda", "double", "q1", "qdd12", "Q3", "sin", "t", "pi"] {
+    fn words_of_equations_are_reserved_and_those_of_code_are_not() {
+        for name in ["q1", "qdd12", "Q3", "sin", "t", "pi", "tau", "wrench"] {
             assert!(reserved(name).is_some(), "{name}");
         }
-        for name in ["c1", "s1", "q1x", "g", "Fx6", "qx", "m", "T"] {
+        let of_code = ["fn", "Self", "lambda", "double", "end", "f64", "parameters"];
+        for name in ["c1", "s1", "q1x", "g", "Fx6", "qx", "m", "T"].into_iter().chain(of_code) {
             assert!(reserved(name).is_none(), "{name}");
         }
     }

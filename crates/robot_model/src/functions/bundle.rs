@@ -29,26 +29,19 @@ pub struct Bundle {
 impl Bundle {
     /// Whose name it is; `None` where a bundle can bear it.
     ///
-    /// Beside the functions themselves there are their forms over sines, scalars and slices, a
-    /// function for each frame, and what a module has anyhow. Names that differ in case or underscores
-    /// alone are the same here, for the type that holds the outputs is named after the bundle.
+    /// Functions have names, those of frames begin with `jacobian_`, and `all` means all functions. Names that
+    /// differ in case or underscores alone are the same here: a printer of code may name types after bundles. What
+    /// else it needs names for makes way for bundles.
     #[must_use]
     pub fn owner_of(name: &str) -> Option<&'static str> {
-        const OF_MODULES: [&str; 4] = ["model", "new", "nominal", "withpayload"];
-        const FORMS: [&str; 6] = ["_sc", "_angles", "_generic", "_batch", "_block", "_parallel"];
-        let lower = name.to_lowercase();
         let folded = fold(name);
         if FunctionKind::ALL.iter().any(|kind| fold(kind.name()) == folded) {
             return Some("the name of a function");
         }
-        if lower.starts_with("jacobian_") {
+        if name.to_lowercase().starts_with("jacobian_") {
             return Some("a name of the functions of a frame");
         }
-        if FORMS.iter().any(|form| lower.ends_with(form)) {
-            return Some("a name of the forms of a function");
-        }
-        let taken = OF_MODULES.contains(&folded.as_str()) || folded == ALL_FUNCTIONS;
-        taken.then_some("a name that code has for itself")
+        (folded == ALL_FUNCTIONS).then_some("the word for all functions")
     }
 
     /// Whether two bundles would be confused: their names differ in case or underscores alone.

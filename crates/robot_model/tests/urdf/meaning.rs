@@ -135,8 +135,11 @@ fn names_become_names_of_robot_files() {
     assert_eq!(described.robot.coordinates[0].joint, "_-_");
     let renamed = described.choices.iter().filter(|one| one.code == code::TAKEN_NAME).count();
     assert_eq!(renamed, 3, "{}", described.choices);
-    let text = one_link(BODY, "").replace("robot name=\"arm\"", "robot name=\"fn\"");
-    assert_eq!(crate::read(&text).robot.name, "fn_robot");
+    for (written, name) in [("tau", "tau_robot"), ("fn", "fn")] {
+        let robot = format!("robot name=\"{written}\"");
+        let text = one_link(BODY, "").replace("robot name=\"arm\"", &robot);
+        assert_eq!(crate::read(&text).robot.name, name);
+    }
     // Names that become one are refused, and so is what hides something.
     let text = one_link(BODY, "").replace("ground", "a b").replace("\"arm\"", "\"a/b\"");
     assert_eq!(codes(&errors(&text)), [code::DUPLICATE]);

@@ -6,6 +6,7 @@ use robot_check::difference::{
     Change, Difference, Equation, Item, Property, State, Term, Torque, Torques,
 };
 use robot_model::robot::JointKind;
+use robot_model::variable::JointVariable;
 use serde_json::{Map, Value, json};
 
 /// A part for each kind of difference.
@@ -189,7 +190,11 @@ fn torques_json(found: &Torques) -> Value {
     let joint = |one: &Torque| {
         let State { q, qd, qdd } = &one.state;
         let [a, b] = one.torques;
-        let state = json!({ "q": q, "qd": qd, "qdd": qdd });
+        let state: Map<String, Value> = JointVariable::MOTION
+            .into_iter()
+            .zip([q, qd, qdd])
+            .map(|(variable, values)| (variable.name().to_owned(), json!(values)))
+            .collect();
         json!({ "joint": one.joint, "torques": one.torques, "change": b - a, "state": state })
     };
     json!({

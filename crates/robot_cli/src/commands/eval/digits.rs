@@ -1,6 +1,7 @@
 //! How many digits the accelerations of states have.
 
 use robot_build::{Options, Pivot, Pivots, Programs, Trigonometry};
+use robot_model::variable::JointVariable;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -51,6 +52,6 @@ impl Digits {
 
     fn smallest(&self, state: &State) -> Option<Pivot> {
         // Whether the state is complete, the function itself has said.
-        self.0.as_ref()?.smallest(state.array("q")?).ok().flatten()
+        self.0.as_ref()?.smallest(state.array(JointVariable::Position.name())?).ok().flatten()
     }
 }

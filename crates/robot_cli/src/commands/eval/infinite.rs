@@ -28,7 +28,9 @@ pub(super) fn messages(
     // The eigenvectors of a singular matrix tell every coordinate; where it is not quite singular, its
     // pivots tell one.
     let of_matrix = || digits.matter().then(|| singular(robot, settings, state)).flatten();
-    let angle = state.array("q").and_then(|q| too_large_angle(robot, q, trigonometry));
+    let angle = state
+        .array(JointVariable::Position.name())
+        .and_then(|q| too_large_angle(robot, q, trigonometry));
     let angle = angle.map(|why| format!("{why}, or --trigonometry standard"));
     let why = angle.or_else(of_matrix).or_else(|| digits.singular(state));
     let why =
@@ -66,11 +68,13 @@ fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<St
         set.or_else(nominal).unwrap_or(f64::NAN)
     };
     let mechanism = Mechanism::from_robot(robot, &value).ok();
-    let free = mechanism.zip(state.array("q")).map(|(mechanism, q)| mechanism.undetermined(q));
+    let free = mechanism
+        .zip(state.array(JointVariable::Position.name()))
+        .map(|(mechanism, q)| mechanism.undetermined(q));
     match free.and_then(Result::ok).as_deref() {
         None | Some([]) => None,
         Some(free) => {
-            let q = state.array("q").unwrap_or_default();
+            let q = state.array(JointVariable::Position.name()).unwrap_or_default();
             let at: Vec<String> = free
                 .iter()
                 .map(|index| {

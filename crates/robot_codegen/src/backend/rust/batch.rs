@@ -10,12 +10,12 @@ use syn::{Expr, ImplItem, Pat, Stmt, Type, parse_quote};
 
 use super::doc;
 use super::function::Methods;
-use super::items::derived;
+use super::namer::derived;
 use super::options::Parallel;
 use super::outputs;
-use super::scope::used_inputs;
 use super::syntax;
 use super::variables::Variables;
+use crate::backend::common::used_inputs;
 use crate::trigonometry::Trigonometry;
 
 /// As many blocks one thread computes at least: some microseconds of work.

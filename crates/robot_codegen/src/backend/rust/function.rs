@@ -6,14 +6,14 @@ use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
 
 use super::body::Body;
 use super::doc;
-use super::items::{derived, operations_text};
-use super::namer::{Namer, identifier};
+use super::namer::{Namer, derived, identifier};
 use super::number::Number;
 use super::outputs;
-use super::parts::{self, Frame};
-use super::scope::{Scope, used_inputs};
+use super::parts::{self, CutFunction};
+use super::scope::Scope;
 use super::syntax;
 use super::variables::Variables;
+use crate::backend::common::{self, used_inputs};
 use crate::module::Function;
 use crate::program::{Operation, Program, Source};
 use crate::trigonometry::Trigonometry;
@@ -25,7 +25,7 @@ const INLINE_LIMIT: usize = 2000;
 pub(super) struct Names {
     pub(super) plain: Ident,
     pub(super) sc: Ident,
-    apart: Ident,
+    out_of_line: Ident,
     angles: Ident,
 }
 
@@ -34,31 +34,30 @@ impl Names {
         Names {
             plain: plain.clone(),
             sc: derived(namer, plain, "sc"),
-            apart: derived(namer, plain, "apart"),
+            out_of_line: derived(namer, plain, "apart"),
             angles: derived(namer, plain, "angles"),
         }
     }
 }
 
 /// All items of one function.
-pub(super) fn items(scope: &mut Scope<'_>, function: &Function) -> Vec<Item> {
-    let plain = scope.methods.name(&function.name);
+pub(super) fn items(scope: &mut Scope<'_>, function: &Function, plain: &Ident) -> Vec<Item> {
     let mut items = vec![];
     items.extend(outputs::type_item(scope, function, scope.options.generic));
     let number = scope.number.clone();
     let mut methods = vec![];
-    let mut printer = Methods::new(scope, function, &number, &plain);
+    let mut printer = Methods::new(scope, function, &number, plain);
     methods.extend(printer.all());
     if let Some(lanes) = printer.scope.options.batch {
         methods.extend(printer.batch(lanes));
     }
     if scope.options.generic {
-        let generic = derived(&mut scope.methods, &plain, "generic");
+        let generic = derived(&mut scope.methods, plain, "generic");
         methods.extend(Methods::new(scope, function, &number.generic(), &generic).all());
     }
     items.push(syntax::impl_model(methods));
     if !scope.has_parameters() {
-        items.push(free_function(scope, function, &plain));
+        items.push(free_function(scope, function, plain));
     }
     items
 }
@@ -72,7 +71,7 @@ pub(super) struct Methods<'s, 'a> {
 }
 
 /// The statements of a program, its results, and the functions of its parts.
-struct Run {
+struct Printed {
     statements: Vec<Stmt>,
     results: Vec<Expr>,
     parts: Vec<ImplItem>,
@@ -98,7 +97,7 @@ impl<'s, 'a> Methods<'s, 'a> {
             methods.extend(self.angles());
         }
         methods.extend(self.arithmetic_of_angles());
-        methods.extend(self.has_wrapper().then(|| self.wrapper()));
+        methods.extend(self.has_method_out_of_line().then(|| self.method_out_of_line()));
         methods
     }
 
@@ -107,25 +106,25 @@ impl<'s, 'a> Methods<'s, 'a> {
     /// registers, it comes out 3 to 7 % slower inlined, where it has more inputs than them. Without
     /// multiply-adds LLVM makes vectors of sines that were stored a moment ago, and waits for them
     /// (`docs/performance.md`).
-    fn is_apart(&self) -> bool {
+    fn is_out_of_line(&self) -> bool {
         let function = self.function;
         let calls = self.scope.options.trigonometry == Trigonometry::Standard;
         calls && used_inputs(function, &function.core).contains(&true)
     }
 
     /// Whether that takes a method of its own, for loops need the arithmetic inlined.
-    fn has_wrapper(&self) -> bool {
-        self.is_apart() && self.is_in_loops()
+    fn has_method_out_of_line(&self) -> bool {
+        self.is_out_of_line() && self.is_in_loops()
     }
 
     /// The arithmetic out of line.
-    fn wrapper(&mut self) -> ImplItem {
+    fn method_out_of_line(&mut self) -> ImplItem {
         let function = self.function;
         let variables = Variables::new(self.scope, function);
         let used = used_inputs(function, &function.core);
         let parameters = self.sc_parameters(&variables, &used);
         let (s, c) = (&variables.sines, &variables.cosines);
-        let (name, method) = (&self.names.apart, &self.names.sc);
+        let (name, method) = (&self.names.out_of_line, &self.names.sc);
         let arguments = variables.chosen(&used);
         let returned = outputs::returned(self.scope, function, self.number);
         let inline = out_of_line(&quote!(inline(always)));
@@ -156,7 +155,8 @@ impl<'s, 'a> Methods<'s, 'a> {
         let circular = self.number.circular_array();
         let (s, c) = (&variables.sines, &variables.cosines);
         statements.push(parse_quote!(let (#s, #c) = #circular(#angles);));
-        let method = if self.has_wrapper() { &self.names.apart } else { &self.names.sc };
+        let method =
+            if self.has_method_out_of_line() { &self.names.out_of_line } else { &self.names.sc };
         let arguments = variables.chosen(&in_core);
         let value = parse_quote!(self.#method(&#s, &#c, #(#arguments),*));
         let parameters = self.input_parameters(&variables, &vec![true; used.len()]);
@@ -170,7 +170,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         if self.has_plain_angles() {
             let takes = variables.take_entries(function, &function.angles);
             let name = self.names.plain.clone();
-            let array = syntax::array(self.run(&function.angles, variables, &name).results);
+            let array = syntax::array(self.print(&function.angles, variables, &name).results);
             return (takes, parse_quote!(&#array));
         }
         let used = used_inputs(function, &function.angles);
@@ -184,12 +184,12 @@ impl<'s, 'a> Methods<'s, 'a> {
         let mut variables = Variables::new(self.scope, function);
         let used = used_inputs(function, &function.angles);
         let mut statements = variables.take_entries(function, &function.angles);
-        let run = self.run(&function.angles, &mut variables, &name);
-        statements.extend(run.statements);
+        let printed = self.print(&function.angles, &mut variables, &name);
+        statements.extend(printed.statements);
         let text = format!("The angles whose sines and cosines `{}` takes, in rad.", self.names.sc);
         let docs = doc::attributes(&[text]);
         let parameters = self.input_parameters(&variables, &used);
-        let returned = syntax::array_type(&self.number.ty(), run.results.len());
+        let returned = syntax::array_type(&self.number.ty(), printed.results.len());
         let (generics, clause) = (self.number.generics(), self.number.where_clause());
         let inline = self.inline();
         let signature = parse_quote! {
@@ -198,8 +198,8 @@ impl<'s, 'a> Methods<'s, 'a> {
             #[must_use]
             pub fn #name #generics (&self, #(#parameters),*) -> #returned #clause {}
         };
-        let method = syntax::with_body(signature, statements, syntax::array(run.results));
-        [method].into_iter().chain(run.parts).collect()
+        let method = syntax::with_body(signature, statements, syntax::array(printed.results));
+        [method].into_iter().chain(printed.parts).collect()
     }
 
     /// The arithmetic of a function without angles.
@@ -242,14 +242,14 @@ impl<'s, 'a> Methods<'s, 'a> {
     ) -> Vec<ImplItem> {
         let function = self.function;
         statements.extend(variables.take_entries(function, &function.core));
-        let run = self.run(&function.core, &mut variables, name);
-        statements.extend(run.statements);
-        let value = outputs::value(self.scope, function, run.results);
+        let printed = self.print(&function.core, &mut variables, name);
+        statements.extend(printed.statements);
+        let value = outputs::value(self.scope, function, printed.results);
         let method = self.method(name, docs, parameters, statements, value);
-        [method].into_iter().chain(run.parts).collect()
+        [method].into_iter().chain(printed.parts).collect()
     }
 
-    fn run(&mut self, program: &Program, variables: &mut Variables, name: &Ident) -> Run {
+    fn print(&mut self, program: &Program, variables: &mut Variables, name: &Ident) -> Printed {
         let mut namer = std::mem::take(&mut variables.namer);
         let (number, fields) = (self.number, self.scope.fields.clone());
         let source_name = |source: Source| variables.name(source);
@@ -259,11 +259,16 @@ impl<'s, 'a> Methods<'s, 'a> {
         };
         let limits = &self.scope.options.limits;
         let body = Body::new(program, limits, number, &load, &mut namer);
-        let frame =
-            Frame { number, name, is_method: true, is_const: false, source_name: &source_name };
+        let cut = CutFunction {
+            number,
+            name,
+            is_method: true,
+            is_const: false,
+            source_name: &source_name,
+        };
         let results = body.results();
-        let (statements, parts) = parts::statements(self.scope, &body, &frame);
-        Run { statements, results, parts }
+        let (statements, parts) = parts::statements(self.scope, &body, &cut);
+        Printed { statements, results, parts }
     }
 
     fn method(
@@ -276,8 +281,10 @@ impl<'s, 'a> Methods<'s, 'a> {
     ) -> ImplItem {
         let docs = doc::attributes(docs);
         let (generics, clause) = (self.number.generics(), self.number.where_clause());
-        let apart = *name == self.names.sc && self.is_apart() && !self.is_in_loops();
-        let inline = if apart { Some(out_of_line(&quote!(inline))) } else { self.inline() };
+        let out_of_line_here =
+            *name == self.names.sc && self.is_out_of_line() && !self.is_in_loops();
+        let inline =
+            if out_of_line_here { Some(out_of_line(&quote!(inline))) } else { self.inline() };
         let returned = outputs::returned(self.scope, self.function, self.number);
         let signature = parse_quote! {
             #(#docs)*
@@ -313,18 +320,18 @@ impl<'s, 'a> Methods<'s, 'a> {
 
     fn doc(&self) -> Vec<String> {
         let function = self.function;
-        let mut lines = doc::paragraphs(&function.doc, &function.name);
+        let mut lines = common::paragraphs(&function.doc, &function.name);
         lines.push(String::new());
         for input in &function.inputs {
-            let meaning = doc::array(&input.doc, &input.name, &input.unit, &[]);
+            let meaning = common::quantity(&input.doc, &input.name, &input.unit, &[]);
             lines.push(format!("- `{}`: {meaning}", identifier(&input.name)));
         }
         if let [output] = function.outputs.as_slice() {
-            let meaning = doc::array(&output.doc, &output.name, &output.unit, &output.shape);
+            let meaning = common::quantity(&output.doc, &output.name, &output.unit, &output.shape);
             lines.extend([String::new(), format!("Returns {meaning}")]);
         }
         let counts = self.scope.module.counts(function);
-        lines.extend([String::new(), format!("{}.", operations_text(&counts.call))]);
+        lines.extend([String::new(), format!("{}.", common::operations(&counts.call))]);
         lines
     }
 
@@ -343,9 +350,10 @@ impl<'s, 'a> Methods<'s, 'a> {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
         let name = self.names.angles.clone();
-        let run = self.run(&function.angles, &mut variables, &name);
-        if run.statements.is_empty() {
-            let texts = run.results.iter().map(|angle| format!("`{}`", angle.to_token_stream()));
+        let printed = self.print(&function.angles, &mut variables, &name);
+        if printed.statements.is_empty() {
+            let texts =
+                printed.results.iter().map(|angle| format!("`{}`", angle.to_token_stream()));
             texts.collect()
         } else {
             vec![format!("those of `{name}`")]

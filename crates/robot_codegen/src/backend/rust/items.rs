@@ -7,20 +7,20 @@ use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
 
 use super::body::Body;
 use super::doc;
-use super::namer::Namer;
-use super::options::{ConstantValue, Scalar};
-use super::parts::{self, Frame};
+use super::number::scalar_type;
+use super::parts::{self, CutFunction};
 use super::scope::Scope;
 use super::syntax;
+use crate::backend::common::{self, ConstantValue, Scalar};
 use crate::counts::Counts;
 use crate::program::{Operation, Program, Source};
-use crate::spec::ParameterSpec;
 
 /// The caller's constants.
 pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
     let items = scope.options.constants.iter().zip(&scope.constants);
     let items = items.map(|(item, name)| {
-        let docs = doc::attributes(&doc::paragraphs(std::slice::from_ref(&item.doc), &item.name));
+        let docs =
+            doc::attributes(&common::paragraphs(std::slice::from_ref(&item.doc), &item.name));
         match &item.value {
             ConstantValue::Size(size) => {
                 let size = Literal::usize_unsuffixed(*size);
@@ -52,10 +52,10 @@ pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
     }
     let specs = &scope.module.parameters;
     let fields = specs.iter().zip(&scope.parameters).map(|(spec, name)| {
-        let docs = doc::attributes(&[parameter_doc(spec)]);
+        let docs = doc::attributes(&[common::parameter(spec)]);
         quote!(#(#docs)* pub #name: f64)
     });
-    let title = doc::sanitise_line(&scope.module.name);
+    let title = common::markdown_line(&scope.module.name);
     let docs = doc::attributes(&[format!("The parameters of {title}.")]);
     let mut items = vec![parse_quote! {
         #(#docs)*
@@ -81,20 +81,9 @@ pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
     items
 }
 
-/// `mass of link 1, in kg; nominally 12.`
-fn parameter_doc(spec: &ParameterSpec) -> String {
-    let meaning = doc::sanitise_line(&spec.doc);
-    let mut line = doc::array(&meaning, &spec.name, &spec.unit, &[]);
-    if let Some(value) = spec.nominal {
-        line.pop();
-        line.push_str(&format!("; nominally {value:?}."));
-    }
-    line
-}
-
 /// `pub struct Model` and its constructor.
 pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
-    let title = doc::sanitise_line(&scope.module.name);
+    let title = common::markdown_line(&scope.module.name);
     if !scope.has_parameters() {
         let docs = doc::attributes(&[format!("The model {title}: its figures are in the code.")]);
         return vec![
@@ -108,7 +97,7 @@ pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
     let docs = doc::attributes(&[format!(
         "The model {title}: what depends on its parameters alone, computed once."
     )]);
-    let (fields, ty) = (&scope.fields, scope.options.scalar.ty());
+    let (fields, ty) = (&scope.fields, scalar_type(scope.options.scalar));
     vec![
         parse_quote! {
             #(#docs)*
@@ -124,7 +113,7 @@ fn constructor(scope: &mut Scope<'_>) -> Item {
     let mut namer = scope.variables();
     let parameters = namer.name("parameters");
     let specs = scope.module.parameters.iter();
-    let locals: Vec<Ident> = specs.map(|spec| namer.name(&spec.name)).collect();
+    let locals = namer.names(specs.map(|spec| spec.name.as_str()));
     let source_name = |source: Source| match source {
         Source::Parameter(index) => locals.get(index as usize).cloned(),
         _ => None,
@@ -136,7 +125,7 @@ fn constructor(scope: &mut Scope<'_>) -> Item {
     let number = scope.constructor_number.clone();
     let body = Body::new(program, &scope.options.limits, &number, &load, &mut namer);
     let (is_const, name) = (is_const(program), format_ident!("new"));
-    let frame = Frame {
+    let cut = CutFunction {
         number: &number,
         name: &name,
         is_method: false,
@@ -144,7 +133,7 @@ fn constructor(scope: &mut Scope<'_>) -> Item {
         source_name: &source_name,
     };
     let mut statements = vec![take_parameters(scope, program, &parameters, &locals)];
-    let (calls, part_items) = parts::statements(scope, &body, &frame);
+    let (calls, part_items) = parts::statements(scope, &body, &cut);
     statements.extend(calls);
     let values = body.results().into_iter().map(|value| stored(scope, value));
     let fields = scope.fields.iter().zip(values);
@@ -171,7 +160,7 @@ fn stored(scope: &Scope<'_>, value: Expr) -> Expr {
             attrs: vec![],
             expr: Box::new(value),
             as_token: syn::token::As::default(),
-            ty: Box::new(scope.options.scalar.ty()),
+            ty: Box::new(scalar_type(scope.options.scalar)),
         }),
     }
 }
@@ -208,7 +197,7 @@ fn constructor_doc(scope: &Scope<'_>) -> Vec<String> {
     vec![
         "Computes what depends on the parameters alone.".to_owned(),
         String::new(),
-        format!("{}.", operations_text(&counts)),
+        format!("{}.", common::operations(&counts)),
     ]
 }
 
@@ -222,28 +211,4 @@ fn nominal_model(scope: &Scope<'_>, is_const: bool) -> Option<ImplItem> {
             pub const NOMINAL: Model = Model::new(&Parameters::NOMINAL);
         }
     })
-}
-
-/// `12 multiplications, 8 additions, 1 division`
-pub(super) fn operations_text(counts: &Counts) -> String {
-    let kinds = [
-        (counts.mul, "multiplication"),
-        (counts.add, "addition"),
-        (counts.div, "division"),
-        (counts.sqrt, "square root"),
-        (counts.other, "other function"),
-        (counts.sin, "sine"),
-        (counts.cos, "cosine"),
-    ];
-    let texts: Vec<String> = kinds
-        .into_iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, kind)| format!("{count} {kind}{}", if count == 1 { "" } else { "s" }))
-        .collect();
-    if texts.is_empty() { "No operations".to_owned() } else { texts.join(", ") }
-}
-
-/// A name that a namer in use already gave, with something added.
-pub(super) fn derived(namer: &mut Namer, base: &Ident, suffix: &str) -> Ident {
-    namer.name(&format_ident!("{base}_{suffix}").to_string())
 }

@@ -10,13 +10,16 @@ mod body;
 mod doc;
 mod function;
 mod items;
+mod keywords;
 mod namer;
+mod names;
 mod number;
 mod options;
 mod outputs;
 mod parts;
 mod scope;
 mod setters;
+pub mod stack;
 mod syntax;
 mod variables;
 
@@ -24,15 +27,40 @@ use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{Item, parse_quote};
 
-pub use self::doc::sanitise as markdown;
 pub use self::namer::identifier;
-pub use self::options::{
-    ConstantItem, ConstantValue, Parallel, RustOptions, Scalar, Setter, SetterArgument, Wrapping,
-};
+pub use self::names::{Names, names, output_names};
+pub use self::options::{Parallel, RustOptions, Wrapping};
 use self::scope::Scope;
 pub use self::scope::check_runtime_path;
+use super::common;
+use super::{Language, SourceFile, Target};
 use crate::error::Errors;
 use crate::module::Module;
+use crate::program::Limits;
+
+/// Rust.
+///
+/// rustc overflows its stack on a few thousand `let`s in one block; expressions of a few operations and functions of
+/// 8,000 statements it compiles well.
+pub const LANGUAGE: Language = Language {
+    name: "Rust",
+    extension: "rs",
+    reserved: keywords::RESERVED,
+    limits: Limits { expression: 6, block: 256, function: 8000, part: 1024 },
+};
+
+impl Target for RustOptions {
+    fn language(&self) -> &'static Language {
+        &LANGUAGE
+    }
+
+    /// One file, whatever the [`Wrapping`].
+    fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
+        let text = generate(module, self)?.to_text();
+        let name = format!("{}.{}", identifier(&module.name), LANGUAGE.extension);
+        Ok(vec![SourceFile { name, text }])
+    }
+}
 
 /// The lints that generated code cannot keep, each for a reason: names come from robot files, and
 /// straight-line arithmetic is neither short nor sparing with digits.
@@ -78,7 +106,7 @@ impl RustModule {
     pub fn to_text(&self) -> String {
         let mut text = String::new();
         for line in &self.header {
-            text.push_str(format!("// {}", doc::comment_line(line)).trim_end());
+            text.push_str(format!("// {}", common::comment_line(line)).trim_end());
             text.push('\n');
         }
         if !text.is_empty() {
@@ -107,10 +135,10 @@ pub fn generate(module: &Module, options: &RustOptions) -> Result<RustModule, Er
     items.extend(items::model(&mut scope));
     if scope.has_parameters() {
         let is_const = items::is_const(&module.constructor);
-        items.extend(setters::items(&mut scope, is_const));
+        items.extend(setters::items(&scope, is_const));
     }
-    for function in &module.functions {
-        items.extend(function::items(&mut scope, function));
+    for (function, name) in module.functions.iter().zip(scope.functions.clone()) {
+        items.extend(function::items(&mut scope, function, &name));
     }
     Ok(RustModule {
         header: options.header.clone(),
@@ -128,7 +156,7 @@ fn wrap(module: &Module, options: &RustOptions, items: Vec<Item>) -> Vec<Item> {
         Wrapping::Items => items,
         Wrapping::Module => {
             let name = namer::Namer::default().name(&module.name);
-            let mut docs = doc::paragraphs(&module.doc, &module.name);
+            let mut docs = common::paragraphs(&module.doc, &module.name);
             docs.push(format!("- {}", options.trigonometry.range_of_angles()));
             let docs = doc::attributes(&docs);
             let lints = ALLOWED_LINTS.iter();

@@ -1,165 +1,61 @@
-//! Identifiers of Rust from any text.
+//! Identifiers of Rust, given once in a scope.
 
 use proc_macro2::{Ident, Span};
-use rustc_hash::FxHashSet;
 
-/// The words that cannot be identifiers, or mean something else in the places where names stand.
-const RESERVED: [&str; 56] = [
-    "Self",
-    "abstract",
-    "as",
-    "async",
-    "await",
-    "become",
-    "box",
-    "break",
-    "const",
-    "continue",
-    "crate",
-    "do",
-    "dyn",
-    "else",
-    "enum",
-    "extern",
-    "false",
-    "final",
-    "fn",
-    "for",
-    "gen",
-    "if",
-    "impl",
-    "in",
-    "let",
-    "loop",
-    "macro",
-    "match",
-    "mod",
-    "move",
-    "mut",
-    "override",
-    "priv",
-    "pub",
-    "ref",
-    "return",
-    "self",
-    "static",
-    "struct",
-    "super",
-    "trait",
-    "true",
-    "try",
-    "type",
-    "typeof",
-    "union",
-    "unsafe",
-    "unsized",
-    "use",
-    "virtual",
-    "where",
-    "while",
-    "yield",
-    "macro_rules",
-    "raw",
-    "safe",
-];
+use super::keywords::RESERVED;
+use crate::backend::common;
+use crate::module::Module;
 
-/// Gives names in one scope: each is an identifier, and none is given twice.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Namer {
-    taken: FxHashSet<String>,
+/// The common namer for Rust.
+#[derive(Clone, Debug)]
+pub(super) struct Namer(common::Namer);
+
+impl Default for Namer {
+    fn default() -> Namer {
+        Namer::with(&[])
+    }
 }
 
 impl Namer {
     /// A namer whose scope already has some names.
     pub(super) fn with(names: &[&str]) -> Namer {
-        Namer { taken: names.iter().map(|name| (*name).to_owned()).collect() }
+        Namer(common::Namer::new(RESERVED, names))
     }
 
     /// An identifier as near to `text` as can be.
     pub(super) fn name(&mut self, text: &str) -> Ident {
-        let base = identifier(text);
-        let mut name = base.clone();
-        let mut number = 2;
-        while !self.taken.insert(name.clone()) {
-            name = format!("{base}_{number}");
-            number += 1;
-        }
-        Ident::new(&name, Span::call_site())
+        ident(&self.0.name(text))
+    }
+
+    /// An identifier for each of several texts, of which those that can stand as they are stay.
+    pub(super) fn names<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>) -> Vec<Ident> {
+        self.0.names(texts).iter().map(|name| ident(name)).collect()
+    }
+
+    /// Names for the fields of a module's model.
+    pub(super) fn fields(&mut self, module: &Module) -> Vec<String> {
+        common::field_names(module, &mut self.0)
     }
 }
 
-/// ASCII letters, digits and underscores of the text; a keyword gets an underscore.
+/// The identifier of a name that a namer gave.
+pub(super) fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// An identifier of Rust as near to `text` as can be: ASCII letters, digits and underscores; a reserved word gets an
+/// underscore.
 #[must_use]
 pub fn identifier(text: &str) -> String {
-    let mut name = String::new();
-    for character in text.chars().take(64) {
-        match character {
-            'a'..='z' | 'A'..='Z' | '0'..='9' => name.push(character),
-            // Other letters by their code point: few enough that nobody needs a table.
-            _ if character.is_alphabetic() => {
-                name.push_str(&format!("u{:x}", u32::from(character)));
-            }
-            _ if name.ends_with('_') || name.is_empty() => {}
-            _ => name.push('_'),
-        }
-    }
-    while name.ends_with('_') {
-        name.pop();
-    }
-    if name.is_empty() || name.starts_with(|first: char| first.is_ascii_digit()) {
-        name.insert(0, 'n');
-    }
-    if RESERVED.contains(&name.as_str()) {
-        name.push('_');
-    }
-    name
+    common::identifier(text, RESERVED)
 }
 
-/// `link_wrenches` becomes `LinkWrenches`.
+/// The name of a type: `link_wrenches` becomes `LinkWrenches`.
 pub(super) fn type_name(text: &str) -> String {
-    let words = identifier(text);
-    let mut name = String::new();
-    for word in words.split('_') {
-        let mut characters = word.chars();
-        name.extend(characters.next().map(|first| first.to_ascii_uppercase()));
-        name.push_str(characters.as_str());
-    }
-    if RESERVED.contains(&name.as_str()) {
-        name.push('_');
-    }
-    name
+    common::type_name(text, RESERVED)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn any_text_becomes_an_identifier() {
-        for (text, expected) in [
-            ("q1", "q1"),
-            ("M_l5", "M_l5"),
-            ("type", "type_"),
-            ("}fn x(){}", "fn_x"),
-            ("5th joint", "n5th_joint"),
-            ("", "n"),
-            ("___", "n"),
-            ("θ1", "u3b81"),
-            ("a\nb", "a_b"),
-            ("elbow-yaw", "elbow_yaw"),
-        ] {
-            assert_eq!(identifier(text), expected);
-            assert!(syn::parse_str::<Ident>(&identifier(text)).is_ok(), "{text}");
-        }
-        assert_eq!(type_name("link_wrenches"), "LinkWrenches");
-        assert_eq!(type_name("self"), "Self_");
-    }
-
-    #[test]
-    fn names_are_given_once() {
-        let mut namer = Namer::with(&["q"]);
-        assert_eq!(namer.name("q"), "q_2");
-        assert_eq!(namer.name("q 2"), "q_2_2");
-        assert_eq!(namer.name("q"), "q_3");
-    }
+/// A name that a namer in use already gave, with something added.
+pub(super) fn derived(namer: &mut Namer, base: &Ident, suffix: &str) -> Ident {
+    namer.name(&format!("{base}_{suffix}"))
 }

@@ -3,8 +3,8 @@
 use proc_macro2::Ident;
 use syn::{Expr, Type, parse_quote};
 
-use super::options::Scalar;
 use super::syntax;
+use crate::backend::common::Scalar;
 use crate::trigonometry::Trigonometry;
 
 /// The number type that one function computes with.
@@ -54,7 +54,7 @@ impl Number {
     /// The type.
     pub(super) fn ty(&self) -> Type {
         match self.kind {
-            Kind::Scalar(scalar) => scalar.ty(),
+            Kind::Scalar(scalar) => scalar_type(scalar),
             Kind::Generic => parse_quote!(T),
         }
     }
@@ -77,8 +77,7 @@ impl Number {
 
     pub(super) fn constant(&self, value: f64) -> Expr {
         match self.kind {
-            Kind::Scalar(Scalar::F64) => syntax::float(value),
-            Kind::Scalar(Scalar::F32) => syntax::single_float(value as f32),
+            Kind::Scalar(scalar) => syntax::constant(scalar, value),
             Kind::Generic => {
                 let value = syntax::float(value);
                 parse_quote!(T::from_f64(#value))
@@ -134,6 +133,14 @@ impl Number {
             Trigonometry::Standard => parse_quote!(#runtime::std_sin_cos_array),
             Trigonometry::Polynomial => parse_quote!(#runtime::sin_cos_array),
         }
+    }
+}
+
+/// The type of Rust.
+pub(super) fn scalar_type(scalar: Scalar) -> Type {
+    match scalar {
+        Scalar::F64 => parse_quote!(f64),
+        Scalar::F32 => parse_quote!(f32),
     }
 }
 

@@ -1,7 +1,7 @@
 //! How a module is printed as Rust.
 
-use syn::{Type, parse_quote};
-
+use super::LANGUAGE;
+use crate::backend::common::{ConstantItem, Scalar, Setter};
 use crate::program::Limits;
 use crate::trigonometry::Trigonometry;
 
@@ -28,7 +28,8 @@ pub struct RustOptions {
     pub wrapping: Wrapping,
     /// Further constants of the module, before its types.
     pub constants: Vec<ConstantItem>,
-    /// Methods that set several parameters together.
+    /// Methods of `Parameters` that set several parameters together, and associated functions of `Model` of the
+    /// same names for the nominal parameters, where all of them have nominal values.
     pub setters: Vec<Setter>,
     /// Limits of expressions, blocks and functions.
     pub limits: Limits,
@@ -48,26 +49,7 @@ impl Default for RustOptions {
             wrapping: Wrapping::Module,
             constants: vec![],
             setters: vec![],
-            limits: Limits::default(),
-        }
-    }
-}
-
-/// A floating-point type.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Scalar {
-    /// `f64`
-    #[default]
-    F64,
-    /// `f32`. Parameters stay `f64` and so does what the constructor computes, until it is stored.
-    F32,
-}
-
-impl Scalar {
-    pub(super) fn ty(self) -> Type {
-        match self {
-            Scalar::F64 => parse_quote!(f64),
-            Scalar::F32 => parse_quote!(f32),
+            limits: LANGUAGE.limits,
         }
     }
 }
@@ -95,55 +77,4 @@ pub enum Wrapping {
     ///
     /// [`allowed_lints`]: super::allowed_lints
     Items,
-}
-
-/// A method of `Parameters` that gives a copy with several of them set, and an associated function
-/// of `Model` of the same name for the nominal parameters, where all of them have nominal values.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Setter {
-    /// The name.
-    pub name: String,
-    /// Its meaning in Markdown, a paragraph or line each.
-    pub doc: Vec<String>,
-    /// What it takes.
-    pub arguments: Vec<SetterArgument>,
-}
-
-/// An argument of a [`Setter`]: a number, or an array of them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SetterArgument {
-    /// The name.
-    pub name: String,
-    /// Its meaning, in Markdown.
-    pub doc: String,
-    /// Its unit.
-    pub unit: String,
-    /// The parameters that its entries set.
-    pub parameters: Vec<String>,
-}
-
-/// A constant of the printed module.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ConstantItem {
-    /// The name; printed in capitals.
-    pub name: String,
-    /// Its meaning, in Markdown.
-    pub doc: String,
-    /// Its value.
-    pub value: ConstantValue,
-}
-
-/// The value of a [`ConstantItem`].
-#[derive(Clone, Debug, PartialEq)]
-pub enum ConstantValue {
-    /// A `usize`.
-    Size(usize),
-    /// An `f64`.
-    Number(f64),
-    /// A `&str`.
-    Text(String),
-    /// An array of `&str`.
-    Texts(Vec<String>),
-    /// An array of `f64`.
-    Numbers(Vec<f64>),
 }

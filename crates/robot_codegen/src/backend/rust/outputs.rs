@@ -5,22 +5,24 @@ use quote::quote;
 use syn::{Expr, Item, Type, parse_quote};
 
 use super::doc;
-use super::namer::Namer;
+use super::namer::ident;
+use super::names::output_names;
 use super::number::Number;
 use super::scope::Scope;
 use super::syntax;
+use crate::backend::common;
 use crate::module::{Function, Output};
 
 /// The type that holds several outputs; generic where the function has a generic form.
 pub(super) fn type_item(scope: &Scope<'_>, function: &Function, generic: bool) -> Option<Item> {
     let name = scope.output_type(function)?;
-    let title = doc::sanitise_line(&function.name);
+    let title = common::markdown_line(&function.name);
     let docs = doc::attributes(&[format!("The outputs of {title}.")]);
     let stored = scope.number.ty();
     let (parameters, ty): (Option<TokenStream>, Type) =
         if generic { (Some(quote!(<T = #stored>)), parse_quote!(T)) } else { (None, stored) };
     let fields = function.outputs.iter().zip(fields(function)).map(|(output, name)| {
-        let text = doc::array(&output.doc, &output.name, &output.unit, &output.shape);
+        let text = common::quantity(&output.doc, &output.name, &output.unit, &output.shape);
         let docs = doc::attributes(&[text]);
         let ty = syntax::shaped_type(&ty, &output.shape);
         quote!(#(#docs)* pub #name: #ty)
@@ -34,9 +36,7 @@ pub(super) fn type_item(scope: &Scope<'_>, function: &Function, generic: bool) -
 
 /// The fields of the type that holds several outputs.
 pub(super) fn fields(function: &Function) -> Vec<Ident> {
-    let mut namer = Namer::default();
-    let outputs = function.outputs.iter();
-    outputs.map(|output| namer.name(&output.name)).collect()
+    output_names(function).iter().map(|name| ident(name)).collect()
 }
 
 /// The type that a function returns.

@@ -10,8 +10,8 @@ use super::scope::Scope;
 use super::syntax;
 use crate::program::Source;
 
-/// What surrounds a body that may be cut.
-pub(super) struct Frame<'f> {
+/// A function whose body may be cut.
+pub(super) struct CutFunction<'f> {
     /// The number type.
     pub(super) number: &'f Number,
     /// The name of the function whose body it is.
@@ -28,21 +28,21 @@ pub(super) struct Frame<'f> {
 pub(super) fn statements(
     scope: &mut Scope<'_>,
     body: &Body<'_>,
-    frame: &Frame<'_>,
+    cut: &CutFunction<'_>,
 ) -> (Vec<Stmt>, Vec<ImplItem>) {
     if !body.is_cut() {
         return (body.statements(), vec![]);
     }
-    let ty = frame.number.ty();
-    let (generics, clause) = (frame.number.generics(), frame.number.where_clause());
-    let constness = frame.is_const.then(|| quote!(const));
-    let receiver = frame.is_method.then(|| quote!(&self,));
+    let ty = cut.number.ty();
+    let (generics, clause) = (cut.number.generics(), cut.number.where_clause());
+    let constness = cut.is_const.then(|| quote!(const));
+    let receiver = cut.is_method.then(|| quote!(&self,));
     let live = scope.variables().name("live");
     let (mut calls, mut items) = (vec![], vec![]);
-    for (index, part) in body.parts(frame.source_name).into_iter().enumerate() {
-        let name = format_ident!("{}_part{}", frame.name, index + 1);
+    for (index, part) in body.parts(cut.source_name).into_iter().enumerate() {
+        let name = format_ident!("{}_part{}", cut.name, index + 1);
         let method = scope.methods.name(&name.to_string());
-        let callee = if frame.is_method { quote!(self.#method) } else { quote!(Model::#method) };
+        let callee = if cut.is_method { quote!(self.#method) } else { quote!(Model::#method) };
         let taken = Literal::usize_unsuffixed(part.entering.len());
         let given = Literal::usize_unsuffixed(part.leaving.len());
         let pattern = |names: &[Ident]| syntax::array_pattern(names.iter().map(syntax::binding));

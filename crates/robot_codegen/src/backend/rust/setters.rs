@@ -6,9 +6,9 @@ use syn::{Item, Stmt, Type, parse_quote};
 
 use super::doc;
 use super::namer::Namer;
-use super::options::{Setter, SetterArgument};
 use super::scope::Scope;
 use super::syntax;
+use crate::backend::common::{self, Setter, SetterArgument};
 
 /// A setter's argument, with names for its entries.
 struct Argument<'a> {
@@ -35,15 +35,14 @@ impl Argument<'_> {
 }
 
 /// The setters on `Parameters`, and the models that they give of the nominal parameters.
-pub(super) fn items(scope: &mut Scope<'_>, is_const: bool) -> Vec<Item> {
+pub(super) fn items(scope: &Scope<'_>, is_const: bool) -> Vec<Item> {
     let options = scope.options;
     let constness = is_const.then(|| quote!(const));
     let mut items = vec![];
-    for setter in &options.setters {
-        let name = scope.methods.name(&setter.name);
+    for (setter, name) in options.setters.iter().zip(&scope.setters) {
         let arguments = arguments(scope, setter);
         let parameters: Vec<TokenStream> = arguments.iter().map(Argument::parameter).collect();
-        items.push(on_parameters(scope, setter, &name, &arguments));
+        items.push(on_parameters(scope, setter, name, &arguments));
         if scope.module.parameters.iter().all(|parameter| parameter.nominal.is_some()) {
             let names = arguments.iter().map(|argument| &argument.name);
             let line = format!("The model at the nominal parameters after [`Parameters::{name}`].");
@@ -88,11 +87,11 @@ fn on_parameters(
     name: &Ident,
     arguments: &[Argument<'_>],
 ) -> Item {
-    let mut lines = doc::paragraphs(&setter.doc, &setter.name);
+    let mut lines = common::paragraphs(&setter.doc, &setter.name);
     lines.push(String::new());
     for argument in arguments {
         let SetterArgument { name, doc, unit, .. } = argument.spec;
-        let meaning = doc::array(doc, name, unit, &[]);
+        let meaning = common::quantity(doc, name, unit, &[]);
         lines.push(format!("- `{}`: {meaning}", argument.name));
     }
     let docs = doc::attributes(&lines);

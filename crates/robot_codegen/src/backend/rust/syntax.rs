@@ -7,6 +7,8 @@ use proc_macro2::{Ident, Literal, Span};
 use syn::punctuated::Punctuated;
 use syn::{Expr, ImplItem, ImplItemFn, Item, Pat, Stmt, Type, parse_quote, token};
 
+use crate::backend::common::Scalar;
+
 pub(super) fn binary(left: Expr, op: syn::BinOp, right: Expr) -> Expr {
     Expr::Binary(syn::ExprBinary {
         attrs: vec![],
@@ -164,7 +166,7 @@ pub(super) fn with_body(mut signature: ImplItemFn, statements: Vec<Stmt>, value:
 
 /// A literal that reads back as the same `f64`, in the fewest digits.
 pub(super) fn float(value: f64) -> Expr {
-    literal(value < 0.0, &format!("{:?}", value.abs()))
+    constant(Scalar::F64, value)
 }
 
 /// What a load prints as that has no variable, which no program of a checked module has.
@@ -172,17 +174,14 @@ pub(super) fn nothing() -> Expr {
     parse_quote!(f64::NAN)
 }
 
-/// A literal that reads back as the same `f32`, in the fewest digits.
-pub(super) fn single_float(value: f32) -> Expr {
-    literal(value < 0.0, &format!("{:?}", value.abs()))
-}
-
-fn literal(is_negative: bool, digits: &str) -> Expr {
+/// A literal that reads back as the same number of the type, in the fewest digits.
+pub(super) fn constant(scalar: Scalar, value: f64) -> Expr {
+    let digits = scalar.digits(value);
     let literal = Expr::Lit(syn::ExprLit {
         attrs: vec![],
-        lit: syn::Lit::Float(syn::LitFloat::new(digits, Span::call_site())),
+        lit: syn::Lit::Float(syn::LitFloat::new(&digits, Span::call_site())),
     });
-    if is_negative { negative(literal) } else { literal }
+    if value < 0.0 { negative(literal) } else { literal }
 }
 
 #[cfg(test)]

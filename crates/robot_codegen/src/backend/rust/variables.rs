@@ -4,10 +4,11 @@ use proc_macro2::Ident;
 use syn::{Pat, Stmt, parse_quote};
 
 use super::namer::Namer;
-use super::scope::{Scope, used_inputs};
+use super::scope::Scope;
 use super::syntax;
+use crate::backend::common::{angle_names, symbols, used_inputs};
 use crate::module::Function;
-use crate::program::{Operation, Program, Source};
+use crate::program::{Program, Source};
 
 /// The variables of a method.
 pub(super) struct Variables {
@@ -28,11 +29,9 @@ pub(super) struct Variables {
 impl Variables {
     pub(super) fn new(scope: &Scope<'_>, function: &Function) -> Variables {
         let mut namer = scope.variables();
-        let inputs = function.inputs.iter();
-        let inputs = inputs.map(|input| namer.name(&input.name)).collect();
+        let inputs = namer.names(function.inputs.iter().map(|input| input.name.as_str()));
         let (sines, cosines) = (namer.name("s"), namer.name("c"));
-        let symbols = symbols(function);
-        let entries = symbols.iter().map(|symbol| namer.name(symbol)).collect();
+        let entries = namer.names(symbols(function));
         let angles = angle_names(function);
         let mut prefixed = |prefix: &str| {
             let names = angles.iter();
@@ -102,21 +101,4 @@ fn pattern(name: &Ident, loaded: &[Source], source: Source) -> Pat {
 
 fn take(array: &Ident, patterns: Vec<Pat>) -> Stmt {
     syntax::binding_statement(syntax::array_pattern(patterns), parse_quote!(*#array))
-}
-
-/// The symbols of all inputs.
-pub(super) fn symbols(function: &Function) -> Vec<&String> {
-    let inputs = function.inputs.iter();
-    inputs.flat_map(|input| &input.symbols).collect()
-}
-
-/// The symbol of each angle that is a plain entry of an input; the number of the others.
-fn angle_names(function: &Function) -> Vec<String> {
-    let symbols = symbols(function);
-    let results = function.angles.results().iter().enumerate();
-    let names = results.map(|(index, value)| match function.angles.operation(*value) {
-        Operation::Load(Source::Input(input)) => symbols[input as usize].clone(),
-        _ => format!("{}", index + 1),
-    });
-    names.collect()
 }

@@ -6,16 +6,15 @@
 //! sight. Here the operation whose results are waited for longest starts first.
 //!
 //! The processor of the model starts two products and two sums a cycle, as current x86-64 and 64-bit ARM
-//! cores do. An operation takes it half of what it takes them: they work on the next call while this one
+//! cores do. An operation takes it half of what it takes them (`latency.rs`): they work on the next call while this one
 //! waits. Over the arms of `docs/performance.md` other figures make up to 2 % in the time of a call. While
 //! more values than registers are alive, operations that end the life of others go first.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use robot_symbolic::Function;
-
 use super::Reordering;
+use crate::passes::latency::shared_latency;
 use crate::program::{Operation, Program, Value};
 
 /// Products, quotients and calls started in a cycle.
@@ -26,17 +25,6 @@ const SUMS: usize = 2;
 /// operands from memory.
 const REGISTERS: isize = 24;
 
-/// Cycles from the start of an operation to its value, of which a call has half.
-fn latency(operation: Operation) -> u32 {
-    match operation {
-        Operation::Constant(_) | Operation::Load(_) => 0,
-        Operation::Neg(_) => 1,
-        Operation::Add(..) | Operation::Sub(..) | Operation::Mul(..) | Operation::MulAdd(..) => 2,
-        Operation::Div(..) | Operation::Call(Function::RecipPositive, _) => 7,
-        Operation::Call(..) => 10,
-    }
-}
-
 fn is_sum(operation: Operation) -> bool {
     matches!(operation, Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_))
 }
@@ -45,7 +33,7 @@ fn is_sum(operation: Operation) -> bool {
 fn heights(program: &Program) -> Vec<u32> {
     let mut heights = vec![0; program.operations().len()];
     for (value, operation) in program.values().rev() {
-        let height = heights[value.index()] + latency(operation);
+        let height = heights[value.index()] + shared_latency(operation);
         heights[value.index()] = height;
         for operand in operation.operands() {
             heights[operand.index()] = heights[operand.index()].max(height);
@@ -193,7 +181,7 @@ impl<'p> List<'p> {
             self.note_end(operand);
         }
         self.order.push(value, operation);
-        let there = self.now + latency(operation);
+        let there = self.now + shared_latency(operation);
         for user in &self.users[value.index()] {
             let index = user.index();
             self.start[index] = self.start[index].max(there);
@@ -218,6 +206,8 @@ fn distinct(operation: Operation) -> impl Iterator<Item = Value> {
 
 #[cfg(test)]
 mod tests {
+    use robot_symbolic::Function;
+
     use super::*;
     use crate::passes::dead_code;
     use crate::passes::testing::{random_polynomials, random_program};
@@ -329,7 +319,7 @@ mod tests {
                 (now, room) = (now + 1, [PRODUCTS, SUMS]);
             }
             room[kind] -= 1;
-            there.push(now + latency(operation));
+            there.push(now + shared_latency(operation));
         }
         for result in program.results() {
             last[result.index()] = last.len();
@@ -371,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn each_operation_has_its_latency() {
+    fn each_operation_has_its_shared_latency() {
         let mut b = Builder::new();
         let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
         let sum = b.add(x, y);

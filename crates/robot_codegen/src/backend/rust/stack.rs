@@ -1,8 +1,8 @@
 //! How much stack generated code takes, as far as that is known without a compiler.
 
-use crate::counts::Counts;
+use super::LANGUAGE;
 use crate::module::Function;
-use crate::program::{Layout, Limits, Program, Value};
+use crate::program::{Layout, Program, Value};
 
 /// What a function takes apart from its values: return addresses, saved registers, places of
 /// arguments, an expression's values while it is computed.
@@ -21,7 +21,7 @@ const FIXED: usize = 256;
 #[must_use]
 pub fn estimate(function: &Function, scalar: usize) -> usize {
     let programs = [&function.core, &function.angles];
-    let statements: usize = programs.iter().map(|program| Counts::of(program).temporaries).sum();
+    let statements: usize = programs.iter().map(|program| layout(program).statements()).sum();
     let inputs: usize = function.inputs.iter().map(|input| input.symbols.len()).sum();
     let angles = 3 * function.angles.results().len();
     let outputs = function.core.results().len();
@@ -32,7 +32,7 @@ pub fn estimate(function: &Function, scalar: usize) -> usize {
 
 /// The values without a name that wait for another operand of what uses them.
 fn held(program: &Program) -> usize {
-    let layout = Layout::new(program, &Limits::default());
+    let layout = layout(program);
     let is_inside =
         |value: &Value| !layout.is_named(*value) && !program.operation(*value).is_leaf();
     let inside =
@@ -42,7 +42,12 @@ fn held(program: &Program) -> usize {
 
 /// The values that leave blocks, where there are several.
 fn leaving(program: &Program) -> usize {
-    let layout = Layout::new(program, &Limits::default());
+    let layout = layout(program);
     let blocks = || layout.parts.iter().flat_map(|part| &part.blocks);
     if blocks().count() < 2 { 0 } else { blocks().map(|block| block.leaving.len()).sum() }
+}
+
+/// The layout of a program as Rust.
+fn layout(program: &Program) -> Layout {
+    Layout::new(program, &LANGUAGE.limits)
 }

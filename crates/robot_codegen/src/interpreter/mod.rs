@@ -4,17 +4,24 @@
 //! order, so that numbers can be had without a compiler and generated code can be checked to the
 //! last bit (but for multiply-adds, those of the runtime's sines among them, which round twice here on
 //! every machine and once on targets that fuse them).
+//!
+//! [`Interpreter::call`] takes everything by name. Where one function runs at many states,
+//! [`Interpreter::function`] looks it up once and gives a [`Callable`], which computes blocks of states.
+
+mod callable;
+mod evaluation;
 
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use robot_runtime::{Scalar as _, trig};
-use robot_symbolic::Function as Call;
 use rustc_hash::FxHashMap;
 
+pub use self::callable::Callable;
+pub(crate) use self::evaluation::call;
+pub use self::evaluation::evaluate;
 use crate::error::{Error, Errors};
-use crate::module::{Function, Module};
-use crate::program::{Operation, Program, Source, Value};
+use crate::module::Module;
+use crate::program::Source;
 use crate::rounding::{self, Rounded};
 use crate::trigonometry::Trigonometry;
 
@@ -103,14 +110,7 @@ impl<'m> Interpreter<'m> {
         inputs: &[(&str, &[f64])],
     ) -> Result<Vec<OutputValues>, Errors> {
         let function = self.function(function)?;
-        let inputs = gather_inputs(function, inputs)?;
-        let mut results = self.run(function, &inputs).into_iter();
-        let outputs = function.outputs.iter().map(|output| OutputValues {
-            name: output.name.clone(),
-            shape: output.shape.clone(),
-            values: results.by_ref().take(output.len()).collect(),
-        });
-        Ok(outputs.collect())
+        Ok(function.named(function.call(inputs)?))
     }
 
     /// As [`Interpreter::call`], all outputs in one array, with bounds of what rounding does to them, that
@@ -124,18 +124,15 @@ impl<'m> Interpreter<'m> {
         function: &str,
         inputs: &[(&str, &[f64])],
     ) -> Result<Vec<Rounded>, Errors> {
-        let function = self.function(function)?;
-        let inputs = gather_inputs(function, inputs)?;
-        let circular = self.circular(function, &inputs);
+        let callable = self.function(function)?;
+        let inputs = callable.gather(inputs)?;
+        let load = callable.loads(&inputs);
         let fields = self.rounded.get_or_init(|| self.rounded_fields());
         let load = |source| match source {
             Source::Field(index) => fields[index as usize],
-            other => {
-                let value = self.load(other, &inputs, &circular);
-                Rounded::loaded(other, self.trigonometry, value)
-            }
+            other => Rounded::loaded(other, self.trigonometry, load(other)),
         };
-        Ok(rounding::evaluate(&function.core, self.trigonometry, load))
+        Ok(rounding::evaluate(callable.core(), self.trigonometry, load))
     }
 
     /// What the constructor stores, with bounds of its rounding.
@@ -149,39 +146,20 @@ impl<'m> Interpreter<'m> {
         })
     }
 
-    fn function(&self, name: &str) -> Result<&Function, Errors> {
-        self.module.function(name).ok_or_else(|| {
+    /// A function by its name.
+    ///
+    /// # Errors
+    ///
+    /// An unknown function.
+    pub fn function(&self, name: &str) -> Result<Callable<'_>, Errors> {
+        let function = self.module.function(name).ok_or_else(|| {
             Errors::from(Error::UnknownFunction {
                 module: self.module.name.clone(),
                 function: name.to_owned(),
                 known: names(self.module.functions.iter().map(|function| &function.name)),
             })
-        })
-    }
-
-    /// The results of a function of the module at the entries of its inputs, all in one array.
-    fn run(&self, function: &Function, inputs: &[f64]) -> Vec<f64> {
-        let circular = self.circular(function, inputs);
-        let load = |source| self.load(source, inputs, &circular);
-        evaluate(&function.core, self.trigonometry, load)
-    }
-
-    /// The sines and cosines of the function's angles.
-    fn circular(&self, function: &Function, inputs: &[f64]) -> Vec<(f64, f64)> {
-        let trigonometry = self.trigonometry;
-        let load = |source| self.load(source, inputs, &[]);
-        let angles = evaluate(&function.angles, trigonometry, load);
-        angles.iter().map(|angle| sin_cos(trigonometry, *angle)).collect()
-    }
-
-    fn load(&self, source: Source, inputs: &[f64], circular: &[(f64, f64)]) -> f64 {
-        match source {
-            Source::Parameter(_) => f64::NAN,
-            Source::Field(index) => self.fields[index as usize],
-            Source::Input(index) => inputs[index as usize],
-            Source::Sin(index) => circular[index as usize].0,
-            Source::Cos(index) => circular[index as usize].1,
-        }
+        })?;
+        Ok(Callable::new(function, &self.fields, self.trigonometry))
     }
 }
 
@@ -193,81 +171,7 @@ fn fields(module: &Module, parameters: &[f64], trigonometry: Trigonometry) -> Ve
     })
 }
 
-/// The entries of all inputs in the order of the function.
-fn gather_inputs(function: &Function, given: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
-    let (mut errors, mut values) = (vec![], vec![]);
-    for (name, _) in given {
-        if function.inputs.iter().all(|input| input.name != *name) {
-            errors.push(Error::UnknownInput {
-                function: function.name.clone(),
-                input: (*name).to_owned(),
-                known: names(function.inputs.iter().map(|input| &input.name)),
-            });
-        }
-    }
-    for input in &function.inputs {
-        let (function, expected) = (function.name.clone(), input.symbols.len());
-        let name = input.name.clone();
-        match given.iter().find(|(given, _)| *given == name) {
-            Some((_, entries)) if entries.len() == expected => values.extend_from_slice(entries),
-            Some((_, entries)) => errors.push(Error::InputLength {
-                function,
-                input: name,
-                expected,
-                found: entries.len(),
-            }),
-            None => errors.push(Error::MissingInput { function, input: name, length: expected }),
-        }
-    }
-    Errors::check(errors, values)
-}
-
 fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {
     let quoted: Vec<_> = names.map(|name| format!("`{name}`")).collect();
     if quoted.is_empty() { "none".to_owned() } else { quoted.join(", ") }
-}
-
-fn sin_cos(trigonometry: Trigonometry, angle: f64) -> (f64, f64) {
-    match trigonometry {
-        Trigonometry::Standard => angle.sin_cos(),
-        Trigonometry::Polynomial => trig::double::portable_sin_cos(angle),
-    }
-}
-
-/// The functions as generated code has them.
-pub(crate) fn call(trigonometry: Trigonometry, function: Call, argument: f64) -> f64 {
-    match function {
-        Call::Sin => sin_cos(trigonometry, argument).0,
-        Call::Cos => sin_cos(trigonometry, argument).1,
-        Call::Sign => argument.signum0(),
-        Call::Tanh => robot_runtime::Scalar::tanh(argument),
-        Call::RecipPositive => argument.recip_positive(),
-        Call::Sqrt | Call::Abs => function.apply(argument),
-    }
-}
-
-/// The results of a program, given what its loads read. A multiply-add rounds twice.
-#[must_use]
-pub fn evaluate(
-    program: &Program,
-    trigonometry: Trigonometry,
-    load: impl Fn(Source) -> f64,
-) -> Vec<f64> {
-    let mut values: Vec<f64> = Vec::with_capacity(program.operations().len());
-    for operation in program.operations() {
-        let at = |value: Value| values[value.index()];
-        values.push(match *operation {
-            Operation::Constant(constant) => constant.get(),
-            Operation::Load(source) => load(source),
-            Operation::Add(a, b) => at(a) + at(b),
-            Operation::Sub(a, b) => at(a) - at(b),
-            Operation::Mul(a, b) => at(a) * at(b),
-            Operation::Div(a, b) => at(a) / at(b),
-            Operation::Neg(a) => -at(a),
-            Operation::MulAdd(a, b, c) => at(a) * at(b) + at(c),
-            Operation::Call(function, a) => call(trigonometry, function, at(a)),
-        });
-    }
-    let results = program.results().iter();
-    results.map(|value| values[value.index()]).collect()
 }

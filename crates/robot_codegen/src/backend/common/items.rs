@@ -1,0 +1,51 @@
+//! What a caller adds to a module: constants, and setters of several parameters.
+
+/// A function that gives a copy of the parameters with several of them set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setter {
+    /// The name.
+    pub name: String,
+    /// Its meaning in Markdown, a paragraph or line each.
+    pub doc: Vec<String>,
+    /// What it takes.
+    pub arguments: Vec<SetterArgument>,
+}
+
+/// An argument of a [`Setter`]: a number, or an array of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SetterArgument {
+    /// The name.
+    pub name: String,
+    /// Its meaning, in Markdown.
+    pub doc: String,
+    /// Its unit.
+    pub unit: String,
+    /// The parameters that its entries set.
+    pub parameters: Vec<String>,
+}
+
+/// A constant of the printed module.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConstantItem {
+    /// The name; printed in capitals.
+    pub name: String,
+    /// Its meaning, in Markdown.
+    pub doc: String,
+    /// Its value.
+    pub value: ConstantValue,
+}
+
+/// The value of a [`ConstantItem`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum ConstantValue {
+    /// A whole number, such as a count.
+    Size(usize),
+    /// A number in double precision.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// An array of texts.
+    Texts(Vec<String>),
+    /// An array of numbers in double precision.
+    Numbers(Vec<f64>),
+}

@@ -1,0 +1,16 @@
+//! What a printer of any language needs: names, inputs, constants, documentation, and the items that a
+//! caller adds to a module.
+
+mod inputs;
+mod items;
+mod namer;
+mod scalar;
+mod text;
+
+pub use self::inputs::{angle_names, input_entry, symbols, used_inputs};
+pub use self::items::{ConstantItem, ConstantValue, Setter, SetterArgument};
+pub use self::namer::{Namer, field_names, identifier, type_name};
+pub use self::scalar::{Scalar, check_range};
+pub use self::text::{
+    comment_line, markdown, markdown_line, operations, paragraphs, parameter, quantity,
+};

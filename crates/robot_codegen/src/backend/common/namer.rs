@@ -1,0 +1,157 @@
+//! Names of printed code from any text.
+
+use rustc_hash::FxHashSet;
+
+use crate::module::Module;
+
+/// Gives names in one scope: each is an identifier that the language does not reserve, and none is given twice.
+#[derive(Clone, Debug)]
+pub struct Namer {
+    reserved: &'static [&'static str],
+    taken: FxHashSet<String>,
+}
+
+impl Namer {
+    /// A namer of a language with these reserved words, whose scope already has some names.
+    #[must_use]
+    pub fn new(reserved: &'static [&'static str], taken: &[&str]) -> Namer {
+        Namer { reserved, taken: taken.iter().map(|name| (*name).to_owned()).collect() }
+    }
+
+    /// An identifier as near to `text` as can be.
+    pub fn name(&mut self, text: &str) -> String {
+        let base = identifier(text, self.reserved);
+        let mut name = base.clone();
+        let mut number = 2;
+        while !self.taken.insert(name.clone()) {
+            name = format!("{base}_{number}");
+            number += 1;
+        }
+        name
+    }
+
+    /// An identifier for each of several texts. A text that can stand as it is keeps its name, whatever the others
+    /// are: beside `match_` the reserved word `match` becomes `match__2`, in any order.
+    pub fn names<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>) -> Vec<String> {
+        let texts = texts.into_iter().map(|text| {
+            let fits = identifier(text, self.reserved) == text;
+            (text, fits && self.taken.insert(text.to_owned()))
+        });
+        let texts: Vec<(&str, bool)> = texts.collect();
+        let name = |(text, stands): (&str, bool)| {
+            if stands { text.to_owned() } else { self.name(text) }
+        };
+        texts.into_iter().map(name).collect()
+    }
+}
+
+/// ASCII letters, digits and underscores of the text; a reserved word gets an underscore.
+#[must_use]
+pub fn identifier(text: &str, reserved: &[&str]) -> String {
+    let mut name = String::new();
+    for character in text.chars().take(64) {
+        match character {
+            'a'..='z' | 'A'..='Z' | '0'..='9' => name.push(character),
+            // Other letters by their code point: few enough that nobody needs a table.
+            _ if character.is_alphabetic() => {
+                name.push_str(&format!("u{:x}", u32::from(character)));
+            }
+            _ if name.ends_with('_') || name.is_empty() => {}
+            _ => name.push('_'),
+        }
+    }
+    while name.ends_with('_') {
+        name.pop();
+    }
+    if name.is_empty() || name.starts_with(|first: char| first.is_ascii_digit()) {
+        name.insert(0, 'n');
+    }
+    unreserved(name, reserved)
+}
+
+/// The name of a type: `link_wrenches` becomes `LinkWrenches`.
+#[must_use]
+pub fn type_name(text: &str, reserved: &[&str]) -> String {
+    let words = identifier(text, reserved);
+    let mut name = String::new();
+    for word in words.split('_') {
+        let mut characters = word.chars();
+        name.extend(characters.next().map(|first| first.to_ascii_uppercase()));
+        name.push_str(characters.as_str());
+    }
+    unreserved(name, reserved)
+}
+
+fn unreserved(mut name: String, reserved: &[&str]) -> String {
+    if reserved.contains(&name.as_str()) {
+        name.push('_');
+    }
+    name
+}
+
+/// Names for the fields of a model: a field that copies a parameter has its name; the others are numbered `k1`,
+/// `k2` and so on.
+pub fn field_names(module: &Module, namer: &mut Namer) -> Vec<String> {
+    let fields = 0..module.constructor.results().len();
+    let copies: Vec<Option<&str>> = fields
+        .map(|field| module.field_parameter(field).map(|parameter| parameter.name.as_str()))
+        .collect();
+    // Copies first, so that none of them has to give way to a number.
+    let mut names = namer.names(copies.iter().copied().flatten()).into_iter();
+    let mut count = 0;
+    let name = |copy: Option<&str>| {
+        copy.and_then(|_| names.next()).unwrap_or_else(|| {
+            count += 1;
+            namer.name(&format!("k{count}"))
+        })
+    };
+    copies.into_iter().map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RESERVED: &[&str] = &["type", "match", "self", "Self", "n"];
+
+    #[test]
+    fn any_text_becomes_an_identifier() {
+        for (text, expected) in [
+            ("q1", "q1"),
+            ("M_l5", "M_l5"),
+            ("type", "type_"),
+            ("}fn x(){}", "fn_x"),
+            ("5th joint", "n5th_joint"),
+            ("", "n_"),
+            ("___", "n_"),
+            ("θ1", "u3b81"),
+            ("a\nb", "a_b"),
+            ("elbow-yaw", "elbow_yaw"),
+        ] {
+            assert_eq!(identifier(text, RESERVED), expected);
+        }
+        assert_eq!(type_name("link_wrenches", RESERVED), "LinkWrenches");
+        assert_eq!(type_name("self", RESERVED), "Self_");
+    }
+
+    #[test]
+    fn names_are_given_once() {
+        let mut namer = Namer::new(RESERVED, &["q"]);
+        assert_eq!(namer.name("q"), "q_2");
+        assert_eq!(namer.name("q 2"), "q_2_2");
+        assert_eq!(namer.name("q"), "q_3");
+    }
+
+    #[test]
+    fn names_that_can_stand_stay_whatever_the_others_are() {
+        let given = |texts: &[&str]| {
+            Namer::new(RESERVED, &["taken"]).names(texts.iter().copied()).join(" ")
+        };
+        assert_eq!(given(&["match", "self", "a"]), "match_ self_ a");
+        assert_eq!(
+            given(&["tool-0", "match", "tool_0", "taken"]),
+            "tool_0_2 match_ tool_0 taken_2"
+        );
+        assert_eq!(given(&["a", "a", "a_2"]), "a a_3 a_2");
+    }
+}

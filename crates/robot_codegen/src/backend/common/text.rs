@@ -1,0 +1,134 @@
+//! Documentation of printed code. Text from outside is made harmless in this one place; what the caller wrote
+//! is Markdown and stays it.
+
+use crate::counts::Counts;
+use crate::spec::ParameterSpec;
+
+/// Lines of text that nobody controls, as Markdown that means nothing but the text: no line breaks
+/// other than those between lines, no code fences or indented blocks (which would be compiled as
+/// examples), no links, no HTML, no characters that change the direction of text.
+#[must_use]
+pub fn markdown(text: &str) -> Vec<String> {
+    text.lines().map(markdown_line).collect()
+}
+
+/// One line of such text.
+#[must_use]
+pub fn markdown_line(text: &str) -> String {
+    let mut line = String::new();
+    for character in text.chars() {
+        match character {
+            '[' | ']' | '<' | '>' | '`' | '~' | '\\' | '#' | '*' | '|' => {
+                line.push('\\');
+                line.push(character);
+            }
+            _ if character.is_whitespace() || character.is_control() => {
+                // One space for any run, none at the start: four would make a code block.
+                if !line.is_empty() && !line.ends_with(' ') {
+                    line.push(' ');
+                }
+            }
+            _ if is_invisible(character) => {}
+            _ => line.push(character),
+        }
+    }
+    line.trim_end().to_owned()
+}
+
+/// Lines of the caller's Markdown; the name of what is documented where there are none.
+#[must_use]
+pub fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
+    let lines: Vec<String> = texts.iter().flat_map(|text| text.lines()).map(comment_line).collect();
+    if lines.iter().all(String::is_empty) {
+        vec![format!("{}.", markdown_line(name))]
+    } else {
+        lines
+    }
+}
+
+/// `meaning, in unit; 3 rows of 4.` The meaning is Markdown; the name stands where there is none.
+#[must_use]
+pub fn quantity(meaning: &str, name: &str, unit: &str, shape: &[usize]) -> String {
+    let mut line = if meaning.is_empty() { markdown_line(name) } else { comment_line(meaning) };
+    if !unit.is_empty() {
+        line.push_str(&format!(", in {}", markdown_line(unit)));
+    }
+    if let [rows, columns] = shape {
+        line.push_str(&format!("; {rows} rows of {columns}"));
+    }
+    line.push('.');
+    line
+}
+
+/// The documentation of a parameter: `mass of link 1, in kg; nominally 12.`
+#[must_use]
+pub fn parameter(spec: &ParameterSpec) -> String {
+    let mut line = quantity(&markdown_line(&spec.doc), &spec.name, &spec.unit, &[]);
+    if let Some(value) = spec.nominal {
+        line.pop();
+        line.push_str(&format!("; nominally {value:?}."));
+    }
+    line
+}
+
+/// `12 multiplications, 8 additions, 1 division`
+#[must_use]
+pub fn operations(counts: &Counts) -> String {
+    let kinds = [
+        (counts.mul, "multiplication"),
+        (counts.add, "addition"),
+        (counts.div, "division"),
+        (counts.sqrt, "square root"),
+        (counts.other, "other function"),
+        (counts.sin, "sine"),
+        (counts.cos, "cosine"),
+    ];
+    let texts: Vec<String> = kinds
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, kind)| format!("{count} {kind}{}", if count == 1 { "" } else { "s" }))
+        .collect();
+    if texts.is_empty() { "No operations".to_owned() } else { texts.join(", ") }
+}
+
+/// Text for a comment of one line.
+#[must_use]
+pub fn comment_line(text: &str) -> String {
+    let visible = text.chars().filter(|character| !is_invisible(*character));
+    let one_line = visible.map(|c| if c.is_control() || c.is_whitespace() { ' ' } else { c });
+    one_line.collect::<String>().trim_end().to_owned()
+}
+
+/// Marks of direction, joiners and the like, with which text can look like other text.
+fn is_invisible(character: char) -> bool {
+    matches!(
+        character,
+        '\u{200b}'..='\u{200f}'
+            | '\u{2028}'..='\u{202e}'
+            | '\u{2060}'..='\u{206f}'
+            | '\u{feff}'
+            | '\u{fff9}'..='\u{fffb}'
+            | '\u{61c}'
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn markdown_of_the_caller_stays() {
+        let texts = ["The `q` of\r\n[`Model`]".to_owned(), "\n".to_owned()];
+        assert_eq!(paragraphs(&texts, "f"), ["The `q` of", "[`Model`]", ""]);
+        assert_eq!(paragraphs(&[], "a[b]"), ["a\\[b\\]."]);
+        let line = quantity("Of `q`", "x", "rad; m at [2]", &[2, 3]);
+        assert_eq!(line, "Of `q`, in rad; m at \\[2\\]; 2 rows of 3.");
+    }
+
+    #[test]
+    fn nothing_but_text_is_left() {
+        assert_eq!(markdown("a\r\n    ```\n\tb\u{202e}c"), ["a", "\\`\\`\\`", "bc"]);
+        assert_eq!(markdown_line("see [x](y) */ <script>"), "see \\[x\\](y) \\*/ \\<script\\>");
+        assert_eq!(comment_line("x\n}fn y(){}\u{2028}"), "x }fn y(){}");
+    }
+}

@@ -1,0 +1,57 @@
+//! The names that the items of a module have, for code that calls them.
+
+use super::namer::{Namer, identifier};
+use crate::backend::common::Setter;
+use crate::module::{Function, Module};
+
+/// The names of a module's items. A name that is reserved or taken is adapted, so that code which calls the module
+/// has to ask.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Names {
+    /// The module.
+    pub module: String,
+    /// The fields of `Parameters`, one for each parameter.
+    pub parameters: Vec<String>,
+    /// The setters, in their order.
+    pub setters: Vec<String>,
+    /// The methods of `Model` that compute the functions, one for each function.
+    pub functions: Vec<String>,
+    /// The fields of `Model`.
+    pub(super) fields: Vec<String>,
+}
+
+impl Names {
+    /// The names, and the namer of the functions of `Model` for the rest of them.
+    pub(super) fn new(module: &Module, setters: &[Setter]) -> (Names, Namer) {
+        let parameters = module.parameters.iter().map(|parameter| parameter.name.as_str());
+        let mut methods = Namer::with(&["new", "NOMINAL"]);
+        let setters = setters.iter().map(|setter| methods.name(&setter.name).to_string());
+        let setters = setters.collect();
+        let functions = module.functions.iter().map(|function| function.name.as_str());
+        let names = Names {
+            module: identifier(&module.name),
+            parameters: strings(&mut Namer::default(), parameters),
+            setters,
+            functions: strings(&mut methods, functions),
+            fields: Namer::default().fields(module),
+        };
+        (names, methods)
+    }
+}
+
+/// The names of a module that is printed with these setters.
+#[must_use]
+pub fn names(module: &Module, setters: &[Setter]) -> Names {
+    Names::new(module, setters).0
+}
+
+/// The fields of the type that holds a function's outputs, where it has several.
+#[must_use]
+pub fn output_names(function: &Function) -> Vec<String> {
+    let outputs = function.outputs.iter().map(|output| output.name.as_str());
+    strings(&mut Namer::default(), outputs)
+}
+
+fn strings<'t>(namer: &mut Namer, texts: impl Iterator<Item = &'t str>) -> Vec<String> {
+    namer.names(texts).iter().map(ToString::to_string).collect()
+}

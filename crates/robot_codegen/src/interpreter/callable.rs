@@ -1,0 +1,289 @@
+//! A function of a module whose parameters are given.
+
+use super::evaluation::{evaluate_block, sin_cos};
+use super::{OutputValues, names};
+use crate::error::{Error, Errors};
+use crate::module::{Function, Output};
+use crate::program::{Program, Source};
+use crate::spec::InputSpec;
+use crate::trigonometry::Trigonometry;
+
+/// The states of a block: so many that what is to be done for each operation is done rarely, and so few that the values
+/// of a program stay in the cache.
+const BLOCK: usize = 16;
+
+/// A function of a module whose parameters are given, looked up once.
+#[derive(Clone, Copy, Debug)]
+pub struct Callable<'i> {
+    function: &'i Function,
+    fields: &'i [f64],
+    trigonometry: Trigonometry,
+}
+
+/// The values of the programs at a block of states.
+struct Block<const STATES: usize> {
+    values: Vec<[f64; STATES]>,
+    /// The sines and cosines of the angles.
+    circular: Vec<[[f64; STATES]; 2]>,
+}
+
+impl<const STATES: usize> Block<STATES> {
+    fn new(function: &Function) -> Block<STATES> {
+        let values = function.core.operations().len().max(function.angles.operations().len());
+        Block {
+            values: Vec::with_capacity(values),
+            circular: Vec::with_capacity(function.angles.results().len()),
+        }
+    }
+}
+
+impl<'i> Callable<'i> {
+    pub(super) fn new(
+        function: &'i Function,
+        fields: &'i [f64],
+        trigonometry: Trigonometry,
+    ) -> Callable<'i> {
+        Callable { function, fields, trigonometry }
+    }
+
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'i str {
+        &self.function.name
+    }
+
+    /// The inputs.
+    #[must_use]
+    pub fn inputs(self) -> &'i [InputSpec] {
+        &self.function.inputs
+    }
+
+    /// The outputs.
+    #[must_use]
+    pub fn outputs(self) -> &'i [Output] {
+        &self.function.outputs
+    }
+
+    /// The number of entries of all inputs.
+    #[must_use]
+    pub fn input_size(self) -> usize {
+        self.inputs().iter().map(|input| input.symbols.len()).sum()
+    }
+
+    /// The number of entries of all outputs.
+    #[must_use]
+    pub fn output_size(self) -> usize {
+        self.function.core.results().len()
+    }
+
+    pub(super) fn core(self) -> &'i Program {
+        &self.function.core
+    }
+
+    /// The entries of all outputs at a state; inputs by name.
+    ///
+    /// # Errors
+    ///
+    /// Inputs that are missing, unknown or of the wrong length.
+    pub fn call(self, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
+        let entries = self.gather(inputs)?;
+        let mut found = vec![0.0; self.output_size()];
+        self.blocks::<1>(1, |entry, _| entries[entry], |entry, _, value| found[entry] = value);
+        Ok(found)
+    }
+
+    /// The outputs of [`Callable::call`] with their names and shapes.
+    #[must_use]
+    pub fn named(self, values: Vec<f64>) -> Vec<OutputValues> {
+        let mut values = values.into_iter();
+        let outputs = self.outputs().iter().map(|output| OutputValues {
+            name: output.name.clone(),
+            shape: output.shape.clone(),
+            values: values.by_ref().take(output.len()).collect(),
+        });
+        outputs.collect()
+    }
+
+    /// Computes many states: `inputs` has a column for each entry of the inputs, in their order, `outputs` one for
+    /// each entry of the outputs; row i of all columns is of state i. Nothing is allocated for a state.
+    ///
+    /// # Errors
+    ///
+    /// Another number of columns than there are entries; columns that are not all of one length.
+    pub fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
+        let function = || self.function.name.clone();
+        let mut errors = vec![];
+        for (kind, expected, found) in [
+            ("inputs", self.input_size(), inputs.len()),
+            ("outputs", self.output_size(), outputs.len()),
+        ] {
+            if expected != found {
+                errors.push(Error::Columns { function: function(), kind, expected, found });
+            }
+        }
+        let lengths = || {
+            let inputs = inputs.iter().map(|column| column.len());
+            inputs.chain(outputs.iter().map(|column| column.len()))
+        };
+        let states = lengths().next().unwrap_or_default();
+        if let Some(found) = lengths().find(|length| *length != states) {
+            errors.push(Error::States { function: function(), expected: states, found });
+        }
+        Errors::check(errors, ())?;
+        let read = |entry: usize, state: usize| inputs[entry][state];
+        self.blocks::<BLOCK>(states, read, |entry, state, value| outputs[entry][state] = value);
+        Ok(())
+    }
+
+    /// Computes a number of states: `inputs` has for each input, by name, its entries at each state; the result for
+    /// each state the entries of all outputs.
+    ///
+    /// # Errors
+    ///
+    /// Inputs that are missing, unknown, of the wrong length at a state, or of another number of states.
+    pub fn states(
+        self,
+        states: usize,
+        inputs: &[(&str, &[Vec<f64>])],
+    ) -> Result<Vec<Vec<f64>>, Errors> {
+        let mut errors = vec![];
+        for (_, rows) in inputs.iter().filter(|(_, rows)| rows.len() != states) {
+            let (function, found) = (self.function.name.clone(), rows.len());
+            errors.push(Error::States { function, expected: states, found });
+        }
+        Errors::check(errors, ())?;
+        let mut lengths: Vec<(&str, usize)> = vec![];
+        for state in 0..states {
+            lengths.clear();
+            lengths.extend(inputs.iter().map(|(name, rows)| (*name, rows[state].len())));
+            self.check(&lengths)?;
+        }
+        let given = |input: &InputSpec| inputs.iter().find(|(name, _)| *name == input.name);
+        let entries: Vec<(&[Vec<f64>], usize)> = self
+            .inputs()
+            .iter()
+            .flat_map(|input| (0..input.symbols.len()).map(move |entry| (input, entry)))
+            .filter_map(|(input, entry)| Some((given(input)?.1, entry)))
+            .collect();
+        let mut found = vec![vec![0.0; self.output_size()]; states];
+        let read = |entry: usize, state: usize| {
+            let (rows, entry) = entries[entry];
+            rows[state][entry]
+        };
+        self.blocks::<BLOCK>(states, read, |entry, state, value| found[state][entry] = value);
+        Ok(found)
+    }
+
+    /// Computes the states block by block. `read` gives an entry of the inputs at a state, `write` takes one of the
+    /// outputs. The last block is filled up with its last state.
+    fn blocks<const STATES: usize>(
+        self,
+        states: usize,
+        read: impl Fn(usize, usize) -> f64,
+        mut write: impl FnMut(usize, usize, f64),
+    ) {
+        let mut block = Block::<STATES>::new(self.function);
+        for start in (0..states).step_by(STATES) {
+            let last = states - 1;
+            let read =
+                |entry: usize| std::array::from_fn(|state| read(entry, last.min(start + state)));
+            self.block(read, &mut block);
+            for (entry, value) in self.function.core.results().iter().enumerate() {
+                let values = block.values[value.index()];
+                for (state, value) in (start..states).zip(values) {
+                    write(entry, state, value);
+                }
+            }
+        }
+    }
+
+    /// Leaves the values of the arithmetic at a block of states.
+    fn block<const STATES: usize>(
+        self,
+        read: impl Fn(usize) -> [f64; STATES],
+        block: &mut Block<STATES>,
+    ) {
+        let (function, trigonometry) = (self.function, self.trigonometry);
+        let Block { values, circular } = block;
+        circular.clear();
+        if !function.angles.results().is_empty() {
+            let load = |source| self.load(source, &read, &[]);
+            evaluate_block(&function.angles, trigonometry, load, values);
+            circular.extend(function.angles.results().iter().map(|angle| {
+                let pairs = values[angle.index()].map(|angle| sin_cos(trigonometry, angle));
+                [pairs.map(|(sin, _)| sin), pairs.map(|(_, cos)| cos)]
+            }));
+        }
+        let load = |source| self.load(source, &read, circular);
+        evaluate_block(&function.core, trigonometry, load, values);
+    }
+
+    fn load<const STATES: usize>(
+        self,
+        source: Source,
+        read: impl Fn(usize) -> [f64; STATES],
+        circular: &[[[f64; STATES]; 2]],
+    ) -> [f64; STATES] {
+        match source {
+            Source::Parameter(_) => [f64::NAN; STATES],
+            Source::Field(index) => [self.fields[index as usize]; STATES],
+            Source::Input(index) => read(index as usize),
+            Source::Sin(index) => circular[index as usize][0],
+            Source::Cos(index) => circular[index as usize][1],
+        }
+    }
+
+    /// What the loads of the arithmetic read at a state.
+    pub(super) fn loads(self, inputs: &[f64]) -> impl Fn(Source) -> f64 {
+        let mut block = Block::<1>::new(self.function);
+        let read = |entry: usize| [inputs[entry]];
+        self.block(read, &mut block);
+        move |source| {
+            let [value] = self.load(source, |entry| [inputs[entry]], &block.circular);
+            value
+        }
+    }
+
+    /// The entries of all inputs in the order of the function.
+    pub(super) fn gather(self, given: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
+        let lengths: Vec<(&str, usize)> =
+            given.iter().map(|(name, entries)| (*name, entries.len())).collect();
+        self.check(&lengths)?;
+        let of = |input: &InputSpec| given.iter().find(|(name, _)| *name == input.name);
+        let entries = self.inputs().iter().filter_map(of).flat_map(|(_, entries)| *entries);
+        Ok(entries.copied().collect())
+    }
+
+    /// Whether these inputs, with these numbers of entries, are the function's.
+    fn check(self, given: &[(&str, usize)]) -> Result<(), Errors> {
+        let function = self.function;
+        let mut errors = vec![];
+        for (name, _) in given {
+            if function.inputs.iter().all(|input| input.name != *name) {
+                errors.push(Error::UnknownInput {
+                    function: function.name.clone(),
+                    input: (*name).to_owned(),
+                    known: names(function.inputs.iter().map(|input| &input.name)),
+                });
+            }
+        }
+        for input in &function.inputs {
+            let (function, expected) = (&function.name, input.symbols.len());
+            match given.iter().find(|(given, _)| *given == input.name) {
+                Some((_, length)) if *length == expected => {}
+                Some((_, found)) => errors.push(Error::InputLength {
+                    function: function.clone(),
+                    input: input.name.clone(),
+                    expected,
+                    found: *found,
+                }),
+                None => errors.push(Error::MissingInput {
+                    function: function.clone(),
+                    input: input.name.clone(),
+                    length: expected,
+                }),
+            }
+        }
+        Errors::check(errors, ())
+    }
+}
