@@ -274,3 +274,35 @@ fn packages_say_what_they_are() {
         assert_eq!(version.as_str(), Some(&*pin), "{name}");
     }
 }
+
+/// The variables of joints are named in one place: elsewhere nobody writes `"qdd"`, or puts a number behind it.
+#[test]
+fn joint_variables_are_named_in_one_place() {
+    const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
+    let mut wrong = vec![];
+    for path in sources(&root().join("crates")) {
+        let shown = path.strip_prefix(root()).unwrap().display().to_string();
+        // Greek letters by their names, and what tests call things.
+        let is_free = shown == "crates/robot_model/src/variable.rs"
+            || shown == "crates/robot_model/src/signs/letter.rs"
+            || shown.starts_with("crates/robot_testing/")
+            || shown.starts_with("crates/robot_runtime/")
+            || !shown.contains("/src/")
+            || shown.ends_with("tests.rs");
+        if is_free {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+        let lines = code.lines().enumerate();
+        for (number, line) in lines.filter(|(_, line)| !line.trim_start().starts_with("//")) {
+            let names = |name: &&str| {
+                line.contains(&format!("\"{name}\"")) || line.contains(&format!("\"{name}{{"))
+            };
+            if NAMES.iter().any(|name| names(&name)) {
+                wrong.push(format!("{shown}:{}: {}", number + 1, line.trim()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "use robot_model::variable::JointVariable: {wrong:#?}");
+}

@@ -3,6 +3,7 @@
 use robot_codegen::Trigonometry;
 use robot_model::diagnostic::number;
 use robot_model::robot::{JointKind, Robot};
+use robot_model::variable::JointVariable;
 use robot_runtime::trig::double::LIMIT;
 use robot_symbolic::Formula;
 
@@ -24,17 +25,19 @@ pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> 
         let value = |formula: &Formula| formula.evaluate(|name| robot.nominal_value(name));
         let angle = value(&joint.ratio) * position + value(&joint.offset);
         if angle.abs() >= LIMIT {
-            let name = joint.coordinate + 1;
+            let symbol = JointVariable::Position.symbol(joint.coordinate);
             let (q, joint) = (number(*position), &joint.name);
             // Of a joint that mimics another the angle is not the position.
             let turned = match angle == *position {
-                true => format!(
-                    "q{name} = {q} rad (joint `{joint}`) is {beyond}; give it within a turn"
-                ),
-                false => format!(
-                    "at q{name} = {q} joint `{joint}` is turned by {} rad, {beyond}",
-                    number(angle)
-                ),
+                true => {
+                    format!(
+                        "{symbol} = {q} rad (joint `{joint}`) is {beyond}; give it within a turn"
+                    )
+                }
+                false => {
+                    let angle = number(angle);
+                    format!("at {symbol} = {q} joint `{joint}` is turned by {angle} rad, {beyond}")
+                }
             };
             return Some(turned);
         }

@@ -1,8 +1,8 @@
 //! A robot's functions as the code generator takes them.
 
 use robot_codegen::backend::common::markdown;
-use robot_codegen::spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
-use robot_dynamics::functions::{Derivation, Function, Input, Output};
+use robot_codegen::spec::{ModuleSpec, ParameterSpec};
+use robot_dynamics::functions::Derivation;
 use robot_model::functions::{Bundle, FunctionKind};
 use robot_model::robot::{Parameter, Robot};
 
@@ -29,14 +29,13 @@ pub(crate) fn module<'g>(
             .filter(|_| !is_full())
             .flat_map(|kind| derivation.functions(*kind))
             .chain(bundles.iter().map(|bundle| derivation.bundle(bundle)))
-            .map(function)
             .collect(),
     }
 }
 
 /// The module of the pivots of the mass matrix alone.
 pub(crate) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
-    let functions = vec![function(derivation.pivots())];
+    let functions = vec![derivation.pivots()];
     ModuleSpec { functions, ..module(derivation, &[], &[], &[]) }
 }
 
@@ -90,24 +89,4 @@ fn parameter(parameter: &Parameter) -> ParameterSpec {
         unit: parameter.unit.as_ref().map(|unit| unit.text.clone()).unwrap_or_default(),
         nominal: parameter.value.as_ref().map(robot_symbolic::Rational::to_f64),
     }
-}
-
-fn function(function: Function<'_>) -> FunctionSpec<'_> {
-    let Function { name, doc, inputs, outputs } = function;
-    FunctionSpec {
-        name,
-        doc,
-        inputs: inputs.into_iter().map(input).collect(),
-        outputs: outputs.into_iter().map(output).collect(),
-    }
-}
-
-fn input(input: Input) -> InputSpec {
-    let Input { name, doc, unit, symbols } = input;
-    InputSpec { name, doc, unit, symbols }
-}
-
-fn output(output: Output<'_>) -> OutputSpec<'_> {
-    let Output { name, doc, unit, shape, values } = output;
-    OutputSpec { name, doc, unit, shape, values }
 }

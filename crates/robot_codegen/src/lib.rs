@@ -26,5 +26,5 @@ pub use module::Module;
 pub use passes::{Fused, Options, Resubstitution, Schedule};
 pub use program::Program;
 pub use rounding::Rounded;
-pub use spec::{FunctionSpec, InputSpec, ModuleSpec, OutputSpec, ParameterSpec};
+pub use spec::{Function, Input, ModuleSpec, Output, ParameterSpec};
 pub use trigonometry::Trigonometry;

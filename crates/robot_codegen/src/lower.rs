@@ -6,7 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::error::{Error, Errors};
 use crate::program::{Builder, DoubleDouble, Program, Source, Value};
-use crate::spec::{FunctionSpec, ModuleSpec};
+use crate::spec::{Function, ModuleSpec};
 
 /// The programs of one function.
 pub(crate) struct Lowered {
@@ -99,7 +99,7 @@ enum Class {
 
 fn lower_function(
     spec: &ModuleSpec<'_>,
-    function: &FunctionSpec<'_>,
+    function: &Function<'_>,
     errors: &mut Vec<Error>,
 ) -> Lowered {
     let roots: Vec<Expr<'_>> =
@@ -130,7 +130,7 @@ fn lower_function(
 }
 
 /// The name of the first output that contains a node.
-fn output_with(function: &FunctionSpec<'_>, id: Id) -> String {
+fn output_with(function: &Function<'_>, id: Id) -> String {
     let contains = |values: &[Expr<'_>]| reachable(values).iter().any(|expr| expr.id() == id);
     let output = function.outputs.iter().find(|output| contains(&output.values));
     output.map_or_else(String::new, |output| output.name.clone())
@@ -147,7 +147,7 @@ struct Lowering<'g> {
 }
 
 impl<'g> Lowering<'g> {
-    fn new(spec: &ModuleSpec<'_>, function: &FunctionSpec<'_>, roots: &[Expr<'g>]) -> Self {
+    fn new(spec: &ModuleSpec<'_>, function: &Function<'_>, roots: &[Expr<'g>]) -> Self {
         let mut sources = FxHashMap::default();
         if let Some(graph) = roots.first().map(|root| root.graph()) {
             let parameters = spec.parameters.iter().map(|parameter| &parameter.name);

@@ -7,7 +7,8 @@ use crate::error::Errors;
 use crate::lower;
 use crate::passes::{self, Options};
 use crate::program::{Program, Source};
-use crate::spec::{InputSpec, ModuleSpec, ParameterSpec};
+pub use crate::spec::{Input, Output};
+use crate::spec::{ModuleSpec, ParameterSpec};
 use crate::stage;
 
 /// A compiled module.
@@ -34,7 +35,7 @@ pub struct Function {
     /// Documentation, a paragraph or line each.
     pub doc: Vec<String>,
     /// The inputs; [`Source::Input`] counts through their entries, input after input.
-    pub inputs: Vec<InputSpec>,
+    pub inputs: Vec<Input>,
     /// The outputs; the results of `core` are their entries, output after output.
     pub outputs: Vec<Output>,
     /// The arguments of all sines and cosines: first plain entries of inputs, in their order, then
@@ -44,19 +45,6 @@ pub struct Function {
     pub core: Program,
     /// The operations of `core`, in calls alone, after each pass, in the order in which they ran.
     pub passes: Vec<PassCounts>,
-}
-
-/// An output of a compiled function.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Output {
-    /// The name.
-    pub name: String,
-    /// Its meaning.
-    pub doc: String,
-    /// Its unit.
-    pub unit: String,
-    /// `[]` for a scalar, `[n]` for a vector, `[rows, columns]` for a matrix.
-    pub shape: Vec<usize>,
 }
 
 /// The inputs with their lengths, the programs, and the values of `core` that are the outputs.
@@ -80,20 +68,6 @@ impl Display for Function {
     }
 }
 
-impl Output {
-    /// The number of entries.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.shape.iter().product()
-    }
-
-    /// Whether the output has no entries.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-}
-
 impl Module {
     /// Compiles a specification: checks it, lowers the expressions, runs the passes and moves what
     /// depends on parameters alone into the constructor.
@@ -110,16 +84,7 @@ impl Module {
                 name: function.name.clone(),
                 doc: function.doc.clone(),
                 inputs: function.inputs.clone(),
-                outputs: function
-                    .outputs
-                    .iter()
-                    .map(|output| Output {
-                        name: output.name.clone(),
-                        doc: output.doc.clone(),
-                        unit: output.unit.clone(),
-                        shape: output.shape.clone(),
-                    })
-                    .collect(),
+                outputs: function.outputs.iter().map(Output::described).collect(),
                 angles: passes::tidy(&lowered.angles),
                 core,
                 passes: report,

@@ -5,7 +5,7 @@
 //! it. The documentation of parameters alone is text of such a file, and names and units are: they are made
 //! harmless where they are printed.
 
-use robot_symbolic::Expr;
+pub use robot_symbolic::named::{Function, Input, Output};
 
 /// A module: parameters and the functions of them, all over one [`robot_symbolic::Graph`].
 ///
@@ -20,7 +20,7 @@ pub struct ModuleSpec<'g> {
     /// The parameters, in the order in which the code lists them.
     pub parameters: Vec<ParameterSpec>,
     /// The functions, in the order in which the code lists them.
-    pub functions: Vec<FunctionSpec<'g>>,
+    pub functions: Vec<Function<'g>>,
 }
 
 /// A parameter: a symbol that is given once, before any call.
@@ -34,45 +34,4 @@ pub struct ParameterSpec {
     pub unit: String,
     /// The value where none other is given.
     pub nominal: Option<f64>,
-}
-
-/// A function: inputs, and outputs computed from them and the module's parameters.
-#[derive(Clone, Debug)]
-pub struct FunctionSpec<'g> {
-    /// The name.
-    pub name: String,
-    /// Documentation in Markdown, a paragraph or line each.
-    pub doc: Vec<String>,
-    /// The inputs, arrays of symbols.
-    pub inputs: Vec<InputSpec>,
-    /// The outputs, arrays of expressions.
-    pub outputs: Vec<OutputSpec<'g>>,
-}
-
-/// An input: an array of symbols, such as the joint positions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct InputSpec {
-    /// The name of the array.
-    pub name: String,
-    /// Its meaning, in Markdown.
-    pub doc: String,
-    /// Its unit; empty where it has none or the entries differ.
-    pub unit: String,
-    /// The symbols, one for each entry.
-    pub symbols: Vec<String>,
-}
-
-/// An output: a scalar, a vector or a matrix of expressions.
-#[derive(Clone, Debug)]
-pub struct OutputSpec<'g> {
-    /// The name.
-    pub name: String,
-    /// Its meaning, in Markdown.
-    pub doc: String,
-    /// Its unit; empty where it has none or the entries differ.
-    pub unit: String,
-    /// `[]` for a scalar, `[n]` for a vector, `[rows, columns]` for a matrix.
-    pub shape: Vec<usize>,
-    /// The entries, row by row.
-    pub values: Vec<Expr<'g>>,
 }

@@ -41,6 +41,7 @@ pub mod differentiate;
 mod expr;
 pub mod formula;
 mod graph;
+pub mod named;
 mod number;
 mod operations;
 mod operators;

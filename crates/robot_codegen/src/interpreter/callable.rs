@@ -5,7 +5,7 @@ use super::{OutputValues, names};
 use crate::error::{Error, Errors};
 use crate::module::{Function, Output};
 use crate::program::{Program, Source};
-use crate::spec::InputSpec;
+use crate::spec::Input;
 use crate::trigonometry::Trigonometry;
 
 /// The states of a block: so many that what is to be done for each operation is done rarely, and so few that the values
@@ -54,7 +54,7 @@ impl<'i> Callable<'i> {
 
     /// The inputs.
     #[must_use]
-    pub fn inputs(self) -> &'i [InputSpec] {
+    pub fn inputs(self) -> &'i [Input] {
         &self.function.inputs
     }
 
@@ -158,7 +158,7 @@ impl<'i> Callable<'i> {
             lengths.extend(inputs.iter().map(|(name, rows)| (*name, rows[state].len())));
             self.check(&lengths)?;
         }
-        let given = |input: &InputSpec| inputs.iter().find(|(name, _)| *name == input.name);
+        let given = |input: &Input| inputs.iter().find(|(name, _)| *name == input.name);
         let entries: Vec<(&[Vec<f64>], usize)> = self
             .inputs()
             .iter()
@@ -249,7 +249,7 @@ impl<'i> Callable<'i> {
         let lengths: Vec<(&str, usize)> =
             given.iter().map(|(name, entries)| (*name, entries.len())).collect();
         self.check(&lengths)?;
-        let of = |input: &InputSpec| given.iter().find(|(name, _)| *name == input.name);
+        let of = |input: &Input| given.iter().find(|(name, _)| *name == input.name);
         let entries = self.inputs().iter().filter_map(of).flat_map(|(_, entries)| *entries);
         Ok(entries.copied().collect())
     }

@@ -8,7 +8,7 @@ use crate::support::{
 };
 use robot_codegen::backend::rust::{LANGUAGE, RustOptions, Wrapping, generate};
 use robot_codegen::program::{Layout, Limits};
-use robot_codegen::spec::{FunctionSpec, ModuleSpec, ParameterSpec};
+use robot_codegen::spec::{Function, ModuleSpec, ParameterSpec};
 use robot_codegen::{Fused, Interpreter, Module, Options, Scalar, Trigonometry};
 use robot_symbolic::{Graph, Random};
 
@@ -177,7 +177,7 @@ fn a_module_without_parameters_has_functions_of_its_own() {
         name: "plain".into(),
         doc: vec![],
         parameters: vec![],
-        functions: vec![FunctionSpec {
+        functions: vec![Function {
             name: "f".into(),
             doc: vec![],
             inputs: vec![support::arm::joints("q", "rad")],
@@ -207,7 +207,7 @@ fn sines_of_the_constructor_come_from_where_those_of_calls_come_from() {
         name: "tilted".into(),
         doc: vec![],
         parameters: vec![tilt],
-        functions: vec![FunctionSpec {
+        functions: vec![Function {
             name: "f".into(),
             doc: vec![],
             inputs: vec![support::arm::joints("q", "rad")],

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use robot_codegen::backend::rust::{LANGUAGE, RustOptions, generate};
 use robot_codegen::module::{Function, Output};
 use robot_codegen::program::{Builder, Limits, Operation, Program, Source, Value};
-use robot_codegen::spec::{InputSpec, ParameterSpec};
+use robot_codegen::spec::{Input, ParameterSpec};
 use robot_codegen::{Interpreter, Module, Scalar, Trigonometry};
 use robot_symbolic::Function as Call;
 
@@ -70,7 +70,7 @@ fn every(sources: &[Source]) -> Program {
 }
 
 fn function(name: &str, angles: Program, core: Program) -> Function {
-    let input = InputSpec {
+    let input = Input {
         name: "q".into(),
         doc: "two numbers".into(),
         unit: String::new(),
@@ -81,6 +81,7 @@ fn function(name: &str, angles: Program, core: Program) -> Function {
         doc: "all results".into(),
         unit: String::new(),
         shape: vec![core.results().len()],
+        values: (),
     };
     Function {
         name: name.into(),

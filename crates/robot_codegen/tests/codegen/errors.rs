@@ -11,7 +11,7 @@ use crate::support::arm::{joints, vector};
 fn module<'g>(value: Expr<'g>) -> ModuleSpec<'g> {
     let parameter =
         ParameterSpec { name: "p".into(), doc: String::new(), unit: String::new(), nominal: None };
-    let function = FunctionSpec {
+    let function = Function {
         name: "f".into(),
         doc: vec![],
         inputs: vec![joints("q", "rad")],

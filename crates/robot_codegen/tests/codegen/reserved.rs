@@ -41,9 +41,9 @@ const INPUTS: [(&str, [&str; 2]); 3] =
     [("self", ["as", "in"]), ("loop", ["loop_", "s"]), ("result", ["count", "half"])];
 const OUTPUTS: [&str; 3] = ["match", "match_", "self"];
 
-fn input((name, symbols): (&str, [&str; 2])) -> InputSpec {
+fn input((name, symbols): (&str, [&str; 2])) -> Input {
     let symbols = symbols.map(str::to_owned).to_vec();
-    InputSpec { name: name.into(), doc: String::new(), unit: String::new(), symbols }
+    Input { name: name.into(), doc: String::new(), unit: String::new(), symbols }
 }
 
 fn specification(graph: &Graph) -> ModuleSpec<'_> {
@@ -64,7 +64,7 @@ fn specification(graph: &Graph) -> ModuleSpec<'_> {
         unit: String::new(),
         nominal: Some(0.25 * index as f64 - 1.0),
     });
-    let functions = FUNCTIONS.iter().enumerate().map(|(index, name)| FunctionSpec {
+    let functions = FUNCTIONS.iter().enumerate().map(|(index, name)| Function {
         name: (*name).into(),
         doc: vec![],
         inputs: INPUTS.into_iter().map(input).collect(),

@@ -37,30 +37,27 @@ pub(crate) fn planar_arm(graph: &Graph) -> ModuleSpec<'_> {
         })
         .into(),
         functions: vec![
-            FunctionSpec {
+            Function {
                 name: "inverse_dynamics".into(),
                 doc: vec!["Joint torques of a motion.".into()],
                 inputs: vec![joints("q", "rad"), joints("qd", "rad/s"), joints("qdd", "rad/s^2")],
                 outputs: vec![vector("tau", "N m", vec![tau1, tau2])],
             },
-            FunctionSpec {
+            Function {
                 name: "mass_matrix".into(),
                 doc: vec![],
                 inputs: vec![joints("q", "rad")],
                 outputs: vec![
-                    OutputSpec {
-                        shape: vec![2, 2],
-                        ..vector("m", "kg m^2", vec![m11, m12, m12, m22])
-                    },
-                    OutputSpec { shape: vec![], ..vector("trace", "kg m^2", vec![m11 + m22]) },
+                    Output { shape: vec![2, 2], ..vector("m", "kg m^2", vec![m11, m12, m12, m22]) },
+                    Output { shape: vec![], ..vector("trace", "kg m^2", vec![m11 + m22]) },
                 ],
             },
         ],
     }
 }
 
-pub(crate) fn joints(name: &str, unit: &str) -> InputSpec {
-    InputSpec {
+pub(crate) fn joints(name: &str, unit: &str) -> Input {
+    Input {
         name: name.into(),
         doc: format!("joint {name}"),
         unit: unit.into(),
@@ -68,8 +65,8 @@ pub(crate) fn joints(name: &str, unit: &str) -> InputSpec {
     }
 }
 
-pub(crate) fn vector<'g>(name: &str, unit: &str, values: Vec<Expr<'g>>) -> OutputSpec<'g> {
-    OutputSpec {
+pub(crate) fn vector<'g>(name: &str, unit: &str, values: Vec<Expr<'g>>) -> Output<Vec<Expr<'g>>> {
+    Output {
         name: name.into(),
         doc: String::new(),
         unit: unit.into(),

@@ -41,7 +41,7 @@ pub(crate) fn module<'g>(
                 nominal: Some(real(random)),
             })
             .collect(),
-        functions: vec![FunctionSpec {
+        functions: vec![Function {
             name: "f".into(),
             doc: vec![],
             inputs: vec![input("q", q), input("v", v)],
@@ -50,8 +50,8 @@ pub(crate) fn module<'g>(
     }
 }
 
-fn input(name: &str, symbols: Vec<String>) -> InputSpec {
-    InputSpec { name: name.into(), doc: String::new(), unit: String::new(), symbols }
+fn input(name: &str, symbols: Vec<String>) -> Input {
+    Input { name: name.into(), doc: String::new(), unit: String::new(), symbols }
 }
 
 /// An operation on values of the pool, rather the latest, that keeps sizes near 1.

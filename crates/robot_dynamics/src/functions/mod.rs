@@ -27,7 +27,8 @@ pub use singular::undetermined;
 pub use crate::derivation::Derivation;
 
 use robot_model::functions::{Effects, FunctionKind};
-use robot_symbolic::Expr;
+pub use robot_symbolic::named::{Function, Input};
+use robot_symbolic::{Expr, named};
 
 use crate::base_parameters::BaseParameters;
 use crate::economical::Recursion;
@@ -35,59 +36,8 @@ use crate::matrix::Pivots;
 use robot_model::robot::JointKind;
 use robot_model::variable::{JointVariable, WRENCH};
 
-/// A function of a robot, or several in one.
-#[derive(Clone, Debug)]
-pub struct Function<'g> {
-    /// Its name: the kind's, with that of a frame where there are functions of several frames; a
-    /// bundle's.
-    pub name: String,
-    /// What it computes, in paragraphs: convention, frames, source.
-    pub doc: Vec<String>,
-    /// The input arrays, in the order of the call.
-    pub inputs: Vec<Input>,
-    /// The output arrays.
-    pub outputs: Vec<Output<'g>>,
-}
-
-/// An input array.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Input {
-    /// `q`, `qd`, `qdd`, `wrench`, `tau`.
-    pub name: String,
-    /// What it holds.
-    pub doc: String,
-    /// Units of the elements, in words where they differ.
-    pub unit: String,
-    /// The symbol of each element.
-    pub symbols: Vec<String>,
-}
-
-/// An output array.
-#[derive(Clone, Debug)]
-pub struct Output<'g> {
-    /// `tau`, `force`, `mass_matrix`.
-    pub name: String,
-    /// What it holds.
-    pub doc: String,
-    /// Units of the elements, in words where they differ.
-    pub unit: String,
-    /// The lengths of the array's dimensions; a matrix is stored row by row.
-    pub shape: Vec<usize>,
-    /// The elements.
-    pub values: Vec<Expr<'g>>,
-}
-
-impl<'g> Output<'g> {
-    fn new(
-        name: &str,
-        doc: &str,
-        unit: &str,
-        shape: Vec<usize>,
-        values: Vec<Expr<'g>>,
-    ) -> Output<'g> {
-        Output { name: name.to_owned(), doc: doc.to_owned(), unit: unit.to_owned(), shape, values }
-    }
-}
+/// An output with its expressions.
+pub type Output<'g> = named::Output<Vec<Expr<'g>>>;
 
 impl<'r, 'g> Derivation<'r, 'g> {
     /// The recursion, where it has to solve M q̈ = b by articulated bodies so as to keep digits: where
