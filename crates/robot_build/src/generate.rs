@@ -7,7 +7,6 @@ use robot_codegen::{FunctionCounts, Module};
 use robot_dynamics::mechanism::Snap;
 use robot_model::diagnostic::{Diagnostics, Source};
 use robot_model::robot::{Payload, Robot};
-use sha2::{Digest, Sha256};
 
 use crate::budget;
 use crate::error::Errors;
@@ -114,7 +113,7 @@ fn rust_options(
 /// Where generated text comes from. The folder of the file stays out of it, so that the same file
 /// gives the same text wherever it lies.
 pub(crate) fn header(source: &Source) -> String {
-    let hash = Sha256::digest(source.text.as_bytes());
+    let hash = hmac_sha256::Hash::hash(source.text.as_bytes());
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
     let version = env!("CARGO_PKG_VERSION");
     format!(

@@ -7,7 +7,6 @@ use robot_dynamics::economical::mechanics;
 use robot_dynamics::economical::pin::Pin;
 use robot_dynamics::economical::search::Found;
 use robot_model::robot::Robot;
-use sha2::{Digest, Sha256};
 
 use crate::error::{Error, Errors};
 use crate::files::MARKER;
@@ -106,7 +105,7 @@ fn fingerprint(robot: &Robot) -> String {
 }
 
 fn digest(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+    hmac_sha256::Hash::hash(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

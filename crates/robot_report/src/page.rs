@@ -3,7 +3,6 @@
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use robot_model::robot::Robot;
-use sha2::{Digest, Sha256};
 
 use crate::html::{Element, Node, element, holding};
 use crate::reload::Stamp;
@@ -80,7 +79,7 @@ fn head(robot: &Robot, reloads: bool) -> Element {
 /// picture beside it, too.
 fn policy(reloads: bool) -> String {
     let hash = |text: &str| {
-        let hash = BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
+        let hash = BASE64_STANDARD.encode(hmac_sha256::Hash::hash(text.as_bytes()));
         format!("'sha256-{hash}'")
     };
     let more = match reloads {

@@ -1,7 +1,6 @@
 //! The page of a robot whose file is being edited: it reloads itself, from disk and without a server.
 
 use robot_build::MARKER;
-use sha2::{Digest, Sha256};
 
 /// What the page's script looks at: which page is the newest.
 ///
@@ -17,7 +16,7 @@ impl Stamp {
     /// The stamp of a page with that text.
     pub(crate) fn of(text: &str) -> Stamp {
         let side = |[high, low]: [u8; 2]| 1 + u16::from_be_bytes([high, low]) % 4096;
-        let [a, b, c, d, ..] = <[u8; 32]>::from(Sha256::digest(text.as_bytes()));
+        let [a, b, c, d, ..] = hmac_sha256::Hash::hash(text.as_bytes());
         Stamp { width: side([a, b]), height: side([c, d]) }
     }
 
