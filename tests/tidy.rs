@@ -356,6 +356,47 @@ fn invariants_name_what_holds_them() {
     }
 }
 
+/// Words that the glossary replaces and that mean nothing else.
+const REPLACED: [&str; 9] = [
+    "driving force",
+    "torsor",
+    "motion law",
+    "direct problem",
+    "mass centre",
+    "centre of mass",
+    "hangs on",
+    "plane arm",
+    "optimis",
+];
+
+/// The prose of a page, without blocks of code.
+fn prose(page: &str) -> String {
+    let blocks = page.split("\n```");
+    blocks.step_by(2).collect::<Vec<_>>().join("\n").to_lowercase()
+}
+
+#[test]
+fn pages_use_the_terms_of_the_glossary() {
+    let docs = root().join("docs");
+    let mut paths =
+        ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"].map(|name| root().join(name)).to_vec();
+    for folder in [docs.clone(), docs.join("users")] {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        paths.extend(entries.filter(|path| path.extension().is_some_and(|end| end == "md")));
+    }
+    // The glossary lists them, the summary has the titles of diagnostics.
+    paths.retain(|path| !path.ends_with("glossary.md") && !path.ends_with("SUMMARY.md"));
+    assert!(paths.len() >= 25, "{}", paths.len());
+    let mut wrong = vec![];
+    for path in paths {
+        let text = prose(&fs::read_to_string(&path).unwrap()).replace('\n', " ");
+        for word in REPLACED.iter().filter(|word| text.contains(**word)) {
+            wrong.push(format!("{}: {word}", path.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "docs/glossary.md has other words: {wrong:#?}");
+}
+
 /// What a package is made of, by its manifest.
 #[test]
 fn packages_say_what_they_are() {
