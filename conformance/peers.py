@@ -175,17 +175,18 @@ def head(count, versions, tally):
         f"| {peer} {versions[peer]} | {found['right']} | {found['said']} | {found['silent']} |"
         for peer, found in tally.items()
     )
-    return f"""# Conformance: what programs make of a robot description
+    return f"""# Conformance: how programs read a robot description
 
-Each row is a small URDF file with a state and the right torques, derived by hand, or the reason why no program should take it:
-see [conformance/](../conformance/README.md), where anybody can run it. This page is written by
-`conformance/peers.py`; the column *here* is held by `tests/derivations/conformance.rs`. Torques are in N m, forces in N.
-In bold: an answer that differs from the right one. *Silent* means that nothing was written to standard output or error.
+Each row is a small URDF file with a state and the right torques, derived by hand, or the reason why no program should accept it.
+The rows are in [conformance/](../conformance/README.md), where anybody can run them. `conformance/peers.py` writes this page;
+`tests/derivations/conformance.rs` tests the column *here*. Torques are in N m, forces in N.
+Bold marks an answer that differs from the right one. *Silent* means that the program wrote nothing to standard output or error.
 
-A difference is not always a fault: *reads it* stands where a refusal is a limit of this project and no fault of the file; Pinocchio and MuJoCo leave checks to others, MuJoCo counts damping and friction in inverse
-dynamics by design, and both read mimic joints as constraints or not at all unless told otherwise. All are run with their defaults.
+A difference is not always a fault. *Reads it* marks files that this project refuses because of its own limits. Pinocchio and MuJoCo leave
+checks to others; MuJoCo includes damping and friction in inverse dynamics by design, and both read mimic joints as constraints or not at all
+by default. All programs run with their defaults.
 
-| {count} rows | as the row says | differs, and says something | differs in silence |
+| {count} rows | as the row says | differs, with a message | differs silently |
 |---|---|---|---|
 | here | {count} | 0 | 0 |
 {summary}

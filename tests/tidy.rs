@@ -1,5 +1,5 @@
-//! The house rules that a compiler does not hold: which crate and which module may know which, how long a file
-//! may be, how large a crate, and that packages stand alone.
+//! The rules of ARCHITECTURE.md that the compiler does not check: which crate and which module may depend on which,
+//! who may touch the system, how long a file and how large a crate may be, and that packages are self-contained.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -253,6 +253,137 @@ fn packages_include_nothing_from_outside() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// The text of a source before its tests.
+fn without_tests(path: &Path) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    let end = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+    text[..end].to_owned()
+}
+
+/// The parts of the system, by the paths that lead to them, and who may touch them: a crate, or a file or folder
+/// of one.
+const SYSTEM: [(&[&str], &[&str]); 3] = [
+    (
+        &["std::fs", "std::env", "std::io::std", "io::stdin", "io::stdout", "io::stderr"],
+        &[
+            "robot_build/src/builder",
+            "robot_build/src/cargo.rs",
+            "robot_build/src/files/",
+            "robot_build/src/paths.rs",
+            "robot_build/src/pin.rs",
+            "robot_macros/",
+            "robot_evidence/src/compile.rs",
+            "robot_cli/",
+            "robot_testing/",
+        ],
+    ),
+    (&["process::{", "process::Command", "std::net"], &["robot_evidence/src/compile.rs"]),
+    (&["std::time"], &["robot_cli/"]),
+];
+
+#[test]
+fn only_entry_points_touch_the_system() {
+    let mut wrong = vec![];
+    let folder = root().join("crates");
+    for path in CRATES.iter().flat_map(|name| sources(&folder.join(name).join("src"))) {
+        if path.ends_with("tests.rs") {
+            continue;
+        }
+        let text = without_tests(&path);
+        let name = path.strip_prefix(&folder).unwrap().to_str().unwrap();
+        for (words, places) in SYSTEM {
+            for word in words.iter().filter(|word| text.contains(**word)) {
+                if !places.iter().any(|place| name.starts_with(place)) {
+                    wrong.push(format!("{name} uses {word}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn the_solver_knows_no_derivation() {
+    assert_eq!(dependencies("robot_numeric"), ["robot_symbolic", "robot_model"]);
+}
+
+/// What an invariant says it is held by, by the words in code spans: paths, and in each the names behind it.
+fn held_by(invariant: &str) -> Vec<(&str, Vec<&str>)> {
+    let spans = invariant.split('`').skip(1).step_by(2);
+    let mut found: Vec<(&str, Vec<&str>)> = vec![];
+    for span in spans {
+        match found.last_mut() {
+            Some((_, names)) if !span.contains(['/', '.']) => names.push(span),
+            _ => found.push((span, vec![])),
+        }
+    }
+    found
+}
+
+#[test]
+fn invariants_name_what_holds_them() {
+    let page = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let (_, section) = page.split_once("\n## Invariants\n").unwrap();
+    let section = section.split("\n## ").next().unwrap();
+    let invariants: Vec<&str> = section.split("\n- **").skip(1).collect();
+    assert!(invariants.len() >= 18, "{}", invariants.len());
+    for invariant in invariants {
+        let title = invariant.lines().next().unwrap();
+        let (_, holders) = invariant.split_once("*Held by* ").unwrap_or_else(|| panic!("{title}"));
+        let found = held_by(holders);
+        assert!(!found.is_empty() || holders.starts_with("review"), "{title}: nothing holds it");
+        for (path, names) in found {
+            let text = fs::read_to_string(root().join(path))
+                .unwrap_or_else(|error| panic!("{title}: {path}: {error}"));
+            for name in names {
+                let (test, lint) = (format!("fn {name}("), format!("\n{name} = "));
+                assert!(text.contains(&test) || text.contains(&lint), "{title}: {path}: {name}");
+            }
+        }
+    }
+}
+
+/// Words that the glossary replaces and that mean nothing else.
+const REPLACED: [&str; 9] = [
+    "driving force",
+    "torsor",
+    "motion law",
+    "direct problem",
+    "mass centre",
+    "centre of mass",
+    "hangs on",
+    "plane arm",
+    "optimis",
+];
+
+/// The prose of a page, without blocks of code.
+fn prose(page: &str) -> String {
+    let blocks = page.split("\n```");
+    blocks.step_by(2).collect::<Vec<_>>().join("\n").to_lowercase()
+}
+
+#[test]
+fn pages_use_the_terms_of_the_glossary() {
+    let docs = root().join("docs");
+    let mut paths =
+        ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"].map(|name| root().join(name)).to_vec();
+    for folder in [docs.clone(), docs.join("users")] {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        paths.extend(entries.filter(|path| path.extension().is_some_and(|end| end == "md")));
+    }
+    // The glossary lists them, the summary has the titles of diagnostics.
+    paths.retain(|path| !path.ends_with("glossary.md") && !path.ends_with("SUMMARY.md"));
+    assert!(paths.len() >= 25, "{}", paths.len());
+    let mut wrong = vec![];
+    for path in paths {
+        let text = prose(&fs::read_to_string(&path).unwrap()).replace('\n', " ");
+        for word in REPLACED.iter().filter(|word| text.contains(**word)) {
+            wrong.push(format!("{}: {word}", path.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "docs/glossary.md has other words: {wrong:#?}");
+}
+
 /// What a package is made of, by its manifest.
 #[test]
 fn packages_say_what_they_are() {
@@ -277,7 +408,7 @@ fn packages_say_what_they_are() {
 
 /// The variables of joints are named in one place: elsewhere nobody writes `"qdd"`, or puts a number behind it.
 #[test]
-fn joint_variables_are_named_in_one_place() {
+fn names_of_joint_variables_have_one_place() {
     const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
     let mut wrong = vec![];
     for path in sources(&root().join("crates")) {

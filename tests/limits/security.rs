@@ -212,9 +212,10 @@ fn hostile_names_and_latex_are_refused() {
 #[test]
 fn the_crates_behind_a_build_start_no_process() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/crates");
-    let mut folders: Vec<_> = ["symbolic", "dynamics", "codegen", "build", "macros", "runtime"]
-        .map(|name| std::path::PathBuf::from(format!("{root}/robot_{name}/src")))
-        .to_vec();
+    let mut folders: Vec<_> =
+        ["symbolic", "model", "dynamics", "codegen", "build", "macros", "runtime"]
+            .map(|name| std::path::PathBuf::from(format!("{root}/robot_{name}/src")))
+            .to_vec();
     let mut files = 0;
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
