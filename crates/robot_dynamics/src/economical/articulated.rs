@@ -7,12 +7,12 @@
 
 use robot_symbolic::{Expr, Graph};
 
-use super::chain::{Chain, ChainLink};
-use super::composite::symmetric;
-use super::inertia::PseudoInertia;
-use super::plan::{LinkPlan, Place};
-use super::rotation::{ConstantRotation, Plane};
-use super::spatial::{Twist, Ways, Wrench};
+use crate::economical::composite::symmetric;
+use crate::economical::frames::chain::{Chain, ChainLink};
+use crate::economical::plan::{LinkPlan, Place};
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::rotation::{ConstantRotation, Plane};
+use crate::economical::spatial::{Twist, Ways, Wrench};
 use crate::matrix::Pivots;
 use crate::vector::{Matrix, Vector};
 

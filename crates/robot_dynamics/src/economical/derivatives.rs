@@ -16,16 +16,16 @@
 
 use robot_symbolic::Expr;
 
-use super::Recursion;
-use super::chain::Chain;
-use super::composite::{composites, gather, inertial_wrench};
-use super::encounter::{GoesInward, Traveller, encounters};
-use super::inertia::PseudoInertia;
-use super::inward::own_wrench;
-use super::momentum::Momentum;
-use super::outward::{self, Accelerations, LinkState};
-use super::plan::Place;
-use super::spatial::{Twist, Ways, Wrench};
+use crate::economical::Recursion;
+use crate::economical::composite::projection::{GoesInward, Traveller, encounters};
+use crate::economical::composite::{composites, gather, inertial_wrench};
+use crate::economical::frames::chain::Chain;
+use crate::economical::plan::Place;
+use crate::economical::recursion::inward::own_wrench;
+use crate::economical::recursion::outward::{self, Accelerations, LinkState};
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::momentum::Momentum;
+use crate::economical::spatial::{Twist, Ways, Wrench};
 use crate::matrix::SquareMatrix;
 use crate::vector::Vector;
 

@@ -13,14 +13,14 @@
 use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::Expr;
 
-use super::Recursion;
-use super::chain::ChainLink;
-use super::encounter::{Traveller, encounters};
-use super::outward::{self, Accelerations, LinkState};
-use super::plan::{LinkPlan, Origin, Place, Plan, Turn};
-use super::rotation::Plane;
-use super::spatial::{Ways, Wrench};
 use crate::body::{Body, FIRST_MOMENT, Moments, TENSOR};
+use crate::economical::Recursion;
+use crate::economical::composite::projection::{Traveller, encounters};
+use crate::economical::frames::chain::ChainLink;
+use crate::economical::plan::{LinkPlan, Origin, Place, Plan, Turn};
+use crate::economical::recursion::outward::{self, Accelerations, LinkState};
+use crate::economical::spatial::rotation::Plane;
+use crate::economical::spatial::{Ways, Wrench};
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 

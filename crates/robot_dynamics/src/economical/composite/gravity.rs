@@ -2,10 +2,10 @@
 
 use robot_symbolic::Expr;
 
-use super::chain::Chain;
-use super::composite::composites;
-use super::plan::LinkPlan;
-use super::spatial::Ways;
+use crate::economical::composite::composites;
+use crate::economical::frames::chain::Chain;
+use crate::economical::plan::LinkPlan;
+use crate::economical::spatial::Ways;
 use crate::vector::Vector;
 
 /// g(q): per joint, the moment or force along its axis that holds all that its link carries.

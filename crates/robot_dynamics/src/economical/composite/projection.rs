@@ -1,7 +1,7 @@
 //! Where the wrenches of outer joints meet the motions of inner joints.
 
-use super::plan::Place;
-use super::spatial::{Twist, Ways, Wrench};
+use crate::economical::plan::Place;
+use crate::economical::spatial::{Twist, Ways, Wrench};
 use crate::vector::Vector;
 
 /// A meeting of what an outer link asks for with the motion of an inner joint.

@@ -6,10 +6,10 @@
 
 use robot_symbolic::Expr;
 
-use super::chain::{Chain, ChainLink};
-use super::plan::{FreeRate, LinkPlan};
-use super::posture::{Posture, postures};
-use super::rotation::Plane;
+use crate::economical::frames::chain::{Chain, ChainLink};
+use crate::economical::frames::joint_frame::{Posture, postures};
+use crate::economical::plan::{FreeRate, LinkPlan};
+use crate::economical::spatial::rotation::Plane;
 use crate::vector::{Matrix, Vector};
 
 /// Levers shorter than this, in the chain's unit of length, bring nothing to rest: the accelerations

@@ -10,9 +10,9 @@ use robot_model::functions::Effects;
 use robot_model::robot::{Parameter, Robot};
 use robot_symbolic::{Counter, Expr, Graph, Operations, SymbolId, walk};
 
-use super::Recursion;
-use super::chain::Base;
-use super::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
+use crate::economical::Recursion;
+use crate::economical::frames::chain::Base;
+use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::newton_euler;
 

@@ -2,9 +2,9 @@
 
 use robot_symbolic::Expr;
 
-use super::Recursion;
-use super::gravity::weight_in_base;
-use super::spatial::Ways;
+use crate::economical::Recursion;
+use crate::economical::composite::gravity::weight_in_base;
+use crate::economical::spatial::Ways;
 use crate::vector::{Matrix, Vector};
 
 impl<'g> Recursion<'g> {

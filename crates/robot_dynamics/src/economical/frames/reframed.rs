@@ -1,7 +1,7 @@
 //! A mechanism in other frames of its links.
 
-use super::chain::Limits;
-use super::frames::{WorkingFrame, axes_about, between, normal_with_parent};
+use crate::economical::frames::chain::Limits;
+use crate::economical::frames::working::{WorkingFrame, axes_about, between, normal_with_parent};
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 

@@ -5,9 +5,9 @@
 
 use robot_symbolic::Expr;
 
-use super::chain::{Chain, ChainLink};
-use super::outward::LinkState;
-use super::plan::LinkPlan;
+use crate::economical::frames::chain::{Chain, ChainLink};
+use crate::economical::plan::LinkPlan;
+use crate::economical::recursion::outward::LinkState;
 use crate::vector::{Matrix, Vector};
 
 /// A wrench applied by a tip, in the working frame of its link and the chain's unit of length.

@@ -1,11 +1,15 @@
 //! Twists and wrenches about the origins of working frames, and their way from frame to frame.
 
+pub(crate) mod inertia;
+pub(crate) mod momentum;
+pub(crate) mod rotation;
+
 use robot_symbolic::{Expr, Graph};
 
-use super::chain::Chain;
-use super::plan::Place;
-use super::posture::{Posture, postures};
-use super::rotation::Plane;
+use crate::economical::frames::chain::Chain;
+use crate::economical::frames::joint_frame::{Posture, postures};
+use crate::economical::plan::Place;
+use crate::economical::spatial::rotation::Plane;
 use crate::vector::Vector;
 
 /// The motion of a body: its angular velocity and the velocity of its point at the origin.

@@ -1,10 +1,10 @@
 //! The mass matrix by composite inertias.
 
-use super::chain::Chain;
-use super::composite::{composites, inertial_wrench};
-use super::encounter::{Traveller, encounters};
-use super::plan::LinkPlan;
-use super::spatial::Ways;
+use crate::economical::composite::projection::{Traveller, encounters};
+use crate::economical::composite::{composites, inertial_wrench};
+use crate::economical::frames::chain::Chain;
+use crate::economical::plan::LinkPlan;
+use crate::economical::spatial::Ways;
 use crate::matrix::SymmetricMatrix;
 
 /// M(q), drives included.

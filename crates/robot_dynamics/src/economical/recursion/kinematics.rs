@@ -2,9 +2,9 @@
 
 use robot_symbolic::Expr;
 
-use super::Recursion;
-use super::outward::{self, Accelerations};
-use super::spatial::Ways;
+use crate::economical::Recursion;
+use crate::economical::recursion::outward::{self, Accelerations};
+use crate::economical::spatial::Ways;
 use crate::mechanism::MechanismFrame;
 use crate::vector::{Matrix, Vector};
 
@@ -145,7 +145,7 @@ impl<'g> Recursion<'g> {
     }
 
     /// Ways through the axes of parallel groups, as `angle_sum` has it for motions.
-    pub(super) fn ways(&self) -> Ways<'_, 'g> {
+    pub(in crate::economical) fn ways(&self) -> Ways<'_, 'g> {
         Ways::new(&self.chain, |index| self.plans[index].angle_sum)
     }
 }

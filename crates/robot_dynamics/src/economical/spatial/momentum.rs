@@ -1,10 +1,10 @@
 //! Composite momenta: B = Σ V P over a link and all that it carries, with the motions V and the
 //! pseudo-inertias P of the links.
 
-use super::composite::Inward;
-use super::inertia::PseudoInertia;
-use super::rotation::{ConstantRotation, Plane};
-use super::spatial::{Twist, Wrench};
+use crate::economical::composite::Inward;
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::rotation::{ConstantRotation, Plane};
+use crate::economical::spatial::{Twist, Wrench};
 use crate::vector::{Matrix, Vector};
 
 /// The upper rows of the 4 × 4 matrix V P by its blocks, about some origin.

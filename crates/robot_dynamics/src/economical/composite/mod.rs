@@ -1,10 +1,14 @@
 //! Composites: each link with all that it carries, taken together as one rigid body.
 
+pub(crate) mod gravity;
+pub(crate) mod mass_matrix;
+pub(crate) mod projection;
+
 use robot_symbolic::{Expr, Graph};
 
-use super::inertia::PseudoInertia;
-use super::rotation::{ConstantRotation, Plane};
-use super::spatial::{Twist, Ways, Wrench};
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::rotation::{ConstantRotation, Plane};
+use crate::economical::spatial::{Twist, Ways, Wrench};
 use crate::vector::{Matrix, Vector};
 
 /// What links hand over to their parents, about an origin.

@@ -3,11 +3,11 @@
 use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, Graph};
 
-use super::frames::{self, WorkingFrame};
-use super::inertia::PseudoInertia;
-use super::inward::TipWrench;
-use super::plan::{Entry, LinkPlan, Plan};
-use super::rotation::ConstantRotation;
+use crate::economical::frames::working::{self, WorkingFrame};
+use crate::economical::plan::{Entry, LinkPlan, Plan};
+use crate::economical::recursion::inward::TipWrench;
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::rotation::ConstantRotation;
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 
@@ -128,7 +128,7 @@ impl Limits {
 impl<'g> Base<'g> {
     /// `None` where a joint axis is not constant.
     pub(crate) fn new(mechanism: &Mechanism<'g>) -> Option<Base<'g>> {
-        let file = frames::file_frames(mechanism)?;
+        let file = working::file_frames(mechanism)?;
         let links = mechanism.links.iter().zip(&file);
         let inertias: Vec<_> = links
             .map(|(link, frame)| PseudoInertia::of_link(link).seen_in(frame.axes, frame.origin))
@@ -143,7 +143,7 @@ impl<'g> Base<'g> {
 /// The mechanism under a plan.
 pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Plan) -> Chain<'g> {
     let placed =
-        frames::place(mechanism, &plan.links, &base.file, &base.regrouped, base.limits.shift);
+        working::place(mechanism, &plan.links, &base.file, &base.regrouped, base.limits.shift);
     let mut inertias = base.inertias.clone();
     for (inertia, (frame, file)) in inertias.iter_mut().zip(placed.iter().zip(&base.file)) {
         let back = file.axes.transpose();
@@ -188,7 +188,7 @@ fn displacements<'g>(
 ) -> Vec<Displacement<'g>> {
     let links = mechanism.links.iter().zip(frames);
     links
-        .map(|(link, own)| frames::between(link, own, link.parent.map(|parent| &frames[parent])))
+        .map(|(link, own)| working::between(link, own, link.parent.map(|parent| &frames[parent])))
         .collect()
 }
 
@@ -301,7 +301,7 @@ fn assemble<'g>(
     let links = mechanism.links.iter().enumerate().map(|(index, link)| {
         let (rotation, translation) = displacements[index];
         let along = |value: Expr<'g>| if placed[index].flipped { -value } else { value };
-        let rotation = frames::constant_rotation(rotation);
+        let rotation = working::constant_rotation(rotation);
         ChainLink {
             parent: link.parent,
             kind: link.kind,

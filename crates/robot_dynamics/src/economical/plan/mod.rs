@@ -3,6 +3,10 @@
 //! Every option yields the same torques; they differ in operations. Letters in brackets are those
 //! of the ablation tables in `docs/performance.md`.
 
+pub(super) mod mechanics;
+pub mod pin;
+pub mod search;
+
 use robot_model::robot::Robot;
 
 /// The options for a whole mechanism.

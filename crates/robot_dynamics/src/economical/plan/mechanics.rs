@@ -1,6 +1,6 @@
 //! What a plan depends on: the text that a pin's fingerprint is taken of.
 //!
-//! A [search](super::search) generates inverse dynamics without wrench and friction under each candidate, counts
+//! A [search](crate::economical::plan::search) generates inverse dynamics without wrench and friction under each candidate, counts
 //! its operations, holds its torques against the paper's iterations, and leaves the robot's parameters free. So
 //! its result depends on
 //!

@@ -2,7 +2,7 @@
 
 use robot_symbolic::{Expr, Graph};
 
-use super::plan::Entry;
+use crate::economical::plan::Entry;
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
 

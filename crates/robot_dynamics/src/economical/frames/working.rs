@@ -2,9 +2,9 @@
 
 use robot_symbolic::Expr;
 
-use super::inertia::PseudoInertia;
-use super::plan::{LinkPlan, Origin, Turn};
-use super::rotation::{ConstantRotation, constant_root};
+use crate::economical::plan::{LinkPlan, Origin, Turn};
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::rotation::{ConstantRotation, constant_root};
 use crate::mechanism::{Mechanism, MechanismLink};
 use crate::vector::{Matrix, Vector};
 

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use serde::Deserialize;
 
-use super::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
-use super::search::Measure;
+use crate::economical::plan::search::Measure;
+use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 
 /// A plan with what it was searched for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
-    /// Identifies the [mechanics](super::mechanics()) that the plan was searched for; a pin with another is
+    /// Identifies the [mechanics](crate::economical::plan::mechanics()) that the plan was searched for; a pin with another is
     /// stale.
     pub fingerprint: String,
     /// Identifies the rest of the pin, [`Pin::content`]; a pin with another was edited.

@@ -2,8 +2,8 @@
 
 use robot_symbolic::{Expr, Number};
 
-use super::chain::{Chain, ChainLink};
-use super::rotation::Plane;
+use crate::economical::frames::chain::{Chain, ChainLink};
+use crate::economical::spatial::rotation::Plane;
 use crate::vector::Vector;
 
 /// The place of a link's working frame.
