@@ -7,7 +7,7 @@ use robot_model::diagnostic::{Diagnostics, quote};
 use robot_model::functions::WrongName;
 use robot_model::snap::InvalidSnap;
 
-use crate::paths::shown;
+use crate::door::paths::shown;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -166,7 +166,7 @@ pub enum Error {
         /// The robot file.
         name: String,
         /// What costs too much.
-        over: crate::budget::Over,
+        over: crate::driver::budget::Over,
     },
     /// No robot file at all.
     #[error("no robot file is given; name one or more")]

@@ -9,10 +9,10 @@ use robot_dynamics::economical::search::Found;
 use robot_model::robot::Robot;
 use sha2::{Digest, Sha256};
 
+use crate::door::files::MARKER;
+use crate::door::paths::RobotFile;
+use crate::driver::options::Options;
 use crate::error::{Error, Errors};
-use crate::files::MARKER;
-use crate::options::Options;
-use crate::paths::RobotFile;
 
 /// A pin is a few kilobytes; a larger file is none.
 const MAX_BYTES: u64 = 1 << 20;

@@ -7,9 +7,9 @@ use robot_model::robot::JointKind;
 
 use super::Parts;
 use super::call::{call, model_expression};
-use crate::check::CheckValue;
-use crate::conventions::CONVENTIONS;
-use crate::generate::{counts, file_name, unnamed_header};
+use crate::driver::check::CheckValue;
+use crate::driver::conventions::CONVENTIONS;
+use crate::driver::generate::{counts, file_name, unnamed_header};
 
 pub(super) fn readme(parts: &Parts<'_>) -> String {
     let robot = &parts.programs.robot;

@@ -3,8 +3,8 @@
 use robot_codegen::Scalar;
 
 use super::Parts;
-use crate::check::CheckValue;
-use crate::options::Options;
+use crate::driver::check::CheckValue;
+use crate::driver::options::Options;
 
 /// The model at the stated parameters.
 pub(super) fn model_expression(parts: &Parts<'_>) -> String {

@@ -6,9 +6,9 @@ use robot_model::functions::{Effects, FunctionKind, Functions};
 use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
+use crate::driver::options::Options;
+use crate::driver::programs::programs_of;
 use crate::error::Errors;
-use crate::options::Options;
-use crate::programs::programs_of;
 
 /// Tolerances that are tried besides the one that is taken, rad.
 const TRIED: [f64; 3] = [1e-6, 1e-4, 1e-3];

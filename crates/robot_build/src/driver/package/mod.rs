@@ -7,13 +7,13 @@ use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::{self, Names, Wrapping};
 use robot_model::diagnostic::Source;
 
-use crate::budget;
-use crate::check::{CheckValue, check_value};
+use crate::door::files::File;
+use crate::driver::budget;
+use crate::driver::check::{CheckValue, check_value};
+use crate::driver::generate::{header, names, rust_text, unnamed_header};
+use crate::driver::options::Options;
+use crate::driver::programs::{Programs, programs};
 use crate::error::Errors;
-use crate::files::File;
-use crate::generate::{header, names, rust_text, unnamed_header};
-use crate::options::Options;
-use crate::programs::{Programs, programs};
 
 /// The files of a crate that holds a robot's functions, in a fixed order.
 ///

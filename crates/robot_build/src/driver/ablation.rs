@@ -8,10 +8,10 @@ use robot_model::description::Described;
 use robot_model::diagnostic::Source;
 use robot_model::functions::Functions;
 
+use crate::driver::generate::counts;
+use crate::driver::options::Options;
+use crate::driver::programs::{plan_of, programs_under, read_with};
 use crate::error::Errors;
-use crate::generate::counts;
-use crate::options::Options;
-use crate::programs::{plan_of, programs_under, read_with};
 
 /// Functions of more expressions than this are not derived again and again: all functions of an arm of
 /// seven joints are some tens of thousands.

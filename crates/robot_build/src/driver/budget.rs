@@ -13,9 +13,9 @@ use robot_model::description::{Budget, Limit};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code};
 use robot_model::functions::FunctionKind;
 
+use crate::driver::options::Options;
+use crate::driver::programs::Programs;
 use crate::error::{Error, Errors};
-use crate::options::Options;
-use crate::programs::Programs;
 
 /// What is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

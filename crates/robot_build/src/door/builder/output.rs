@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
+use crate::door::files::{Output, Ownership, Writer};
+use crate::driver::generate::{Generated, unnamed_header};
 use crate::error::{Error, Errors};
-use crate::files::{Output, Ownership, Writer};
-use crate::generate::{Generated, unnamed_header};
 
 /// The name of the index of several robots.
 const INDEX: &str = "robots";

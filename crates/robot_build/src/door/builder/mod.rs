@@ -9,13 +9,13 @@ use robot_dynamics::economical::Plan;
 use robot_model::functions::Bundle;
 use robot_model::robot::BaseFrames;
 
-use crate::cargo::{self, Directives};
+use crate::door::cargo::{self, Directives};
+use crate::door::paths::{RobotFile, robot_files};
+use crate::door::pin::{pin_path, robot_inputs};
+use crate::driver::generate::{Generated, generate};
+use crate::driver::options::{Options, functions_named, kinds_named};
+use crate::driver::programs::read_with;
 use crate::error::{Error, Errors};
-use crate::generate::{Generated, generate};
-use crate::options::{Options, functions_named, kinds_named};
-use crate::paths::{RobotFile, robot_files};
-use crate::pin::{pin_path, robot_inputs};
-use crate::programs::read_with;
 use output::Module;
 
 /// Generates the module of one robot file into `OUT_DIR`, with the options of [`Builder::new`].
@@ -159,7 +159,7 @@ impl Builder {
     }
 
     /// The most bytes of stack that a call of any of the functions may take, as
-    /// [`budget`](crate::budget) estimates it. More is an error.
+    /// [`budget`](crate::driver::budget) estimates it. More is an error.
     pub fn max_stack(mut self, limit: u64) -> Builder {
         self.options.max_stack = Some(limit);
         self

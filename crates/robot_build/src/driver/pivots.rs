@@ -8,10 +8,10 @@ use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
 use robot_symbolic::Graph;
 
+use crate::driver::options::Options;
+use crate::driver::programs::MAX_NODES;
+use crate::driver::specification;
 use crate::error::{Error, Errors};
-use crate::options::Options;
-use crate::programs::MAX_NODES;
-use crate::specification;
 
 /// Below this part of the joint's entry on the diagonal of M a pivot is worth a word.
 const SMALL: f64 = 1e-8;

@@ -11,9 +11,9 @@ use robot_model::functions::{Bundle, FunctionKind};
 use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
+use crate::driver::options::Options;
+use crate::driver::{singular, specification};
 use crate::error::{Error, Errors};
-use crate::options::Options;
-use crate::{singular, specification};
 
 /// Functions of more expressions than this do not become code. The usual ones of 64 joints about
 /// skew axes are some tens of thousands.

@@ -6,9 +6,9 @@ use robot_dynamics::functions::{Derivation, Function, Input, Output};
 use robot_model::functions::{Bundle, FunctionKind};
 use robot_model::robot::{Parameter, Robot};
 
-use crate::conventions::CONVENTIONS;
-use crate::options::Options;
-use crate::singular::unsolvable;
+use crate::driver::conventions::CONVENTIONS;
+use crate::driver::options::Options;
+use crate::driver::singular::unsolvable;
 
 /// The module of a robot; `more` are the functions that it could have besides.
 pub(crate) fn module<'g>(

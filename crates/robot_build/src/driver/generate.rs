@@ -9,10 +9,10 @@ use robot_model::diagnostic::{Diagnostics, Source};
 use robot_model::robot::{Payload, Robot};
 use sha2::{Digest, Sha256};
 
-use crate::budget;
+use crate::driver::budget;
+use crate::driver::options::Options;
+use crate::driver::programs::{Programs, programs};
 use crate::error::Errors;
-use crate::options::Options;
-use crate::programs::{Programs, programs};
 
 /// The Rust code of a robot.
 #[derive(Clone, Debug)]

@@ -14,8 +14,8 @@ use robot_model::functions::{ALL_FUNCTIONS, Bundle, Effects, FunctionKind, Funct
 use robot_model::robot::{BaseFrames, Robot};
 use robot_model::snap;
 
+use crate::driver::singular::unsolvable;
 use crate::error::{Error, Errors};
-use crate::singular::unsolvable;
 
 /// The functions that are generated where none are chosen, as far as the robot has them.
 pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
@@ -77,7 +77,7 @@ pub struct Options {
     /// budgets hold beside it.
     pub max_operations: Option<u64>,
     /// The most bytes of stack that a call of any of the functions may take, as
-    /// [`budget`](crate::budget) estimates it.
+    /// [`budget`](crate::driver::budget) estimates it.
     pub max_stack: Option<u64>,
     /// Whether to search the cheapest form where none is given: a second or so for an arm of seven
     /// joints in an optimised build, and tens of seconds in a build script, which is not.

@@ -7,9 +7,9 @@ use robot_dynamics::functions::undetermined;
 use robot_model::functions::{Bundle, Effects, FunctionKind, Functions};
 use robot_model::robot::Robot;
 
+use crate::driver::options::Options;
+use crate::driver::programs::programs_of;
 use crate::error::{Error, Errors, quoted};
-use crate::options::Options;
-use crate::programs::programs_of;
 
 /// The functions that a robot lacks as its mass matrix is singular in every posture, whatever the values of
 /// its parameters.

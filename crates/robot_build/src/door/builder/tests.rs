@@ -1,7 +1,7 @@
 use std::fs;
 
 use super::*;
-use crate::options::OPTIONS;
+use crate::driver::options::OPTIONS;
 
 const ARM: &str = r#"format = 1
 [robot]

@@ -2,8 +2,8 @@
 
 use robot_codegen::{Interpreter, OutputValues, Trigonometry};
 
+use crate::driver::programs::Programs;
 use crate::error::Errors;
-use crate::programs::Programs;
 
 /// Entries of inputs, taken in turn: plain decimals of either sign.
 const ENTRIES: [f64; 8] = [0.3, -0.5, 0.7, -0.2, 0.9, -0.4, 0.6, -0.8];
