@@ -1,13 +1,11 @@
 //! What can go wrong on the way from a robot file to code.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use robot_model::diagnostic::{Diagnostics, quote};
+use robot_model::diagnostic::{Diagnostics, quote, visible};
 use robot_model::functions::WrongName;
 use robot_model::snap::InvalidSnap;
-
-use crate::door::paths::shown;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -267,3 +265,9 @@ impl fmt::Debug for Errors {
 }
 
 impl std::error::Error for Errors {}
+
+/// A path as messages show it: see [`visible`].
+#[must_use]
+pub fn shown(path: &Path) -> String {
+    visible(&path.to_string_lossy())
+}

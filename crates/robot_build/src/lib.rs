@@ -30,11 +30,12 @@ mod driver;
 mod error;
 
 pub use door::builder::{Builder, compile};
-pub use door::files::{File, MARKER, Output, Ownership, Staleness, Writer, staleness};
-pub use door::paths::{RobotFile, shown};
+pub use door::files::{MARKER, Output, Ownership, Staleness, Writer, staleness};
+pub use door::paths::RobotFile;
 pub use door::pin::{pin_path, pin_text, robot_inputs};
 pub use driver::angles::too_large_angle;
 pub use driver::conventions::CONVENTIONS;
+pub use driver::file::File;
 pub use driver::generate::{Generated, generate, names};
 pub use driver::options::{
     Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
@@ -46,7 +47,7 @@ pub use driver::programs::{Programs, planned, programs, programs_of, read, read_
 pub use driver::singular::{Unsolvable, unsolvable};
 pub use driver::snapping::{Snapping, snapping};
 pub use driver::{ablation, budget, check, package, snapping};
-pub use error::{Error, Errors};
+pub use error::{Error, Errors, shown};
 pub use robot_codegen::backend::rust::{Names, check_runtime_path, identifier};
 pub use robot_codegen::{Scalar, Trigonometry};
 pub use robot_dynamics::economical::Plan;

@@ -4,9 +4,9 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use robot_model::description::{self, MAX_BYTES};
-use robot_model::diagnostic::{Source, visible};
+use robot_model::diagnostic::Source;
 
-use crate::error::{Error, Errors};
+use crate::error::{Error, Errors, shown};
 
 /// A robot file that has been read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,12 +85,6 @@ pub(crate) fn robot_files(package: &Path, folder: &Path) -> Result<Vec<PathBuf>,
     }
     files.sort();
     Ok(files)
-}
-
-/// A path as messages show it: see [`visible`].
-#[must_use]
-pub fn shown(path: &Path) -> String {
-    visible(&path.to_string_lossy())
 }
 
 fn check_not_empty(path: &Path) -> Result<(), Error> {

@@ -8,30 +8,12 @@ mod place;
 mod staging;
 mod writer;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 pub use marker::MARKER;
 pub use writer::{Output, Ownership, Writer};
 
 use crate::error::Error;
-
-/// A generated file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct File {
-    /// The path, relative to the folder that the file belongs to, with `/` between its parts.
-    pub path: String,
-    /// The text.
-    pub text: String,
-}
-
-impl File {
-    /// Where the file lies in a folder.
-    #[must_use]
-    pub fn path_in(&self, folder: &Path) -> PathBuf {
-        let parts = self.path.split('/').filter(|part| !part.is_empty());
-        parts.fold(folder.to_owned(), |path, part| path.join(part))
-    }
-}
 
 /// How a file on disk differs from what would be generated.
 #[derive(Clone, Debug, PartialEq, Eq)]

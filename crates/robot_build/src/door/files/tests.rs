@@ -1,6 +1,8 @@
 use std::fs;
+use std::path::PathBuf;
 
 use super::*;
+use crate::driver::file::File;
 use crate::error::Errors;
 
 /// A folder of its own for each test, gone with the test.

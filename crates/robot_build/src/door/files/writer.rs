@@ -4,10 +4,10 @@ use std::fs::{self, Metadata, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use super::File;
 use super::marker::{beginning, first_line, is_marked};
 use super::place::{Place, folder_of, is_of_system, is_same, place};
 use super::staging::{Staged, remove_leftovers};
+use crate::driver::file::File;
 use crate::error::{Error, Errors};
 
 /// How an existing file shows that this program wrote it, so that it may be replaced.

@@ -7,9 +7,9 @@ use robot_codegen::Trigonometry;
 use robot_codegen::backend::rust::{self, Names, Wrapping};
 use robot_model::diagnostic::Source;
 
-use crate::door::files::File;
 use crate::driver::budget;
 use crate::driver::check::{CheckValue, check_value};
+use crate::driver::file::File;
 use crate::driver::generate::{header, names, rust_text, unnamed_header};
 use crate::driver::options::Options;
 use crate::driver::programs::{Programs, programs};
