@@ -1,6 +1,6 @@
 //! What files can ask for at most, what code costs, and what is pinned.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
-mod figures;
+mod operation_counts;
 mod pins;
 mod security;

@@ -198,7 +198,7 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
     for seed in 2000..2012 {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
         let robot = robots::robot(&mut Random::new(seed), &recipe);
-        check(&robots::parametrised(&robot), seed, "parameters", &mut worst);
+        check(&robots::parameterized(&robot), seed, "parameters", &mut worst);
     }
     report("parameters", worst);
 }

@@ -47,7 +47,7 @@ fn parameters(robot: &Robot, state: &State) -> Vec<f64> {
             link.rotor_coupling,
         ]
     });
-    let drives: Vec<Expr<'_>> = drives.filter(|figure| !figure.is_zero()).collect();
+    let drives: Vec<Expr<'_>> = drives.filter(|column| !column.is_zero()).collect();
     let drives = if drives.is_empty() { vec![] } else { evaluate(robot, &drives, state) };
     [links.as_slice(), &drives].concat()
 }
@@ -124,7 +124,7 @@ fn regressors_of_robots_with_parameters() {
     for seed in 2000..2012 {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
         let robot = robots::robot(&mut Random::new(seed), &recipe);
-        check(&robots::parametrised(&robot), seed, "parameters");
+        check(&robots::parameterized(&robot), seed, "parameters");
     }
 }
 

@@ -50,10 +50,10 @@ pub(crate) struct Body<'g> {
 impl<'g> Body<'g> {
     /// The link's own, about the origin of its frame.
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> Body<'g> {
-        let centre = link.center_of_mass;
-        let first = centre * link.mass;
+        let center = link.center_of_mass;
+        let first = center * link.mass;
         let identity = Matrix::identity(link.mass.graph());
-        let tensor = link.inertia + identity * first.dot(centre) - Matrix::outer(first, centre);
+        let tensor = link.inertia + identity * first.dot(center) - Matrix::outer(first, center);
         Body { mass: link.mass, first, tensor }
     }
 

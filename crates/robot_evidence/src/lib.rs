@@ -26,7 +26,7 @@ mod probe;
 mod thumb;
 mod x86;
 
-pub use claim::{Evidence, Figures, Violation};
+pub use claim::{Evidence, Measurements, Violation};
 pub use compile::{Compiler, Profile};
 pub use error::Error;
 pub use probe::{Probe, Root};
@@ -98,9 +98,9 @@ fn hold_stack(module: &mut Module, programs: &Programs, options: &Options) {
         let path = format!("Model::{name}");
         let found = module.functions.iter_mut().find(|found| found.name == path);
         if let (Some(limit), Some(found)) = (limit, found)
-            && found.figures.stack > limit
+            && found.measurements.stack > limit
         {
-            found.violations.push(Violation::Stack { bytes: found.figures.stack, limit });
+            found.violations.push(Violation::Stack { bytes: found.measurements.stack, limit });
         }
     }
 }

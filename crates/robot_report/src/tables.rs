@@ -71,9 +71,9 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
                 none if none == "none" => "at the link's origin".to_owned(),
                 moves => moves,
             };
-            let cells = [figure(robot, symbols, mass), holding("span", place)]
+            let cells = [value_cell(robot, symbols, mass), holding("span", place)]
                 .into_iter()
-                .chain([xx, yy, zz, xy, xz, yz].map(|entry| figure(robot, symbols, entry)));
+                .chain([xx, yy, zz, xy, xz, yz].map(|entry| value_cell(robot, symbols, entry)));
             table.row(&parts::link(index), name.as_str(), cells);
         }
     }
@@ -102,7 +102,7 @@ pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
 }
 
 /// A formula, its parameters marked, with its nominal value below where it has parameters.
-fn figure(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
+fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
     let shown = element("span").class("figure");
     if formula.is_constant() {
         return shown.with(text::plain(formula));

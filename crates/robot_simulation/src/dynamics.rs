@@ -62,8 +62,7 @@ pub trait DryFriction {
     /// # Errors
     ///
     /// Where the state has none.
-    fn driving_forces(&self, state: &State, qdd: &[f64], friction: bool)
-    -> Result<Vec<f64>, Cause>;
+    fn joint_torques(&self, state: &State, qdd: &[f64], friction: bool) -> Result<Vec<f64>, Cause>;
 }
 
 /// Driving forces over time.

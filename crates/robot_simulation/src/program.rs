@@ -163,12 +163,7 @@ impl DryFriction for RobotProgram<'_> {
         self.values(FunctionKind::MassMatrix, &[(Position.name(), q)])
     }
 
-    fn driving_forces(
-        &self,
-        state: &State,
-        qdd: &[f64],
-        friction: bool,
-    ) -> Result<Vec<f64>, Cause> {
+    fn joint_torques(&self, state: &State, qdd: &[f64], friction: bool) -> Result<Vec<f64>, Cause> {
         let inputs = [
             (Position.name(), state.q.as_slice()),
             (Velocity.name(), &state.qd),

@@ -19,7 +19,7 @@ use crate::error::{Error, Errors};
 
 /// What is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Figure {
+pub enum Resource {
     /// Operations of a call.
     Operations,
     /// Bytes of stack of a call.
@@ -32,7 +32,7 @@ pub struct Over {
     /// The function.
     pub function: String,
     /// What it has too much of.
-    pub figure: Figure,
+    pub resource: Resource,
     /// How much it has.
     pub found: u64,
     /// How much it may have.
@@ -43,12 +43,12 @@ impl Over {
     /// What to do.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
-        match self.figure {
-            Figure::Operations => {
+        match self.resource {
+            Resource::Operations => {
                 "search a cheaper form with `robot-symbolic search`, look for figures that are nearly \
                  but not quite 0 or right angles, generate fewer outputs, or raise `max_operations`"
             }
-            Figure::Stack => {
+            Resource::Stack => {
                 "this is what a build without optimisation takes at most; `robot-symbolic prove` \
                  measures; generate `f32`, or fewer outputs, or raise `max_stack`"
             }
@@ -58,12 +58,12 @@ impl Over {
 
 impl fmt::Display for Over {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Over { function, figure, found, limit } = self;
-        match figure {
-            Figure::Operations => {
+        let Over { function, resource, found, limit } = self;
+        match resource {
+            Resource::Operations => {
                 write!(formatter, "`{function}` takes {found} operations; its budget is {limit}")
             }
-            Figure::Stack => write!(
+            Resource::Stack => write!(
                 formatter,
                 "`{function}` takes up to {found} bytes of stack; its budget is {limit}"
             ),
@@ -86,7 +86,7 @@ pub(crate) fn check(programs: &Programs, source: &Source, options: &Options) -> 
         if limits.is_empty() && options.max_operations.is_none() && options.max_stack.is_none() {
             continue;
         }
-        let [operations, stack] = figures(programs, function, options);
+        let [operations, stack] = costs(programs, function, options);
         for (max_operations, max_stack) in limits {
             found.extend(max_operations.and_then(|limit| excess(operations, limit)));
             found.extend(max_stack.and_then(|limit| excess(stack, limit)));
@@ -107,23 +107,23 @@ pub(crate) fn check(programs: &Programs, source: &Source, options: &Options) -> 
 #[derive(Clone, Copy)]
 struct Cost<'f> {
     function: &'f str,
-    figure: Figure,
+    resource: Resource,
     found: u64,
 }
 
 impl Cost<'_> {
     fn over(self, limit: u64) -> Option<Over> {
-        let Cost { function, figure, found } = self;
-        (found > limit).then(|| Over { function: function.to_owned(), figure, found, limit })
+        let Cost { function, resource, found } = self;
+        (found > limit).then(|| Over { function: function.to_owned(), resource, found, limit })
     }
 }
 
-fn figures<'f>(programs: &Programs, function: &'f Function, options: &Options) -> [Cost<'f>; 2] {
+fn costs<'f>(programs: &Programs, function: &'f Function, options: &Options) -> [Cost<'f>; 2] {
     let operations = programs.module.counts(function).call.operations();
     let stack = stack::estimate(function, options.scalar.size());
-    [(Figure::Operations, operations), (Figure::Stack, stack)].map(|(figure, found)| Cost {
+    [(Resource::Operations, operations), (Resource::Stack, stack)].map(|(resource, found)| Cost {
         function: &function.name,
-        figure,
+        resource,
         found: found as u64,
     })
 }

@@ -116,7 +116,7 @@ pub(crate) fn programs_under(
         return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit }));
     }
     let module = Module::compile(&specification, codegen)
-        .map_err(|errors| singular::told(name, &robot, &functions, &bundles, &errors))?;
+        .map_err(|errors| singular::by_cause(name, &robot, &functions, &bundles, &errors))?;
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };
     let warnings = Diagnostics::new(source, vec![]);

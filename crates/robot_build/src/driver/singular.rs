@@ -56,7 +56,7 @@ pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
 }
 
 /// The errors of the code generator, with a division by zero told by its cause.
-pub(crate) fn told(
+pub(crate) fn by_cause(
     name: &str,
     robot: &Robot,
     functions: &[FunctionKind],

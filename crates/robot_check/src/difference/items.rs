@@ -143,13 +143,13 @@ fn link(robot: &Robot, link: &Link) -> Item {
     for body in &link.bodies {
         let prefix =
             if body.name == link.name { String::new() } else { format!("{}: ", body.name) };
-        let of_body = figures(body).into_iter();
+        let of_body = body_properties(body).into_iter();
         properties.extend(of_body.map(|(name, value)| (format!("{prefix}{name}"), value)));
     }
     Item { kind: ItemKind::Link, name: link.name.clone(), properties }
 }
 
-fn figures(body: &Body) -> Vec<(String, String)> {
+fn body_properties(body: &Body) -> Vec<(String, String)> {
     let inertia = &body.inertia;
     vec![
         named("mass", formula(&body.mass)),

@@ -9,7 +9,7 @@ use robot_model::robot::{Body, JointKind, Link, Robot};
 use robot_numeric::Evaluation;
 
 /// The robot in numbers.
-pub(super) struct Patient<'d> {
+pub(super) struct RobotFacts<'d> {
     pub(super) robot: &'d Robot,
     pub(super) locations: &'d Locations,
     /// Base components, m/s².
@@ -42,8 +42,8 @@ pub(super) struct BodyFacts<'d> {
     pub(super) tensor: Matrix3<f64>,
 }
 
-impl<'d> Patient<'d> {
-    pub(super) fn new(described: &'d Described) -> Patient<'d> {
+impl<'d> RobotFacts<'d> {
+    pub(super) fn new(described: &'d Described) -> RobotFacts<'d> {
         let Described { robot, locations, .. } = described;
         let value = |name: &str| robot.nominal_value(name);
         let at = Evaluation { value: &value };
@@ -56,7 +56,7 @@ impl<'d> Patient<'d> {
             arm: at.pose(&link.placement).translation.norm(),
             travel: travel(robot, link),
         });
-        Patient { robot, locations, gravity: at.vector(&robot.gravity), links: links.collect() }
+        RobotFacts { robot, locations, gravity: at.vector(&robot.gravity), links: links.collect() }
     }
 
     /// The sum of the arms, m.

@@ -5,14 +5,14 @@ use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 use robot_model::physics::{Verdict, judge};
 
-use super::facts::{BodyFacts, LinkFacts, Patient};
+use super::facts::{BodyFacts, LinkFacts, RobotFacts};
 
 /// A link reaches from its origin to a point that lies so much farther than its centre of mass, or
 /// to nothing that the file knows; of others the two ends are not known.
 const BETWEEN: f64 = 1.2;
 
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    for link in &patient.links {
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    for link in &facts.links {
         let [body] = link.bodies.as_slice() else { continue };
         if let Some(spread) = about_origin(link, body) {
             found.push(suspicion(body, spread));

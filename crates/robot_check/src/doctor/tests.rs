@@ -8,10 +8,10 @@ fn codes(text: &str) -> Vec<&'static str> {
 }
 
 /// A link of 0.4 m with these figures, and a hand on it.
-fn arm(figures: &str) -> String {
+fn arm(keys: &str) -> String {
     format!(
         "format = 1\n[robot]\nname = \"arm\"\n\
-         [[link]]\nname = \"rod\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n{figures}\n\
+         [[link]]\nname = \"rod\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n{keys}\n\
          [[link]]\nname = \"hand\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n\
          origin = {{ xyz = [0.4, 0, 0] }}\nmass = 1\ncenter_of_mass = [0.05, 0, 0]\n\
          inertia = {{ xx = 0.001, yy = 0.002, zz = 0.002 }}\n"
@@ -57,7 +57,7 @@ fn a_tensor_about_the_origin_is_told() {
 }
 
 #[test]
-fn centres_of_mass_are_looked_for_at_the_link() {
+fn centers_of_mass_are_looked_for_at_the_link() {
     let at = |x: &str| rod(2.0, 1.0, false).replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
     assert_eq!(codes(&at("0.8")), [""; 0]);
     assert_eq!(codes(&at("20")), [code::CENTER_FAR]);
@@ -175,11 +175,11 @@ fn beam(
     let steiner = if about_origin { mass * center * center } else { 0.0 };
     let (xx, yy, zz) =
         (moment(width, height), moment(own, height) + steiner, moment(own, width) + steiner);
-    let figures = format!(
+    let keys = format!(
         "mass = {mass:?}\ncenter_of_mass = [{center:?}, 0, 0]\n\
          inertia = {{ xx = {xx:?}, yy = {yy:?}, zz = {zz:?} }}"
     );
-    arm(&figures).replace("xyz = [0.4, 0, 0]", &format!("xyz = [{length:?}, 0, 0]"))
+    arm(&keys).replace("xyz = [0.4, 0, 0]", &format!("xyz = [{length:?}, 0, 0]"))
 }
 
 /// What is uniform, of matter, and lies between the ends of its link gives no warning, whatever its

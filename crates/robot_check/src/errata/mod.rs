@@ -10,8 +10,8 @@ mod dimension;
 mod entries;
 mod evidence;
 mod latex;
+mod mistake;
 mod printed;
-mod slip;
 mod symbols;
 mod term;
 #[cfg(test)]
@@ -25,6 +25,7 @@ use robot_symbolic::{AngleSums, Expr, Graph, PolynomialOptions, walk};
 use dimension::Dimensions;
 pub use evidence::Evidence;
 use evidence::PrintedTerms;
+pub use mistake::{Mistake, MistakeKind};
 pub use printed::Notation;
 use printed::{PrintedEquation, read_printed};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -33,7 +34,6 @@ use robot_dynamics::quantity::{Kind, Quantity};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code, quote};
 use robot_model::robot::Robot;
 use robot_model::unit::Dimension;
-pub use slip::{Slip, SlipKind};
 use symbols::Symbols;
 use term::Term;
 
@@ -73,7 +73,7 @@ pub struct Difference {
     /// For a printed term without counterpart, the derived term that it resembles most.
     pub nearest: Option<String>,
     /// In what the printed term differs from the derived one; never empty.
-    pub slips: Vec<Slip>,
+    pub mistakes: Vec<Mistake>,
     /// What speaks against the printed term or for the derived one, without the derivation.
     pub evidence: Vec<Evidence>,
 }
@@ -303,7 +303,7 @@ impl<'g> Compared<'_, 'g> {
             printed: printed.map(Term::to_string),
             derived: derived.map(Term::to_string),
             nearest: nearest.map(Term::to_string),
-            slips: slip::slips(printed, derived),
+            mistakes: mistake::mistakes(printed, derived),
             evidence,
         }
     }

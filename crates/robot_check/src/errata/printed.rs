@@ -216,7 +216,7 @@ fn operand_length(bytes: &[u8], start: usize) -> usize {
             let signed = matches!(bytes.get(exponent), Some(b'e' | b'E'));
             let sign = usize::from(matches!(bytes.get(exponent + 1), Some(b'+' | b'-')));
             match run(exponent + 1 + sign, u8::is_ascii_digit) {
-                figures @ 1.. if signed => digits + 1 + sign + figures,
+                length @ 1.. if signed => digits + 1 + sign + length,
                 _ => digits,
             }
         }

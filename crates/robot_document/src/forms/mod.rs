@@ -85,7 +85,7 @@ impl Default for EquationOptions {
     fn default() -> EquationOptions {
         EquationOptions {
             form: Form::Expanded,
-            kinds: vec![Kind::DrivingForce],
+            kinds: vec![Kind::GeneralizedForce],
             friction: false,
             snap: None,
             trigonometry: Trigonometry::Named,
@@ -285,12 +285,12 @@ impl<'g> Writer<'_, 'g> {
 }
 
 /// The symbol of a driving force.
-fn driving_force(index: usize) -> Symbol {
-    Symbol { kind: Kind::DrivingForce, number: index + 1, component: None }
+fn generalized_force(index: usize) -> Symbol {
+    Symbol { kind: Kind::GeneralizedForce, number: index + 1, component: None }
 }
 
 /// The value of the coordinate that a driving force moves; of other quantities none.
-fn of_driving_force<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
+fn of_generalized_force<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
     let place = quantity.symbol.number.checked_sub(1)?;
-    values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::DrivingForce)
+    values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::GeneralizedForce)
 }

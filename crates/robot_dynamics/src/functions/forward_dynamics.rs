@@ -50,7 +50,7 @@ pub(super) fn forward_dynamics<'g>(
 
 /// How the functions of a robot solve M q̈ = b, how many digits that may cost, and what a wrong pivot does.
 pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
-    let way = if derivation.recursion_for_small_pivots().is_some() {
+    let solution = if derivation.recursion_for_small_pivots().is_some() {
         "By articulated bodies: at the nominal parameters there are postures in which the mass matrix is \
          nearly singular, and there these keep digits that a decomposition of it loses."
     } else {
@@ -67,7 +67,7 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
             "No posture of this robot was found in which a pivot is small, and none is checked."
         }
     };
-    vec![way.to_owned(), wrong.to_owned()]
+    vec![solution.to_owned(), wrong.to_owned()]
 }
 
 /// What the function says of friction.

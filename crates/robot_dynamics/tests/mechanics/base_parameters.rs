@@ -47,7 +47,7 @@ fn check(robot: &Robot, name: &str, seed: u64) -> usize {
 }
 
 #[test]
-fn base_parameters_give_the_driving_forces() {
+fn base_parameters_give_the_joint_torques() {
     for (name, robot, seed) in robots() {
         for base_frames in BaseFrames::ALL {
             let robot = Robot { base_frames, ..robot.clone() };

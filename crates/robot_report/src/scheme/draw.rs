@@ -211,8 +211,8 @@ impl<'r> Drawing<'r> {
         let label = |offset: f64| {
             let beside = across * offset;
             let off = beside.abs().component_mul(&size).sum() / (2.0 * offset.abs()) + 3.0;
-            let centre = (from + to) / 2.0 + across * (offset + off.copysign(offset));
-            Rectangle::about(centre, size)
+            let center = (from + to) / 2.0 + across * (offset + off.copysign(offset));
+            Rectangle::about(center, size)
         };
         let line = |offset: f64| {
             let middle = (from + to) / 2.0 + across * offset;
@@ -324,10 +324,10 @@ fn size_of(words: &str, letters: f64) -> Point {
 }
 
 fn words_at(words: &str, place: &Rectangle, letters: f64) -> Element {
-    let centre = (place.low + place.high) / 2.0;
+    let center = (place.low + place.high) / 2.0;
     holding("text", words)
-        .attribute("x", coordinate(centre.x))
-        .attribute("y", coordinate(centre.y + 0.35 * letters))
+        .attribute("x", coordinate(center.x))
+        .attribute("y", coordinate(center.y + 0.35 * letters))
         .attribute("font-size", coordinate(letters))
         .attribute("text-anchor", "middle")
 }

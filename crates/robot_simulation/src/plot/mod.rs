@@ -16,7 +16,7 @@ use robot_build::MARKER;
 use crate::error::Error;
 use letters::Lowered;
 
-pub use figures::{motion_figure, shares_figure};
+pub use figures::{contributions_figure, motion_figure};
 
 /// Panels one below the other over a common time.
 #[derive(Clone, Debug, Default, PartialEq)]

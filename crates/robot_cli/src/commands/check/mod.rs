@@ -169,7 +169,7 @@ fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if found.is_empty() {
         answered(&format!("{name}: no errors, no warnings\n"), terminal)?;
     } else {
-        let style = if terminal.colours { Style::Terminal } else { Style::Plain };
+        let style = if terminal.colors { Style::Terminal } else { Style::Plain };
         writeln!(terminal.errors, "{}", found.render(style).trim_end())?;
     }
     Ok(())

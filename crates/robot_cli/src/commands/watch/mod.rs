@@ -67,7 +67,7 @@ impl Arguments {
         let saves = self.saves.unwrap_or(usize::MAX);
         let options = self.robot.reading.options();
         let looks = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));
-        let style = if terminal.colours { Style::Terminal } else { Style::Plain };
+        let style = if terminal.colors { Style::Terminal } else { Style::Plain };
         let reading = self.robot.reading;
         let settings = Settings { snap: self.robot.snap(), reading, terms: self.terms, style };
         follow(looks, &settings, page, terminal)

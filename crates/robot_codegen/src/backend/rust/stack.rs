@@ -26,12 +26,14 @@ pub fn estimate(function: &Function, scalar: usize) -> usize {
     let angles = 3 * function.angles.results().len();
     let outputs = function.core.results().len();
     let leaving: usize = programs.iter().map(|program| leaving(program)).sum();
-    let held: usize = programs.iter().map(|program| held(program)).sum();
-    FIXED + scalar * (statements + held / 4 + 2 * leaving + 2 * (inputs + angles) + 4 * outputs)
+    let live_values: usize = programs.iter().map(|program| live_values(program)).sum();
+    FIXED
+        + scalar
+            * (statements + live_values / 4 + 2 * leaving + 2 * (inputs + angles) + 4 * outputs)
 }
 
 /// The values without a name that wait for another operand of what uses them.
-fn held(program: &Program) -> usize {
+fn live_values(program: &Program) -> usize {
     let layout = layout(program);
     let is_inside =
         |value: &Value| !layout.is_named(*value) && !program.operation(*value).is_leaf();

@@ -6,50 +6,55 @@ pub(crate) mod projection;
 
 use robot_symbolic::{Expr, Graph};
 
+use crate::economical::frames::Frames;
 use crate::economical::spatial::inertia::PseudoInertia;
 use crate::economical::spatial::rotation::{ConstantRotation, Plane};
-use crate::economical::spatial::{Twist, Ways, Wrench};
+use crate::economical::spatial::{Twist, Wrench};
 use crate::vector::{Matrix, Vector};
 
-/// What links hand over to their parents, about an origin.
-pub(crate) trait Inward<'g>: Copy {
-    /// Nothing.
+/// A quantity that parents sum over their children.
+pub(crate) trait Accumulate<'g>: Copy {
+    /// The sum of nothing.
     fn zero(graph: &'g Graph) -> Self;
-    /// Both together.
+    /// The sum of two.
     fn plus(&self, other: &Self) -> Self;
-    /// The same in the axes from which its own are turned.
+    /// The quantity in the axes that its own axes were turned from.
     fn turned(&self, plane: &Plane<'g>) -> Self;
-    /// The same in the axes from which its own are rotated.
+    /// The quantity in the axes that its own axes were rotated from.
     fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self;
-    /// The same about an origin from which its own lies at `arm`, in two parts: what depends on
-    /// constants alone where the arm does, and the rest.
-    fn moved(&self, arm: Vector<'g>) -> (Self, Self);
+    /// The quantity about the origin that its own origin lies `arm` away from.
+    fn shifted(&self, arm: Vector<'g>) -> Self;
+    /// [`Accumulate::shifted`] in two summands: the part that is constant if the arm is, and the rest.
+    fn shifted_in_parts(&self, arm: Vector<'g>) -> (Self, Self) {
+        (Self::zero(arm.0[0].graph()), self.shifted(arm))
+    }
 }
 
 /// Every link's own with all that it carries, about its origin, in its home axes.
 ///
 /// `own` is in the links' own axes.
-pub(crate) fn gather<'g, T: Inward<'g>>(ways: &Ways<'_, 'g>, mut own: Vec<T>) -> Vec<T> {
-    let chain = ways.chain;
+pub(crate) fn gather<'g, T: Accumulate<'g>>(frames: &Frames<'_, 'g>, mut own: Vec<T>) -> Vec<T> {
+    let chain = frames.chain;
     // What children hand over, in the link's own axes and in its home axes.
     let none = T::zero(chain.graph);
-    let mut handed = vec![none; chain.links.len()];
+    let mut from_children = vec![none; chain.links.len()];
     let mut at_home = vec![none; chain.links.len()];
     let mut composites = vec![none; chain.links.len()];
     for (index, link) in chain.links.iter().enumerate().rev() {
-        let posture = &ways.postures[index];
-        let in_own_axes = own[index].plus(&handed[index]);
-        composites[index] = in_own_axes.turned(&posture.group_turn).plus(&at_home[index]);
+        let joint_frame = &frames.joint_frames[index];
+        let in_own_axes = own[index].plus(&from_children[index]);
+        composites[index] = in_own_axes.turned(&joint_frame.group_turn).plus(&at_home[index]);
         let Some(parent) = link.parent else { continue };
         let composite = composites[index];
-        if ways.is_joined(index) {
-            let (constant, rest) = composite.moved(ways.arm_at_home(index));
+        if frames.is_joined(index) {
+            let (constant, rest) = composite.shifted_in_parts(frames.arm_at_home(index));
             at_home[parent] = at_home[parent].plus(&rest.plus(&constant));
         } else {
-            let (constant, rest) = composite.rotated(&link.rotation).moved(posture.origin);
+            let (constant, rest) =
+                composite.rotated(&link.rotation).shifted_in_parts(joint_frame.origin);
             // Constants first, so that they fold into the parent's own.
             own[parent] = own[parent].plus(&constant);
-            handed[parent] = handed[parent].plus(&rest);
+            from_children[parent] = from_children[parent].plus(&rest);
         }
     }
     composites
@@ -59,11 +64,11 @@ pub(crate) fn gather<'g, T: Inward<'g>>(ways: &Ways<'_, 'g>, mut own: Vec<T>) ->
 ///
 /// Mass that was regrouped is where it was regrouped to, so that behind rotations a composite has
 /// no mass: only its action on the joint axes is that of the robot.
-pub(crate) fn composites<'g>(ways: &Ways<'_, 'g>) -> Vec<PseudoInertia<'g>> {
-    gather(ways, ways.chain.links.iter().map(|link| link.inertia).collect())
+pub(crate) fn composites<'g>(frames: &Frames<'_, 'g>) -> Vec<PseudoInertia<'g>> {
+    gather(frames, frames.chain.links.iter().map(|link| link.inertia).collect())
 }
 
-impl<'g> Inward<'g> for PseudoInertia<'g> {
+impl<'g> Accumulate<'g> for PseudoInertia<'g> {
     fn zero(graph: &'g Graph) -> Self {
         PseudoInertia::zero(graph)
     }
@@ -88,8 +93,13 @@ impl<'g> Inward<'g> for PseudoInertia<'g> {
         }
     }
 
-    /// What the mass alone brings, and Σ + h pᵀ + p hᵀ with h.
-    fn moved(&self, arm: Vector<'g>) -> (Self, Self) {
+    fn shifted(&self, arm: Vector<'g>) -> Self {
+        let (of_mass, rest) = self.shifted_in_parts(arm);
+        rest.plus(of_mass)
+    }
+
+    /// The part of the mass alone, and Σ + h pᵀ + p hᵀ with h.
+    fn shifted_in_parts(&self, arm: Vector<'g>) -> (Self, Self) {
         let (Vector(h), Vector(p)) = (self.first, arm);
         let shift = arm * self.mass;
         let of_mass = PseudoInertia {
@@ -107,7 +117,7 @@ impl<'g> Inward<'g> for PseudoInertia<'g> {
     }
 }
 
-impl<'g> Inward<'g> for Wrench<'g> {
+impl<'g> Accumulate<'g> for Wrench<'g> {
     fn zero(graph: &'g Graph) -> Self {
         Wrench::zero(graph)
     }
@@ -124,8 +134,31 @@ impl<'g> Inward<'g> for Wrench<'g> {
         Wrench { force: rotation.forward(self.force), moment: rotation.forward(self.moment) }
     }
 
-    fn moved(&self, arm: Vector<'g>) -> (Self, Self) {
-        (Wrench::zero(arm.0[0].graph()), self.about(arm))
+    fn shifted(&self, arm: Vector<'g>) -> Self {
+        self.about(arm)
+    }
+}
+
+/// A vector without a point of application: its components alone.
+impl<'g> Accumulate<'g> for Vector<'g> {
+    fn zero(graph: &'g Graph) -> Self {
+        Vector::zero(graph)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        *self + *other
+    }
+
+    fn turned(&self, plane: &Plane<'g>) -> Self {
+        plane.forward(*self)
+    }
+
+    fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self {
+        rotation.forward(*self)
+    }
+
+    fn shifted(&self, _arm: Vector<'g>) -> Self {
+        *self
     }
 }
 

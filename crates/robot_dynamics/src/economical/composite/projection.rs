@@ -1,12 +1,13 @@
 //! Where the wrenches of outer joints meet the motions of inner joints.
 
+use crate::economical::composite::Accumulate;
+use crate::economical::frames::Frames;
 use crate::economical::plan::Place;
-use crate::economical::spatial::{Twist, Ways, Wrench};
-use crate::vector::Vector;
+use crate::economical::spatial::Twist;
 
 /// A meeting of what an outer link asks for with the motion of an inner joint.
 #[derive(Clone, Debug)]
-pub(crate) struct Encounter {
+pub(crate) struct Projection {
     /// The link of the inner joint; at first the outer link itself.
     pub(crate) inner: usize,
     /// Where they meet.
@@ -16,77 +17,78 @@ pub(crate) struct Encounter {
 }
 
 /// The encounters of a link with itself and all links inward of it: wrenches go inward as far as
-/// `meeting`, and from farther inward the motions come there.
-pub(crate) fn encounters(
-    ways: &Ways<'_, '_>,
+/// `projected_at`, and from farther inward the motions come there.
+pub(crate) fn projections(
+    frames: &Frames<'_, '_>,
     link: usize,
-    meeting: Option<Place>,
-) -> Vec<Encounter> {
+    projected_at: Option<Place>,
+) -> Vec<Projection> {
     let mut here = Place { link, turned: false };
-    let mut found = vec![Encounter { inner: link, place: here, route: vec![] }];
+    let mut found = vec![Projection { inner: link, place: here, route: vec![] }];
     let (mut place, mut route) = (here, vec![]);
-    while let Some(next) = ways.inward(place) {
-        if Some(here) == meeting {
+    while let Some(next) = frames.inward(place) {
+        if Some(here) == projected_at {
             route.push(place);
         } else {
             here = next;
         }
         if !next.turned {
-            found.push(Encounter { inner: next.link, place: here, route: route.clone() });
+            found.push(Projection { inner: next.link, place: here, route: route.clone() });
         }
         place = next;
     }
     found
 }
 
-impl Encounter {
+impl Projection {
     /// A motion in the inner link's home axes, at the meeting place.
-    pub(crate) fn twist<'g>(&self, ways: &Ways<'_, 'g>, at_home: &Twist<'g>) -> Twist<'g> {
-        self.route.iter().rev().fold(*at_home, |twist, place| ways.twist_outward(*place, &twist))
+    pub(crate) fn twist<'g>(&self, frames: &Frames<'_, 'g>, at_home: &Twist<'g>) -> Twist<'g> {
+        self.route.iter().rev().fold(*at_home, |twist, place| frames.twist_outward(*place, &twist))
     }
 }
 
-/// Something that goes inward from place to place.
-pub(crate) trait GoesInward<'g> {
-    /// The same at the next place inward of `place`.
-    fn inward(&self, ways: &Ways<'_, 'g>, place: Place) -> Self;
+/// A quantity that is taken inward along the mechanism, from place to place.
+pub(crate) trait Propagate<'g> {
+    /// The quantity at the next place inward of `place`.
+    fn inward(&self, frames: &Frames<'_, 'g>, place: Place) -> Self;
 }
 
-impl<'g> GoesInward<'g> for Wrench<'g> {
-    fn inward(&self, ways: &Ways<'_, 'g>, place: Place) -> Self {
-        ways.wrench_inward(place, self)
+impl<'g, T: Accumulate<'g>> Propagate<'g> for T {
+    fn inward(&self, frames: &Frames<'_, 'g>, place: Place) -> Self {
+        let link = &frames.chain.links[place.link];
+        let joint_frame = &frames.joint_frames[place.link];
+        if place.turned {
+            self.turned(&joint_frame.group_turn)
+        } else if frames.is_joined(place.link) {
+            self.shifted(frames.arm_at_home(place.link))
+        } else {
+            self.rotated(&link.rotation).shifted(joint_frame.origin)
+        }
     }
 }
 
-/// Components in the axes of a place.
-impl<'g> GoesInward<'g> for Vector<'g> {
-    fn inward(&self, ways: &Ways<'_, 'g>, place: Place) -> Self {
-        ways.vector_inward(place, *self)
-    }
-}
-
-/// A traveller inward.
+/// A quantity on its way inward, and the place that it has reached.
 #[derive(Clone, Debug)]
-pub(crate) struct Traveller<T> {
+pub(crate) struct Propagated<T> {
     place: Place,
     pub(crate) load: T,
 }
 
-impl<T> Traveller<T> {
-    /// Sets out from a link's home axes.
-    pub(crate) fn from_home(link: usize, load: T) -> Traveller<T> {
-        Traveller { place: Place { link, turned: false }, load }
+impl<T> Propagated<T> {
+    /// Starts in a link's home axes.
+    pub(crate) fn from_home(link: usize, load: T) -> Propagated<T> {
+        Propagated { place: Place { link, turned: false }, load }
     }
 
-    /// Goes on to a place farther inward, or stays.
-    pub(crate) fn go_to<'g>(&mut self, ways: &Ways<'_, 'g>, place: Place)
+    /// Propagates to a place farther inward, or stays.
+    pub(crate) fn propagate_to<'g>(&mut self, frames: &Frames<'_, 'g>, place: Place)
     where
-        T: GoesInward<'g>,
+        T: Propagate<'g>,
     {
         while self.place != place
-            && let Some(next) = ways.inward(self.place)
+            && let Some(next) = frames.inward(self.place)
         {
-            self.load = self.load.inward(ways, self.place);
+            self.load = self.load.inward(frames, self.place);
             self.place = next;
         }
     }

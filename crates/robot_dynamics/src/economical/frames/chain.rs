@@ -282,12 +282,12 @@ fn solve<'g>(
     let graph = wanted.graph();
     let mut unit = [graph.zero(); 3];
     unit[kind] = graph.one();
-    let share = rod_at(unit, place).entry(target);
-    let size = share.as_number()?.to_f64().abs();
+    let effect = rod_at(unit, place).entry(target);
+    let size = effect.as_number()?.to_f64().abs();
     if size < 1e-3 {
         return None;
     }
-    let amount = wanted / share;
+    let amount = wanted / effect;
     let acceptable = amount.as_number().is_none_or(|number| number.to_f64().abs() <= limit);
     acceptable.then_some(amount)
 }
@@ -339,7 +339,7 @@ impl<'g> Chain<'g> {
     }
 
     /// A joint's position, velocity or acceleration in rad or m, from that in the unit of length.
-    pub(crate) fn in_metres(&self, link: &ChainLink<'g>, motion: Expr<'g>) -> Expr<'g> {
+    pub(crate) fn in_meters(&self, link: &ChainLink<'g>, motion: Expr<'g>) -> Expr<'g> {
         if link.is_revolute() { motion } else { motion * self.unit }
     }
 

@@ -11,7 +11,7 @@ use crate::vector::Vector;
 /// Links whose joint axes are parallel may form a group: the *home axes* of a group are the axes
 /// before any of its joints turns, shared by its links. A link in no group is a group of its own.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Posture<'g> {
+pub(crate) struct JointFrame<'g> {
     /// The first link of the group.
     pub(crate) group: usize,
     /// The turn about z from the home axes to the link's.
@@ -24,8 +24,11 @@ pub(crate) struct Posture<'g> {
 
 /// The postures of all links; a link whose axis is parallel to its parent's is of the parent's
 /// group where `joins` says so.
-pub(crate) fn postures<'g>(chain: &Chain<'g>, joins: impl Fn(usize) -> bool) -> Vec<Posture<'g>> {
-    let mut postures: Vec<Posture<'g>> = Vec::with_capacity(chain.links.len());
+pub(crate) fn joint_frames<'g>(
+    chain: &Chain<'g>,
+    joins: impl Fn(usize) -> bool,
+) -> Vec<JointFrame<'g>> {
+    let mut joint_frames: Vec<JointFrame<'g>> = Vec::with_capacity(chain.links.len());
     let mut angles: Vec<(Expr<'g>, Expr<'g>)> = vec![];
     for (index, link) in chain.links.iter().enumerate() {
         let (sine, cosine) = joint_angle(link);
@@ -33,12 +36,12 @@ pub(crate) fn postures<'g>(chain: &Chain<'g>, joins: impl Fn(usize) -> bool) -> 
         let (group, angle) = match joined {
             Some(parent) => {
                 let (s, c) = angles[parent];
-                (postures[parent].group, (s * cosine + c * sine, c * cosine - s * sine))
+                (joint_frames[parent].group, (s * cosine + c * sine, c * cosine - s * sine))
             }
             None => (index, (sine, cosine)),
         };
         angles.push(angle);
-        postures.push(Posture {
+        joint_frames.push(JointFrame {
             group,
             group_turn: Plane::z(angle.0, angle.1),
             turn: Plane::z(sine, cosine),
@@ -48,7 +51,7 @@ pub(crate) fn postures<'g>(chain: &Chain<'g>, joins: impl Fn(usize) -> bool) -> 
             },
         });
     }
-    postures
+    joint_frames
 }
 
 /// Sine and cosine of the joint's turn about z, the constant turn before it included.

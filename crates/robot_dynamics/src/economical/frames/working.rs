@@ -46,7 +46,7 @@ pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFr
 /// `None` where it depends on parameters.
 pub(crate) fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     let graph = z.0[0].graph();
-    let [Some(a), Some(b), Some(c)] = z.0.map(figure) else {
+    let [Some(a), Some(b), Some(c)] = z.0.map(coefficient) else {
         return None;
     };
     let unit = Matrix::identity(graph);
@@ -74,7 +74,7 @@ pub(crate) fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
 }
 
 /// The value of a constant.
-fn figure(expr: Expr<'_>) -> Option<f64> {
+fn coefficient(expr: Expr<'_>) -> Option<f64> {
     let value = expr.evaluate(|_| f64::NAN);
     value.is_finite().then_some(value)
 }
@@ -96,13 +96,13 @@ pub(crate) fn normal_with_parent<'g>(
     let direction = back * parent_axes.column(2);
     let point = back * (parent_origin - link.translation);
     let axis = Axis { direction, point, has_place: true };
-    let sine_squared = figure(axis.sine_squared())?;
+    let sine_squared = coefficient(axis.sine_squared())?;
     let foot = match sine_squared {
         ..=PARALLEL => Some(point.0[2]),
         ..=NEARLY_PARALLEL => None,
         _ => Some(axis.foot()),
     };
-    foot.filter(|foot| figure(*foot).is_none_or(|foot| foot.abs() <= farthest))
+    foot.filter(|foot| coefficient(*foot).is_none_or(|foot| foot.abs() <= farthest))
 }
 
 /// Places the working frames as the plan says, from the base outward; origins that would lie farther
@@ -155,7 +155,7 @@ fn origin_along<'g>(
 ) -> Option<Expr<'g>> {
     let (Vector(h), Matrix(s)) = (inertia.first, inertia.second);
     match origin {
-        Origin::File | Origin::MassCentre | Origin::Parent => None,
+        Origin::File | Origin::CenterOfMass | Origin::Parent => None,
         Origin::NextNormal => next.filter(|axis| axis.has_place)?.foot_on_z(),
         Origin::PreviousNormal => {
             let (parent_file, parent) = previous?;
@@ -179,7 +179,7 @@ fn free_origin<'g>(
     parent: Option<&WorkingFrame<'g>>,
 ) -> Option<Vector<'g>> {
     match origin {
-        Origin::MassCentre => Some(link.center_of_mass),
+        Origin::CenterOfMass => Some(link.center_of_mass),
         Origin::Parent => {
             let zero = Vector::zero(link.mass.graph());
             let parent_origin = parent.map_or(zero, |parent| parent.origin);

@@ -50,7 +50,7 @@ pub struct LinkPlan {
     pub composite_sum: bool,
     /// Where this link's wrench for a unit acceleration of its joint meets the motions of the
     /// joints farther inward: a place on the way to the base; `None` for each joint's own.
-    pub meeting: Option<Place>,
+    pub projected_at: Option<Place>,
 }
 
 /// What a joint's acceleration is taken for in forward dynamics, where the bias may be that of any
@@ -108,7 +108,7 @@ pub enum Origin {
     /// Where the regrouped Σyz vanishes.
     ZeroYz,
     /// At the link's mass centre: for translation joints, whose axis has a direction only.
-    MassCentre,
+    CenterOfMass,
     /// Where the parent's origin lies at joint position 0: for translation joints.
     Parent,
 }
@@ -164,7 +164,7 @@ impl LinkPlan {
         residual: [None; 3],
         free: FreeRate::Zero,
         composite_sum: false,
-        meeting: None,
+        projected_at: None,
     };
 }
 
@@ -172,10 +172,10 @@ impl Plan {
     /// Whether the plan is one for that many links and names only links that there are.
     #[must_use]
     pub fn fits(&self, links: usize) -> bool {
-        let meetings = self.links.iter().filter_map(|link| link.meeting);
+        let projected_at = self.links.iter().filter_map(|link| link.projected_at);
         self.links.len() == links
             && self.unit_length.is_none_or(|(link, component)| link < links && component < 3)
-            && meetings.into_iter().all(|place| place.link < links)
+            && projected_at.into_iter().all(|place| place.link < links)
     }
 
     /// What suits most arms, without a search: the cheapest searched plans have most links so.

@@ -51,7 +51,7 @@ const ORIGINS: [(&str, Origin); 7] = [
     ("previous_normal", Origin::PreviousNormal),
     ("zero_xz", Origin::ZeroXz),
     ("zero_yz", Origin::ZeroYz),
-    ("mass_centre", Origin::MassCentre),
+    ("mass_centre", Origin::CenterOfMass),
     ("parent", Origin::Parent),
 ];
 
@@ -168,7 +168,7 @@ fn link_text(link: &LinkPlan) -> String {
         residual.join(", "),
         name_of(&RATES, link.free),
     );
-    if let Some(Place { link, turned }) = link.meeting {
+    if let Some(Place { link, turned }) = link.projected_at {
         let _ = writeln!(text, "meeting = {{ link = {link}, turned = {turned} }}");
     }
     text
@@ -240,7 +240,7 @@ impl RawLink {
                 value_of(&ENTRIES, second)?,
             ],
             free: value_of(&RATES, &self.free)?,
-            meeting: self
+            projected_at: self
                 .meeting
                 .as_ref()
                 .map(|place| Place { link: place.link, turned: place.turned }),
@@ -267,7 +267,7 @@ mod tests {
             moment: [index == 1, index == 2, index == 3],
             residual: [ENTRIES[index].1, ENTRIES[index + 1].1, ENTRIES[index + 2].1],
             free: RATES[index % 6].1,
-            meeting: (index > 3).then_some(Place { link: index, turned: index == 5 }),
+            projected_at: (index > 3).then_some(Place { link: index, turned: index == 5 }),
             ..LinkPlan::BASIC
         });
         let plan = Plan { links: links.collect(), unit_length: Some((3, 1)) };

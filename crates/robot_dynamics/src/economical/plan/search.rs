@@ -110,7 +110,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Op
     let mechanism = Mechanism::new(robot, &graph, options);
     let base = Base::new(&mechanism)?;
     let effects = Effects { wrench: false, friction: false };
-    let reference = newton_euler::newton_euler(&mechanism, effects).driving_forces;
+    let reference = newton_euler::newton_euler(&mechanism, effects).generalized_forces;
     let torques: ObjectiveOf<'_, '_> =
         &|recursion| Objective::of(recursion.inverse_dynamics(false));
     let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
@@ -234,9 +234,9 @@ impl<'m, 'g> Search<'m, 'g> {
         // Out of a dead end by a few changes at random, from there downhill again.
         let mut steps = Steps(1);
         while self.tried < MAX_TRIES && !self.is_spent() && !plan.links.is_empty() {
-            let kicked = self.kick(scope, &plan, &mut steps);
-            let cost = self.cost(&kicked);
-            let (cost, candidate) = self.descend(scope, kicked, cost);
+            let perturbed = self.perturb(scope, &plan, &mut steps);
+            let cost = self.cost(&perturbed);
+            let (cost, candidate) = self.descend(scope, perturbed, cost);
             if cost <= best && self.better(&candidate, best + 1).is_some() {
                 (best, plan) = (cost, candidate);
             }
@@ -257,15 +257,15 @@ impl<'m, 'g> Search<'m, 'g> {
     }
 
     /// A plan with a few options changed.
-    fn kick(&self, scope: Scope, plan: &Plan, steps: &mut Steps) -> Plan {
-        let mut kicked = plan.clone();
+    fn perturb(&self, scope: Scope, plan: &Plan, steps: &mut Steps) -> Plan {
+        let mut perturbed = plan.clone();
         for _ in 0..2 + steps.below(3) {
-            let link = steps.below(kicked.links.len());
-            let changes = self.alternatives(scope, &kicked.links[link], link);
+            let link = steps.below(perturbed.links.len());
+            let changes = self.alternatives(scope, &perturbed.links[link], link);
             let change = steps.below(changes.len());
-            changes[change](&mut kicked.links[link]);
+            changes[change](&mut perturbed.links[link]);
         }
-        kicked
+        perturbed
     }
 
     fn candidate(&self, plan: &Plan) -> Objective<'g> {
@@ -343,12 +343,12 @@ impl<'m, 'g> Search<'m, 'g> {
         }
         if scope.composites {
             changes.push(Box::new(|plan| plan.composite_sum ^= true));
-            changes.push(Box::new(|plan| plan.meeting = None));
+            changes.push(Box::new(|plan| plan.projected_at = None));
             let mut inward = Some(link);
             while let Some(link) = inward {
                 for turned in [false, true] {
                     let place = Some(Place { link, turned });
-                    changes.push(Box::new(move |plan| plan.meeting = place));
+                    changes.push(Box::new(move |plan| plan.projected_at = place));
                 }
                 inward = self.mechanism.links[link].parent;
             }
@@ -392,7 +392,7 @@ fn frame_changes(current: &LinkPlan) -> Vec<Change> {
         Origin::PreviousNormal,
         Origin::ZeroXz,
         Origin::ZeroYz,
-        Origin::MassCentre,
+        Origin::CenterOfMass,
         Origin::Parent,
     ];
     for turn in [current.turn, Turn::File, Turn::NextNormal, Turn::FirstMoment] {

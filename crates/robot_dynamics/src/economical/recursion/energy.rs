@@ -4,7 +4,7 @@ use robot_symbolic::Expr;
 
 use crate::economical::Recursion;
 use crate::economical::composite::gravity::weight_in_base;
-use crate::economical::spatial::Ways;
+use crate::economical::frames::Frames;
 use crate::vector::{Matrix, Vector};
 
 impl<'g> Recursion<'g> {
@@ -13,18 +13,18 @@ impl<'g> Recursion<'g> {
     #[must_use]
     pub fn kinetic_energy(&self) -> Expr<'g> {
         let chain = &self.chain.without_idle_turns(&[]);
-        let ways = Ways::new(chain, |index| self.plans[index].angle_sum);
+        let frames = Frames::new(chain, |index| self.plans[index].angle_sum);
         // Angular velocity, in home and own axes, and velocity of the origin in own axes.
         let (mut home, mut own): (Vec<Vector<'g>>, Vec<Vector<'g>>) = (vec![], vec![]);
         let mut velocities: Vec<Vector<'g>> = vec![];
         let mut twice = chain.graph.zero();
         for (index, link) in chain.links.iter().enumerate() {
-            let posture = &ways.postures[index];
+            let joint_frame = &frames.joint_frames[index];
             let zero = Vector::zero(chain.graph);
             let (mut at_home, carried) = match link.parent {
                 Some(parent) => {
-                    let moved = velocities[parent] + own[parent].cross(posture.origin);
-                    let omega = if ways.is_joined(index) {
+                    let moved = velocities[parent] + own[parent].cross(joint_frame.origin);
+                    let omega = if frames.is_joined(index) {
                         home[parent]
                     } else {
                         link.rotation.back(own[parent])
@@ -33,13 +33,13 @@ impl<'g> Recursion<'g> {
                 }
                 None => (zero, zero),
             };
-            let mut velocity = posture.turn.back(carried);
+            let mut velocity = joint_frame.turn.back(carried);
             if link.is_revolute() {
                 at_home.0[2] += link.motion.velocity;
             } else {
                 velocity.0[2] += link.motion.velocity;
             }
-            let omega = posture.group_turn.back(at_home);
+            let omega = joint_frame.group_turn.back(at_home);
             home.push(at_home);
             own.push(omega);
             velocities.push(velocity);
@@ -47,7 +47,7 @@ impl<'g> Recursion<'g> {
             // ∫ (v + ω × r)² dm
             let mixed = omega.cross(Vector(h)).dot(velocity) * 2 + velocity.dot(velocity) * m;
             twice += of_second(link.inertia.second, omega) + mixed;
-            let rate = chain.in_metres(link, link.motion.velocity);
+            let rate = chain.in_meters(link, link.motion.velocity);
             twice += link.reflected_inertia * (rate * rate);
             if let Some(parent) = link.parent {
                 // J N q̇ a · ω of the carrier

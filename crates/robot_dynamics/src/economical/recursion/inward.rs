@@ -51,15 +51,15 @@ pub(crate) fn inward<'g>(
         let (rotor_torque, rotor_moment) = rotor(chain, link, states, state.rate);
         torques[link.coordinate] += (torque + rotor_torque) * link.ratio;
 
-        let posture = &state.posture;
-        let turned = posture.group_turn.forward(moments[index]);
-        let sum = across[posture.group] + turned;
-        across[posture.group] = Vector([sum.0[0], sum.0[1], chain.graph.zero()]);
+        let joint_frame = &state.joint_frame;
+        let turned = joint_frame.group_turn.forward(moments[index]);
+        let sum = across[joint_frame.group] + turned;
+        across[joint_frame.group] = Vector([sum.0[0], sum.0[1], chain.graph.zero()]);
         let Some(parent) = link.parent else { continue };
-        let handed = link.rotation.forward(posture.turn.forward(forces[index]));
-        forces[parent] = forces[parent] + handed;
-        moments[parent] = moments[parent] + posture.origin.cross(handed) + rotor_moment;
-        if posture.group == index {
+        let in_parent = link.rotation.forward(joint_frame.turn.forward(forces[index]));
+        forces[parent] = forces[parent] + in_parent;
+        moments[parent] = moments[parent] + joint_frame.origin.cross(in_parent) + rotor_moment;
+        if joint_frame.group == index {
             let Vector([x, y, _]) = across[index];
             let about_axis = moments[index].0[2];
             moments[parent] = moments[parent] + link.rotation.forward(Vector([x, y, about_axis]));
@@ -84,7 +84,7 @@ fn rotor<'g>(
     };
     let carrier = &states[parent];
     let torque = link.rotor_coupling * carrier.angular_acceleration.dot(link.axis);
-    let momentum = |motion| link.rotor_coupling * chain.in_metres(link, motion);
+    let momentum = |motion| link.rotor_coupling * chain.in_meters(link, motion);
     let turning = carrier.angular_velocity.cross(link.axis) * momentum(link.motion.velocity);
     (torque, link.axis * momentum(rate) + turning)
 }

@@ -3,8 +3,8 @@
 use robot_symbolic::Expr;
 
 use crate::economical::Recursion;
+use crate::economical::frames::Frames;
 use crate::economical::recursion::outward::{self, Accelerations};
-use crate::economical::spatial::Ways;
 use crate::mechanism::MechanismFrame;
 use crate::vector::{Matrix, Vector};
 
@@ -66,11 +66,11 @@ impl<'g> Recursion<'g> {
     }
 
     fn poses_of(&self, carried: &[Carried<'g>]) -> Vec<Pose<'g>> {
-        let ways = self.ways();
-        let axes = own_axes(&ways);
+        let frames = self.frames();
+        let axes = own_axes(&frames);
         let mut origins: Vec<Vector<'g>> = vec![];
         for (index, link) in self.chain.links.iter().enumerate() {
-            let origin = ways.postures[index].origin;
+            let origin = frames.joint_frames[index].origin;
             origins.push(match link.parent {
                 Some(parent) => origins[parent] + axes[parent] * origin,
                 None => origin,
@@ -93,8 +93,8 @@ impl<'g> Recursion<'g> {
         let Some(carried) = self.carried_frame(frame) else {
             return rows;
         };
-        let ways = self.ways();
-        let axes = own_axes(&ways);
+        let frames = self.frames();
+        let axes = own_axes(&frames);
         // From the joint's origin to the frame's, in base axes.
         let mut arm = axes[carried.link] * carried.point;
         let mut next = Some(carried.link);
@@ -110,7 +110,7 @@ impl<'g> Recursion<'g> {
             }
             next = link.parent;
             if let Some(parent) = link.parent {
-                arm = arm + axes[parent] * ways.postures[index].origin;
+                arm = arm + axes[parent] * frames.joint_frames[index].origin;
             }
         }
         rows
@@ -136,31 +136,31 @@ impl<'g> Recursion<'g> {
         let mut next = Some(carried.link);
         while let Some(index) = next {
             // Through the home axes of the link's parallel group to the axes of the group's parent.
-            let posture = &states[index].posture;
-            let first = &chain.links[posture.group];
-            vectors = vectors.map(|v| first.rotation.forward(posture.group_turn.forward(v)));
+            let joint_frame = &states[index].joint_frame;
+            let first = &chain.links[joint_frame.group];
+            vectors = vectors.map(|v| first.rotation.forward(joint_frame.group_turn.forward(v)));
             next = first.parent;
         }
         vectors.into_iter().flat_map(|vector| vector.0).collect()
     }
 
     /// Ways through the axes of parallel groups, as `angle_sum` has it for motions.
-    pub(in crate::economical) fn ways(&self) -> Ways<'_, 'g> {
-        Ways::new(&self.chain, |index| self.plans[index].angle_sum)
+    pub(in crate::economical) fn frames(&self) -> Frames<'_, 'g> {
+        Frames::new(&self.chain, |index| self.plans[index].angle_sum)
     }
 }
 
 /// The links' own axes in base axes, as rotation matrices.
-fn own_axes<'g>(ways: &Ways<'_, 'g>) -> Vec<Matrix<'g>> {
+fn own_axes<'g>(frames: &Frames<'_, 'g>) -> Vec<Matrix<'g>> {
     let (mut home, mut own): (Vec<Matrix<'g>>, Vec<Matrix<'g>>) = (vec![], vec![]);
-    for (index, link) in ways.chain.links.iter().enumerate() {
+    for (index, link) in frames.chain.links.iter().enumerate() {
         let at_home = match link.parent {
-            Some(parent) if ways.is_joined(index) => home[parent],
+            Some(parent) if frames.is_joined(index) => home[parent],
             Some(parent) => rows(own[parent], |row| link.rotation.back(row)),
-            None => rows(Matrix::identity(ways.chain.graph), |row| link.rotation.back(row)),
+            None => rows(Matrix::identity(frames.chain.graph), |row| link.rotation.back(row)),
         };
         home.push(at_home);
-        own.push(rows(at_home, |row| ways.postures[index].group_turn.back(row)));
+        own.push(rows(at_home, |row| frames.joint_frames[index].group_turn.back(row)));
     }
     own
 }

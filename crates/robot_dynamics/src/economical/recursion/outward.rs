@@ -7,7 +7,7 @@
 use robot_symbolic::Expr;
 
 use crate::economical::frames::chain::{Chain, ChainLink};
-use crate::economical::frames::joint_frame::{Posture, postures};
+use crate::economical::frames::joint_frame::{JointFrame, joint_frames};
 use crate::economical::plan::{FreeRate, LinkPlan};
 use crate::economical::spatial::rotation::Plane;
 use crate::vector::{Matrix, Vector};
@@ -29,7 +29,7 @@ struct Group<'g> {
 /// The state of a link after the outward recursion.
 #[derive(Clone, Debug)]
 pub(crate) struct LinkState<'g> {
-    pub(crate) posture: Posture<'g>,
+    pub(crate) joint_frame: JointFrame<'g>,
     pub(crate) angular_velocity: Vector<'g>,
     pub(crate) angular_acceleration: Vector<'g>,
     /// U.
@@ -64,27 +64,27 @@ pub(crate) fn outward<'g>(
     plans: &[LinkPlan],
     accelerations: Accelerations,
 ) -> Vec<LinkState<'g>> {
-    let postures = postures(chain, |index| plans[index].angle_sum);
+    let joint_frames = joint_frames(chain, |index| plans[index].angle_sum);
     let mut states: Vec<LinkState<'g>> = Vec::with_capacity(chain.links.len());
     let mut groups: Vec<Group<'g>> = vec![];
-    for (index, (link, posture)) in chain.links.iter().zip(&postures).enumerate() {
+    for (index, (link, joint_frame)) in chain.links.iter().zip(&joint_frames).enumerate() {
         let parent = link.parent.map(|parent| &states[parent]);
-        let group = posture.group;
+        let group = joint_frame.group;
         groups.push(if group == index { Group::new(chain, link, parent) } else { groups[group] });
         let before = parent.filter(|_| group != index);
         let plan = &plans[index];
-        let turning = Turning::of(&groups[index], link, posture.group_turn, before, plan);
+        let turning = Turning::of(&groups[index], link, joint_frame.group_turn, before, plan);
         let free = match accelerations {
             Accelerations::Free if chain.drives_alone(index) => Some(plan.free),
             Accelerations::Free => Some(FreeRate::Zero),
             Accelerations::Given => None,
         };
-        let carried = carried_acceleration(chain, index, posture, parent);
-        let next = chain.children(index).next().map(|child| (child, postures[child].origin));
+        let carried = carried_acceleration(chain, index, joint_frame, parent);
+        let next = chain.children(index).next().map(|child| (child, joint_frames[child].origin));
         states.push(if link.is_revolute() {
-            turning.rotating(link, posture, carried, free, next)
+            turning.rotating(link, joint_frame, carried, free, next)
         } else {
-            turning.translating(link, posture, carried, free)
+            turning.translating(link, joint_frame, carried, free)
         });
     }
     states
@@ -94,12 +94,12 @@ pub(crate) fn outward<'g>(
 fn carried_acceleration<'g>(
     chain: &Chain<'g>,
     index: usize,
-    posture: &Posture<'g>,
+    joint_frame: &JointFrame<'g>,
     parent: Option<&LinkState<'g>>,
 ) -> Vector<'g> {
     let carried = match parent {
         Some(parent) => {
-            let mut carried = parent.acceleration + parent.tensor * posture.origin;
+            let mut carried = parent.acceleration + parent.tensor * joint_frame.origin;
             if let Some(rest) = parent.at_rest.filter(|rest| rest.child == index) {
                 carried.0[rest.component] = chain.graph.zero();
             }
@@ -107,7 +107,7 @@ fn carried_acceleration<'g>(
         }
         None => -chain.gravity,
     };
-    posture.turn.back(chain.links[index].rotation.back(carried))
+    joint_frame.turn.back(chain.links[index].rotation.back(carried))
 }
 
 impl<'g> Group<'g> {
@@ -177,7 +177,7 @@ impl<'g> Turning<'g> {
     fn rotating(
         mut self,
         link: &ChainLink<'g>,
-        posture: &Posture<'g>,
+        joint_frame: &JointFrame<'g>,
         acceleration: Vector<'g>,
         free: Option<FreeRate>,
         next: Option<(usize, Vector<'g>)>,
@@ -199,7 +199,7 @@ impl<'g> Turning<'g> {
             _ => carried + rate,
         };
         LinkState {
-            posture: *posture,
+            joint_frame: *joint_frame,
             angular_velocity: self.omega,
             angular_acceleration: self.epsilon,
             tensor: self.tensor(),
@@ -247,7 +247,7 @@ impl<'g> Turning<'g> {
     fn translating(
         self,
         link: &ChainLink<'g>,
-        posture: &Posture<'g>,
+        joint_frame: &JointFrame<'g>,
         carried: Vector<'g>,
         free: Option<FreeRate>,
     ) -> LinkState<'g> {
@@ -263,7 +263,7 @@ impl<'g> Turning<'g> {
         };
         acceleration.0[2] += rate;
         LinkState {
-            posture: *posture,
+            joint_frame: *joint_frame,
             angular_velocity: self.omega,
             angular_acceleration: self.epsilon,
             tensor: self.tensor(),

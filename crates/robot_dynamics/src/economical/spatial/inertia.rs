@@ -33,11 +33,11 @@ impl<'g> PseudoInertia<'g> {
     /// The link's own, in the link's frame.
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> PseudoInertia<'g> {
         let graph = link.mass.graph();
-        let (inertia, centre) = (link.inertia, link.center_of_mass);
+        let (inertia, center) = (link.inertia, link.center_of_mass);
         // About the mass centre J = tr(Σ) 1 − Σ, hence tr J = 2 tr Σ.
         let central = Matrix::identity(graph) * (inertia.trace() / 2) - inertia;
-        let first = centre * link.mass;
-        PseudoInertia { second: central + Matrix::outer(first, centre), first, mass: link.mass }
+        let first = center * link.mass;
+        PseudoInertia { second: central + Matrix::outer(first, center), first, mass: link.mass }
     }
 
     /// Masses on a line through the origin: mass, first and second moment along a unit vector.

@@ -1,7 +1,7 @@
 //! Composite momenta: B = Σ V P over a link and all that it carries, with the motions V and the
 //! pseudo-inertias P of the links.
 
-use crate::economical::composite::Inward;
+use crate::economical::composite::Accumulate;
 use crate::economical::spatial::inertia::PseudoInertia;
 use crate::economical::spatial::rotation::{ConstantRotation, Plane};
 use crate::economical::spatial::{Twist, Wrench};
@@ -29,7 +29,7 @@ impl<'g> Momentum<'g> {
 
     /// The wrench of the matrix Ẑ B for a unit rate `motion` Z of a joint; of Z only the angular
     /// part counts.
-    pub(crate) fn stirred(&self, motion: &Twist<'g>) -> Wrench<'g> {
+    pub(crate) fn wrench_of_unit_rate(&self, motion: &Twist<'g>) -> Wrench<'g> {
         let Matrix(n) = Matrix::skew(motion.angular) * self.second;
         Wrench {
             force: motion.angular.cross(self.linear),
@@ -38,7 +38,7 @@ impl<'g> Momentum<'g> {
     }
 
     /// What a joint with the motion `joint` feels of Ẑ B, per component of Z's angular part.
-    pub(crate) fn felt(&self, joint: &Twist<'g>) -> Vector<'g> {
+    pub(crate) fn project(&self, joint: &Twist<'g>) -> Vector<'g> {
         let Matrix(b) = self.second;
         let Vector(z) = joint.angular;
         // ⟨\[z\]×, \[e\]× B⟩ = e · (tr B 1 − Bᵀ) z, and z · (e × b) = e · (b × z).
@@ -50,7 +50,7 @@ impl<'g> Momentum<'g> {
     }
 }
 
-impl<'g> Inward<'g> for Momentum<'g> {
+impl<'g> Accumulate<'g> for Momentum<'g> {
     fn zero(graph: &'g robot_symbolic::Graph) -> Self {
         Momentum { second: Matrix::zero(graph), linear: Vector::zero(graph) }
     }
@@ -70,9 +70,7 @@ impl<'g> Inward<'g> for Momentum<'g> {
         }
     }
 
-    fn moved(&self, arm: Vector<'g>) -> (Self, Self) {
-        let second = self.second + Matrix::outer(self.linear, arm);
-        let nothing = Self::zero(arm.0[0].graph());
-        (nothing, Momentum { second, ..*self })
+    fn shifted(&self, arm: Vector<'g>) -> Self {
+        Momentum { second: self.second + Matrix::outer(self.linear, arm), ..*self }
     }
 }

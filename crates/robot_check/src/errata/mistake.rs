@@ -9,7 +9,7 @@ use super::term::{Power, Term};
 
 /// The kinds of slips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum SlipKind {
+pub enum MistakeKind {
     /// A derived term is not in print.
     MissingTerm,
     /// A printed term is not derived.
@@ -34,31 +34,31 @@ pub enum SlipKind {
     Factor,
 }
 
-impl SlipKind {
+impl MistakeKind {
     /// The kind in words: `dot`, `missing factor`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            SlipKind::MissingTerm => "missing term",
-            SlipKind::ExtraTerm => "extra term",
-            SlipKind::Sign => "sign",
-            SlipKind::Coefficient => "coefficient",
-            SlipKind::Dot => "dot",
-            SlipKind::Index => "index",
-            SlipKind::Function => "function",
-            SlipKind::Power => "power",
-            SlipKind::MissingFactor => "missing factor",
-            SlipKind::ExtraFactor => "extra factor",
-            SlipKind::Factor => "factor",
+            MistakeKind::MissingTerm => "missing term",
+            MistakeKind::ExtraTerm => "extra term",
+            MistakeKind::Sign => "sign",
+            MistakeKind::Coefficient => "coefficient",
+            MistakeKind::Dot => "dot",
+            MistakeKind::Index => "index",
+            MistakeKind::Function => "function",
+            MistakeKind::Power => "power",
+            MistakeKind::MissingFactor => "missing factor",
+            MistakeKind::ExtraFactor => "extra factor",
+            MistakeKind::Factor => "factor",
         }
     }
 }
 
 /// One slip of a term.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Slip {
+pub struct Mistake {
     /// Its kind.
-    pub kind: SlipKind,
+    pub kind: MistakeKind,
     /// What is printed, where the slip is about a part of the term.
     pub printed: Option<String>,
     /// What is derived in its place.
@@ -66,7 +66,7 @@ pub struct Slip {
 }
 
 /// `dot: qd1 for qdd1`, `missing factor: cos(q2)`, `sign`
-impl fmt::Display for Slip {
+impl fmt::Display for Mistake {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.kind.name())?;
         match (&self.printed, &self.derived) {
@@ -81,38 +81,39 @@ impl fmt::Display for Slip {
 type Odd<'g> = Power<'g>;
 
 /// The slips between a printed and a derived term; with one alone, that it is alone.
-pub(super) fn slips(printed: Option<&Term<'_>>, derived: Option<&Term<'_>>) -> Vec<Slip> {
-    let bare = |kind| Slip { kind, printed: None, derived: None };
+pub(super) fn mistakes(printed: Option<&Term<'_>>, derived: Option<&Term<'_>>) -> Vec<Mistake> {
+    let bare = |kind| Mistake { kind, printed: None, derived: None };
     let (printed, derived) = match (printed, derived) {
         (Some(printed), Some(derived)) => (printed, derived),
-        (Some(_), None) => return vec![bare(SlipKind::ExtraTerm)],
-        (None, _) => return vec![bare(SlipKind::MissingTerm)],
+        (Some(_), None) => return vec![bare(MistakeKind::ExtraTerm)],
+        (None, _) => return vec![bare(MistakeKind::MissingTerm)],
     };
-    let mut slips = vec![];
+    let mut mistakes = vec![];
     if printed.coefficient == -&derived.coefficient {
-        slips.push(bare(SlipKind::Sign));
+        mistakes.push(bare(MistakeKind::Sign));
     } else if printed.coefficient != derived.coefficient {
         let [one, other] = [printed, derived].map(|term| Some(term.coefficient_text()));
-        slips.push(Slip { kind: SlipKind::Coefficient, printed: one, derived: other });
+        mistakes.push(Mistake { kind: MistakeKind::Coefficient, printed: one, derived: other });
     }
     let (mut gone, mut come) = (odd(printed, derived), odd(derived, printed));
-    powers(printed, derived, &mut gone, &mut come, &mut slips);
+    powers(printed, derived, &mut gone, &mut come, &mut mistakes);
     while let Some((i, j, kind)) = related(&gone, &come) {
-        slips.push(replaced(kind, &gone.remove(i), &come.remove(j)));
+        mistakes.push(replaced(kind, &gone.remove(i), &come.remove(j)));
     }
     if let ([one], [other]) = (gone.as_slice(), come.as_slice()) {
-        slips.push(replaced(SlipKind::Factor, one, other));
-        return slips;
+        mistakes.push(replaced(MistakeKind::Factor, one, other));
+        return mistakes;
     }
-    let one = |kind, printed, derived| Slip { kind, printed, derived };
-    let extra = gone.iter().map(|odd| one(SlipKind::ExtraFactor, Some(odd.to_string()), None));
-    let missing = come.iter().map(|odd| one(SlipKind::MissingFactor, None, Some(odd.to_string())));
-    slips.extend(extra.chain(missing));
-    slips
+    let one = |kind, printed, derived| Mistake { kind, printed, derived };
+    let extra = gone.iter().map(|odd| one(MistakeKind::ExtraFactor, Some(odd.to_string()), None));
+    let missing =
+        come.iter().map(|odd| one(MistakeKind::MissingFactor, None, Some(odd.to_string())));
+    mistakes.extend(extra.chain(missing));
+    mistakes
 }
 
-fn replaced(kind: SlipKind, printed: &Power<'_>, derived: &Power<'_>) -> Slip {
-    Slip { kind, printed: Some(printed.to_string()), derived: Some(derived.to_string()) }
+fn replaced(kind: MistakeKind, printed: &Power<'_>, derived: &Power<'_>) -> Mistake {
+    Mistake { kind, printed: Some(printed.to_string()), derived: Some(derived.to_string()) }
 }
 
 /// The factors of a term beyond those that it has in common with another.
@@ -136,7 +137,7 @@ fn powers<'g>(
     derived: &Term<'g>,
     gone: &mut Vec<Odd<'g>>,
     come: &mut Vec<Odd<'g>>,
-    slips: &mut Vec<Slip>,
+    mistakes: &mut Vec<Mistake>,
 ) {
     if related(gone, come).is_some() {
         return;
@@ -148,14 +149,14 @@ fn powers<'g>(
                 return true;
             }
             let raised = |exponent| Power { exponent, ..*power };
-            slips.push(replaced(SlipKind::Power, &raised(one), &raised(other)));
+            mistakes.push(replaced(MistakeKind::Power, &raised(one), &raised(other)));
             false
         });
     }
 }
 
 /// The first two factors of which one is easily taken for the other.
-fn related(gone: &[Odd<'_>], come: &[Odd<'_>]) -> Option<(usize, usize, SlipKind)> {
+fn related(gone: &[Odd<'_>], come: &[Odd<'_>]) -> Option<(usize, usize, MistakeKind)> {
     let pairs = (0..gone.len()).flat_map(|i| (0..come.len()).map(move |j| (i, j)));
     pairs.into_iter().find_map(|(i, j)| {
         let (one, other) = (gone.get(i)?, come.get(j)?);
@@ -165,28 +166,28 @@ fn related(gone: &[Odd<'_>], come: &[Odd<'_>]) -> Option<(usize, usize, SlipKind
 }
 
 /// In what two atoms that resemble each other differ.
-fn likeness(one: Expr<'_>, other: Expr<'_>) -> Option<SlipKind> {
+fn likeness(one: Expr<'_>, other: Expr<'_>) -> Option<MistakeKind> {
     match (one.view(), other.view()) {
         (View::Symbol(a), View::Symbol(b)) => {
             names_differ(&one.graph().symbol_name(a), &other.graph().symbol_name(b))
         }
-        (View::Call(_, a), View::Call(_, b)) if a == b => Some(SlipKind::Function),
+        (View::Call(_, a), View::Call(_, b)) if a == b => Some(MistakeKind::Function),
         (View::Call(f, a), View::Call(g, b)) if f == g => {
             // Angles are mostly single symbols; sums that differ count as another index.
-            likeness(a, b).or(Some(SlipKind::Index))
+            likeness(a, b).or(Some(MistakeKind::Index))
         }
         _ => None,
     }
 }
 
-fn names_differ(one: &str, other: &str) -> Option<SlipKind> {
+fn names_differ(one: &str, other: &str) -> Option<MistakeKind> {
     let motion = |name: &str| {
         JointVariable::parse(name).filter(|(variable, _)| JointVariable::MOTION.contains(variable))
     };
     if let (Some((one, i)), Some((other, j))) = (motion(one), motion(other)) {
         return match (one == other, i == j) {
-            (false, true) => Some(SlipKind::Dot),
-            (true, _) => Some(SlipKind::Index),
+            (false, true) => Some(MistakeKind::Dot),
+            (true, _) => Some(MistakeKind::Index),
             (false, false) => None,
         };
     }
@@ -196,5 +197,5 @@ fn names_differ(one: &str, other: &str) -> Option<SlipKind> {
     let alike = one.len() == other.len()
         && one.bytes().zip(other.bytes()).skip(1).filter(|(x, y)| x != y).count() == 1
         && one.bytes().next() == other.bytes().next();
-    (a == b || alike).then_some(SlipKind::Index)
+    (a == b || alike).then_some(MistakeKind::Index)
 }

@@ -4,7 +4,8 @@ use robot_build::{Functions, Options, Programs, Source};
 use robot_codegen::Interpreter;
 use robot_numeric::random::{Random, Recipe};
 use robot_simulation::{
-    RobotProgram, Shares, State, Table, TorqueLaw, Torques, Trajectory, plot, shares,
+    RobotProgram, State, Table, TorqueContributions, TorqueLaw, Torques, Trajectory, plot,
+    torque_contributions,
 };
 
 use crate::{motion, robot_file};
@@ -17,7 +18,9 @@ fn compiled(text: &str, friction: bool, wrench: bool) -> Programs {
 }
 
 fn of_robot(robot: robot_model::robot::Robot, friction: bool, wrench: bool) -> Programs {
-    let kinds = [RobotProgram::functions(friction), Shares::functions(friction, wrench)].concat();
+    let kinds =
+        [RobotProgram::functions(friction), TorqueContributions::functions(friction, wrench)]
+            .concat();
     let options = Options { functions: Functions::Chosen(kinds), ..Options::default() };
     robot_build::programs_of(robot, "robot", &options).unwrap()
 }
@@ -31,11 +34,12 @@ fn assert_round_trip(programs: &Programs, start: &State, texts: &[String], frict
     let csv = motion.table(&motion.energies(&program).unwrap()).csv();
     let table = Table::read("motion.csv", &csv).unwrap();
     let trajectory = Trajectory::from_table(robot, "motion.csv", &table).unwrap();
-    let shares = shares(programs, &[], &trajectory, friction).unwrap();
-    assert_eq!(shares.t, motion.t);
-    let size = motion.tau.iter().chain(&shares.gravity).chain(&shares.inertia).flatten();
+    let contributions = torque_contributions(programs, &[], &trajectory, friction).unwrap();
+    assert_eq!(contributions.t, motion.t);
+    let size =
+        motion.tau.iter().chain(&contributions.gravity).chain(&contributions.inertia).flatten();
     let size = size.fold(1.0_f64, |size, entry| size.max(entry.abs()));
-    for (found, given) in shares.total.iter().flatten().zip(motion.tau.iter().flatten()) {
+    for (found, given) in contributions.total.iter().flatten().zip(motion.tau.iter().flatten()) {
         let name = &robot.name;
         assert!((found - given).abs() <= 1e-10 * size, "{name}: {found} is not {given}");
     }
@@ -114,7 +118,7 @@ inertia = { zz = 1, unchecked = true }
 
 /// A robot with friction and a wrench: the shares add up to what one function gives.
 #[test]
-fn all_shares_add_up() {
+fn all_contributions_add_up() {
     let programs = compiled(&robot_file("trttr1"), true, true);
     let texts = [
         "q1 = 0.3*sin(2*t)",
@@ -128,8 +132,8 @@ fn all_shares_add_up() {
     ];
     let robot = &programs.robot;
     let trajectory = Trajectory::from_expressions(robot, &[], &texts, 1.0, 0.1).unwrap();
-    let shares = shares(&programs, &[], &trajectory, true).unwrap();
-    let names: Vec<&str> = shares.named().into_iter().map(|(name, _)| name).collect();
+    let contributions = torque_contributions(&programs, &[], &trajectory, true).unwrap();
+    let names: Vec<&str> = contributions.named().into_iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["inertia", "coriolis", "gravity", "friction", "wrench", "total"]);
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
     let wrenches = trajectory.wrenches.as_ref().unwrap();
@@ -142,14 +146,14 @@ fn all_shares_add_up() {
         ];
         let name = "inverse_dynamics_wrench_friction";
         let expected = &interpreter.call(name, &inputs).unwrap()[0].values;
-        for (found, expected) in shares.total[index].iter().zip(expected) {
+        for (found, expected) in contributions.total[index].iter().zip(expected) {
             assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
         }
     }
-    for (name, series) in shares.named() {
+    for (name, series) in contributions.named() {
         assert!(series.iter().flatten().any(|value| value.abs() > 1e-3), "{name} is 0");
     }
-    let header = shares.table().csv();
+    let header = contributions.table().csv();
     assert!(header.starts_with("t,tau1,tau2,tau3,tau4,tau5,inertia1,"), "{header}");
 }
 
@@ -160,14 +164,14 @@ fn expressions_are_differentiated() {
     let texts = ["q1 = g*t^2/4 + sin(2*t)"];
     let robot = &programs.robot;
     let trajectory = Trajectory::from_expressions(robot, &[("g", 2.0)], &texts, 2.0, 0.5).unwrap();
-    let shares = shares(&programs, &[("g", 2.0)], &trajectory, false).unwrap();
-    for (index, t) in shares.t.iter().enumerate() {
+    let contributions = torque_contributions(&programs, &[("g", 2.0)], &trajectory, false).unwrap();
+    for (index, t) in contributions.t.iter().enumerate() {
         let (q, qd) = (t * t / 2.0 + (2.0 * t).sin(), t + 2.0 * (2.0 * t).cos());
         let qdd = 1.0 - 4.0 * (2.0 * t).sin();
         assert!((trajectory.qd[index][0] - qd).abs() < 1e-12);
-        assert!((shares.inertia[index][0] - qdd / 3.0).abs() < 1e-12, "{t}");
-        assert!((shares.gravity[index][0] - q.cos()).abs() < 1e-12, "{t}");
-        assert!(shares.coriolis[index][0].abs() < 1e-15);
+        assert!((contributions.inertia[index][0] - qdd / 3.0).abs() < 1e-12, "{t}");
+        assert!((contributions.gravity[index][0] - q.cos()).abs() < 1e-12, "{t}");
+        assert!(contributions.coriolis[index][0].abs() < 1e-15);
     }
 }
 

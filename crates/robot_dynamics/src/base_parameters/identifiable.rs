@@ -48,9 +48,9 @@ pub(super) fn conditions<'g>(mechanism: &Mechanism<'g>, joints: &[Joint<'g>]) ->
     let mut conditions = vec![];
     for (link, joint) in mechanism.links.iter().zip(joints) {
         let carrier = link.parent.map_or(&base, |parent| &spans[parent]);
-        let brought = carrier.brought(joint);
-        conditions.push(brought.conditions(joint));
-        spans.push(brought.with_own(joint));
+        let carried = carrier.carried(joint);
+        conditions.push(carried.conditions(joint));
+        spans.push(carried.with_own(joint));
     }
     conditions
 }
@@ -69,7 +69,7 @@ fn at_base<'g>(mechanism: &Mechanism<'g>) -> Span<'g> {
 
 impl<'g> Span<'g> {
     /// What the carrier's motions are at a link, at all positions of its joint.
-    fn brought(&self, joint: &Joint<'g>) -> Span<'g> {
+    fn carried(&self, joint: &Joint<'g>) -> Span<'g> {
         let functions = |of: &[Row<'g>]| {
             let here = of.iter().map(|row| joint.function_here(row));
             closure(here, |row| joint.rate(row))
@@ -112,7 +112,7 @@ impl<'g> Span<'g> {
         let own = std::iter::once(&joint.twist).chain(&self.twists);
         let own: Vec<Row<'g>> = own.map(|twist| energy(&joint.twist, twist)).collect();
         let span =
-            |own: Vec<Row<'g>>, brought: Vec<Row<'g>>| Echelon::of(own.into_iter().chain(brought));
+            |own: Vec<Row<'g>>, carried: Vec<Row<'g>>| Echelon::of(own.into_iter().chain(carried));
         Span {
             kinetic: span(own, self.kinetic).into_rows(),
             twists: span(vec![joint.twist.clone()], self.twists).into_rows(),

@@ -14,7 +14,7 @@ use crate::trajectory::Trajectory;
 
 /// The driving forces along a trajectory, N m or N, each with a sample of n entries for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Shares {
+pub struct TorqueContributions {
     /// t, s.
     pub t: Vec<f64>,
     /// The whole driving force τ: the sum of the shares.
@@ -35,7 +35,7 @@ pub struct Shares {
 /// The samples of a share over time, a column for each coordinate.
 type Series = Vec<Vec<f64>>;
 
-impl Shares {
+impl TorqueContributions {
     /// The functions that the programs need.
     #[must_use]
     pub fn functions(friction: bool, wrench: bool) -> Vec<FunctionKind> {
@@ -56,15 +56,15 @@ impl Shares {
     /// The shares that there are, by name, the total last.
     #[must_use]
     pub fn named(&self) -> Vec<(&'static str, &Series)> {
-        let mut shares = vec![
+        let mut contributions = vec![
             ("inertia", &self.inertia),
             ("coriolis", &self.coriolis),
             ("gravity", &self.gravity),
         ];
-        shares.extend(self.friction.as_ref().map(|series| ("friction", series)));
-        shares.extend(self.wrench.as_ref().map(|series| ("wrench", series)));
-        shares.push(("total", &self.total));
-        shares
+        contributions.extend(self.friction.as_ref().map(|series| ("friction", series)));
+        contributions.extend(self.wrench.as_ref().map(|series| ("wrench", series)));
+        contributions.push(("total", &self.total));
+        contributions
     }
 
     /// The columns t, tau1 …, then each share's: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
@@ -83,24 +83,24 @@ impl Shares {
 
 /// The driving forces along a trajectory of the robot, the inverse problem (6) of the paper, split by
 /// cause; `given` are parameters that are not to have their nominal values. The programs have the
-/// functions of [`Shares::functions`].
+/// functions of [`TorqueContributions::functions`].
 ///
 /// # Errors
 ///
 /// Functions that the programs lack, parameters without values, samples of the wrong length.
-pub fn shares(
+pub fn torque_contributions(
     programs: &Programs,
     given: &[(&str, f64)],
     trajectory: &Trajectory,
     friction: bool,
-) -> Result<Shares, Error> {
+) -> Result<TorqueContributions, Error> {
     let wrench = trajectory.wrenches.is_some();
-    check_functions(programs, &Shares::functions(friction, wrench))?;
+    check_functions(programs, &TorqueContributions::functions(friction, wrench))?;
     let interpreter = Interpreter::new(&programs.module, given)?;
     let loads = wrenches(&programs.robot, trajectory);
     let motion = Motion { interpreter: &interpreter, trajectory, loads: &loads };
-    let shares = motion.shares(friction)?;
-    for ((total, t), q) in shares.total.iter().zip(&shares.t).zip(&trajectory.q) {
+    let contributions = motion.contributions(friction)?;
+    for ((total, t), q) in contributions.total.iter().zip(&contributions.t).zip(&trajectory.q) {
         if total.iter().all(|torque| torque.is_finite()) {
             continue;
         }
@@ -111,7 +111,7 @@ pub fn shares(
         let message = format!("at t = {} s torques have no finite value; {why}", number(*t));
         return Err(Error::input(message));
     }
-    Ok(shares)
+    Ok(contributions)
 }
 
 /// The wrench of each tip along a trajectory, by the names of the functions' inputs.
@@ -140,7 +140,7 @@ impl Motion<'_> {
         Ok(callable.states(self.trajectory.t.len(), inputs)?)
     }
 
-    fn shares(&self, friction: bool) -> Result<Shares, Error> {
+    fn contributions(&self, friction: bool) -> Result<TorqueContributions, Error> {
         use FunctionKind as Kind;
         let Trajectory { t, q, qd, qdd, wrenches } = self.trajectory;
         let motion = [(Position, q), (Velocity, qd), (Acceleration, qdd)]
@@ -162,13 +162,20 @@ impl Motion<'_> {
         let friction = friction.map(|with| differences(&with, &without));
         let unloaded = wrench.then(|| self.series(Kind::InverseDynamics(Effects::NONE), &motion));
         let wrench = unloaded.transpose()?.map(|unloaded| differences(&without, &unloaded));
-        let mut shares =
-            Shares { t: t.clone(), total: vec![], inertia, coriolis, gravity, friction, wrench };
-        let parts = shares.named();
+        let mut contributions = TorqueContributions {
+            t: t.clone(),
+            total: vec![],
+            inertia,
+            coriolis,
+            gravity,
+            friction,
+            wrench,
+        };
+        let parts = contributions.named();
         let parts = parts.into_iter().filter(|(name, _)| *name != "total");
         let parts: Vec<&Series> = parts.map(|(_, series)| series).collect();
-        shares.total = (0..t.len()).map(|time| sum(&parts, time)).collect();
-        Ok(shares)
+        contributions.total = (0..t.len()).map(|time| sum(&parts, time)).collect();
+        Ok(contributions)
     }
 }
 
