@@ -1,7 +1,7 @@
 //! The time from a robot file's text to Rust and to equations.
 //!
-//! `cargo bench -p robots --bench generation` measures the generator optimised. Build scripts and macros run
-//! without optimisation unless the user's manifest says otherwise; that is
+//! `cargo bench -p robots --bench generation` measures the generator optimized. Build scripts and macros run
+//! without optimization unless the user's manifest says otherwise; that is
 //!
 //! ```text
 //! CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo bench -p robots --bench generation --profile dev
@@ -34,7 +34,7 @@ fn main() {
         let options = Options::default();
         let size = generate(&source, &options).unwrap().code.len() as f64 / 1024.0;
         let code = median(|| generate(&source, &options).unwrap().code.len());
-        // Every quantity of the paper where that is what people print: the driving forces elsewhere.
+        // Every quantity of the paper where that is what people print: the joint torques elsewhere.
         let kinds =
             if source.name == "trttr1" { Kind::ALL.to_vec() } else { vec![Kind::GeneralizedForce] };
         let options = EquationOptions { kinds, ..EquationOptions::default() };

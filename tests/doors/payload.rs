@@ -129,7 +129,7 @@ fn a_payload_costs_no_operation_at_a_call() {
             module.counts(&module.functions[0]).call
         };
         let text = robot_file(&format!("{name}.toml"));
-        // A mass centre at the origin is taken for that, not for a figure.
+        // A center of mass at the origin is taken for that, not for a figure.
         let text = text.replace("center_of_mass = [0, 0, 0]", "center_of_mass = [0.1, 0.2, 0.3]");
         let with = count(format!("{text}\n[payload]\n"));
         assert_eq!(with.operations(), count(text).operations(), "{name}");

@@ -1,4 +1,4 @@
-//! Base parameters: as many as stacked regressors have rank, and the same driving forces.
+//! Base parameters: as many as stacked regressors have rank, and the same joint torques.
 
 use nalgebra::DMatrix;
 use robot_dynamics::base_parameters::{BaseParameters, base_parameters};

@@ -105,7 +105,7 @@ fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
     }
 }
 
-/// The Jacobians of the links of a robot, and those that the kind alone gives where there are no frames,
+/// The Jacobians of the links of a robot, and those that the kind alone gives if there are no frames,
 /// against the solver.
 fn check_links(mut robot: Robot, name: &str) {
     let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();

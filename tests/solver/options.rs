@@ -309,7 +309,7 @@ fn options_on_random_trees() {
     check_all("trees", robots, &[]);
 }
 
-/// Three links of 2 kg: the second's mass centre `center` off its axis, the third `lever` along it.
+/// Three links of 2 kg: the second's center of mass `center` off its axis, the third `lever` along it.
 fn arm(center: f64, lever: f64, axis: &str) -> Robot {
     let link = |name: &str, position: [f64; 3], axis: &str, center: [f64; 3]| {
         format!(

@@ -1,4 +1,4 @@
-//! The regressor against the numeric solver's, and against the driving forces that it stands for.
+//! The regressor against the numeric solver's, and against the joint torques that it stands for.
 
 use robot_build::{BaseFrames, Functions, Options, programs_of};
 use robot_dynamics::functions::Derivation;
@@ -52,7 +52,7 @@ fn parameters(robot: &Robot, state: &State) -> Vec<f64> {
     [links.as_slice(), &drives].concat()
 }
 
-/// The links' columns against the solver's, and Y π against its driving forces.
+/// The links' columns against the solver's, and Y π against its joint torques.
 fn check(robot: &Robot, seed: u64, name: &str) {
     let mut robot = robot.clone();
     for link in &mut robot.links {

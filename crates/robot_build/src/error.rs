@@ -93,7 +93,7 @@ pub enum Error {
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system says, and the remedy where there is one.
+        /// What the system says, and the remedy if there is one.
         reason: String,
     },
     /// An output that is an input.
@@ -207,7 +207,7 @@ impl fmt::Debug for Error {
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Ok(value)` where there are no errors.
+    /// `Ok(value)` if there are no errors.
     pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
         if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }

@@ -31,7 +31,7 @@ pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> R
     Ok(())
 }
 
-/// Shows which functions the robot lacks as no driving forces determine all of its accelerations.
+/// Shows which functions the robot lacks as no joint torques determine all of its accelerations.
 pub(crate) fn lacking(
     robot: &Robot,
     options: &Options,

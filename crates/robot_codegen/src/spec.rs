@@ -30,7 +30,7 @@ pub struct ParameterSpec {
     pub name: String,
     /// Its meaning; text, not Markdown.
     pub doc: String,
-    /// Its unit; empty where it has none.
+    /// Its unit; empty if it has none.
     pub unit: String,
     /// The value where none other is given.
     pub nominal: Option<f64>,
@@ -56,7 +56,7 @@ pub struct InputSpec {
     pub name: String,
     /// Its meaning, in Markdown.
     pub doc: String,
-    /// Its unit; empty where it has none or the entries differ.
+    /// Its unit; empty if it has none or the entries differ.
     pub unit: String,
     /// The symbols, one for each entry.
     pub symbols: Vec<String>,
@@ -69,7 +69,7 @@ pub struct OutputSpec<'g> {
     pub name: String,
     /// Its meaning, in Markdown.
     pub doc: String,
-    /// Its unit; empty where it has none or the entries differ.
+    /// Its unit; empty if it has none or the entries differ.
     pub unit: String,
     /// `[]` for a scalar, `[n]` for a vector, `[rows, columns]` for a matrix.
     pub shape: Vec<usize>,

@@ -1,4 +1,4 @@
-//! The base parameters of a robot: what of its inertias and drives the driving forces tell.
+//! The base parameters of a robot: what of its inertias and drives the joint torques tell.
 
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, base_parameters};
 use robot_dynamics::functions::Derivation;
@@ -262,7 +262,7 @@ impl Term {
     }
 }
 
-/// The sum of terms; 0 where there is none.
+/// The sum of terms; 0 if there is none.
 pub(crate) fn sum(terms: &[Term]) -> Written {
     if terms.is_empty() {
         return Written { text: "0".to_owned(), math: Math::integer(0) };

@@ -110,7 +110,7 @@ pub enum Error {
     Symbol(#[from] ReadError),
 }
 
-/// A length in tenths of a millimetre, so that errors can be compared.
+/// A length in tenths of a millimeter, so that errors can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Centimeters(u32);
 

@@ -1,4 +1,4 @@
-//! A body by its ten inertial parameters, in which driving forces are linear.
+//! A body by its ten inertial parameters, in which joint torques are linear.
 //!
 //! They are the mass m, the first moment h = m c and the inertia tensor I about the origin of a
 //! frame, in the order m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.

@@ -30,7 +30,7 @@ pub struct LinkMotion<'g> {
     pub angular_acceleration: Vector<'g>,
     /// ā: acceleration of the origin, gravity included as an acceleration of the base, m/s².
     pub acceleration: Vector<'g>,
-    /// ā_c: acceleration of the mass centre, equation (8), m/s².
+    /// ā_c: acceleration of the center of mass, equation (8), m/s².
     pub center_of_mass_acceleration: Vector<'g>,
     /// F̄ = M ā_c, equation (14), N.
     pub force: Vector<'g>,
@@ -54,7 +54,7 @@ pub struct NewtonEuler<'g> {
     pub motions: Vec<LinkMotion<'g>>,
     /// Per link, from the inward iterations.
     pub wrenches: Vec<LinkWrench<'g>>,
-    /// Per coordinate: the generalised driving force, equation (3), N m or N.
+    /// Per coordinate: the generalized force, equation (3), N m or N.
     pub generalized_forces: Vec<Expr<'g>>,
     kinds: Vec<JointKind>,
 }

@@ -18,7 +18,7 @@ pub struct Quantity<'g> {
 /// The quantities that the paper names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
-    /// a_c: acceleration of the mass centre, equation (8).
+    /// a_c: acceleration of the center of mass, equation (8).
     CenterOfMassAcceleration,
     /// F = M a_c, equation (14).
     Force,
@@ -28,7 +28,7 @@ pub enum Kind {
     LinkForce,
     /// M_l: the moment in the joint about the frame's origin, equation (36).
     LinkMoment,
-    /// Q: the generalised driving force, equation (3).
+    /// Q: the generalized force, equation (3).
     GeneralizedForce,
 }
 

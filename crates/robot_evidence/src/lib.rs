@@ -53,7 +53,7 @@ impl Module {
     /// # Errors
     ///
     /// An object file that cannot be read or is for another processor; one without a root.
-    pub fn of(bytes: &[u8], roots: &[Root], profile: Profile) -> Result<Module, Error> {
+    pub fn read(bytes: &[u8], roots: &[Root], profile: Profile) -> Result<Module, Error> {
         let object = Object::parse(bytes)?;
         claim::module(&object, roots, profile)
     }
@@ -82,7 +82,7 @@ pub fn prove(
     let probe = Probe::new(&programs, source, options)?;
     let compiled = |profile: &Profile| {
         let object = compiler.compile(&probe, *profile)?;
-        let mut module = Module::of(&object, &probe.roots, *profile)?;
+        let mut module = Module::read(&object, &probe.roots, *profile)?;
         if *profile == Profile::Release {
             hold_stack(&mut module, &programs, options);
         }

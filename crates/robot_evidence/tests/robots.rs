@@ -109,7 +109,7 @@ fn every_function_is_flat() {
     for module in &modules {
         assert!(module.functions.len() > 30);
         assert_flat(&path, module);
-        // Zeros are filled in by a call where there are many of them, nowhere else.
+        // Zeros are filled in by a call if there are many of them, nowhere else.
         for function in module.functions.iter().filter(|_| module.profile == Profile::Release) {
             let fills = function.calls.iter().any(|(symbol, _)| symbol.contains("memset"));
             let slices = function.takes_slices;

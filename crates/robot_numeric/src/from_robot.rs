@@ -153,7 +153,7 @@ impl Evaluation<'_> {
         Link::new(Some(carrier), placement, motion, 0.0, Vector3::zeros(), inertia)
     }
 
-    /// Mass, centre of mass and central inertia of rigidly connected bodies.
+    /// Mass, center of mass and central inertia of rigidly connected bodies.
     fn bodies(&self, bodies: &[robot::Body]) -> (f64, Vector3<f64>, Matrix3<f64>) {
         let parts: Vec<_> = bodies
             .iter()

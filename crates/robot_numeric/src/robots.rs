@@ -12,7 +12,7 @@ use robot_model::robot::{
     Parameter, Placement, Robot, Wrench,
 };
 
-/// A robot: links of 0.2 to 5 kg with offset mass centres and tilted inertias, joints of both kinds
+/// A robot: links of 0.2 to 5 kg with offset centers of mass and tilted inertias, joints of both kinds
 /// about any axes (half of them coordinate axes; of the placements one in three at right angles),
 /// gravity in any direction, a tip with a wrench on the last link, a frame `sensor` on any link or
 /// on the base.
@@ -54,7 +54,7 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
     }
 }
 
-/// The robot with every mass, mass centre and inertia a parameter that has the figure for its
+/// The robot with every mass, center of mass and inertia a parameter that has the figure for its
 /// nominal value: `m1`, `cx1`, `Ixx1` for the first link's first body, `m1_2` for its second.
 #[must_use]
 pub fn parameterized(robot: &Robot) -> Robot {
@@ -117,7 +117,7 @@ impl Draw<'_> {
         [0; 3].map(|_| self.decimal(size))
     }
 
-    /// Moved by up to half a metre in each direction and turned by any angles; one time in three
+    /// Moved by up to half a meter in each direction and turned by any angles; one time in three
     /// turned by right angles and moved along some axes only.
     fn placement(&mut self) -> Placement {
         let (xyz, rpy) = if self.random.once_in(3) {

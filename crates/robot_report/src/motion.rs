@@ -1,4 +1,4 @@
-//! Driving forces along a sample trajectory, split by what asks for them.
+//! Joint torques along a sample trajectory, split by what asks for them.
 
 use std::f64::consts::TAU;
 
@@ -20,7 +20,7 @@ const SHARE: f64 = 0.3;
 const SWING: f64 = 0.8;
 const STROKE: f64 = 0.2;
 
-/// Curves of the driving force of each coordinate, and a table of their largest values.
+/// Curves of the joint torque of each coordinate, and a table of their largest values.
 pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     let robot = &programs.robot;
     let found = match torque_contributions(programs, &[], &trajectory(robot), robot.has_friction())

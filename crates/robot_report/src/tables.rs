@@ -40,7 +40,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
-/// The named frames; `None` where there are none.
+/// The named frames; `None` if there are none.
 pub(crate) fn frames(robot: &Robot) -> Option<Element> {
     let caption = "Frames. A tip exerts the wrench of these components on its surroundings.";
     let mut table = Table::new(caption, ["Frame", "Fixed to", "Place", "Wrench"]);
@@ -80,7 +80,7 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     table.build()
 }
 
-/// The parameters with values and units; `None` where there are none.
+/// The parameters with values and units; `None` if there are none.
 pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     let caption = "Parameters: symbols of the equations, fields of the generated code.";
     let mut table = Table::new(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);

@@ -1,4 +1,4 @@
-//! The driving forces along a trajectory, split by cause.
+//! The joint torques along a trajectory, split by cause.
 
 use robot_build::{Effects, FunctionKind, Programs, Trigonometry, too_large_angle};
 use robot_codegen::Interpreter;
@@ -12,12 +12,12 @@ use crate::program::{check_functions, difference};
 use crate::table::Table;
 use crate::trajectory::Trajectory;
 
-/// The driving forces along a trajectory, N m or N, each with a sample of n entries for each time.
+/// The joint torques along a trajectory, N m or N, each with a sample of n entries for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TorqueContributions {
     /// t, s.
     pub t: Vec<f64>,
-    /// The whole driving force τ: the sum of the shares.
+    /// The whole joint torque τ: the sum of the shares.
     pub total: Vec<Vec<f64>>,
     /// That of the accelerations, M q̈.
     pub inertia: Vec<Vec<f64>>,
@@ -25,10 +25,10 @@ pub struct TorqueContributions {
     pub coriolis: Vec<Vec<f64>>,
     /// That of the weight, g.
     pub gravity: Vec<Vec<f64>>,
-    /// That of friction, Q_f, where it is asked for. It holds the dry friction that a wrench causes
+    /// That of friction, Q_f, if it is asked for. It holds the dry friction that a wrench causes
     /// by its load.
     pub friction: Option<Vec<Vec<f64>>>,
-    /// That of the tips' wrenches, where they are given.
+    /// That of the tips' wrenches, if they are given.
     pub wrench: Option<Vec<Vec<f64>>>,
 }
 
@@ -81,7 +81,7 @@ impl TorqueContributions {
     }
 }
 
-/// The driving forces along a trajectory of the robot, the inverse problem (6) of the paper, split by
+/// The joint torques along a trajectory of the robot, the inverse problem (6) of the paper, split by
 /// cause; `given` are parameters that are not to have their nominal values. The programs have the
 /// functions of [`TorqueContributions::functions`].
 ///

@@ -65,7 +65,7 @@ impl<'p> RobotProgram<'p> {
         Ok(RobotProgram { robot, interpreter, friction, pivots: None })
     }
 
-    /// The same with the pivots of the robot's mass matrix, so that where there are no accelerations the
+    /// The same with the pivots of the robot's mass matrix, so that if there are no accelerations the
     /// error names the joint.
     #[must_use]
     pub fn with_pivots(self, pivots: Pivots) -> RobotProgram<'p> {

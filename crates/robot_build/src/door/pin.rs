@@ -49,13 +49,13 @@ pub fn pin_text(robot: &Robot, found: &Found) -> String {
 }
 
 impl RobotFile {
-    /// The options with the plan that is pinned beside the file, where one is and the options give
+    /// The options with the plan that is pinned beside the file, if one is and the options give
     /// none.
     ///
     /// # Errors
     ///
     /// [`Error::Pin`]: a pin that is stale, made for other [mechanics](mechanics()) than the file's; one that
-    /// was edited; one that cannot be read. Where there is a pin, also everything that is wrong with the robot file.
+    /// was edited; one that cannot be read. If there is a pin, also everything that is wrong with the robot file.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
         // A link that leads nowhere is there.

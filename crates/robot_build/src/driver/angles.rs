@@ -7,7 +7,7 @@ use robot_runtime::trig::double::LIMIT;
 use robot_symbolic::Formula;
 
 /// Why nothing at these positions (rad or m) has a value: the first joint whose angle is one for which the
-/// polynomials of the runtime give NaN, or all angles together, which a plan may add up; `None` where
+/// polynomials of the runtime give NaN, or all angles together, which a plan may add up; `None` if
 /// neither is.
 #[must_use]
 pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> Option<String> {

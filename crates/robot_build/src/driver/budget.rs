@@ -71,7 +71,7 @@ impl fmt::Display for Over {
     }
 }
 
-/// The most bytes of stack that a function may take; `None` where nothing limits it.
+/// The most bytes of stack that a function may take; `None` if nothing limits it.
 #[must_use]
 pub fn max_stack(programs: &Programs, options: &Options, function: &str) -> Option<u64> {
     let of_file = limits(programs, function).filter_map(|(_, stack)| stack);

@@ -10,7 +10,7 @@ const MAX_SHOWN: usize = 40;
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// The place, where there is one, and what is wrong, on one line:
+    /// The place, if there is one, and what is wrong, on one line:
     /// ``lift.toml:52:9: error R0303: `m5` is not a parameter of this robot``.
     pub headline: String,
     /// What else there is to say, on lines of its own: an excerpt of the file, the reason, the remedy. May be

@@ -17,7 +17,7 @@ use crate::error::{Error, Errors, quoted};
 pub struct Unsolvable {
     /// The functions: those that solve with the mass matrix.
     pub functions: Vec<FunctionKind>,
-    /// The joints whose accelerations no driving forces determine.
+    /// The joints whose accelerations no joint torques determine.
     pub joints: Vec<String>,
 }
 
@@ -35,7 +35,7 @@ impl fmt::Display for Unsolvable {
     }
 }
 
-/// The functions that a robot lacks as its mass matrix is singular in every posture; `None` where it is not.
+/// The functions that a robot lacks as its mass matrix is singular in every posture; `None` if it is not.
 #[must_use]
 pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
     // At the nominal values alone it may be singular by chance: the derivation decides.
@@ -50,7 +50,7 @@ pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
         Error::Singular { joints, .. } => Some(joints.clone()),
         _ => None,
     })?;
-    let mut functions = FunctionKind::of(robot);
+    let mut functions = FunctionKind::of_robot(robot);
     functions.retain(|kind| kind.divides_by_mass_matrix());
     Some(Unsolvable { functions, joints })
 }

@@ -42,7 +42,7 @@ impl Tried {
 }
 
 /// What snapping does to a robot: with the tolerance given, else the file's, and with larger ones.
-/// All under one plan, the default one where none is given.
+/// All under one plan, the default one if none is given.
 ///
 /// # Errors
 ///

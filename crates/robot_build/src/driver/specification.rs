@@ -72,7 +72,7 @@ pub(crate) fn not_generated(
 ) -> Vec<FunctionKind> {
     let bundled =
         |kind: &FunctionKind| bundles.iter().any(|bundle| bundle.functions.contains(kind));
-    let mut more = FunctionKind::of(robot);
+    let mut more = FunctionKind::of_robot(robot);
     let chosen = |kind: &FunctionKind| functions.contains(kind) || bundled(kind);
     more.retain(|kind| !chosen(kind));
     // Whoever chose one that solves with the mass matrix is told elsewhere that it is singular.

@@ -45,7 +45,7 @@ pub struct Item {
     pub properties: Vec<(String, String)>,
 }
 
-/// A property that differs; `None` where it is not said of the item.
+/// A property that differs; `None` if it is not said of the item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Property {
     /// The name: `mass`, `value`.

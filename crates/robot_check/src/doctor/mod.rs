@@ -23,7 +23,7 @@ use facts::RobotFacts;
 /// What is found in a file.
 #[derive(Clone, Debug)]
 pub struct Examination {
-    /// Errors and warnings; where there are errors, those of the reader alone.
+    /// Errors and warnings; if there are errors, those of the reader alone.
     pub found: Diagnostics,
     /// How the file was taken where its format leaves a choice: notes.
     pub choices: Diagnostics,

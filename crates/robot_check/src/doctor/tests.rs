@@ -19,7 +19,7 @@ fn arm(keys: &str) -> String {
 }
 
 /// A cylinder of that mass from the origin to (0.4, 0, 0), radius 3 cm, every moment times `scale`,
-/// its tensor about the centre of mass or, wrongly, the origin.
+/// its tensor about the center of mass or, wrongly, the origin.
 fn rod(mass: f64, scale: f64, about_origin: bool) -> String {
     let (length, radius): (f64, f64) = (0.4, 0.03);
     let axial = mass * radius * radius / 2.0;
@@ -161,7 +161,7 @@ fn joints_that_move_nothing_are_told() {
 }
 
 /// A link of that length with a body that lies in `[from, to]` along it, of a rectangular section,
-/// uniform; its tensor about the centre of mass or, wrongly, the origin.
+/// uniform; its tensor about the center of mass or, wrongly, the origin.
 fn beam(
     length: f64,
     [from, to]: [f64; 2],

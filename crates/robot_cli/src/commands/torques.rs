@@ -1,4 +1,4 @@
-//! `torques`: the driving forces along a trajectory, split by cause.
+//! `torques`: the joint torques along a trajectory, split by cause.
 
 use std::path::PathBuf;
 

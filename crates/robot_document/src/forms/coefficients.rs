@@ -1,4 +1,4 @@
-//! Coefficients with names, and the driving forces as sums of their products.
+//! Coefficients with names, and the joint torques as sums of their products.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
@@ -37,7 +37,7 @@ impl<'g> Coefficient<'g> {
     }
 }
 
-/// The driving forces as sums of products of coefficients that have names, and the coefficients:
+/// The joint torques as sums of products of coefficients that have names, and the coefficients:
 /// expanded where that is short, else what they have in common gets names too.
 pub(super) fn by_name<'g>(
     writer: &mut Writer<'_, 'g>,
@@ -83,7 +83,7 @@ fn zeros(sections: &[Section<'_>], polynomials: &[Vec<Polynomial<'_>>]) -> Vec<S
     zero.map(|(coefficient, _)| coefficient.name.clone()).collect()
 }
 
-/// The summands of a driving force: a coefficient's name and its multiplier.
+/// The summands of a joint torque: a coefficient's name and its multiplier.
 pub(super) type Sum<'g> = Vec<(String, Expr<'g>)>;
 
 fn generalized_forces<'g>(

@@ -61,7 +61,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     ])
 }
 
-/// Adds friction to the driving forces. The forces in the joints that dry friction asks for stand under
+/// Adds friction to the joint torques. The forces in the joints that dry friction asks for stand under
 /// its root by names, for no line holds them expanded.
 fn with_friction<'g>(
     writer: &mut Writer<'_, 'g>,

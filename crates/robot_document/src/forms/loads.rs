@@ -1,4 +1,4 @@
-//! Shares of the driving forces that are no products with velocities or accelerations: gravity, the
+//! Shares of the joint torques that are no products with velocities or accelerations: gravity, the
 //! wrenches of the tips, friction.
 
 use robot_dynamics::mechanism::MechanismFriction;
@@ -17,7 +17,7 @@ use crate::math::Math;
 const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
 const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
 
-/// The driving forces at rest, without wrenches.
+/// The joint torques at rest, without wrenches.
 pub(super) fn gravity<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -45,7 +45,7 @@ pub(super) fn wrenches<'g>(
     single(writer, "Wrenches of the tips", writer.symbols.free_letter(&WRENCH), values, sums)
 }
 
-/// A coefficient for each driving force.
+/// A coefficient for each joint torque.
 fn single<'g>(
     writer: &Writer<'_, 'g>,
     title: &'static str,
@@ -95,7 +95,7 @@ pub(super) fn frictions<'g>(
     vec![joints, contributions]
 }
 
-/// The shares of friction in the driving forces, by symbols for the joint forces that dry friction asks
+/// The shares of friction in the joint torques, by symbols for the joint forces that dry friction asks
 /// for, and these.
 pub(super) fn friction_contributions<'g>(
     writer: &Writer<'_, 'g>,

@@ -51,7 +51,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     Ok(groups)
 }
 
-/// Masses, centres of mass and tensors of the links that are more than a number or a symbol.
+/// Masses, centers of mass and tensors of the links that are more than a number or a symbol.
 fn link_values<'h>(
     writer: &mut Writer<'_, '_>,
     target: &'h Graph,

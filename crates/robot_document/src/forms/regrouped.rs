@@ -224,7 +224,7 @@ fn coefficients<'g>(
     Section { title: "Coefficients of the base parameters", by_symbols: false, coefficients }
 }
 
-/// The driving forces with the coefficients written out, and what else they have under names.
+/// The joint torques with the coefficients written out, and what else they have under names.
 fn inline<'g>(
     writer: &mut Writer<'_, 'g>,
     introduction: String,

@@ -147,7 +147,7 @@ fn value_cell(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
 /// Constants of more bytes of text are rounded in tables.
 const LONG_NUMBER: usize = 10;
 
-/// Mass, centre of mass and tensor of each link, in the link's axes; columns of zeros are left out.
+/// Mass, center of mass and tensor of each link, in the link's axes; columns of zeros are left out.
 fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     let graph = Graph::new();
     let options = MechanismOptions::EXACT.with_snap(None, robot);

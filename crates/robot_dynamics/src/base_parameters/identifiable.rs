@@ -1,6 +1,6 @@
-//! What the driving forces tell of each link's parameters.
+//! What the joint torques tell of each link's parameters.
 //!
-//! Driving forces vanish at all states where the kinetic energy does and the potential energy is
+//! Joint torques vanish at all states where the kinetic energy does and the potential energy is
 //! constant. A joint's own velocity and position occur in the energies of its link and of the links
 //! farther outward alone. From the tips inward, the parameters π of a link, with what its children
 //! have passed on to it, therefore have no effect beyond that of a body on the link's carrier exactly

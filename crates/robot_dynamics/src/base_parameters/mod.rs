@@ -1,7 +1,7 @@
 //! The base (minimal) inertial parameters: the fewest combinations of the parameters of links and
-//! drives that determine the driving forces.
+//! drives that determine the joint torques.
 //!
-//! The driving forces are linear in the standard parameters, ten of each link and those of its drive
+//! The joint torques are linear in the standard parameters, ten of each link and those of its drive
 //! ([`StandardParameter`]); some have no effect, others only together. A base parameter is a kept
 //! standard parameter and what is regrouped under it: β = B π. The columns of the kept ones in the full
 //! regressor Y are the regressor over the base parameters, Y π = Y_base β, and each column of Y is
@@ -139,7 +139,7 @@ impl<'g> BaseParameters<'g> {
     }
 }
 
-/// The base parameters of a robot; `None` where [`out_of_reach`] says why.
+/// The base parameters of a robot; `None` if [`out_of_reach`] says why.
 #[must_use]
 pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParameters<'g>> {
     if out_of_reach(derivation.robot).is_some() {

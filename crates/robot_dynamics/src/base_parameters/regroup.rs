@@ -37,7 +37,7 @@ pub(super) fn regroup<'g>(
     // Per link, what has come together at each place.
     let mut gathered: Vec<Vec<Form<'g>>> =
         vec![vec![Form::new(); LINK_PARAMETERS + DRIVE.len()]; joints.len()];
-    // Per link, the column of each place where there is one.
+    // Per link, the column of each place if there is one.
     let mut columns = vec![vec![None; LINK_PARAMETERS + DRIVE.len()]; joints.len()];
     for (column, parameter) in standard.iter().enumerate() {
         if is_inertial(parameter.quantity) {
@@ -119,7 +119,7 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
     }
 }
 
-/// The places in the order in which they are kept: of those that the driving forces cannot tell
+/// The places in the order in which they are kept: of those that the joint torques cannot tell
 /// apart, the first. The recursion computes the first seven of a rotation, the first four of a
 /// translation. Of second moments it is that along the axis which a rotation does not tell, of inertia
 /// tensors one across it.

@@ -92,7 +92,7 @@ impl Quantity {
     }
 }
 
-/// A parameter in which the driving forces are linear, and a column of the full regressor.
+/// A parameter in which the joint torques are linear, and a column of the full regressor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct StandardParameter {
     /// The link, or the one that the drive moves; an index from 0.

@@ -303,7 +303,7 @@ impl<'g> ArticulatedInertia<'g> {
                 (self.turning.0[k][2], self.turning.0[2][k]) = (moment.0[k], moment.0[k]);
                 self.coupling.0[2][k] = force.0[k];
             } else {
-                // In the chain's unit of length a translation of one metre is 1/unit.
+                // In the chain's unit of length a translation of one meter is 1/unit.
                 self.coupling.0[k][2] = moment.0[k] * unit;
                 let entry = force.0[k] * unit;
                 (self.mass.0[k][2], self.mass.0[2][k]) = (entry, entry);

@@ -1,4 +1,4 @@
-//! Derivatives of the driving forces by positions and velocities, and the Coriolis matrix, by
+//! Derivatives of the joint torques by positions and velocities, and the Coriolis matrix, by
 //! composite quantities.
 //!
 //! Write a joint's unit motion as the 4 × 4 matrix Ẑ, a link's motion as V, its pseudo-inertia as P
@@ -40,7 +40,7 @@ pub struct TorqueDerivatives<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// The derivatives of the driving forces at the accelerations q̈; `None` where a drive is
+    /// The derivatives of the joint torques at the accelerations q̈; `None` if a drive is
     /// gyroscopic, whose momentum composites do not hold.
     #[must_use]
     pub fn torque_derivatives(&self) -> Option<TorqueDerivatives<'g>> {

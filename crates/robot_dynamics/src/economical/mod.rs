@@ -61,7 +61,7 @@ pub struct Recursion<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// `None` where a joint axis depends on parameters, for which working frames cannot be chosen.
+    /// `None` if a joint axis depends on parameters, for which working frames cannot be chosen.
     #[must_use]
     pub fn new(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Recursion<'g>> {
         Some(Recursion::from_base(mechanism, &Base::new(mechanism)?, plan))
@@ -80,20 +80,20 @@ impl<'g> Recursion<'g> {
         self.chain.graph
     }
 
-    /// The number of generalised coordinates.
+    /// The number of generalized coordinates.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
         self.chain.degrees_of_freedom
     }
 
-    /// The generalised driving forces Q, with the tips' wrenches where `wrench` asks for them;
+    /// The generalized forces Q, with the tips' wrenches where `wrench` asks for them;
     /// friction is not part of them.
     #[must_use]
     pub fn inverse_dynamics(&self, wrench: bool) -> Vec<Expr<'g>> {
         self.torques(&self.chain, Accelerations::Given, wrench).0
     }
 
-    /// C(q, q̇) q̇ + g(q): the driving forces at rest accelerations, with the tips' wrenches where
+    /// C(q, q̇) q̇ + g(q): the joint torques at rest accelerations, with the tips' wrenches where
     /// `wrench` asks for them.
     #[must_use]
     pub fn bias(&self, wrench: bool) -> Vec<Expr<'g>> {
@@ -104,10 +104,10 @@ impl<'g> Recursion<'g> {
         self.torques(&chain, Accelerations::Given, wrench).0
     }
 
-    /// q̈ for the driving forces `tau`, with the tips' wrenches where `wrench` asks for them.
+    /// q̈ for the joint torques `tau`, with the tips' wrenches where `wrench` asks for them.
     ///
-    /// By M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own driving forces
-    /// cheap ([`LinkPlan::free`]); `None` where the solver does not apply.
+    /// By M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own joint torques
+    /// cheap ([`LinkPlan::free`]); `None` if the solver does not apply.
     #[must_use]
     pub fn forward_dynamics(
         &self,
@@ -183,7 +183,7 @@ impl<'g> Recursion<'g> {
         (inward::inward(chain, &self.plans, &states, tips), states)
     }
 
-    /// g(q): the driving forces that hold the mechanism at rest.
+    /// g(q): the joint torques that hold the mechanism at rest.
     #[must_use]
     pub fn gravity(&self) -> Vec<Expr<'g>> {
         gravity::gravity(&self.chain.without_idle_turns(&[]), &self.plans)

@@ -1,4 +1,4 @@
-//! The driving forces as linear functions of the links' inertial parameters.
+//! The joint torques as linear functions of the links' inertial parameters.
 //!
 //! A unit of each of a link's ten parameters ([`crate::body`]) asks for a wrench, which goes inward to meet the joints. Not all ten have to go: what a joint cannot tell from the
 //! parent's own (for a rotation about z the mass and the moments along z, for a translation the
@@ -46,7 +46,7 @@ const OPTIONS: LinkPlan = LinkPlan {
 /// and no farther: the motions of the joints inward of it come there, once for all wrenches.
 const PROJECTION_GROUP: usize = 3;
 
-/// The share of a unit of a parameter in each driving force.
+/// The share of a unit of a parameter in each joint torque.
 pub type Column<'g> = Vec<Expr<'g>>;
 
 /// The columns of a regressor.
@@ -72,7 +72,7 @@ fn rod<'g>(kind: usize, z: Vector<'g>, p: Vector<'g>, moments: Moments) -> Body<
     Body { mass, first, tensor: moments.of_second(second) }
 }
 
-/// A body's share in the driving forces, from those of units in the same frame.
+/// A body's share in the joint torques, from those of units in the same frame.
 fn combination<'g>(body: &Body<'g>, units: &[Column<'g>]) -> Column<'g> {
     let mut combination: Column<'g> = vec![];
     for (amount, unit) in body.parameters().into_iter().zip(units) {
@@ -163,7 +163,7 @@ pub(crate) fn unit_rotor<'g>(
 }
 
 /// The shares of the links' inertial parameters, about the origins and in the axes of their frames, and
-/// of the rotors in the driving forces. `None` where a joint axis depends on parameters.
+/// of the rotors in the joint torques. `None` if a joint axis depends on parameters.
 pub(crate) fn regressor<'g>(
     mechanism: &Mechanism<'g>,
     moments: Moments,
@@ -270,7 +270,7 @@ impl<'g> Recursion<'g> {
         column
     }
 
-    /// The shares of a wrench on a link, in its own axes, in the driving forces.
+    /// The shares of a wrench on a link, in its own axes, in the joint torques.
     fn column(&self, frames: &Frames<'_, 'g>, index: usize, wrench: &Wrench<'g>) -> Column<'g> {
         let chain = &self.chain;
         let mut column = vec![chain.graph.zero(); chain.degrees_of_freedom];

@@ -8,7 +8,7 @@ use crate::mechanism::Mechanism;
 use crate::newton_euler::{self, NewtonEuler};
 use crate::vector::Vector;
 
-/// The generalised driving forces Q of equation (3).
+/// The generalized forces Q of equation (3).
 pub(super) fn inverse_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,

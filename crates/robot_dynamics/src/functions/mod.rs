@@ -38,7 +38,7 @@ use robot_model::variable::{JointVariable, WRENCH};
 /// A function of a robot, or several in one.
 #[derive(Clone, Debug)]
 pub struct Function<'g> {
-    /// Its name: the kind's, with that of a frame where there are functions of several frames; a
+    /// Its name: the kind's, with that of a frame if there are functions of several frames; a
     /// bundle's.
     pub name: String,
     /// What it computes, in paragraphs: convention, frames, source.
@@ -56,7 +56,7 @@ pub struct Input {
     pub name: String,
     /// What it holds.
     pub doc: String,
-    /// Units of the elements, in words where they differ.
+    /// Units of the elements, in words if they differ.
     pub unit: String,
     /// The symbol of each element.
     pub symbols: Vec<String>,
@@ -69,7 +69,7 @@ pub struct Output<'g> {
     pub name: String,
     /// What it holds.
     pub doc: String,
-    /// Units of the elements, in words where they differ.
+    /// Units of the elements, in words if they differ.
     pub unit: String,
     /// The lengths of the array's dimensions; a matrix is stored row by row.
     pub shape: Vec<usize>,
@@ -156,7 +156,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// has it, and `diagonal`, that of M: kg m² or kg, by coordinates.
     ///
     /// A pivot is the inertia that a joint shows where the joints farther out are free. Forward dynamics has
-    /// no solution where one is not above 0, and few digits where rounding is of its size.
+    /// no solution if one is not above 0, and few digits where rounding is of its size.
     #[must_use]
     pub fn pivots(&self) -> Function<'g> {
         pivots::pivots(self)
@@ -173,7 +173,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Function { name: kind.name().to_owned(), doc, inputs, outputs }
     }
 
-    /// The generalised driving forces as an output.
+    /// The generalized forces as an output.
     fn torque_output(&self, values: Vec<Expr<'g>>) -> Output<'g> {
         Output::new(
             JointVariable::Torque.name(),
@@ -194,7 +194,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         }
     }
 
-    /// The unit of an array over the coordinates, with the translations named where they differ.
+    /// The unit of an array over the coordinates, with the translations named if they differ.
     fn coordinate_unit(&self, variable: JointVariable) -> String {
         self.unit_by_joint(variable.unit(JointKind::Revolute), variable.unit(JointKind::Prismatic))
     }
@@ -219,7 +219,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
     }
 
     /// The unit of a matrix over the coordinates, with the mixed and the translations' entries named
-    /// where they differ.
+    /// if they differ.
     fn matrix_unit(&self, rotation: &str, mixed: &str, translation: &str) -> String {
         let count = |kind| self.robot.coordinates.iter().filter(|c| c.kind == kind).count();
         match (count(JointKind::Revolute), count(JointKind::Prismatic)) {

@@ -22,7 +22,7 @@ const SMALL_OF_MANY: f64 = 1e-5;
 /// Coordinates from which on a robot has many.
 const MANY: usize = 9;
 /// Mass matrices that are looked at, times the square of the coordinates: a second at most where nothing
-/// is optimised.
+/// is optimized.
 const MAX_WORK: usize = 30_000;
 /// Mass matrices that are looked at in any case.
 const LEAST: usize = 60;
@@ -147,7 +147,7 @@ impl<'m> Search<'m> {
     }
 }
 
-/// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 where one is not above 0.
+/// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 if one is not above 0.
 fn smallest_part(mut matrix: Rows) -> f64 {
     let diagonal: Vec<f64> = (0..matrix.len()).map(|row| matrix[row][row]).collect();
     let mut smallest = 1.0_f64;

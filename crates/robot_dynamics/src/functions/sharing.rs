@@ -1,4 +1,4 @@
-//! Functions of a bundle by way of other functions of it, where that is cheaper.
+//! Functions of a bundle by way of other functions of it, if that is cheaper.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;
@@ -6,7 +6,7 @@ use robot_symbolic::Expr;
 use super::{Derivation, Effects, Function, FunctionKind};
 use crate::matrix::SymmetricMatrix;
 
-/// Another way to the first output of a function; `None` where the bundle lacks what it starts from.
+/// Another way to the first output of a function; `None` if the bundle lacks what it starts from.
 type Reuse = for<'g> fn(&Derivation<'_, 'g>, &[Function<'g>]) -> Option<Vec<Expr<'g>>>;
 
 /// The ways, in an order in which each starts from what is settled.

@@ -49,7 +49,7 @@ pub struct Mechanism<'g> {
     pub links: Vec<MechanismLink<'g>>,
     /// Named frames.
     pub frames: Vec<MechanismFrame<'g>>,
-    /// The number of generalised coordinates.
+    /// The number of generalized coordinates.
     pub degrees_of_freedom: usize,
     /// The constant angles that were snapped.
     pub snapped: Vec<Snap>,
@@ -91,9 +91,9 @@ pub struct MechanismLink<'g> {
     pub acceleration: Expr<'g>,
     /// Mass, kg.
     pub mass: Expr<'g>,
-    /// Centre of mass, m.
+    /// Center of mass, m.
     pub center_of_mass: Vector<'g>,
-    /// Inertia tensor about the centre of mass, kg m².
+    /// Inertia tensor about the center of mass, kg m².
     pub inertia: Matrix<'g>,
     /// Friction figures.
     pub friction: MechanismFriction<'g>,
@@ -157,7 +157,7 @@ impl<'g> Mechanism<'g> {
         lower::lower(robot, graph, options)
     }
 
-    /// The generalised coordinate of that index (from 0), `q1` for the first.
+    /// The generalized coordinate of that index (from 0), `q1` for the first.
     #[must_use]
     pub fn coordinate(&self, index: usize) -> Expr<'g> {
         self.graph.symbol(&JointVariable::Position.symbol(index))

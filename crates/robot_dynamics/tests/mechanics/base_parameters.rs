@@ -1,4 +1,4 @@
-//! The regressor's columns of base parameters, times the base parameters: the driving forces with friction.
+//! The regressor's columns of base parameters, times the base parameters: the joint torques with friction.
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;

@@ -34,7 +34,7 @@ fn expand(arguments: &Arguments, package: &Path) -> syn::Result<TokenStream> {
         let message = format!("{}: the path of the file is not UTF-8; rename it", path.display());
         syn::Error::new(span, message)
     })?;
-    // Makes the compiler watch the file, also where there is something wrong with it.
+    // Makes the compiler watch the file, also if there is something wrong with it.
     let mut watch = quote!(
         const _: &[u8] = ::core::include_bytes!(#absolute);
     );
@@ -64,7 +64,7 @@ fn expand(arguments: &Arguments, package: &Path) -> syn::Result<TokenStream> {
 }
 
 /// The path as the compiler shows its own: from the folder in which it runs, which for a member of a workspace
-/// is that of the workspace. `None` where the file lies elsewhere.
+/// is that of the workspace. `None` if the file lies elsewhere.
 fn shown(file: &Path, folder: &Path) -> Option<String> {
     let path = file.strip_prefix(folder.canonicalize().ok()?).ok()?;
     path.to_str().map(str::to_owned)

@@ -36,7 +36,7 @@ pub(super) enum Factors {
 /// What is known of an expression's dimension.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dimensioned {
-    /// `None` where a parameter has no unit.
+    /// `None` if a parameter has no unit.
     pub(super) dimension: Option<Dimension>,
     pub(super) factors: Factors,
     /// Whether there is no parameter in it, so that it takes any dimension.

@@ -200,7 +200,7 @@ fn angles(angles: &[Formula; 3]) -> String {
     format!("[{}]", angles.each_ref().map(angle).join(", "))
 }
 
-/// The angle as a multiple of π/2 where it is one to the last digit of floating point.
+/// The angle as a multiple of π/2 if it is one to the last digit of floating point.
 fn angle(angle: &Formula) -> String {
     const TURNS: &[&str] = &["pi/2", "-pi/2", "pi", "-pi", "3*pi/2", "-3*pi/2", "2*pi", "-2*pi"];
     let value = angle.evaluate(|_| f64::NAN);

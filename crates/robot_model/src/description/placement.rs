@@ -73,7 +73,7 @@ pub(super) fn of_link(
     }
 }
 
-/// `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`, each zero where it is left out.
+/// `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`, each zero if it is left out.
 pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement {
     let Some(mut table) = reader.table(value, &ORIGIN) else {
         return Placement::default();
@@ -108,7 +108,7 @@ pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Opti
     }
 }
 
-/// `a`, `alpha`, `d` and `theta`, each zero where it is left out.
+/// `a`, `alpha`, `d` and `theta`, each zero if it is left out.
 pub(super) fn row(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Row {
     let mut length_or_angle = |key: &'static str, what: Quantity, is_angle: bool| {
         let read = if is_angle { Reader::angle } else { Reader::formula };

@@ -177,7 +177,7 @@ impl Range<'_, '_> {
     }
 }
 
-/// What is said of a number that is too large; `None` where it is not.
+/// What is said of a number that is too large; `None` if it is not.
 pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
     let message = || format!("{what} has a figure of {}", significant(value));
     (value.abs() > LARGEST).then(|| {

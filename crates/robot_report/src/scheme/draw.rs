@@ -17,7 +17,7 @@ use crate::text;
 
 type Point = Vector2<f64>;
 
-/// A drawing in the making. What is written is set last, where there is room.
+/// A drawing in the making. What is written is set last, if there is room.
 pub(crate) struct Drawing<'r> {
     robot: &'r Robot,
     layout: &'r Layout,
@@ -264,7 +264,7 @@ impl<'r> Drawing<'r> {
         self.written.push(group.with(words_at(&shown, &place, LETTERS)));
     }
 
-    /// The letter of an axis, beyond its end, left out where there is no room for it.
+    /// The letter of an axis, beyond its end, left out if there is no room for it.
     fn letter(&mut self, name: &str, end: Point) {
         let place = self.room.find(end, size_of(name, SMALL), 0.0);
         let class = match name {
@@ -299,7 +299,7 @@ impl<'r> Drawing<'r> {
     }
 }
 
-/// The colours of links.
+/// The colors of links.
 fn hue(index: usize) -> String {
     format!("hue-{}", index % 8)
 }

@@ -45,7 +45,7 @@ pub(crate) struct Place {
 pub(crate) struct Segment {
     /// Its ends.
     pub(crate) ends: [Vector3<f64>; 2],
-    /// Its length in the robot file; `None` where two frames at one point are drawn apart.
+    /// Its length in the robot file; `None` if two frames at one point are drawn apart.
     pub(crate) length: Option<Formula>,
 }
 
@@ -123,7 +123,7 @@ impl Layout {
             let before = carrier.and_then(|carrier| carrier.path.last());
             let before = walk.path.last().or(before);
             let before = before.map_or(view.vertical, |last| last.ends[1] - last.ends[0]);
-            // Where there is an offset, what lies beside the carrier's axis stays there.
+            // If there is an offset, what lies beside the carrier's axis stays there.
             let outward = if walk.path.is_empty() { outward } else { own };
             let to = self.separated(view, walk.position, [own, outward], before);
             walk.step(to, None);
@@ -141,7 +141,7 @@ impl Layout {
     }
 
     /// How a frame at the very place of its carrier is drawn beside it: along one of the joint axes,
-    /// on which a joint may be drawn anywhere, or upright; where there is most room, and rather on
+    /// on which a joint may be drawn anywhere, or upright; if there is most room, and rather on
     /// in the direction that leads there.
     fn separated(
         &self,

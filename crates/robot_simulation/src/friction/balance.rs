@@ -110,7 +110,7 @@ fn directed(qd: &[f64], modes: &[Mode], held: f64) -> Vec<f64> {
 
 /// q̈ of the coordinates that move. Without friction by load the equations are linear in q̈. With it
 /// they are M q̈ + Q_f(q̈) = …, solved by Broyden's method from the matrix M (Nocedal and Wright,
-/// Numerical Optimization, 2nd ed., 11.1), for Q_f is small against the driving forces.
+/// Numerical Optimization, 2nd ed., 11.1), for Q_f is small against the joint torques.
 fn accelerations(
     friction: &dyn DryFriction,
     state: &State,

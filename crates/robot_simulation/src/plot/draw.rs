@@ -29,7 +29,7 @@ const TITLE_SIZE: u32 = 18;
 const TEXT_SIZE: u32 = 14;
 
 /// The palette of Okabe and Ito (Color Universal Design, 2008) but for its black, which is that
-/// of sums, and its yellow, which is hard to see on white: readers who are blind to some colours tell them apart.
+/// of sums, and its yellow, which is hard to see on white: readers who are blind to some colors tell them apart.
 const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

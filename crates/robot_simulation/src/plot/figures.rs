@@ -1,4 +1,4 @@
-//! The figures of motions and of driving forces.
+//! The figures of motions and of joint torques.
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
@@ -7,7 +7,7 @@ use super::{Curve, Figure, Panel};
 use crate::contributions::TorqueContributions;
 use crate::motion::{Energies, Motion};
 
-/// Positions, velocities, driving forces and energies of a motion. Where `conserved`, a last panel
+/// Positions, velocities, joint torques and energies of a motion. Where `conserved`, a last panel
 /// shows by how much the energy has changed since the start: the error of the integration.
 #[must_use]
 pub fn motion_figure(
@@ -47,7 +47,7 @@ pub fn motion_figure(
     Figure { title: format!("Motion of {}", robot.name), t: motion.t.clone(), panels }
 }
 
-/// The driving forces along a trajectory by their shares, a panel for each coordinate.
+/// The joint torques along a trajectory by their shares, a panel for each coordinate.
 #[must_use]
 pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) -> Figure {
     let panel = |(index, kind): (usize, JointKind)| {
@@ -67,7 +67,7 @@ pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) 
     Figure { title, t: contributions.t.clone(), panels: kinds.map(panel).collect() }
 }
 
-/// A panel for the coordinates that turn and one for those that slide, where there are such.
+/// A panel for the coordinates that turn and one for those that slide, if there are such.
 fn by_unit(
     robot: &Robot,
     quantity: &str,

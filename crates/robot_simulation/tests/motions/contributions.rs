@@ -1,4 +1,4 @@
-//! Driving forces along trajectories, split by cause.
+//! Joint torques along trajectories, split by cause.
 
 use robot_build::{Functions, Options, Programs, Source};
 use robot_codegen::Interpreter;

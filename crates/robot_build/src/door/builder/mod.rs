@@ -78,7 +78,7 @@ impl Builder {
     /// A function of that name that computes several functions, given by name, in one call, and their
     /// common work once: a bundle. Call it again for another.
     ///
-    /// Where there are bundles and no [`Builder::functions`], there are bundles alone.
+    /// If there are bundles and no [`Builder::functions`], there are bundles alone.
     pub fn bundle(
         mut self,
         name: impl Into<String>,
@@ -168,7 +168,7 @@ impl Builder {
     /// The form of the economical recursion.
     ///
     /// Without it, the plan that `robot-symbolic search` pinned beside the robot file is taken,
-    /// where there is one; a stale one is an error.
+    /// if there is one; a stale one is an error.
     pub fn plan(mut self, plan: Plan) -> Builder {
         self.options.plan = Some(plan);
         self

@@ -27,7 +27,7 @@ pub enum Staleness {
     },
 }
 
-/// How the file on disk differs from `text`, line ends apart; `None` where it does not.
+/// How the file on disk differs from `text`, line ends apart; `None` if it does not.
 ///
 /// # Errors
 ///

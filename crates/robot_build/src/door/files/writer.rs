@@ -109,7 +109,7 @@ impl Writer {
         }
     }
 
-    /// Writes files, all or, where one is refused or cannot be written, none; gives the number of those
+    /// Writes files, all or, if one is refused or cannot be written, none; gives the number of those
     /// that changed. Only between the last steps, the renaming of one file after another in the order of
     /// the list, can some be new and others old.
     ///
@@ -193,7 +193,7 @@ impl Writer {
         Ok(files.len())
     }
 
-    /// What an output shall replace; `None` where it is there already.
+    /// What an output shall replace; `None` if it is there already.
     fn change(&self, output: &Output<'_>) -> Result<Option<Target>, Error> {
         let target = self.target(&output.path)?;
         let Target::Regular(path, metadata) = &target else { return Ok(Some(target)) };

@@ -61,7 +61,7 @@ pub enum Commands {
 pub enum Kind {
     /// Yes or no.
     Flag,
-    /// A whole number; on the command line that which stands for the flag alone, where there is one.
+    /// A whole number; on the command line that which stands for the flag alone, if there is one.
     Count {
         /// See [`Kind::Count`].
         default: Option<usize>,
@@ -149,7 +149,7 @@ impl OptionSpec {
         format!("--{}", name.replace('_', "-"))
     }
 
-    /// Gives the option a value in `options`; `None` where the value is not one of its kind. Functions and bundles,
+    /// Gives the option a value in `options`; `None` if the value is not one of its kind. Functions and bundles,
     /// whose names a robot must be known for, and what concerns files alone change nothing.
     pub fn set(&self, options: &mut Options, value: Value<'_>) -> Option<()> {
         (self.set)(options, value)

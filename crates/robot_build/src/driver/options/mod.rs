@@ -79,8 +79,8 @@ pub struct Options {
     /// The most bytes of stack that a call of any of the functions may take, as
     /// [`budget`](crate::driver::budget) estimates it.
     pub max_stack: Option<u64>,
-    /// Whether to search the cheapest form where none is given: a second or so for an arm of seven
-    /// joints in an optimised build, and tens of seconds in a build script, which is not.
+    /// Whether to search the cheapest form if none is given: a second or so for an arm of seven
+    /// joints in an optimized build, and tens of seconds in a build script, which is not.
     pub search: bool,
 }
 
@@ -135,7 +135,7 @@ impl Options {
             Functions::Usual if !self.bundles.is_empty() => vec![],
             Functions::Usual => DEFAULT_FUNCTIONS.into_iter().filter(has).collect(),
             Functions::All => {
-                let mut all = FunctionKind::of(robot);
+                let mut all = FunctionKind::of_robot(robot);
                 let lacking = unsolvable(robot, self).map_or(vec![], |lacking| lacking.functions);
                 all.retain(|kind| !lacking.contains(kind));
                 all

@@ -22,7 +22,7 @@ pub(super) struct Look {
 
 /// How changes are shown.
 pub(super) struct Settings {
-    /// The tolerance for angles, rad, where one is given.
+    /// The tolerance for angles, rad, if one is given.
     pub(super) snap: Option<f64>,
     /// What is taken of a file with a warning.
     pub(super) reading: ReadingArguments,
@@ -39,7 +39,7 @@ pub(super) struct State {
     number: usize,
     /// What last gave a robot.
     valid: Option<ValidRobot>,
-    /// What is wrong now; `None` where the file gives a robot.
+    /// What is wrong now; `None` if the file gives a robot.
     wrong: Option<Vec<Problem>>,
 }
 

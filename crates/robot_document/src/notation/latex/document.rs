@@ -133,7 +133,7 @@ impl Writer {
         inlines.iter().map(one).collect()
     }
 
-    /// A table as wide as it must be, in a smaller size where that helps; one that fits no page
+    /// A table as wide as it must be, in a smaller size if that helps; one that fits no page
     /// becomes a list.
     fn table(&mut self, table: &Table) {
         self.tables += 1;

@@ -146,7 +146,7 @@ impl Writer {
     }
 }
 
-/// Whether two neighbours are set apart.
+/// Whether two neighbors are set apart.
 fn needs_gap(before: &Math, place: usize, piece: &Math) -> bool {
     match (before, piece) {
         // The letters s and c of sines and cosines, and a sign before the first term.

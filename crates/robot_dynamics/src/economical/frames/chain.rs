@@ -126,7 +126,7 @@ impl Limits {
 }
 
 impl<'g> Base<'g> {
-    /// `None` where a joint axis is not constant.
+    /// `None` if a joint axis is not constant.
     pub(crate) fn new(mechanism: &Mechanism<'g>) -> Option<Base<'g>> {
         let file = working::file_frames(mechanism)?;
         let links = mechanism.links.iter().zip(&file);
@@ -161,7 +161,7 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Pla
 }
 
 impl<'g> Chain<'g> {
-    /// The chain without the turns that no driving force depends on: of the last links whose mass is spread
+    /// The chain without the turns that no joint torque depends on: of the last links whose mass is spread
     /// alike all round their joint axis, but those at which a wrench acts. The working frame of such a link may
     /// stay behind while the link turns in it: its velocities are the same vectors, and its inertia has the
     /// same entries.
@@ -267,7 +267,7 @@ fn rod_at<'g>(rod: [Expr<'g>; 3], (rotation, origin): Displacement<'g>) -> Pseud
 }
 
 /// How much of a kind (0 mass, 1 first, 2 second moment along the axis) makes the parent's entry
-/// vanish; `None` where nothing does, or too much would be needed.
+/// vanish; `None` if nothing does, or too much would be needed.
 fn solve<'g>(
     parent: &PseudoInertia<'g>,
     place: Displacement<'g>,
@@ -356,7 +356,7 @@ impl<'g> Chain<'g> {
     }
 
     /// Takes a component of a link's position for the unit of length. Second moments and torques
-    /// keep the metre: r and a shrink by the unit where h grows by it, and m by its square.
+    /// keep the meter: r and a shrink by the unit where h grows by it, and m by its square.
     fn rescale(&mut self, link: usize, component: usize) {
         let Some(length) = self.links.get(link).map(|link| link.translation.0[component]) else {
             return;

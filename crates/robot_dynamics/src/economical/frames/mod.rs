@@ -79,7 +79,7 @@ impl<'c, 'g> Frames<'c, 'g> {
     pub(crate) fn joint_twist(&self, link: usize) -> Twist<'g> {
         let (zero, one) = (self.chain.graph.zero(), self.chain.graph.one());
         let link = &self.chain.links[link];
-        // In the chain's unit of length a translation of one metre is 1/unit.
+        // In the chain's unit of length a translation of one meter is 1/unit.
         let (angular, linear) =
             if link.is_revolute() { (one, zero) } else { (zero, one / self.chain.unit) };
         let along = |length| Vector([zero, zero, length]);

@@ -20,7 +20,7 @@ impl<'g> Reframed<'g> {
     /// that allows.
     ///
     /// Where no normal has a sure place, and for translations and first joints, the origin is the
-    /// file's. `None` where a joint axis depends on parameters.
+    /// file's. `None` if a joint axis depends on parameters.
     pub(crate) fn denavit_hartenberg(mechanism: &Mechanism<'g>) -> Option<Reframed<'g>> {
         let farthest = Limits::of(mechanism).shift;
         let mut frames: Vec<WorkingFrame<'g>> = vec![];

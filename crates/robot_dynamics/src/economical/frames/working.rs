@@ -26,7 +26,7 @@ pub(crate) struct WorkingFrame<'g> {
 }
 
 /// Frames at the links' own origins, z along the joint axis, x as near to the file's as that
-/// allows. `None` where a joint axis is not constant.
+/// allows. `None` if a joint axis is not constant.
 pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFrame<'g>>> {
     let mut frames: Vec<WorkingFrame<'g>> = vec![];
     for link in &mechanism.links {
@@ -43,7 +43,7 @@ pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFr
 
 /// A right-handed triad with the given z; a permutation of the coordinate axes where z is one.
 ///
-/// `None` where it depends on parameters.
+/// `None` if it depends on parameters.
 pub(crate) fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     let graph = z.0[0].graph();
     let [Some(a), Some(b), Some(c)] = z.0.map(coefficient) else {
@@ -83,7 +83,7 @@ fn coefficient(expr: Expr<'_>) -> Option<f64> {
 /// parent's joint: the one through the parent's origin where the axes are parallel. All in frames of the
 /// file with z along the joint axes, but for the parent's origin, which is in its frame in the file.
 ///
-/// `None` where that depends on parameters, is farther than `farthest`, or the axes are so close to
+/// `None` if that depends on parameters, is farther than `farthest`, or the axes are so close to
 /// parallel that the normal has no sure place.
 pub(crate) fn normal_with_parent<'g>(
     link: &MechanismLink<'g>,

@@ -107,7 +107,7 @@ pub enum Origin {
     ZeroXz,
     /// Where the regrouped Σyz vanishes.
     ZeroYz,
-    /// At the link's mass centre: for translation joints, whose axis has a direction only.
+    /// At the link's center of mass: for translation joints, whose axis has a direction only.
     CenterOfMass,
     /// Where the parent's origin lies at joint position 0: for translation joints.
     Parent,

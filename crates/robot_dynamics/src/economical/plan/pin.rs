@@ -15,7 +15,7 @@ pub struct Pin {
     pub fingerprint: String,
     /// Identifies the rest of the pin, [`Pin::content`]; a pin with another was edited.
     pub digest: String,
-    /// What the search minimised.
+    /// What the search minimized.
     pub measure: Measure,
     /// The multiplications and additions of inverse dynamics under the plan.
     pub operations: usize,

@@ -32,7 +32,7 @@ const MAX_WORK: usize = 2_500_000;
 /// The same for searches that count several functions, of which each may be ten times as long.
 const MAX_WORK_FOR: usize = 40 * MAX_WORK;
 
-/// What a search minimises.
+/// What a search minimizes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Measure {
     /// Multiplications and additions.
@@ -57,7 +57,7 @@ impl Measure {
 pub struct Found {
     /// The cheapest plan.
     pub plan: Plan,
-    /// What was minimised.
+    /// What was minimized.
     pub measure: Measure,
     /// The plan's multiplications and additions, sines and cosines apart.
     pub operations: usize,
@@ -82,7 +82,7 @@ pub struct Objective<'g> {
 impl<'g> Objective<'g> {
     /// Expressions that are both counted and checked.
     #[must_use]
-    pub fn of(roots: Vec<Expr<'g>>) -> Objective<'g> {
+    pub fn new(roots: Vec<Expr<'g>>) -> Objective<'g> {
         Objective { checked: roots.clone(), counted: roots }
     }
 }
@@ -102,7 +102,7 @@ pub struct Scope {
 
 /// Searches the cheapest plan for inverse dynamics.
 ///
-/// The robot's parameters are free: what depends on them alone costs nothing. `None` where the
+/// The robot's parameters are free: what depends on them alone costs nothing. `None` if the
 /// economical recursion does not apply (a joint axis that depends on parameters).
 #[must_use]
 pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Option<Found> {
@@ -112,7 +112,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Op
     let effects = Effects { wrench: false, friction: false };
     let reference = newton_euler::newton_euler(&mechanism, effects).generalized_forces;
     let torques: ObjectiveOf<'_, '_> =
-        &|recursion| Objective::of(recursion.inverse_dynamics(false));
+        &|recursion| Objective::new(recursion.inverse_dynamics(false));
     let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
     search.measure = measure;
     Some(search.run(Scope { motions: true, composites: false, free: false }))
@@ -120,7 +120,7 @@ pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Op
 
 /// Searches the plan with the fewest multiplications and additions for any functions.
 ///
-/// Candidates are held against the values under the plan that keeps the file's frames. `None` where
+/// Candidates are held against the values under the plan that keeps the file's frames. `None` if
 /// the economical recursion does not apply (a joint axis that depends on parameters).
 #[must_use]
 pub fn search_for(
@@ -214,7 +214,7 @@ impl<'m, 'g> Search<'m, 'g> {
     }
 
     /// The best of the descents from the cheapest of a few plans, and of further descents from
-    /// neighbours of the best.
+    /// neighbors of the best.
     fn run(&mut self, scope: Scope) -> Found {
         let mut ranked: Vec<(usize, Plan)> = vec![];
         for start in starts(self.mechanism.links.len()) {

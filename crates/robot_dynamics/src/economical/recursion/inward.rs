@@ -18,7 +18,7 @@ pub(crate) struct TipWrench<'g> {
     pub(crate) moment: Vector<'g>,
 }
 
-/// The generalised driving forces.
+/// The generalized forces.
 pub(crate) fn inward<'g>(
     chain: &Chain<'g>,
     plans: &[LinkPlan],

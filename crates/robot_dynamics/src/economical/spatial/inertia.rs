@@ -34,7 +34,7 @@ impl<'g> PseudoInertia<'g> {
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> PseudoInertia<'g> {
         let graph = link.mass.graph();
         let (inertia, center) = (link.inertia, link.center_of_mass);
-        // About the mass centre J = tr(Σ) 1 − Σ, hence tr J = 2 tr Σ.
+        // About the center of mass J = tr(Σ) 1 − Σ, hence tr J = 2 tr Σ.
         let central = Matrix::identity(graph) * (inertia.trace() / 2) - inertia;
         let first = center * link.mass;
         PseudoInertia { second: central + Matrix::outer(first, center), first, mass: link.mass }
