@@ -1,7 +1,7 @@
 //! The time from a robot file's text to Rust and to equations.
 //!
-//! `cargo bench -p robots --bench generation` measures the generator optimised. Build scripts and macros run
-//! without optimisation unless the user's manifest says otherwise; that is
+//! `cargo bench -p robots --bench generation` measures the generator optimized. Build scripts and macros run
+//! without optimization unless the user's manifest says otherwise; that is
 //!
 //! ```text
 //! CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo bench -p robots --bench generation --profile dev
@@ -24,8 +24,8 @@ fn main() {
     let mut files: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     files.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
     files.sort();
-    let optimised = if cfg!(debug_assertions) { "with debug assertions" } else { "optimised" };
-    println!("median milliseconds, generator {optimised}");
+    let optimized = if cfg!(debug_assertions) { "with debug assertions" } else { "optimised" };
+    println!("median milliseconds, generator {optimized}");
     println!("{:<12} {:>10} {:>10} {:>10}", "robot", "code", "KiB", "equations");
     for file in files {
         let text = std::fs::read_to_string(&file).unwrap();
@@ -34,9 +34,9 @@ fn main() {
         let options = Options::default();
         let size = generate(&source, &options).unwrap().code.len() as f64 / 1024.0;
         let code = median(|| generate(&source, &options).unwrap().code.len());
-        // Every quantity of the paper where that is what people print: the driving forces elsewhere.
+        // Every quantity of the paper where that is what people print: the joint torques elsewhere.
         let kinds =
-            if source.name == "trttr1" { Kind::ALL.to_vec() } else { vec![Kind::DrivingForce] };
+            if source.name == "trttr1" { Kind::ALL.to_vec() } else { vec![Kind::GeneralizedForce] };
         let options = EquationOptions { kinds, ..EquationOptions::default() };
         let read = || robot_build::read(&source).unwrap().robot;
         let printed = median(|| equations(&read(), &options).unwrap().groups.len());

@@ -34,7 +34,7 @@ const JUDGES: [&str; 3] = ["robot_check", "robot_cli", "robot_testing"];
 const UNPUBLISHED: [&str; 1] = ["robot_testing"];
 
 /// The modules of crates in layers: each may use those of its own layer and of those before.
-const LAYERS: [(&str, &[&[&str]]); 2] = [
+const LAYERS: [(&str, &[&[&str]]); 3] = [
     (
         "robot_model",
         &[
@@ -56,6 +56,7 @@ const LAYERS: [(&str, &[&[&str]]); 2] = [
             &["functions"],
         ],
     ),
+    ("robot_build", &[&["error", "driver"], &["door"]]),
 ];
 
 /// The most lines of a file.
@@ -199,6 +200,23 @@ fn files_are_short_and_no_crate_dwarfs_the_others() {
     let all: usize = lines.values().sum();
     let large: Vec<_> = lines.iter().filter(|(_, count)| **count * 100 > all * LARGEST).collect();
     assert!(large.is_empty(), "of {all} lines: {large:?}");
+}
+
+/// Where a module with a folder may lie beside it: the folder is copied into generated crates as it is, and its
+/// files keep their names there.
+const COPIED: &str = "robot_runtime";
+
+#[test]
+fn modules_with_a_folder_lie_in_it() {
+    let mut wrong = vec![];
+    for name in CRATES.iter().filter(|name| **name != COPIED) {
+        for path in sources(&root().join("crates").join(name).join("src")) {
+            if path.with_extension("").is_dir() {
+                wrong.push(format!("{} belongs in its folder, as `mod.rs`", path.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 /// The files that a source includes by paths as they are written: `include_str!("a")`, `include!("a")`,

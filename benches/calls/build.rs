@@ -52,7 +52,7 @@ fn robot(list: &mut String, file: &Path) -> Result<(), Box<dyn Error>> {
     let name = file.file_stem().ok_or("a file without a name")?.to_string_lossy().into_owned();
     let source = Source { name: file.to_string_lossy().into_owned(), text };
     let described = programs(&source, &Options::default())?;
-    let functions = FunctionKind::of(&described.robot);
+    let functions = FunctionKind::of_robot(&described.robot);
     let bundle = Bundle { name: BUNDLE.to_owned(), functions: BUNDLED.to_vec() };
     let options =
         Options { functions: Functions::Chosen(functions), bundles: vec![bundle], ..Options::default() };

@@ -121,7 +121,7 @@ impl Estimate {
 }
 
 /// Weighted least squares by the QR decomposition W = Q R of the weighted regressor: R β = Qᵀ τ, and
-/// the covariance R⁻¹ R⁻ᵀ. `None` where a parameter cannot be told.
+/// the covariance R⁻¹ R⁻ᵀ. `None` if a parameter cannot be told.
 pub(crate) fn estimate(measured: &Measurements) -> Option<Estimate> {
     let regressor = weighted_regressor(&measured.states);
     let entries = measured.torques.iter().flat_map(|tau| tau.iter().zip(NOISE));

@@ -22,7 +22,7 @@ pub(crate) type Joints = [f64; JOINTS];
 /// A trajectory: q_j(t) = q_j0 + Σ_h a_jh sin(2π f h t) + b_jh cos(2π f h t).
 #[derive(Debug)]
 pub(crate) struct Trajectory {
-    centres: Joints,
+    centers: Joints,
     /// a and b of each joint and harmonic, rad.
     coefficients: [[(f64, f64); HARMONICS]; JOINTS],
 }
@@ -42,7 +42,7 @@ impl Trajectory {
             let scale = (RANGE * (upper - lower) / 2.0 / reach).min(MAX_SPEED / rates.sum::<f64>());
             *of_joint = of_joint.map(|(a, b)| (a * scale, b * scale));
         }
-        Trajectory { centres: limits.map(|(lower, upper)| (lower + upper) / 2.0), coefficients }
+        Trajectory { centers: limits.map(|(lower, upper)| (lower + upper) / 2.0), coefficients }
     }
 
     /// The period, s.
@@ -52,7 +52,7 @@ impl Trajectory {
 
     /// q, q̇ and q̈ at a time, s.
     pub(crate) fn at(&self, t: f64) -> [Joints; 3] {
-        let mut state = [self.centres, [0.0; JOINTS], [0.0; JOINTS]];
+        let mut state = [self.centers, [0.0; JOINTS], [0.0; JOINTS]];
         for (joint, of_joint) in self.coefficients.iter().enumerate() {
             for (&(a, b), harmonic) in of_joint.iter().zip(1..) {
                 let rate = angular(harmonic);

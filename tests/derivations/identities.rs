@@ -173,8 +173,9 @@ impl<'g> Subject<'_, 'g> {
         let inertial = mass * accelerations;
         let (sum, size) = (&inertial + &bias, inertial.amax().max(bias.amax()));
         self.hold("M q̈ + h", sum.as_slice(), torques.as_slice(), size);
-        let stirred = coriolis * rates;
-        let (sum, size) = (&stirred + &gravity, stirred.amax().max(gravity.amax()));
+        let wrench_of_unit_rate = coriolis * rates;
+        let (sum, size) =
+            (&wrench_of_unit_rate + &gravity, wrench_of_unit_rate.amax().max(gravity.amax()));
         self.hold("C q̇ + g", sum.as_slice(), bias.as_slice(), size);
     }
 
@@ -327,7 +328,7 @@ fn identities_of_random_trees() {
 fn identities_of_robots_with_parameters_and_with_free_axes() {
     for seed in 2000..2006 {
         let robot = robots::robot(&mut Random::new(seed), &Recipe::tree(1 + seed as usize % 5));
-        check(&robots::parametrised(&robot), seed, "parameters");
+        check(&robots::parameterized(&robot), seed, "parameters");
     }
     for seed in 3000..3004 {
         check(&with_free_axes(seed), seed, "free axes");

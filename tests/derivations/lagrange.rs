@@ -21,7 +21,7 @@ fn check(robot: &Robot, name: &str) -> usize {
     let (kinetic, potential) = energies(&mechanism, &motion);
     let lagrangian = kinetic - potential;
     let effects = Effects { wrench: false, friction: false };
-    let mut torques = vec![("iterations", newton_euler(&mechanism, effects).driving_forces)];
+    let mut torques = vec![("iterations", newton_euler(&mechanism, effects).generalized_forces)];
     // With a skew axis of irrational exact components there are no working frames; the numeric
     // tests cover those.
     if let Some(recursion) = Recursion::new(&mechanism, &Plan::default_for(robot)) {
@@ -59,10 +59,10 @@ fn random_robots_of_up_to_three_joints() {
 }
 
 #[test]
-fn random_parametrised_robots() {
+fn random_parameterized_robots() {
     for seed in 100..106 {
         let joints = 1 + seed as usize % 2;
         let robot = robots::robot(&mut Random::new(seed), &Recipe::serial(joints));
-        check(&robots::parametrised(&robot), &format!("seed {seed}, {joints} joints"));
+        check(&robots::parameterized(&robot), &format!("seed {seed}, {joints} joints"));
     }
 }

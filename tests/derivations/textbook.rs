@@ -43,7 +43,7 @@ fn texts(entries: &[&str]) -> Vec<String> {
 }
 
 /// The planar elbow manipulator of M. W. Spong, S. Hutchinson, M. Vidyasagar, "Robot Modeling and
-/// Control", Wiley 2006, section 7.4, with r for the distances of the mass centres.
+/// Control", Wiley 2006, section 7.4, with r for the distances of the centers of mass.
 #[test]
 fn the_planar_elbow_arm() {
     let h = "(-m2*l1*r2*sin(q2))";

@@ -13,7 +13,7 @@ fn command(arguments: &[&str]) -> (u8, String) {
         input: &mut std::io::empty(),
         output: &mut output,
         errors: &mut errors,
-        colours: false,
+        colors: false,
         progress: false,
     };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());

@@ -85,7 +85,7 @@ struct Case {
 impl Case {
     fn new(name: &str, text: &str) -> Case {
         let robot = robot_testing::read(name, text);
-        let all = FunctionKind::of(&robot);
+        let all = FunctionKind::of_robot(&robot);
         // Without inputs there is nothing to compute once more: it has a test of its own.
         let called = |kind: &FunctionKind| *kind != FunctionKind::BaseParameters;
         let called: Vec<FunctionKind> = all.into_iter().filter(called).collect();

@@ -11,7 +11,7 @@ use robot_codegen::Interpreter;
 use robot_dynamics::economical::pin::Pin;
 use robot_model::robot::Robot;
 use robot_numeric::random::Random;
-use robot_numeric::robots::parametrised;
+use robot_numeric::robots::parameterized;
 use robot_numeric::{self, Joint, Link, Pose};
 
 use crate::package::{Package, dependency};
@@ -104,8 +104,8 @@ fn every_plan_carries_a_payload() {
             let expected = expected(&solver(robot, carrier.unwrap(), placement));
             let values: Vec<f64> = [MASS].into_iter().chain(CENTER).chain(INERTIA).collect();
             let names = NAMES.map(|name| format!("payload_{name}"));
-            let figures: Vec<(&str, f64)> = names.iter().map(String::as_str).zip(values).collect();
-            let interpreter = Interpreter::new(&programs.module, &figures).unwrap();
+            let given: Vec<(&str, f64)> = names.iter().map(String::as_str).zip(values).collect();
+            let interpreter = Interpreter::new(&programs.module, &given).unwrap();
             let torques = expected.iter().map(|([q, qd, qdd], _)| {
                 let inputs = [("q", &q[..]), ("qd", qd), ("qdd", qdd)];
                 interpreter.call("inverse_dynamics", &inputs).unwrap().remove(0).values
@@ -123,13 +123,13 @@ fn a_payload_costs_no_operation_at_a_call() {
     for name in ["puma560", "ur5", "iiwa", "panda"] {
         let count = |text: String| {
             let source = Source { name: "arm.toml".to_owned(), text };
-            let robot = parametrised(&robot_build::read(&source).unwrap().robot);
+            let robot = parameterized(&robot_build::read(&source).unwrap().robot);
             let programs = robot_build::programs_of(robot, "arm.toml", &options()).unwrap();
             let module = &programs.module;
             module.counts(&module.functions[0]).call
         };
         let text = robot_file(&format!("{name}.toml"));
-        // A mass centre at the origin is taken for that, not for a figure.
+        // A center of mass at the origin is taken for that, not for a figure.
         let text = text.replace("center_of_mass = [0, 0, 0]", "center_of_mass = [0.1, 0.2, 0.3]");
         let with = count(format!("{text}\n[payload]\n"));
         assert_eq!(with.operations(), count(text).operations(), "{name}");

@@ -49,7 +49,7 @@ pub(crate) fn torques(text: &str) -> String {
     torques_under(text, &Options::default())
 }
 
-/// The same by the command, which searches the cheapest form where none is pinned, with the standard
+/// The same by the command, which searches the cheapest form if none is pinned, with the standard
 /// library's sines.
 pub(crate) fn searched_torques(text: &str) -> String {
     let trigonometry = Trigonometry::Standard;

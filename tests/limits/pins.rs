@@ -17,7 +17,7 @@ fn pins_are_what_a_search_finds() {
     assert!(differ.is_empty(), "robots/NAME.plan is out of date for {}", differ.join(", "));
 }
 
-/// What a pin says and what a search finds, where they differ.
+/// What a pin says and what a search finds, if they differ.
 fn differs(name: &str, text: String) -> Option<String> {
     let source = Source { name: format!("robots/{name}.toml"), text };
     let robot = read(&source).unwrap().robot;

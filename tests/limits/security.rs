@@ -61,7 +61,7 @@ fn sixty_four_joints_end_in_code() {
 fn every_function_of_sixty_four_joints_ends() {
     let file = source(chain(64));
     let robot = robot_build::read(&file).unwrap().robot;
-    for kind in FunctionKind::of(&robot) {
+    for kind in FunctionKind::of_robot(&robot) {
         let options = Options { functions: Functions::Chosen(vec![kind]), ..Options::default() };
         match timed(kind.name(), || generate(&file, &options)) {
             Ok(generated) => println!("    {} bytes of code", generated.code.len()),

@@ -1,4 +1,4 @@
-//! Base parameters: as many as stacked regressors have rank, and the same driving forces.
+//! Base parameters: as many as stacked regressors have rank, and the same joint torques.
 
 use nalgebra::DMatrix;
 use robot_dynamics::base_parameters::{BaseParameters, base_parameters};
@@ -126,15 +126,15 @@ fn check_columns(
 ) {
     let size = magnitude(full).max(1e-3);
     let (count, all) = (found.base.len(), found.standard.len());
-    let mut figures = DMatrix::zeros(count, all);
+    let mut coefficients = DMatrix::zeros(count, all);
     for (row, parameter) in found.base.iter().enumerate() {
-        for (column, figure) in &parameter.terms {
-            figures[(row, *column)] = evaluate(robot, &[*figure], state)[0];
+        for (column, coefficient) in &parameter.terms {
+            coefficients[(row, *column)] = evaluate(robot, &[*coefficient], state)[0];
         }
     }
     let kept = DMatrix::from_row_slice(kept.len() / count, count, kept);
     let expected = DMatrix::from_row_slice(kept.nrows(), all, full);
-    let (product, expected) = ((kept * figures).transpose(), expected.transpose());
+    let (product, expected) = ((kept * coefficients).transpose(), expected.transpose());
     let layout = Layout::new(robot, "columns", &[robot.degrees_of_freedom(), all]);
     let off = Off::of(&layout, product.as_slice(), expected.as_slice(), size);
     assert!(off.error <= TOLERANCE, "{label}: {off}");

@@ -105,7 +105,7 @@ fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
     }
 }
 
-/// The Jacobians of the links of a robot, and those that the kind alone gives where there are no frames,
+/// The Jacobians of the links of a robot, and those that the kind alone gives if there are no frames,
 /// against the solver.
 fn check_links(mut robot: Robot, name: &str) {
     let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
@@ -198,7 +198,7 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
     for seed in 2000..2012 {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
         let robot = robots::robot(&mut Random::new(seed), &recipe);
-        check(&robots::parametrised(&robot), seed, "parameters", &mut worst);
+        check(&robots::parameterized(&robot), seed, "parameters", &mut worst);
     }
     report("parameters", worst);
 }

@@ -125,7 +125,7 @@ fn the_programs_of_two_hundred_random_robots() {
             ..Recipe::serial(1 + seed as usize % 8)
         };
         let robot = robots::robot(&mut Random::new(seed), &recipe);
-        let robot = if seed % 5 == 0 { robots::parametrised(&robot) } else { robot };
+        let robot = if seed % 5 == 0 { robots::parameterized(&robot) } else { robot };
         worst = worst.max(Case::new("random robot", robot, seed, 50).interpret());
     }
     println!("200 random robots × 50 states: worst error {worst:.1e}");
@@ -161,7 +161,7 @@ fn the_compiled_code_of_every_robot_file_and_of_twenty_random_robots() {
     let random_cases = (500..520).map(|seed| {
         let recipe = Recipe { drives: seed % 2 == 0, ..Recipe::tree(1 + seed as usize % 8) };
         let robot = robots::robot(&mut Random::new(seed), &recipe);
-        let robot = if seed % 3 == 0 { robots::parametrised(&robot) } else { robot };
+        let robot = if seed % 3 == 0 { robots::parameterized(&robot) } else { robot };
         Case::new("compiled robot", robot, seed, 50)
     });
     let cases: Vec<Case> = files.chain(random_cases).collect();

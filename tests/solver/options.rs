@@ -73,7 +73,7 @@ fn all() -> LinkPlan {
         residual: [Some(Entry::X), Some(Entry::Xz), Some(Entry::XxYy)],
         free: FreeRate::Still,
         composite_sum: true,
-        meeting: None,
+        projected_at: None,
     }
 }
 
@@ -98,7 +98,7 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
         Origin::PreviousNormal,
         Origin::ZeroXz,
         Origin::ZeroYz,
-        Origin::MassCentre,
+        Origin::CenterOfMass,
         Origin::Parent,
     ] {
         let off = |plan: &mut LinkPlan| plan.origin = Origin::File;
@@ -129,7 +129,7 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
     for (link, turned) in (0..links).flat_map(|link| [(link, false), (link, true)]) {
         let mut on = base.clone();
         for plan in &mut on.links[link..] {
-            plan.meeting = Some(Place { link, turned });
+            plan.projected_at = Some(Place { link, turned });
         }
         let option = format!("meeting, {}", if turned { "turned" } else { "at home" });
         found.push(Forced { option, shown: Shown::MassMatrix, off: base.clone(), on });
@@ -309,13 +309,13 @@ fn options_on_random_trees() {
     check_all("trees", robots, &[]);
 }
 
-/// Three links of 2 kg: the second's mass centre `centre` off its axis, the third `lever` along it.
-fn arm(centre: f64, lever: f64, axis: &str) -> Robot {
-    let link = |name: &str, position: [f64; 3], axis: &str, centre: [f64; 3]| {
+/// Three links of 2 kg: the second's center of mass `center` off its axis, the third `lever` along it.
+fn arm(center: f64, lever: f64, axis: &str) -> Robot {
+    let link = |name: &str, position: [f64; 3], axis: &str, center: [f64; 3]| {
         format!(
             "[[link]]\nname = \"{name}\"\nparent = \"{}\"\norigin = {{ xyz = {position:?} }}\n\
              joint = {{ type = \"revolute\", axis = \"{axis}\" }}\nmass = 2\n\
-             center_of_mass = {centre:?}\n\
+             center_of_mass = {center:?}\n\
              inertia = {{ xx = 0.3, yy = 0.3, zz = 0.3, xz = 0.1 }}\n",
             name.parse::<u8>().unwrap() - 1
         )
@@ -323,7 +323,7 @@ fn arm(centre: f64, lever: f64, axis: &str) -> Robot {
     let text = [
         "format = 1\n[robot]\nname = \"arm\"\n".to_owned(),
         link("1", [0.0, 0.0, 0.4], "y", [0.1, 0.1, 0.2]).replace("parent = \"0\"\n", ""),
-        link("2", [0.3, 0.0, 0.2], "z", [centre, 0.0, 0.0]),
+        link("2", [0.3, 0.0, 0.2], "z", [center, 0.0, 0.0]),
         link("3", [lever, 0.0, 0.3], axis, [0.0, 0.1, 0.2]),
     ];
     robot_testing::read("arm", &text.concat())
@@ -362,7 +362,7 @@ fn origins_lie_no_farther_than_three_reaches() {
     let off = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC };
     let on = LinkPlan { origin: Origin::ZeroXz, ..off.clone() };
     // 0.1 m and 2.5 m; then 5 m and 25 m, where three reaches are 3.6 m.
-    for (centre, taken) in [(0.5, true), (0.02, true), (0.01, false), (0.002, false)] {
-        assert_eq!(in_effect(&arm(centre, 0.0, "x"), 1, &off, &on), taken, "{centre}");
+    for (center, taken) in [(0.5, true), (0.02, true), (0.01, false), (0.002, false)] {
+        assert_eq!(in_effect(&arm(center, 0.0, "x"), 1, &off, &on), taken, "{center}");
     }
 }

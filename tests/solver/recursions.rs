@@ -82,8 +82,8 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
             worst = worst.max(off.error);
         }
     };
-    hold("the paper's Q", &plain.driving_forces, |reference| &reference.torques);
-    hold("the paper's Q with loads", &loaded.driving_forces, |r| &r.torques_with_loads);
+    hold("the paper's Q", &plain.generalized_forces, |reference| &reference.torques);
+    hold("the paper's Q with loads", &loaded.generalized_forces, |r| &r.torques_with_loads);
     hold("F_l and M_l", &torsors, |reference| &reference.link_wrenches);
     let recursion = Recursion::new(&mechanism, &Plan::default_for(robot)).unwrap();
     hold("the economical Q", &recursion.inverse_dynamics(false), |r| &r.torques);
@@ -132,7 +132,7 @@ fn quantities_carry_the_papers_names() {
     let names = |kind| -> Vec<String> {
         solution.quantities(kind).iter().map(|quantity| quantity.symbol.to_string()).collect()
     };
-    assert_eq!(names(Kind::DrivingForce), ["Q1", "Q2", "Q3", "Q4", "Q5"]);
+    assert_eq!(names(Kind::GeneralizedForce), ["Q1", "Q2", "Q3", "Q4", "Q5"]);
     assert_eq!(names(Kind::LinkForce)[..4], ["F_l1.x", "F_l1.y", "F_l1.z", "F_l2.x"]);
-    assert_eq!(names(Kind::MassCentreAcceleration).len(), 15);
+    assert_eq!(names(Kind::CenterOfMassAcceleration).len(), 15);
 }

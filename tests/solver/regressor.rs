@@ -1,4 +1,4 @@
-//! The regressor against the numeric solver's, and against the driving forces that it stands for.
+//! The regressor against the numeric solver's, and against the joint torques that it stands for.
 
 use robot_build::{BaseFrames, Functions, Options, programs_of};
 use robot_dynamics::functions::Derivation;
@@ -47,12 +47,12 @@ fn parameters(robot: &Robot, state: &State) -> Vec<f64> {
             link.rotor_coupling,
         ]
     });
-    let drives: Vec<Expr<'_>> = drives.filter(|figure| !figure.is_zero()).collect();
+    let drives: Vec<Expr<'_>> = drives.filter(|column| !column.is_zero()).collect();
     let drives = if drives.is_empty() { vec![] } else { evaluate(robot, &drives, state) };
     [links.as_slice(), &drives].concat()
 }
 
-/// The links' columns against the solver's, and Y π against its driving forces.
+/// The links' columns against the solver's, and Y π against its joint torques.
 fn check(robot: &Robot, seed: u64, name: &str) {
     let mut robot = robot.clone();
     for link in &mut robot.links {
@@ -124,7 +124,7 @@ fn regressors_of_robots_with_parameters() {
     for seed in 2000..2012 {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 6) };
         let robot = robots::robot(&mut Random::new(seed), &recipe);
-        check(&robots::parametrised(&robot), seed, "parameters");
+        check(&robots::parameterized(&robot), seed, "parameters");
     }
 }
 

@@ -1,4 +1,4 @@
-//! Last links whose mass is spread alike all round their joint axes: no driving force depends on their
+//! Last links whose mass is spread alike all round their joint axes: no joint torque depends on their
 //! joints' positions, and code does not take their sines.
 
 use robot_build::{Functions, Options, Source, programs};
@@ -55,7 +55,7 @@ fn sines(last: &Last) -> usize {
     let recursion = Recursion::new(&mechanism, &Plan::uniform(3, &link)).unwrap();
     let paper = newton_euler(&mechanism, Effects { wrench: false, friction: false });
     for (joint, (force, expected)) in
-        recursion.inverse_dynamics(false).into_iter().zip(paper.driving_forces).enumerate()
+        recursion.inverse_dynamics(false).into_iter().zip(paper.generalized_forces).enumerate()
     {
         assert!(expands_to_zero(force - expected).unwrap(), "joint {joint} of {text}");
     }

@@ -19,8 +19,8 @@ pub fn nanoseconds(states: usize, mut call: impl FnMut(usize)) -> f64 {
     while batch(rounds) < 150e3 && rounds < 1 << 20 {
         rounds *= 2;
     }
-    let mut figures: Vec<f64> =
+    let mut times: Vec<f64> =
         (0..300).map(|_| batch(rounds) / (rounds * states) as f64).collect();
-    figures.sort_by(f64::total_cmp);
-    figures[figures.len() / 2]
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
 }

@@ -1,13 +1,11 @@
 //! What can go wrong on the way from a robot file to code.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use robot_model::diagnostic::{Diagnostics, quote};
+use robot_model::diagnostic::{Diagnostics, quote, visible};
 use robot_model::functions::WrongName;
 use robot_model::snap::InvalidSnap;
-
-use crate::paths::shown;
 
 /// One thing that is wrong; the text names the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
@@ -95,7 +93,7 @@ pub enum Error {
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system says, and the remedy where there is one.
+        /// What the system says, and the remedy if there is one.
         reason: String,
     },
     /// An output that is an input.
@@ -166,7 +164,7 @@ pub enum Error {
         /// The robot file.
         name: String,
         /// What costs too much.
-        over: crate::budget::Over,
+        over: crate::driver::budget::Over,
     },
     /// No robot file at all.
     #[error("no robot file is given; name one or more")]
@@ -209,7 +207,7 @@ impl fmt::Debug for Error {
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Ok(value)` where there are no errors.
+    /// `Ok(value)` if there are no errors.
     pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
         if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }
@@ -267,3 +265,9 @@ impl fmt::Debug for Errors {
 }
 
 impl std::error::Error for Errors {}
+
+/// A path as messages show it: see [`visible`].
+#[must_use]
+pub fn shown(path: &Path) -> String {
+    visible(&path.to_string_lossy())
+}

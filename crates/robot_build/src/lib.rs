@@ -25,42 +25,29 @@
 //! environment and no terminal, so that the builder, the macro `include_robot!` and the command
 //! `robot-symbolic` give the same code.
 
-pub mod ablation;
-mod angles;
-pub mod budget;
-mod builder;
-mod cargo;
-pub mod check;
-mod conventions;
+mod door;
+mod driver;
 mod error;
-mod files;
-mod generate;
-mod options;
-pub mod package;
-mod paths;
-mod pin;
-mod pivots;
-mod problems;
-mod programs;
-mod singular;
-pub mod snapping;
-mod specification;
 
-pub use angles::too_large_angle;
-pub use builder::{Builder, compile};
-pub use conventions::CONVENTIONS;
-pub use error::{Error, Errors};
-pub use files::{File, MARKER, Output, Ownership, Staleness, Writer, staleness};
-pub use generate::{Generated, generate, names};
-pub use options::{
+pub use door::builder::{Builder, compile};
+pub use door::files::{MARKER, Output, Ownership, Staleness, Writer, staleness};
+pub use door::paths::RobotFile;
+pub use door::pin::{pin_path, pin_text, robot_inputs};
+pub use driver::angles::too_large_angle;
+pub use driver::conventions::CONVENTIONS;
+pub use driver::file::File;
+pub use driver::generate::{Generated, generate, names};
+pub use driver::options::{
     Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
     functions_named, kinds_named,
 };
-pub use paths::{RobotFile, shown};
-pub use pin::{pin_path, pin_text, robot_inputs};
-pub use pivots::{Pivot, Pivots};
-pub use problems::Problem;
-pub use programs::{Programs, planned, programs, programs_of, read, read_with};
+pub use driver::pivots::{Pivot, Pivots};
+pub use driver::problems::Problem;
+pub use driver::programs::{Programs, planned, programs, programs_of, read, read_with};
+pub use driver::singular::{Unsolvable, unsolvable};
+pub use driver::snapping::{Snapping, snapping};
+pub use driver::{ablation, budget, check, package, snapping};
+pub use error::{Error, Errors, shown};
 pub use robot_codegen::backend::rust::{Names, check_runtime_path, identifier};
 pub use robot_codegen::{Scalar, Trigonometry};
 pub use robot_dynamics::economical::Plan;
@@ -69,5 +56,3 @@ pub use robot_model::functions::{
     self, ALL_FUNCTIONS, Bundle, Effects, FrameRef, FunctionKind, Functions, WrongName,
 };
 pub use robot_model::robot::{BaseFrames, Robot};
-pub use singular::{Unsolvable, unsolvable};
-pub use snapping::{Snapping, snapping};

@@ -14,7 +14,7 @@ const STATE: [[&str; 7]; 3] = [
 const WRENCH: [&str; 6] = ["3", "-2", "5", "0.4", "0.7", "-0.3"];
 
 /// The joint torques at a state, by the numeric solver, which shares nothing with the equations, with or without
-/// friction. `None` where parameters have no values.
+/// friction. `None` if parameters have no values.
 #[must_use]
 pub fn check_value(robot: &Robot, friction: bool) -> Option<CheckValue> {
     let count = robot.degrees_of_freedom();

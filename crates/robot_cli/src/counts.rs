@@ -5,10 +5,10 @@ use robot_codegen::{Counts, FunctionCounts};
 use serde_json::{Map, Value, json};
 
 /// A named figure of [`Counts`].
-type Figure = (&'static str, fn(&Counts) -> usize);
+type Column = (&'static str, fn(&Counts) -> usize);
 
 /// The figures, by their names in JSON.
-pub(crate) const FIGURES: [Figure; 8] = [
+pub(crate) const COLUMNS: [Column; 8] = [
     ("mul", |counts| counts.mul),
     ("add", |counts| counts.add),
     ("div", |counts| counts.div),
@@ -21,8 +21,8 @@ pub(crate) const FIGURES: [Figure; 8] = [
 
 /// `{"mul": …, …, "constructor": {"mul": …, …}}`
 pub(crate) fn json(counts: &FunctionCounts) -> Value {
-    let mut object = figures(&counts.call);
-    object.insert("constructor".to_owned(), Value::Object(figures(&counts.constructor)));
+    let mut object = cells(&counts.call);
+    object.insert("constructor".to_owned(), Value::Object(cells(&counts.constructor)));
     Value::Object(object)
 }
 
@@ -42,6 +42,6 @@ pub(crate) fn snapping_json(snapping: &Snapping) -> Value {
 }
 
 /// `{"mul": …, …}`
-pub(crate) fn figures(counts: &Counts) -> Map<String, Value> {
-    FIGURES.iter().map(|(name, figure)| ((*name).to_owned(), json!(figure(counts)))).collect()
+pub(crate) fn cells(counts: &Counts) -> Map<String, Value> {
+    COLUMNS.iter().map(|(name, count)| ((*name).to_owned(), json!(count(counts)))).collect()
 }

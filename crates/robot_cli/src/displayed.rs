@@ -18,7 +18,7 @@ const WIDTH: f64 = 16.0;
 #[derive(Args)]
 pub(crate) struct LayoutArguments {
     /// The width of the lines of LaTeX, Typst and MathML, such as 8.5cm; 16cm without this
-    #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true)]
+    #[arg(long, value_name = "WIDTH", value_parser = centimeters, allow_hyphen_values = true)]
     width: Option<f64>,
     /// Number the equations; those of LaTeX and Typst get labels such as eq:Q1
     #[arg(long)]
@@ -53,7 +53,7 @@ impl LayoutArguments {
         groups: &[Group],
         notation: Notation,
     ) -> Result<String, Error> {
-        let layout = Layout::of_centimetres(self.width.unwrap_or(WIDTH));
+        let layout = Layout::of_centimeters(self.width.unwrap_or(WIDTH));
         let (comment, print): (_, Print) = match notation {
             Notation::Latex => ("%", latex::equations),
             Notation::Typst => ("//", typst::equations),
@@ -79,7 +79,7 @@ impl LayoutArguments {
 type Print = fn(&[NumberedEquation], Layout) -> Result<String, Error>;
 
 /// `8.5cm` or `8.5`, in centimetres.
-pub(crate) fn centimetres(text: &str) -> Result<f64, String> {
+pub(crate) fn centimeters(text: &str) -> Result<f64, String> {
     let digits = text.strip_suffix("cm").unwrap_or(text).trim();
     let width: Option<f64> = digits.parse().ok();
     let width = width.filter(|width| WIDTHS.contains(width));

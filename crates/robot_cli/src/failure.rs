@@ -80,7 +80,7 @@ impl Failure {
         let (messages, code) = match self {
             Failure::Robot(errors) => {
                 let code = if errors.as_slice().iter().all(is_of_options) { 2 } else { 1 };
-                (robot_messages(errors, terminal.colours), code)
+                (robot_messages(errors, terminal.colors), code)
             }
             Failure::Input(messages) => (shown(messages), 1),
             Failure::Usage(messages) => (shown(messages), 2),
@@ -116,8 +116,8 @@ fn is_of_options(error: &Error) -> bool {
     )
 }
 
-fn robot_messages(errors: &Errors, colours: bool) -> Vec<String> {
-    let style = if colours { Style::Terminal } else { Style::Plain };
+fn robot_messages(errors: &Errors, colors: bool) -> Vec<String> {
+    let style = if colors { Style::Terminal } else { Style::Plain };
     let messages = errors.as_slice().iter().map(|error| match error {
         Error::Robot(diagnostics) => diagnostics.render(style),
         _ => format!("error: {error}"),

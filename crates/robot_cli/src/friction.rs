@@ -35,7 +35,7 @@ impl FrictionArguments {
     }
 
     /// Gives dry friction that has a sharp sign a smooth one, where that is asked for.
-    pub(crate) fn smooth(&self, robot: &mut Robot) -> Result<(), Failure> {
+    pub(crate) fn apply_smoothing(&self, robot: &mut Robot) -> Result<(), Failure> {
         let Some(width) = self.smoothing else {
             return Ok(());
         };

@@ -72,8 +72,8 @@ pub struct Terminal<'a> {
     pub output: &'a mut dyn Write,
     /// Standard error.
     pub errors: &'a mut dyn Write,
-    /// Whether standard error shows colours: see [`colours`].
-    pub colours: bool,
+    /// Whether standard error shows colours: see [`colors`].
+    pub colors: bool,
     /// Whether standard error shows how far a long run has come: on a terminal.
     pub progress: bool,
 }
@@ -81,7 +81,7 @@ pub struct Terminal<'a> {
 /// Whether standard error shows colours: on a terminal, unless the variable `NO_COLOR` is set and not
 /// empty (<https://no-color.org>).
 #[must_use]
-pub fn colours(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
+pub fn colors(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
     is_terminal && no_color.is_none_or(OsStr::is_empty)
 }
 
@@ -92,7 +92,7 @@ pub fn run(
     terminal: &mut Terminal<'_>,
 ) -> u8 {
     let mut errors =
-        Messages { stream: &mut *terminal.errors, commands: terminal.colours || terminal.progress };
+        Messages { stream: &mut *terminal.errors, commands: terminal.colors || terminal.progress };
     let terminal = &mut Terminal {
         input: &mut *terminal.input,
         output: &mut *terminal.output,

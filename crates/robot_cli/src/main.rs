@@ -11,7 +11,7 @@ fn main() -> ExitCode {
         input: &mut input,
         output: &mut output,
         errors: &mut errors,
-        colours: robot_cli::colours(is_terminal, std::env::var_os("NO_COLOR").as_deref()),
+        colors: robot_cli::colors(is_terminal, std::env::var_os("NO_COLOR").as_deref()),
         progress: is_terminal,
     };
     ExitCode::from(robot_cli::run(std::env::args_os(), &mut terminal))

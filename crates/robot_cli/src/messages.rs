@@ -10,7 +10,7 @@ use robot_model::diagnostic::is_invisible;
 /// to leave the work undone.
 pub(crate) struct Messages<'a> {
     pub(crate) stream: &'a mut dyn Write,
-    /// Whether colours and lines of progress are shown.
+    /// Whether colors and lines of progress are shown.
     pub(crate) commands: bool,
 }
 

@@ -26,7 +26,7 @@ pub(crate) fn robot(
     if friction.is_wanted() {
         has_friction(&file.source().name, &robot)?;
     }
-    friction.smooth(&mut robot)?;
+    friction.apply_smoothing(&mut robot)?;
     Ok(robot)
 }
 

@@ -83,7 +83,7 @@ mod tests {
             input: &mut std::io::empty(),
             output: &mut output,
             errors: &mut errors,
-            colours: false,
+            colors: false,
             progress,
         };
         let answer = watched("thinking", &mut terminal, || {

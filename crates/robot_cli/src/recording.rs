@@ -50,7 +50,7 @@ impl<'a> Recording<'a> {
         Ok(Recording { table, plot, writer })
     }
 
-    /// Writes or prints the table, and writes the plot where one is wanted.
+    /// Writes or prints the table, and writes the plot if one is wanted.
     pub(crate) fn write(
         &self,
         csv: &str,

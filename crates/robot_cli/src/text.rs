@@ -25,13 +25,13 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
 /// Shows the warnings of a robot file.
 pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if !warnings.is_empty() {
-        let style = if terminal.colours { Style::Terminal } else { Style::Plain };
+        let style = if terminal.colors { Style::Terminal } else { Style::Plain };
         writeln!(terminal.errors, "{}", warnings.render(style).trim_end())?;
     }
     Ok(())
 }
 
-/// Shows which functions the robot lacks as no driving forces determine all of its accelerations.
+/// Shows which functions the robot lacks as no joint torques determine all of its accelerations.
 pub(crate) fn lacking(
     robot: &Robot,
     options: &Options,

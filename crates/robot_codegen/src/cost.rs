@@ -1,4 +1,4 @@
-//! What the passes minimise.
+//! What the passes minimize.
 
 use crate::counts::Counts;
 use crate::passes::{fusing, product_last};

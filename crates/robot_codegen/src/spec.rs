@@ -30,7 +30,7 @@ pub struct ParameterSpec {
     pub name: String,
     /// Its meaning; text, not Markdown.
     pub doc: String,
-    /// Its unit; empty where it has none.
+    /// Its unit; empty if it has none.
     pub unit: String,
     /// The value where none other is given.
     pub nominal: Option<f64>,

@@ -54,7 +54,7 @@ impl Constructor {
         builder.finish(results)
     }
 
-    /// Loads the field with a value of the constructor, made where there is none.
+    /// Loads the field with a value of the constructor, made if there is none.
     fn load(&mut self, builder: &mut Builder, value: Value) -> Value {
         match self.builder.operation(value) {
             Operation::Constant(constant) => builder.constant(constant.get()),

@@ -1,4 +1,4 @@
-//! The base parameters of a robot: what of its inertias and drives the driving forces tell.
+//! The base parameters of a robot: what of its inertias and drives the joint torques tell.
 
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, base_parameters};
 use robot_dynamics::functions::Derivation;
@@ -52,7 +52,7 @@ pub struct BaseEntry {
     /// The formula in standard parameters: those with one figure stand in one term.
     pub formula: Written,
     /// The figure of each standard parameter by its place, as text that reads back.
-    pub figures: Vec<(usize, String)>,
+    pub coefficients: Vec<(usize, String)>,
     /// The value in the file's parameters.
     pub value: Written,
 }
@@ -101,16 +101,18 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
         .collect();
     let mut list = vec![];
     for (parameter, value) in found.base.iter().zip(&polynomials(&found.nominal())?) {
-        let figures = figures(parameter)?;
+        let coefficients = coefficients(parameter)?;
         let places = parameter.terms.iter().map(|(place, _)| *place);
-        let texts: Result<Vec<_>, Error> =
-            places.zip(&figures).map(|(place, figure)| Ok((place, figure.to_text()?))).collect();
+        let texts: Result<Vec<_>, Error> = places
+            .zip(&coefficients)
+            .map(|(place, coefficient)| Ok((place, coefficient.to_text()?)))
+            .collect();
         list.push(BaseEntry {
             name: parameter.name(),
             left: look(parameter),
             column: parameter.full_column(),
             formula: formulas.of_parameter(parameter, &standard)?,
-            figures: texts?,
+            coefficients: texts?,
             value: formulas.of_polynomial(value)?,
         });
     }
@@ -131,7 +133,7 @@ impl BaseSet {
 impl BaseEntry {
     /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; where nothing is regrouped, `MY_2 = 0.1`.
     fn equation(&self) -> Equation {
-        let formula = if self.figures.len() > 1 { &self.formula } else { &self.value };
+        let formula = if self.coefficients.len() > 1 { &self.formula } else { &self.value };
         Equation {
             name: self.name.clone(),
             text: self.value.text.clone(),
@@ -165,9 +167,10 @@ pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>
 }
 
 /// The figures of a base parameter, expanded.
-fn figures<'g>(parameter: &BaseParameter<'g>) -> Result<Vec<Polynomial<'g>>, Error> {
-    let figures: Vec<Expr<'g>> = parameter.terms.iter().map(|(_, figure)| *figure).collect();
-    polynomials(&figures)
+fn coefficients<'g>(parameter: &BaseParameter<'g>) -> Result<Vec<Polynomial<'g>>, Error> {
+    let coefficients: Vec<Expr<'g>> =
+        parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect();
+    polynomials(&coefficients)
 }
 
 /// What the name of a base parameter looks like.
@@ -206,13 +209,13 @@ impl Formulas<'_> {
         parameter: &BaseParameter<'_>,
         standard: &[Option<Written>],
     ) -> Result<Written, Error> {
-        let figures = figures(parameter)?;
+        let coefficients = coefficients(parameter)?;
         let mut groups: Vec<(Term, Vec<&Written>)> = vec![];
-        let mut terms: Vec<_> = parameter.terms.iter().zip(&figures).collect();
+        let mut terms: Vec<_> = parameter.terms.iter().zip(&coefficients).collect();
         terms.sort_by_key(|((place, _), _)| *place != parameter.column);
-        for ((place, _), figure) in terms {
+        for ((place, _), coefficient) in terms {
             let Some(Some(name)) = standard.get(*place) else { continue };
-            let factor = self.factor(figure)?;
+            let factor = self.factor(coefficient)?;
             match groups.iter_mut().find(|(known, _)| *known == factor) {
                 Some((_, names)) => names.push(name),
                 None => groups.push((factor, vec![name])),
@@ -224,9 +227,9 @@ impl Formulas<'_> {
     }
 
     /// A figure as a factor: nothing for 1, sums in parentheses.
-    fn factor(&self, figure: &Polynomial<'_>) -> Result<Term, Error> {
-        let written = self.of_polynomial(figure)?;
-        if figure.len() > 1 {
+    fn factor(&self, coefficient: &Polynomial<'_>) -> Result<Term, Error> {
+        let written = self.of_polynomial(coefficient)?;
+        if coefficient.len() > 1 {
             let math = Math::Fenced(Fence::Parentheses, Box::new(written.math));
             let written = Written { text: format!("({})", written.text), math };
             return Ok(Term { negative: false, written });
@@ -259,7 +262,7 @@ impl Term {
     }
 }
 
-/// The sum of terms; 0 where there is none.
+/// The sum of terms; 0 if there is none.
 pub(crate) fn sum(terms: &[Term]) -> Written {
     if terms.is_empty() {
         return Written { text: "0".to_owned(), math: Math::integer(0) };

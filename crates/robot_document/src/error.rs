@@ -93,9 +93,9 @@ pub enum Error {
         /// The left side in text.
         name: String,
         /// What the piece needs.
-        needed: Centimetres,
+        needed: Centimeters,
         /// What there is.
-        available: Centimetres,
+        available: Centimeters,
     },
     /// Parts within parts within parts.
     #[error(
@@ -110,19 +110,19 @@ pub enum Error {
     Symbol(#[from] ReadError),
 }
 
-/// A length in tenths of a millimetre, so that errors can be compared.
+/// A length in tenths of a millimeter, so that errors can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Centimetres(u32);
+pub struct Centimeters(u32);
 
-impl Centimetres {
+impl Centimeters {
     /// A length in printer's points, 72.27 to an inch.
     #[must_use]
-    pub fn from_points(points: f64) -> Centimetres {
-        Centimetres((points * 254.0 / 72.27).ceil() as u32)
+    pub fn from_points(points: f64) -> Centimeters {
+        Centimeters((points * 254.0 / 72.27).ceil() as u32)
     }
 }
 
-impl std::fmt::Display for Centimetres {
+impl std::fmt::Display for Centimeters {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "{:.1}", f64::from(self.0) / 100.0)
     }

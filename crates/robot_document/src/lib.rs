@@ -17,7 +17,7 @@ mod layout;
 mod notation;
 pub mod robot;
 
-pub use error::{Centimetres, Error};
+pub use error::{Centimeters, Error};
 pub use forms::{Equation, EquationOptions, Equations, Form, Group, equations};
 pub use layout::{Order, Rank, SymbolTable, Trigonometry};
 pub use layout::{breaking, math, meaning, width};

@@ -96,7 +96,7 @@ fn read_back<'g>(
             .iter()
             .map(|equation| NumberedEquation { label: None, equation: equation.clone() })
             .collect();
-        let latex = latex::equations(&list, Layout::of_centimetres(width))?;
+        let latex = latex::equations(&list, Layout::of_centimeters(width))?;
         let read = latex::read_equations(&latex).unwrap();
         assert_eq!(read.len(), list.len(), "{latex}");
         for ([left, right], one) in read.iter().zip(&list) {

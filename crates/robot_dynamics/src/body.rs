@@ -1,4 +1,4 @@
-//! A body by its ten inertial parameters, in which driving forces are linear.
+//! A body by its ten inertial parameters, in which joint torques are linear.
 //!
 //! They are the mass m, the first moment h = m c and the inertia tensor I about the origin of a
 //! frame, in the order m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.
@@ -50,10 +50,10 @@ pub(crate) struct Body<'g> {
 impl<'g> Body<'g> {
     /// The link's own, about the origin of its frame.
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> Body<'g> {
-        let centre = link.center_of_mass;
-        let first = centre * link.mass;
+        let center = link.center_of_mass;
+        let first = center * link.mass;
         let identity = Matrix::identity(link.mass.graph());
-        let tensor = link.inertia + identity * first.dot(centre) - Matrix::outer(first, centre);
+        let tensor = link.inertia + identity * first.dot(center) - Matrix::outer(first, center);
         Body { mass: link.mass, first, tensor }
     }
 

@@ -18,7 +18,7 @@ pub struct Derivation<'r, 'g> {
     pub robot: &'r Robot,
     /// The robot in symbols.
     pub mechanism: Mechanism<'g>,
-    /// The economical recursion; `None` where a joint axis depends on parameters, for which it
+    /// The economical recursion; `None` if a joint axis depends on parameters, for which it
     /// cannot be set up: functions then come from the paper's iterations.
     pub recursion: Option<Recursion<'g>>,
     /// Whether pivots of the mass matrix may be small; found when it is asked for.
@@ -66,11 +66,11 @@ impl<'r, 'g> Derivation<'r, 'g> {
         names.iter().map(|name| self.mechanism.graph.symbol(name)).collect()
     }
 
-    /// The paper's driving forces with some variables 0: what stands in where the economical recursion
+    /// The paper's joint torques with some variables 0: what stands in where the economical recursion
     /// cannot be set up.
     pub(crate) fn paper_torques(&self, wrench: bool, zero: &[JointVariable]) -> Vec<Expr<'g>> {
         let effects = Effects { wrench, friction: false };
-        let torques = newton_euler::newton_euler(&self.mechanism, effects).driving_forces;
+        let torques = newton_euler::newton_euler(&self.mechanism, effects).generalized_forces;
         let graph = self.mechanism.graph;
         walk::rebuild(&torques, graph, |name| {
             let variable = JointVariable::parse(name).map(|(variable, _)| variable);

@@ -74,7 +74,7 @@ impl<'g> SymmetricMatrix<'g> {
         self.solve_all(vec![right], pivots).into_iter().flatten().collect()
     }
 
-    /// As [`SymmetricMatrix::solve`], for several right sides, with one factorisation.
+    /// As [`SymmetricMatrix::solve`], for several right sides, with one factorization.
     #[must_use]
     pub fn solve_all(
         mut self,

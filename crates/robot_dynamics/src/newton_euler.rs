@@ -30,8 +30,8 @@ pub struct LinkMotion<'g> {
     pub angular_acceleration: Vector<'g>,
     /// ā: acceleration of the origin, gravity included as an acceleration of the base, m/s².
     pub acceleration: Vector<'g>,
-    /// ā_c: acceleration of the mass centre, equation (8), m/s².
-    pub mass_centre_acceleration: Vector<'g>,
+    /// ā_c: acceleration of the center of mass, equation (8), m/s².
+    pub center_of_mass_acceleration: Vector<'g>,
     /// F̄ = M ā_c, equation (14), N.
     pub force: Vector<'g>,
     /// M̄_c = J* ε̄ + ω̄ × J* ω̄, equation (20), N m.
@@ -54,8 +54,8 @@ pub struct NewtonEuler<'g> {
     pub motions: Vec<LinkMotion<'g>>,
     /// Per link, from the inward iterations.
     pub wrenches: Vec<LinkWrench<'g>>,
-    /// Per coordinate: the generalised driving force, equation (3), N m or N.
-    pub driving_forces: Vec<Expr<'g>>,
+    /// Per coordinate: the generalized force, equation (3), N m or N.
+    pub generalized_forces: Vec<Expr<'g>>,
     kinds: Vec<JointKind>,
 }
 
@@ -64,7 +64,7 @@ pub struct NewtonEuler<'g> {
 pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEuler<'g> {
     let motions = outward(mechanism);
     let wrenches = inward(mechanism, &motions, effects);
-    let mut driving_forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
+    let mut generalized_forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
     let mut kinds = vec![JointKind::Revolute; mechanism.degrees_of_freedom];
     for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
         // (2): the torsor projected on the joint axis, with the drive's own inertia.
@@ -75,10 +75,10 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
         if effects.friction {
             force += friction(&link.friction, link.kind, link.axis, wrench.force, link.velocity);
         }
-        driving_forces[link.coordinate] += force * link.ratio;
+        generalized_forces[link.coordinate] += force * link.ratio;
         kinds[link.coordinate] = link.kind;
     }
-    NewtonEuler { motions, wrenches, driving_forces, kinds }
+    NewtonEuler { motions, wrenches, generalized_forces, kinds }
 }
 
 /// The outward iterations: from the base to the tips.
@@ -121,7 +121,7 @@ fn outward<'g>(mechanism: &Mechanism<'g>) -> Vec<LinkMotion<'g>> {
             angular_velocity: omega,
             angular_acceleration: epsilon,
             acceleration: a,
-            mass_centre_acceleration: a_c,
+            center_of_mass_acceleration: a_c,
             force: a_c * link.mass,                                   // (14)
             moment: inertia * epsilon + omega.cross(inertia * omega), // (20)
         });
@@ -155,9 +155,9 @@ fn inward<'g>(
         };
         wrenches[index] = wrenches[index].plus(own);
         if let Some(parent) = link.parent {
-            let handed = wrenches[index].seen_from(motion.rotation, motion.origin);
+            let in_parent = wrenches[index].seen_from(motion.rotation, motion.origin);
             let rotor = LinkWrench { force: zero, moment: rotor_moment(link, &motions[parent]) };
-            wrenches[parent] = wrenches[parent].plus(handed).plus(rotor);
+            wrenches[parent] = wrenches[parent].plus(in_parent).plus(rotor);
         }
     }
     wrenches
@@ -195,23 +195,23 @@ impl<'g> LinkWrench<'g> {
 /// kind and axis with that velocity, whose contact force F̄_l has the link's axes.
 #[must_use]
 pub fn friction<'g>(
-    figures: &MechanismFriction<'g>,
+    friction: &MechanismFriction<'g>,
     kind: JointKind,
     axis: Vector<'g>,
     contact_force: Vector<'g>,
     velocity: Expr<'g>,
 ) -> Expr<'g> {
-    let sign = figures.sign(velocity);
-    let mut force = figures.viscous * velocity + figures.offset; // (4)
-    if !figures.coulomb.is_zero() {
+    let sign = friction.sign(velocity);
+    let mut force = friction.viscous * velocity + friction.offset; // (4)
+    if !friction.coulomb.is_zero() {
         let across = axis.cross(contact_force).norm();
         let lever = match kind {
-            JointKind::Revolute => figures.spindle_diameter / 2,
+            JointKind::Revolute => friction.spindle_diameter / 2,
             JointKind::Prismatic => velocity.graph().one(),
         };
-        force += figures.coulomb * lever * across * sign; // (5)
+        force += friction.coulomb * lever * across * sign; // (5)
     }
-    let (positive, negative) = (figures.coulomb_positive, figures.coulomb_negative);
+    let (positive, negative) = (friction.coulomb_positive, friction.coulomb_negative);
     // Constant dry friction: the mean with the sign, and half the difference with its square.
     force += (positive + negative) / 2 * sign;
     force + (positive - negative) / 2 * sign * sign
@@ -222,17 +222,17 @@ impl<'g> NewtonEuler<'g> {
     #[must_use]
     pub fn quantities(&self, kind: Kind) -> Vec<Quantity<'g>> {
         let vectors: Vec<Vector<'g>> = match kind {
-            Kind::MassCentreAcceleration => {
-                self.motions.iter().map(|motion| motion.mass_centre_acceleration).collect()
+            Kind::CenterOfMassAcceleration => {
+                self.motions.iter().map(|motion| motion.center_of_mass_acceleration).collect()
             }
             Kind::Force => self.motions.iter().map(|motion| motion.force).collect(),
             Kind::Moment => self.motions.iter().map(|motion| motion.moment).collect(),
             Kind::LinkForce => self.wrenches.iter().map(|wrench| wrench.force).collect(),
             Kind::LinkMoment => self.wrenches.iter().map(|wrench| wrench.moment).collect(),
-            Kind::DrivingForce => return self.driving_force_quantities(),
+            Kind::GeneralizedForce => return self.generalized_force_quantities(),
         };
         let dimension = match kind {
-            Kind::MassCentreAcceleration => Dimension::ACCELERATION,
+            Kind::CenterOfMassAcceleration => Dimension::ACCELERATION,
             Kind::Force | Kind::LinkForce => Dimension::FORCE,
             _ => Dimension::MOMENT,
         };
@@ -246,10 +246,10 @@ impl<'g> NewtonEuler<'g> {
         quantities
     }
 
-    fn driving_force_quantities(&self) -> Vec<Quantity<'g>> {
-        let forces = self.driving_forces.iter().zip(&self.kinds).enumerate();
+    fn generalized_force_quantities(&self) -> Vec<Quantity<'g>> {
+        let forces = self.generalized_forces.iter().zip(&self.kinds).enumerate();
         let quantity = |(index, (value, kind)): (usize, (&Expr<'g>, &JointKind))| Quantity {
-            symbol: Symbol { kind: Kind::DrivingForce, number: index + 1, component: None },
+            symbol: Symbol { kind: Kind::GeneralizedForce, number: index + 1, component: None },
             value: *value,
             dimension: match kind {
                 JointKind::Revolute => Dimension::MOMENT,

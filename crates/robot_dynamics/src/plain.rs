@@ -113,13 +113,13 @@ pub(crate) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> 
     let mechanism = &derivation.mechanism;
     let mut energy = mechanism.graph.zero();
     for (link, pose) in mechanism.links.iter().zip(link_poses(derivation)) {
-        let centre = pose.position + pose.rotation * link.center_of_mass;
-        energy -= link.mass * mechanism.gravity.dot(centre);
+        let center = pose.position + pose.rotation * link.center_of_mass;
+        energy -= link.mass * mechanism.gravity.dot(center);
     }
     energy
 }
 
-/// The shares of the links' inertial parameters and of the rotors in the driving forces.
+/// The shares of the links' inertial parameters and of the rotors in the joint torques.
 pub(crate) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> RegressorColumns<'g> {
     let mechanism = &derivation.mechanism;
     let effects = Effects { wrench: false, friction: false };
@@ -152,7 +152,7 @@ pub(crate) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> RegressorColumns
     }
 }
 
-/// The shares of a wrench on a link in the driving forces.
+/// The shares of a wrench on a link in the joint torques.
 fn column<'g>(
     derivation: &Derivation<'_, 'g>,
     motions: &[LinkMotion<'g>],
@@ -164,8 +164,8 @@ fn column<'g>(
     let mut next = link;
     while let Some(here) = next {
         let (link, motion) = (&mechanism.links[here], &motions[here]);
-        let felt = if link.is_revolute() { wrench.moment } else { wrench.force };
-        column[link.coordinate] += felt.dot(link.axis) * link.ratio;
+        let load = if link.is_revolute() { wrench.moment } else { wrench.force };
+        column[link.coordinate] += load.dot(link.axis) * link.ratio;
         let turned = Wrench {
             force: motion.rotation * wrench.force,
             moment: motion.rotation * wrench.moment,

@@ -18,8 +18,8 @@ pub struct Quantity<'g> {
 /// The quantities that the paper names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
-    /// a_c: acceleration of the mass centre, equation (8).
-    MassCentreAcceleration,
+    /// a_c: acceleration of the center of mass, equation (8).
+    CenterOfMassAcceleration,
     /// F = M a_c, equation (14).
     Force,
     /// M_c = J ε + ω × J ω, equation (20).
@@ -28,31 +28,31 @@ pub enum Kind {
     LinkForce,
     /// M_l: the moment in the joint about the frame's origin, equation (36).
     LinkMoment,
-    /// Q: the generalised driving force, equation (3).
-    DrivingForce,
+    /// Q: the generalized force, equation (3).
+    GeneralizedForce,
 }
 
 impl Kind {
     /// All kinds, in the order in which the paper derives them.
     pub const ALL: [Kind; 6] = [
-        Kind::MassCentreAcceleration,
+        Kind::CenterOfMassAcceleration,
         Kind::Force,
         Kind::Moment,
         Kind::LinkForce,
         Kind::LinkMoment,
-        Kind::DrivingForce,
+        Kind::GeneralizedForce,
     ];
 
     /// The name in text: `a_c`, `F`, `M_c`, `F_l`, `M_l`, `Q`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Kind::MassCentreAcceleration => "a_c",
+            Kind::CenterOfMassAcceleration => "a_c",
             Kind::Force => "F",
             Kind::Moment => "M_c",
             Kind::LinkForce => "F_l",
             Kind::LinkMoment => "M_l",
-            Kind::DrivingForce => "Q",
+            Kind::GeneralizedForce => "Q",
         }
     }
 
@@ -65,7 +65,7 @@ impl Kind {
     /// Whether the quantity is a vector of three components in its link's frame.
     #[must_use]
     pub const fn is_vector(self) -> bool {
-        !matches!(self, Kind::DrivingForce)
+        !matches!(self, Kind::GeneralizedForce)
     }
 }
 

@@ -11,7 +11,7 @@ use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_numeric::Mechanism;
 use robot_numeric::random::{Random, Recipe, State};
-use robot_numeric::robots::{parametrised, robot};
+use robot_numeric::robots::{parameterized, robot};
 use robot_symbolic::{Expr, Graph, Rational, walk};
 
 fn robot_file(name: &str) -> Robot {
@@ -29,7 +29,7 @@ fn robots() -> Vec<(String, Robot)> {
         let recipe = if seed % 2 == 0 { Recipe::serial(joints) } else { Recipe::tree(joints) };
         let recipe = Recipe { drives: seed % 3 == 0, fixed: seed % 4 == 1, ..recipe };
         let random = robot(&mut Random::new(seed), &recipe);
-        robots.push((format!("random {seed}"), parametrised(&random)));
+        robots.push((format!("random {seed}"), parameterized(&random)));
     }
     robots
 }

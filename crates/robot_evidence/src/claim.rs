@@ -32,7 +32,7 @@ pub struct Evidence {
     /// Whether it takes slices of states, and so loops over them.
     pub takes_slices: bool,
     /// Its figures.
-    pub figures: Figures,
+    pub measurements: Measurements,
     /// What it calls that is not looked into, by name, with the number of calls in the code.
     pub calls: Vec<(String, usize)>,
     /// What stands in the way of the claim.
@@ -42,7 +42,7 @@ pub struct Evidence {
 /// Figures of a function together with all that it calls and that is looked into, each counted
 /// once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Figures {
+pub struct Measurements {
     /// Functions: this one, and those that it calls.
     pub functions: usize,
     /// Instructions, padding left out.
@@ -213,11 +213,11 @@ impl Reader<'_> {
     /// The evidence of a function, and the trigonometry that it reaches.
     fn evidence(&self, root: usize, name: &str, takes_slices: bool) -> (Evidence, Vec<usize>) {
         let walk = self.walk(root);
-        let mut figures = Figures {
+        let mut measurements = Measurements {
             functions: walk.functions.len(),
             frame: self.listings[root].frame,
             stack: walk.stack,
-            ..Figures::default()
+            ..Measurements::default()
         };
         let (mut calls, mut violations) = (BTreeMap::<String, usize>::new(), BTreeSet::new());
         if walk.recurs {
@@ -225,9 +225,9 @@ impl Reader<'_> {
         }
         for place in &walk.functions {
             let listing = &self.listings[*place];
-            figures.instructions += listing.instructions;
-            figures.conditional_jumps += listing.conditional_jumps;
-            figures.bytes += listing.bytes;
+            measurements.instructions += listing.instructions;
+            measurements.conditional_jumps += listing.conditional_jumps;
+            measurements.bytes += listing.bytes;
             self.judge(*place, takes_slices, &mut violations);
             for called in &listing.calls {
                 let symbol = match called {
@@ -240,13 +240,13 @@ impl Reader<'_> {
                 *calls.entry(symbol.to_owned()).or_default() += 1;
             }
         }
-        figures.panics =
+        measurements.panics =
             calls.keys().filter(|symbol| Outside::of(symbol) == Outside::Panic).count();
         let nothing_is_claimed = takes_slices && self.profile == Profile::Dev;
         let evidence = Evidence {
             name: name.to_owned(),
             takes_slices,
-            figures,
+            measurements,
             calls: calls.into_iter().collect(),
             violations: if nothing_is_claimed { vec![] } else { violations.into_iter().collect() },
         };
@@ -396,7 +396,7 @@ mod tests {
                 assert!(found.iter().any(is), "{name}, {}: {found:?}", profile.name());
             };
             assert_eq!(of("flat").violations, []);
-            assert_eq!((of("through").violations.len(), of("flat").figures.panics), (0, 0));
+            assert_eq!((of("through").violations.len(), of("flat").measurements.panics), (0, 0));
             has(
                 "bounds",
                 |found| matches!(found, Violation::Panic { symbol, .. } if symbol.contains("bounds")),
@@ -409,16 +409,17 @@ mod tests {
             has("recurs", |found| *found == Violation::Recursion);
             has("by_value", |found| matches!(found, Violation::Indirect { count: 1, .. }));
             assert_eq!(of("many").violations, []);
-            assert!(of("many").figures.conditional_jumps > 0);
-            assert_eq!(of("bounds").figures.panics, 1);
+            assert!(of("many").measurements.conditional_jumps > 0);
+            assert_eq!(of("bounds").measurements.panics, 1);
         }
     }
 
     #[test]
     fn callees_are_counted_once_and_stacks_add_up() {
         let module = broken(Profile::Dev);
-        let [flat, through] = ["Model::flat", "Model::through"]
-            .map(|name| module.functions.iter().find(|found| found.name == name).unwrap().figures);
+        let [flat, through] = ["Model::flat", "Model::through"].map(|name| {
+            module.functions.iter().find(|found| found.name == name).unwrap().measurements
+        });
         assert_eq!((flat.functions, through.functions), (1, 3));
         assert!(through.instructions > flat.instructions && through.bytes > flat.bytes);
         assert!(through.stack >= through.frame + flat.stack);

@@ -17,7 +17,7 @@ const UNKNOWN_CPU: &str = "is not a recognized processor";
 /// How the code is compiled: as Cargo does by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
-    /// `cargo build`: no optimisation, overflow checks, debug assertions.
+    /// `cargo build`: no optimization, overflow checks, debug assertions.
     Dev,
     /// `cargo build --release`: opt-level 3.
     Release,

@@ -26,7 +26,7 @@ mod probe;
 mod thumb;
 mod x86;
 
-pub use claim::{Evidence, Figures, Violation};
+pub use claim::{Evidence, Measurements, Violation};
 pub use compile::{Compiler, Profile};
 pub use error::Error;
 pub use probe::{Probe, Root};
@@ -53,7 +53,7 @@ impl Module {
     /// # Errors
     ///
     /// An object file that cannot be read or is for another processor; one without a root.
-    pub fn of(bytes: &[u8], roots: &[Root], profile: Profile) -> Result<Module, Error> {
+    pub fn read(bytes: &[u8], roots: &[Root], profile: Profile) -> Result<Module, Error> {
         let object = Object::parse(bytes)?;
         claim::module(&object, roots, profile)
     }
@@ -82,7 +82,7 @@ pub fn prove(
     let probe = Probe::new(&programs, source, options)?;
     let compiled = |profile: &Profile| {
         let object = compiler.compile(&probe, *profile)?;
-        let mut module = Module::of(&object, &probe.roots, *profile)?;
+        let mut module = Module::read(&object, &probe.roots, *profile)?;
         if *profile == Profile::Release {
             hold_stack(&mut module, &programs, options);
         }
@@ -98,9 +98,9 @@ fn hold_stack(module: &mut Module, programs: &Programs, options: &Options) {
         let path = format!("Model::{name}");
         let found = module.functions.iter_mut().find(|found| found.name == path);
         if let (Some(limit), Some(found)) = (limit, found)
-            && found.figures.stack > limit
+            && found.measurements.stack > limit
         {
-            found.violations.push(Violation::Stack { bytes: found.figures.stack, limit });
+            found.violations.push(Violation::Stack { bytes: found.measurements.stack, limit });
         }
     }
 }

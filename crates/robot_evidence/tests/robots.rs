@@ -42,7 +42,7 @@ fn assert_estimated(path: &Path, options: &Options, modules: &[Module]) {
         for module in modules {
             let frame = |name: &str| {
                 let of_name = |found: &&Evidence| found.name == format!("Model::{name}");
-                module.functions.iter().find(of_name).map_or(0, |found| found.figures.frame)
+                module.functions.iter().find(of_name).map_or(0, |found| found.measurements.frame)
             };
             let name = &function.name;
             let frames = frame(name) + frame(&format!("{name}_sc"));
@@ -61,9 +61,15 @@ fn assert_flat(path: &Path, module: &Module) {
         .collect();
     assert!(violations.is_empty(), "{}\n{}", module.profile.name(), violations.join("\n"));
     for function in &module.functions {
-        let Evidence { name: function, figures, .. } = function;
-        assert!(figures.instructions > 2 && figures.bytes > 8, "{name}, {function}: {figures:?}");
-        assert!(figures.stack >= figures.frame && figures.frame >= 8, "{name}, {function}");
+        let Evidence { name: function, measurements, .. } = function;
+        assert!(
+            measurements.instructions > 2 && measurements.bytes > 8,
+            "{name}, {function}: {measurements:?}"
+        );
+        assert!(
+            measurements.stack >= measurements.frame && measurements.frame >= 8,
+            "{name}, {function}"
+        );
     }
     assert!(module.functions.iter().any(|function| function.name == "Model::inverse_dynamics"));
 }
@@ -103,7 +109,7 @@ fn every_function_is_flat() {
     for module in &modules {
         assert!(module.functions.len() > 30);
         assert_flat(&path, module);
-        // Zeros are filled in by a call where there are many of them, nowhere else.
+        // Zeros are filled in by a call if there are many of them, nowhere else.
         for function in module.functions.iter().filter(|_| module.profile == Profile::Release) {
             let fills = function.calls.iter().any(|(symbol, _)| symbol.contains("memset"));
             let slices = function.takes_slices;

@@ -17,7 +17,7 @@ pub enum Verdict {
     Triangle([f64; 3], f64),
 }
 
-/// Judges the tensor `[xx, yy, zz, xy, xz, yz]` about the centre of mass.
+/// Judges the tensor `[xx, yy, zz, xy, xz, yz]` about the center of mass.
 #[must_use]
 pub fn judge(tensor: [f64; 6]) -> Verdict {
     let Some(moments) = principal_moments(tensor) else {
@@ -66,7 +66,7 @@ impl Verdict {
     }
 }
 
-/// The eigenvalues of the tensor `[xx, yy, zz, xy, xz, yz]` in ascending order; `None` where all
+/// The eigenvalues of the tensor `[xx, yy, zz, xy, xz, yz]` in ascending order; `None` if all
 /// entries are 0.
 pub(crate) fn principal_moments(tensor: [f64; 6]) -> Option<[f64; 3]> {
     // Scaled, so that no square overflows.

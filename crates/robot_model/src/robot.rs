@@ -20,13 +20,13 @@ pub struct Robot {
     /// Acceleration of gravity in the base frame, m/s²: it points down.
     pub gravity: [Formula; 3],
     /// Constant angles within this many radians of a multiple of π/2 are meant for that multiple;
-    /// `None` where the file does not say.
+    /// `None` if the file does not say.
     pub snap: Option<f64>,
     /// Over which parameters of its links the base parameters are.
     pub base_frames: BaseFrames,
     /// The symbols that stay parameters of equations and code, in the file's order.
     pub parameters: Vec<Parameter>,
-    /// The generalised coordinates q₁ … qₙ.
+    /// The generalized coordinates q₁ … qₙ.
     pub coordinates: Vec<Coordinate>,
     /// The moving links, parents before children.
     pub links: Vec<Link>,
@@ -74,9 +74,9 @@ impl BaseFrames {
 pub struct Payload {
     /// Mass, kg.
     pub mass: String,
-    /// Centre of mass in the carrying frame of the file, m.
+    /// Center of mass in the carrying frame of the file, m.
     pub center_of_mass: [String; 3],
-    /// Tensor about the centre of mass, axes of that frame: xx, yy, zz, xy, xz, yz, kg m².
+    /// Tensor about the center of mass, axes of that frame: xx, yy, zz, xy, xz, yz, kg m².
     pub inertia: [String; 6],
 }
 
@@ -87,7 +87,7 @@ pub struct Parameter {
     pub name: String,
     /// The nominal value, exact, in [`Parameter::unit`].
     pub value: Option<Rational>,
-    /// The unit; `None` where the file gives none.
+    /// The unit; `None` if the file gives none.
     pub unit: Option<Unit>,
     /// How LaTeX prints it, from a small checked grammar.
     pub latex: Option<String>,
@@ -95,12 +95,12 @@ pub struct Parameter {
     pub doc: Option<String>,
 }
 
-/// A generalised coordinate.
+/// A generalized coordinate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coordinate {
     /// The name of the joint that it moves.
     pub joint: String,
-    /// Radians for a rotation, metres for a translation.
+    /// Radians for a rotation, meters for a translation.
     pub kind: JointKind,
     /// Lower and upper limit where the file gives them; they bound test states, nothing else.
     pub limits: Option<[Rational; 2]>,
@@ -161,9 +161,9 @@ pub struct Body {
     pub name: String,
     /// Mass, kg.
     pub mass: Formula,
-    /// The frame in which `inertia` holds: its origin is the centre of mass, in the link's frame.
+    /// The frame in which `inertia` holds: its origin is the center of mass, in the link's frame.
     pub placement: Placement,
-    /// Inertia tensor about the centre of mass, axes of `placement`, kg m².
+    /// Inertia tensor about the center of mass, axes of `placement`, kg m².
     pub inertia: Inertia,
 }
 
@@ -327,7 +327,7 @@ pub struct Wrench {
 }
 
 impl Robot {
-    /// The number of generalised coordinates.
+    /// The number of generalized coordinates.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
         self.coordinates.len()
@@ -350,7 +350,7 @@ impl Robot {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }
 
-    /// The nominal value of the parameter of that name; NaN where it has none, or does not exist.
+    /// The nominal value of the parameter of that name; NaN if it has none, or does not exist.
     #[must_use]
     pub fn nominal_value(&self, name: &str) -> f64 {
         let value = self.parameter(name).and_then(|parameter| parameter.value.as_ref());

@@ -10,16 +10,16 @@ use robot_symbolic::Rational;
 pub struct Unit {
     /// The text in the file, `kg m^2`.
     pub text: String,
-    /// The exponents of kilogram, metre and second; radians are dimensionless.
+    /// The exponents of kilogram, meter and second; radians are dimensionless.
     pub dimension: Dimension,
 }
 
-/// Exponents of kilogram, metre and second.
+/// Exponents of kilogram, meter and second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dimension {
     /// Exponent of the kilogram.
     pub mass: i8,
-    /// Exponent of the metre.
+    /// Exponent of the meter.
     pub length: i8,
     /// Exponent of the second.
     pub time: i8,
@@ -135,7 +135,7 @@ pub enum UnitError {
         span: Range<usize>,
         /// The SI unit to write.
         unit: String,
-        /// The factor by which values are to be multiplied; `None` where it is not rational.
+        /// The factor by which values are to be multiplied; `None` if it is not rational.
         factor: Option<Rational>,
     },
 }

@@ -11,13 +11,13 @@ use robot_model::variable::JointVariable::{Position, Velocity};
 pub struct Energies {
     /// Of the links and rotors.
     pub kinetic: f64,
-    /// −Σ m gᵀ c with the centres of mass c in the base frame: zero at the origin of the base.
+    /// −Σ m gᵀ c with the centers of mass c in the base frame: zero at the origin of the base.
     pub potential: f64,
 }
 
 impl Mechanism {
     /// Kinetic and potential energy at positions q and velocities q̇, summed over the links from the
-    /// velocities of their centres of mass.
+    /// velocities of their centers of mass.
     ///
     /// # Errors
     ///

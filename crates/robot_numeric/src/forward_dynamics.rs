@@ -32,7 +32,7 @@ struct Resistance<T: Number> {
 
 /// Accelerations by the articulated-body algorithm on any numbers, Table 7.1 of R. Featherstone,
 /// "Rigid Body Dynamics Algorithms", 2008; the lengths must be right and each coordinate must drive
-/// one joint. `None` where a joint resists with no inertia.
+/// one joint. `None` if a joint resists with no inertia.
 pub(super) fn articulated_body<T: Number>(
     mechanism: &Mechanism,
     q: &[T],

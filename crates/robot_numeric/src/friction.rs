@@ -34,7 +34,7 @@ pub struct Friction {
     pub viscous: f64,
     /// Coefficient of dry friction c, without unit; its friction grows with the load of the joint.
     pub coulomb: f64,
-    /// Diameter d of the spindle of a rotation, in metres.
+    /// Diameter d of the spindle of a rotation, in meters.
     pub spindle_diameter: f64,
     /// Dry friction that does not depend on the load, C₊ and C₋, each ≥ 0, in N m or N.
     pub constant: [f64; 2],
@@ -95,7 +95,7 @@ pub(super) fn torques(mechanism: &Mechanism, qd: &[f64], loads: &[LinkDynamics])
 }
 
 impl Mechanism {
-    /// Generalised friction forces Q_f (N m or N), to be overcome by the drives, at positions q,
+    /// Generalized friction forces Q_f (N m or N), to be overcome by the drives, at positions q,
     /// velocities q̇ and accelerations q̈, with one wrench for each frame (or none at all).
     ///
     /// # Errors

@@ -121,7 +121,7 @@ impl Evaluation<'_> {
             ratio: self.number(&joint.ratio),
             offset: self.number(&joint.offset),
         };
-        let (mass, centre, inertia) = self.bodies(&link.bodies);
+        let (mass, center, inertia) = self.bodies(&link.bodies);
         let drive = &link.drive;
         let turns = self.number(&drive.gear_ratio);
         // A gyroscopic rotor with a carrier that moves is a link of its own.
@@ -131,7 +131,7 @@ impl Evaluation<'_> {
         Link {
             rotor_inertia: self.number(&drive.armature) + reflected,
             friction: self.friction(&link.friction),
-            ..Link::new(link.parent, self.pose(&link.placement), joint, mass, centre, inertia)
+            ..Link::new(link.parent, self.pose(&link.placement), joint, mass, center, inertia)
         }
     }
 
@@ -153,7 +153,7 @@ impl Evaluation<'_> {
         Link::new(Some(carrier), placement, motion, 0.0, Vector3::zeros(), inertia)
     }
 
-    /// Mass, centre of mass and central inertia of rigidly connected bodies.
+    /// Mass, center of mass and central inertia of rigidly connected bodies.
     fn bodies(&self, bodies: &[robot::Body]) -> (f64, Vector3<f64>, Matrix3<f64>) {
         let parts: Vec<_> = bodies
             .iter()
@@ -165,16 +165,16 @@ impl Evaluation<'_> {
             .collect();
         let mass: f64 = parts.iter().map(|part| part.0).sum();
         let moment: Vector3<f64> = parts.iter().map(|part| part.1 * part.0).sum();
-        let centre = match (parts.as_slice(), mass == 0.0) {
+        let center = match (parts.as_slice(), mass == 0.0) {
             ([single], _) => single.1,
             (_, true) => Vector3::zeros(),
             (_, false) => moment / mass,
         };
-        let inertia = parts.iter().map(|(mass, own_centre, inertia)| {
-            let arm = own_centre - centre;
+        let inertia = parts.iter().map(|(mass, own_center, inertia)| {
+            let arm = own_center - center;
             inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * *mass
         });
-        (mass, centre, inertia.sum())
+        (mass, center, inertia.sum())
     }
 
     /// The tensor in its own axes.

@@ -79,7 +79,7 @@ impl Mechanism {
         Ok(Placements { links, frames })
     }
 
-    /// Centre of mass of all links in the base frame, in metres, weighted by their masses; where
+    /// Center of mass of all links in the base frame, in meters, weighted by their masses; where
     /// the masses sum to zero, no numbers.
     ///
     /// # Errors

@@ -11,7 +11,7 @@
 //!   frame: it points down.
 //! - The frame of a link is its joint frame ([`Link::placement`] in the frame of the parent), moved
 //!   by the joint about or along an axis through its origin.
-//! - Inertia tensors are about the centre of mass, in the axes of the link frame.
+//! - Inertia tensors are about the center of mass, in the axes of the link frame.
 //! - A wrench is what a frame exerts on its surroundings ([`Wrench`]).
 //! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), friction and wrenches only where they are asked for.
 //! - q, q̇, q̈ and τ are slices over the coordinates; matrices have a row for each torque or

@@ -13,7 +13,7 @@ pub enum JointKind {
     Fixed,
     /// A rotation about the axis; the position of the joint is an angle in radians.
     Revolute,
-    /// A translation along the axis; the position of the joint is a distance in metres.
+    /// A translation along the axis; the position of the joint is a distance in meters.
     Prismatic,
 }
 
@@ -88,16 +88,16 @@ pub struct Link {
     pub joint: Joint,
     /// Mass in kilograms.
     pub mass: f64,
-    /// Centre of mass in the link frame, in metres.
+    /// Center of mass in the link frame, in meters.
     pub center_of_mass: Vector3<f64>,
-    /// Inertia tensor about the centre of mass in the axes of the link frame, in kg m²; the
+    /// Inertia tensor about the center of mass in the axes of the link frame, in kg m²; the
     /// elements beside the diagonal are those of the tensor (−∫xy dm).
     pub inertia: Matrix3<f64>,
     /// What the spinning parts of the drive add to the inertia that the joint feels (armature,
     /// N² J), in kg m² or kg: an element of the diagonal of the mass matrix, without gyroscopic
     /// effects.
     pub rotor_inertia: f64,
-    /// Friction in the joint, used where it is asked for.
+    /// Friction in the joint, used if it is asked for.
     pub friction: Friction,
 }
 
@@ -149,7 +149,7 @@ pub struct Frame {
 pub struct Wrench {
     /// Force in newtons.
     pub force: Vector3<f64>,
-    /// Moment about the origin of the frame, in newton metres.
+    /// Moment about the origin of the frame, in newton meters.
     pub moment: Vector3<f64>,
 }
 

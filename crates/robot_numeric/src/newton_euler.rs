@@ -82,7 +82,7 @@ pub(super) fn exerted<T: Number>(mechanism: &Mechanism, wrenches: &[Wrench]) -> 
     forces
 }
 
-/// Generalised forces of the coordinates: what the joints transmit along their axes, and what the
+/// Generalized forces of the coordinates: what the joints transmit along their axes, and what the
 /// rotors take.
 pub(super) fn project<T: Number>(
     mechanism: &Mechanism,
@@ -142,16 +142,16 @@ pub struct LinkDynamics {
     pub angular_acceleration: Vector3<f64>,
     /// Acceleration a of the origin of the link frame, less gravity, m/s².
     pub acceleration: Vector3<f64>,
-    /// Acceleration of the centre of mass, less gravity, m/s²:
+    /// Acceleration of the center of mass, less gravity, m/s²:
     /// a_c = a + ε × r_c + ω × (ω × r_c), equation (8).
     pub center_acceleration: Vector3<f64>,
     /// F = M a_c in newtons, equations (14)-(19).
     pub inertial_force: Vector3<f64>,
-    /// M_c = J ε + ω × J ω in newton metres, about the centre of mass, equations (20)-(24).
+    /// M_c = J ε + ω × J ω in newton meters, about the center of mass, equations (20)-(24).
     pub inertial_moment: Vector3<f64>,
     /// F_l in newtons: what the joint transmits from the parent to the link, equations (26)-(35).
     pub contact_force: Vector3<f64>,
-    /// M_l in newton metres, about the origin of the link frame, equations (36)-(51).
+    /// M_l in newton meters, about the origin of the link frame, equations (36)-(51).
     pub contact_moment: Vector3<f64>,
 }
 

@@ -11,7 +11,7 @@ use super::scalar::Number;
 pub struct Pose<T = f64> {
     /// Rotation matrix whose columns are the axes of B in the axes of A.
     pub rotation: Matrix3<T>,
-    /// Origin of B in A, in metres.
+    /// Origin of B in A, in meters.
     pub translation: Vector3<T>,
 }
 

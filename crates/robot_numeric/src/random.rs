@@ -96,7 +96,7 @@ impl Random {
         Vector3::new(radius * angle.cos(), radius * angle.sin(), z).normalize()
     }
 
-    /// A placement: any rotation (as roll, pitch, yaw), up to half a metre away in each direction.
+    /// A placement: any rotation (as roll, pitch, yaw), up to half a meter away in each direction.
     pub fn pose(&mut self) -> Pose {
         let rpy =
             [self.uniform(-PI, PI), self.uniform(-FRAC_PI_2, FRAC_PI_2), self.uniform(-PI, PI)];
@@ -113,7 +113,7 @@ impl Random {
         pose
     }
 
-    /// The inertia tensor about the centre of mass of a body of the given mass: any box of 2 to
+    /// The inertia tensor about the center of mass of a body of the given mass: any box of 2 to
     /// 30 cm in any orientation, so positive definite and within the triangle inequality.
     pub fn inertia(&mut self, mass: f64) -> Matrix3<f64> {
         let squares = Vector3::from_fn(|_, _| self.uniform(0.02, 0.3).powi(2)) * (mass / 12.0);
@@ -123,7 +123,7 @@ impl Random {
         (tensor + tensor.transpose()) / 2.0
     }
 
-    /// A mechanism: links of 0.2 to 5 kg with offset centres of mass and tilted inertias, joints of
+    /// A mechanism: links of 0.2 to 5 kg with offset centers of mass and tilted inertias, joints of
     /// both kinds about any axes (one in three a coordinate axis, one placement in three at right
     /// angles), gravity in any direction, a frame on the last link, one on a random link.
     pub fn mechanism(&mut self, recipe: &Recipe) -> Mechanism {

@@ -12,7 +12,7 @@ use robot_model::robot::{
     Parameter, Placement, Robot, Wrench,
 };
 
-/// A robot: links of 0.2 to 5 kg with offset mass centres and tilted inertias, joints of both kinds
+/// A robot: links of 0.2 to 5 kg with offset centers of mass and tilted inertias, joints of both kinds
 /// about any axes (half of them coordinate axes; of the placements one in three at right angles),
 /// gravity in any direction, a tip with a wrench on the last link, a frame `sensor` on any link or
 /// on the base.
@@ -25,7 +25,7 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
     let mut coordinates: Vec<Coordinate> = vec![];
     let links: Vec<Link> =
         (0..recipe.joints).map(|index| draw.link(index, &mut coordinates)).collect();
-    let gravity = draw.vector(981).map(|figure| figure.formula(100));
+    let gravity = draw.vector(981).map(|decimal| decimal.formula(100));
     let last = links.len().checked_sub(1);
     let any = draw.random.index(links.len() + 1).checked_sub(1);
     let tip = Wrench {
@@ -54,10 +54,10 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
     }
 }
 
-/// The robot with every mass, mass centre and inertia a parameter that has the figure for its
+/// The robot with every mass, center of mass and inertia a parameter that has the figure for its
 /// nominal value: `m1`, `cx1`, `Ixx1` for the first link's first body, `m1_2` for its second.
 #[must_use]
-pub fn parametrised(robot: &Robot) -> Robot {
+pub fn parameterized(robot: &Robot) -> Robot {
     let mut robot = robot.clone();
     let parameters = &mut robot.parameters;
     let mut replace = |formula: &mut Formula, name: String| {
@@ -72,8 +72,8 @@ pub fn parametrised(robot: &Robot) -> Robot {
         for (part, body) in (1..).zip(&mut link.bodies) {
             let suffix = if part == 1 { number.to_string() } else { format!("{number}_{part}") };
             replace(&mut body.mass, format!("m{suffix}"));
-            if let Some(Move::Translate(centre)) = body.placement.0.first_mut() {
-                for (formula, axis) in centre.iter_mut().zip(["x", "y", "z"]) {
+            if let Some(Move::Translate(center)) = body.placement.0.first_mut() {
+                for (formula, axis) in center.iter_mut().zip(["x", "y", "z"]) {
                     replace(formula, format!("c{axis}{suffix}"));
                 }
             }
@@ -89,9 +89,9 @@ pub fn parametrised(robot: &Robot) -> Robot {
 
 /// An integer that becomes a decimal fraction.
 #[derive(Clone, Copy)]
-struct Figure(i64);
+struct Decimal(i64);
 
-impl Figure {
+impl Decimal {
     fn formula(self, denominator: i64) -> Formula {
         Formula::number(&Rational::new(self.0, denominator).unwrap_or(Rational::ZERO))
     }
@@ -104,8 +104,8 @@ struct Draw<'r> {
 
 impl Draw<'_> {
     /// From −`size` to `size`.
-    fn figure(&mut self, size: i64) -> Figure {
-        Figure(self.between(-size, size))
+    fn decimal(&mut self, size: i64) -> Decimal {
+        Decimal(self.between(-size, size))
     }
 
     fn between(&mut self, low: i64, high: i64) -> i64 {
@@ -113,11 +113,11 @@ impl Draw<'_> {
         low + self.random.index((high - low + 1) as usize) as i64
     }
 
-    fn vector(&mut self, size: i64) -> [Figure; 3] {
-        [0; 3].map(|_| self.figure(size))
+    fn vector(&mut self, size: i64) -> [Decimal; 3] {
+        [0; 3].map(|_| self.decimal(size))
     }
 
-    /// Moved by up to half a metre in each direction and turned by any angles; one time in three
+    /// Moved by up to half a meter in each direction and turned by any angles; one time in three
     /// turned by right angles and moved along some axes only.
     fn placement(&mut self) -> Placement {
         let (xyz, rpy) = if self.random.once_in(3) {
@@ -131,12 +131,12 @@ impl Draw<'_> {
                 let angle = Rational::from_decimal(angle(quarters));
                 Formula::number(&angle.unwrap_or(Rational::ZERO))
             });
-            let xyz = self.vector(500).map(|Figure(n)| Figure(if n % 2 == 0 { 0 } else { n }));
+            let xyz = self.vector(500).map(|Decimal(n)| Decimal(if n % 2 == 0 { 0 } else { n }));
             (xyz, rpy)
         } else {
             (self.vector(500), self.vector(3000).map(|angle| angle.formula(1000)))
         };
-        Placement::from_xyz_rpy(xyz.map(|figure| figure.formula(1000)), rpy)
+        Placement::from_xyz_rpy(xyz.map(|decimal| decimal.formula(1000)), rpy)
     }
 
     fn link(&mut self, index: usize, coordinates: &mut Vec<Coordinate>) -> Link {
@@ -164,22 +164,22 @@ impl Draw<'_> {
     fn joint(&mut self, name: &str, coordinates: &mut Vec<Coordinate>) -> Joint {
         let kind = if self.random.once_in(3) { JointKind::Prismatic } else { JointKind::Revolute };
         let mut axis = self.vector(9);
-        if self.random.once_in(2) || axis.iter().all(|figure| figure.0 == 0) {
-            axis = [Figure(0); 3];
-            axis[self.random.index(3)] = Figure(if self.random.once_in(2) { 1 } else { -1 });
+        if self.random.once_in(2) || axis.iter().all(|decimal| decimal.0 == 0) {
+            axis = [Decimal(0); 3];
+            axis[self.random.index(3)] = Decimal(if self.random.once_in(2) { 1 } else { -1 });
         }
-        let (mut ratio, mut offset) = (Figure(100), Figure(0));
+        let (mut ratio, mut offset) = (Decimal(100), Decimal(0));
         let mut coordinate = coordinates.len();
         if self.recipe.mimic && coordinate > 0 && self.random.once_in(3) {
             coordinate = self.random.index(coordinate);
-            (ratio, offset) = (self.figure(300), self.figure(50));
+            (ratio, offset) = (self.decimal(300), self.decimal(50));
         } else {
             coordinates.push(Coordinate { joint: name.to_owned(), kind, limits: None });
         }
         Joint {
             name: name.to_owned(),
             kind,
-            axis: axis.map(|figure| figure.formula(1)),
+            axis: axis.map(|decimal| decimal.formula(1)),
             coordinate,
             ratio: ratio.formula(100),
             offset: offset.formula(100),
@@ -192,37 +192,37 @@ impl Draw<'_> {
         let mass = self.between(20, 500);
         let squares = [0; 3].map(|_| self.between(20, 300).pow(2) * mass / 12);
         let [x, y, z] = squares;
-        let principal = [y + z, x + z, x + y].map(|entry| Figure(entry).formula(100_000_000));
+        let principal = [y + z, x + z, x + y].map(|entry| Decimal(entry).formula(100_000_000));
         let [xx, yy, zz] = principal;
         let zero = || Formula::number(&Rational::ZERO);
-        let centre = self.vector(300).map(|figure| figure.formula(1000));
+        let center = self.vector(300).map(|decimal| decimal.formula(1000));
         let angles = self.vector(3000).map(|angle| angle.formula(1000));
         Body {
             name: name.to_owned(),
-            mass: Figure(mass).formula(100),
-            placement: Placement::from_xyz_rpy(centre, angles),
+            mass: Decimal(mass).formula(100),
+            placement: Placement::from_xyz_rpy(center, angles),
             inertia: Inertia { xx, yy, zz, xy: zero(), xz: zero(), yz: zero() },
         }
     }
 
     fn friction(&mut self) -> Friction {
-        let mut upto = |size: i64| Figure(self.between(0, size)).formula(1000);
+        let mut upto = |size: i64| Decimal(self.between(0, size)).formula(1000);
         Friction {
             viscous: upto(2000),
             coulomb: upto(300),
             spindle_diameter: upto(100),
             coulomb_positive: upto(1000),
             coulomb_negative: upto(1000),
-            offset: self.figure(200).formula(1000),
-            smoothing: self.random.once_in(3).then(|| Figure(self.between(10, 200)).formula(1000)),
+            offset: self.decimal(200).formula(1000),
+            smoothing: self.random.once_in(3).then(|| Decimal(self.between(10, 200)).formula(1000)),
         }
     }
 
     fn drive(&mut self) -> Drive {
         Drive {
-            armature: Figure(self.between(0, 300)).formula(1000),
-            rotor_inertia: Figure(self.between(0, 30)).formula(100_000),
-            gear_ratio: self.figure(30).formula(1),
+            armature: Decimal(self.between(0, 300)).formula(1000),
+            rotor_inertia: Decimal(self.between(0, 30)).formula(100_000),
+            gear_ratio: self.decimal(30).formula(1),
             gyroscopic: self.random.once_in(2),
         }
     }
@@ -254,7 +254,7 @@ mod tests {
     #[test]
     fn parameters_stand_for_their_figures() {
         let robot = robot(&mut Random::new(5), &everything(6));
-        let with_parameters = parametrised(&robot);
+        let with_parameters = parameterized(&robot);
         assert!(with_parameters.parameters.len() >= 60);
         let plain = Mechanism::nominal(&robot).unwrap();
         assert_eq!(plain, Mechanism::nominal(&with_parameters).unwrap());

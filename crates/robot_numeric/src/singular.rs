@@ -1,4 +1,4 @@
-//! Where the mass matrix is singular: which accelerations no driving forces determine.
+//! Where the mass matrix is singular: which accelerations no joint torques determine.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -11,7 +11,7 @@ const NOTHING: f64 = 1e-13;
 const SHARE: f64 = 1e-4;
 
 impl Mechanism {
-    /// The coordinates, from 0, whose accelerations the driving forces do not determine at q, as the mass
+    /// The coordinates, from 0, whose accelerations the joint torques do not determine at q, as the mass
     /// matrix is singular there; none where it is not.
     ///
     /// # Errors

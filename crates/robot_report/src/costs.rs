@@ -6,19 +6,19 @@ use robot_codegen::{Counts, Module};
 use crate::html::{Element, holding};
 use crate::table::Table;
 
-const FIGURES: [&str; 6] = ["×", "+ −", "÷", "√", "sin, cos", "× + ÷ together"];
+const COLUMNS: [&str; 6] = ["×", "+ −", "÷", "√", "sin, cos", "× + ÷ together"];
 
 /// The operations of each function, at a call and once for each set of parameters.
 pub(crate) fn functions(module: &Module) -> Element {
     let mut columns = vec!["Function"];
-    columns.extend(FIGURES);
+    columns.extend(COLUMNS);
     columns.push("once for the parameters");
     let caption = "Operations of a call of each function; subtractions count as additions, changes \
                    of sign not at all.";
     let mut table = Table::new(caption, columns);
     for function in &module.functions {
         let counts = module.counts(function);
-        let mut cells = figures(&counts.call);
+        let mut cells = count_cells(&counts.call);
         cells.push(counts.constructor.operations().to_string());
         table.row("", holding("code", function.name.as_str()), cells);
     }
@@ -28,11 +28,11 @@ pub(crate) fn functions(module: &Module) -> Element {
 /// What is left of inverse dynamics after each pass.
 pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
     let mut columns = vec!["After"];
-    columns.extend(FIGURES.iter().filter(|name| **name != "sin, cos"));
+    columns.extend(COLUMNS.iter().filter(|name| **name != "sin, cos"));
     let caption = format!("Operations of {function} after each stage of the compiler");
     let mut table = Table::new(&caption, columns);
     for pass in &module.function(function)?.passes {
-        let mut cells = figures(&pass.counts);
+        let mut cells = count_cells(&pass.counts);
         cells.remove(4);
         table.row("", pass.pass, cells);
     }
@@ -64,8 +64,8 @@ pub(crate) fn options(found: &[Ablation], function: &str) -> Option<Element> {
     Some(table.build())
 }
 
-fn figures(counts: &Counts) -> Vec<String> {
+fn count_cells(counts: &Counts) -> Vec<String> {
     let Counts { mul, add, div, sqrt, sin, cos, .. } = *counts;
-    let figures = [mul, add, div, sqrt, sin + cos, counts.operations()];
-    figures.map(|figure| figure.to_string()).to_vec()
+    let count_cells = [mul, add, div, sqrt, sin + cos, counts.operations()];
+    count_cells.map(|value| value.to_string()).to_vec()
 }

@@ -61,7 +61,7 @@ fn profile(module: &Module) -> Element {
         "Stack, bytes",
     ];
     let mut table = Table::new(&format!("Profile {}", module.profile.name()), columns);
-    for Evidence { name, figures, calls, violations, takes_slices } in &module.functions {
+    for Evidence { name, measurements, calls, violations, takes_slices } in &module.functions {
         let claim = match (violations.as_slice(), *takes_slices) {
             ([], false) => "flat".to_owned(),
             ([], true) => "loops over states".to_owned(),
@@ -74,12 +74,12 @@ fn profile(module: &Module) -> Element {
             calls.iter().map(|(symbol, count)| format!("{count} {symbol}")).collect();
         let cells = [
             claim,
-            figures.conditional_jumps.to_string(),
-            figures.panics.to_string(),
+            measurements.conditional_jumps.to_string(),
+            measurements.panics.to_string(),
             calls.join(", "),
-            figures.instructions.to_string(),
-            figures.bytes.to_string(),
-            figures.stack.to_string(),
+            measurements.instructions.to_string(),
+            measurements.bytes.to_string(),
+            measurements.stack.to_string(),
         ];
         table.row("", holding("code", name.as_str()), cells);
     }

@@ -34,7 +34,7 @@ fn of_markup(markup: Markup) -> Element {
 
 /// How the symbols of a robot look.
 pub(crate) struct Symbols {
-    /// `None` where two symbols look alike: then they are shown by their names.
+    /// `None` if two symbols look alike: then they are shown by their names.
     table: Option<SymbolTable>,
 }
 

@@ -1,11 +1,11 @@
-//! Driving forces along a sample trajectory, split by what asks for them.
+//! Joint torques along a sample trajectory, split by what asks for them.
 
 use std::f64::consts::TAU;
 
 use robot_build::Programs;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
-use robot_simulation::{Trajectory, shares};
+use robot_simulation::{Trajectory, torque_contributions};
 
 use crate::html::{Node, holding};
 use crate::plot::{self, Plot};
@@ -20,19 +20,20 @@ const SHARE: f64 = 0.3;
 const SWING: f64 = 0.8;
 const STROKE: f64 = 0.2;
 
-/// Curves of the driving force of each coordinate, and a table of their largest values.
+/// Curves of the joint torque of each coordinate, and a table of their largest values.
 pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     let robot = &programs.robot;
-    let found = match shares(programs, &[], &trajectory(robot), robot.has_friction()) {
-        Ok(shares) => shares,
+    let found = match torque_contributions(programs, &[], &trajectory(robot), robot.has_friction())
+    {
+        Ok(contributions) => contributions,
         Err(error) => {
             let words = format!("There are no curves: {error}");
             return vec![holding("p", words).class("note").into()];
         }
     };
-    let shares = found.named();
+    let contributions = found.named();
     let mut columns = vec!["Coordinate", "Unit"];
-    columns.extend(shares.iter().map(|(name, _)| *name));
+    columns.extend(contributions.iter().map(|(name, _)| *name));
     let mut table = Table::new("The largest magnitudes along the trajectory", columns);
     let mut body = vec![Node::from(holding("p", WORDS))];
     for (index, coordinate) in robot.coordinates.iter().enumerate() {
@@ -43,7 +44,8 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
         let of = |samples: &[Vec<f64>]| -> Vec<f64> {
             samples.iter().filter_map(|sample| sample.get(index).copied()).collect()
         };
-        let curves: Vec<_> = shares.iter().map(|(name, samples)| (*name, of(samples))).collect();
+        let curves: Vec<_> =
+            contributions.iter().map(|(name, samples)| (*name, of(samples))).collect();
         let symbol = text::symbol(&JointVariable::Position.symbol(index));
         let peaks =
             curves.iter().map(|(_, values)| text::number(plot::rounded(plot::peak(values))));

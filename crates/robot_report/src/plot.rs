@@ -1,4 +1,4 @@
-//! Curves over time as SVG, in the colours of the page.
+//! Curves over time as SVG, in the colors of the page.
 
 use nalgebra::Vector2;
 

@@ -1,7 +1,7 @@
 //! Which entries of M(q) and C(q, q̇) are zero, which constant, and which coordinates the others
 //! depend on.
 //!
-//! Entries are exact derivatives of the paper's driving forces: M = ∂Q/∂q̈, and C = ½ ∂Q/∂q̇ at
+//! Entries are exact derivatives of the paper's joint torques: M = ∂Q/∂q̈, and C = ½ ∂Q/∂q̇ at
 //! constant q and q̈, which is C by Christoffel symbols, for C q̇ is a quadratic form in q̇. An entry
 //! does not depend on a coordinate where another value of the coordinate never changes it, at random
 //! values of all symbols.
@@ -30,7 +30,7 @@ const SEED: u64 = 6;
 pub(crate) enum Entry {
     /// It is 0.
     Zero,
-    /// It depends on these coordinates, by index; on parameters alone where there are none.
+    /// It depends on these coordinates, by index; on parameters alone if there are none.
     Of(Vec<usize>),
 }
 
@@ -47,7 +47,7 @@ impl Structure {
         let exact = MechanismOptions::EXACT.with_snap(None, robot);
         let mechanism = Mechanism::new(robot, &graph, &exact);
         let effects = Effects { wrench: false, friction: false };
-        let forces = newton_euler(&mechanism, effects).driving_forces;
+        let forces = newton_euler(&mechanism, effects).generalized_forces;
         let count = forces.len();
         let symbol = |variable: JointVariable, index: usize| graph.symbol(&variable.symbol(index));
         let slopes = |variable| -> Vec<Expr<'_>> {
@@ -68,7 +68,7 @@ impl Structure {
         Structure { mass: matrix(0), coriolis: matrix(1) }
     }
 
-    /// Both matrices as coloured tables.
+    /// Both matrices as colored tables.
     pub(crate) fn build(&self) -> [Element; 2] {
         [
             grid("Mass matrix M(q): the coordinates on which each entry depends", &self.mass),

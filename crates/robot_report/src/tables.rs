@@ -40,7 +40,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
-/// The named frames; `None` where there are none.
+/// The named frames; `None` if there are none.
 pub(crate) fn frames(robot: &Robot) -> Option<Element> {
     let caption = "Frames. A tip exerts the wrench of these components on its surroundings.";
     let mut table = Table::new(caption, ["Frame", "Fixed to", "Place", "Wrench"]);
@@ -71,16 +71,16 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
                 none if none == "none" => "at the link's origin".to_owned(),
                 moves => moves,
             };
-            let cells = [figure(robot, symbols, mass), holding("span", place)]
+            let cells = [value_cell(robot, symbols, mass), holding("span", place)]
                 .into_iter()
-                .chain([xx, yy, zz, xy, xz, yz].map(|entry| figure(robot, symbols, entry)));
+                .chain([xx, yy, zz, xy, xz, yz].map(|entry| value_cell(robot, symbols, entry)));
             table.row(&parts::link(index), name.as_str(), cells);
         }
     }
     table.build()
 }
 
-/// The parameters with values and units; `None` where there are none.
+/// The parameters with values and units; `None` if there are none.
 pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     let caption = "Parameters: symbols of the equations, fields of the generated code.";
     let mut table = Table::new(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);
@@ -102,7 +102,7 @@ pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
 }
 
 /// A formula, its parameters marked, with its nominal value below where it has parameters.
-fn figure(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
+fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
     let shown = element("span").class("figure");
     if formula.is_constant() {
         return shown.with(text::plain(formula));

@@ -53,7 +53,7 @@
 //! | `f32` | ǀxǀ < 2¹⁷ = 131 072 | 8.8e-8 | 7.2e-8 | 1.2 for ǀxǀ ≤ π/4 |
 //!
 //! Held in `f32` against every number of the range, in `f64` against 4·10⁷ random ones, the three
-//! neighbours of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ beyond, and the angles of the range
+//! neighbors of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ beyond, and the angles of the range
 //! that come nearest to one. The last places of `f64` without [`FUSED`] hold up to 2·10⁵; beyond, a sine
 //! or cosine below 10⁻⁵ may be off by 10⁻²¹ more.
 //!

@@ -11,12 +11,12 @@ pub struct State {
     pub qd: Vec<f64>,
 }
 
-/// Forward dynamics: what accelerates under driving forces.
+/// Forward dynamics: what accelerates under joint torques.
 pub trait Dynamics {
     /// n, the number of coordinates.
     fn degrees_of_freedom(&self) -> usize;
 
-    /// The n accelerations q̈ (rad/s² or m/s²) under the n driving forces τ (N m or N).
+    /// The n accelerations q̈ (rad/s² or m/s²) under the n joint torques τ (N m or N).
     ///
     /// # Errors
     ///
@@ -33,7 +33,7 @@ pub trait Dynamics {
         Ok(())
     }
 
-    /// The dry friction that holds joints at rest; `None` where none can. Where there is some, the
+    /// The dry friction that holds joints at rest; `None` if none can. If there is some, the
     /// motion follows it and not [`Dynamics::accelerations`].
     fn dry_friction(&self) -> Option<&dyn DryFriction> {
         None
@@ -56,19 +56,18 @@ pub trait DryFriction {
     /// Where the positions have none.
     fn mass_matrix(&self, q: &[f64]) -> Result<Vec<f64>, Cause>;
 
-    /// The n driving forces (N m or N) that the accelerations `qdd` take, with friction or without it.
+    /// The n joint torques (N m or N) that the accelerations `qdd` take, with friction or without it.
     /// Friction takes the direction of each velocity from its sign, however small it is.
     ///
     /// # Errors
     ///
     /// Where the state has none.
-    fn driving_forces(&self, state: &State, qdd: &[f64], friction: bool)
-    -> Result<Vec<f64>, Cause>;
+    fn joint_torques(&self, state: &State, qdd: &[f64], friction: bool) -> Result<Vec<f64>, Cause>;
 }
 
-/// Driving forces over time.
+/// Joint torques over time.
 pub trait TorqueLaw {
-    /// The n driving forces τ (N m or N) at the time t (s).
+    /// The n joint torques τ (N m or N) at the time t (s).
     fn torques(&self, t: f64, state: &State) -> Vec<f64>;
 
     /// Times, rising, at which the forces or their slopes jump. The integrator steps onto each: no
@@ -84,7 +83,7 @@ pub trait TorqueLaw {
     }
 }
 
-/// Where driving forces change so quickly that a step might miss it; times in s, rising.
+/// Where joint torques change so quickly that a step might miss it; times in s, rising.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
     /// Times just before and just after a jump of the forces or their slopes: a step ends at the first, and

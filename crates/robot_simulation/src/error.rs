@@ -36,7 +36,7 @@ impl Error {
         Error::Input(vec![message.into()])
     }
 
-    /// `value` where there are no messages.
+    /// `value` if there are no messages.
     pub(crate) fn check<T>(messages: Vec<String>, value: T) -> Result<T, Error> {
         if messages.is_empty() { Ok(value) } else { Err(Error::Input(messages)) }
     }
@@ -50,7 +50,7 @@ pub enum Cause {
     StepSize,
     /// The accelerations have no finite value.
     Accelerations,
-    /// The driving forces have no finite value.
+    /// The joint torques have no finite value.
     Torques,
     /// No acceleration agrees with the dry friction that it causes by the load.
     Friction,

@@ -1,4 +1,4 @@
-//! Jumps and short pulses of driving forces that are given by expressions.
+//! Jumps and short pulses of joint torques that are given by expressions.
 //!
 //! The integrator chooses its steps by what it sees at some times within each; what lies between these it
 //! would step over. So parts of the expressions that depend on the time alone are looked at beforehand.
@@ -42,7 +42,7 @@ pub(crate) fn features(
     let times = (0..=looks).map(|look| end * (look as f64 / looks as f64));
     let longest = samples.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     let (mut found, mut stride) = (peaks(&parts, times.clone()), 1);
-    // A pulse that bends too little between neighbouring looks is one between looks farther apart; no step
+    // A pulse that bends too little between neighboring looks is one between looks farther apart; no step
     // is longer than the span between two samples.
     while stride < looks / STRIDE && longest > REACH * stride as f64 * (end / looks as f64) {
         stride *= STRIDE;
@@ -163,7 +163,7 @@ fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
     apart
 }
 
-/// The neighbouring times between which a value's class is no longer what it was at the first.
+/// The neighboring times between which a value's class is no longer what it was at the first.
 fn boundary(parts: &Parts, switch: usize, [mut low, mut high]: [f64; 2], old: f64) -> [f64; 2] {
     loop {
         let middle = low + (high - low) / 2.0;

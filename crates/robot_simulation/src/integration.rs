@@ -105,7 +105,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(())
     }
 
-    /// Goes over a jump of the driving forces: starts anew from the state that was reached, at a time behind
+    /// Goes over a jump of the joint torques: starts anew from the state that was reached, at a time behind
     /// the jump.
     pub(crate) fn jump(&mut self, after: f64) -> Result<(), Error> {
         let t = after.max(self.method.t());

@@ -23,7 +23,7 @@ const PARTS: usize = 4;
 const NEAR: f64 = 1e-9;
 
 /// The first kink of each coordinate. `times` are the samples' and rise; `value` evaluates at a time, and
-/// gives NaN where it cannot.
+/// gives NaN if it cannot.
 pub(crate) fn kinks<'g>(
     q: &[Expr<'g>],
     qd: &[Expr<'g>],
@@ -103,7 +103,7 @@ fn bisected<'g>(
     }
 }
 
-/// The jump of a position or a velocity at a time, where there is one.
+/// The jump of a position or a velocity at a time, if there is one.
 fn jump<'g>(
     coordinate: usize,
     motion: [Expr<'g>; 2],

@@ -2,7 +2,7 @@
 //!
 //! [`simulate`] integrates the motion law q(t), the direct problem (7) of the paper, over any
 //! [`Dynamics`]: the interpreted program of a robot ([`RobotProgram`]), generated code or a closure.
-//! [`fn@shares`] is the inverse problem along a [`Trajectory`], split by cause. Both give series over
+//! [`fn@contributions`] is the inverse problem along a [`Trajectory`], split by cause. Both give series over
 //! time, which [`Table`] writes as CSV and [`plot`] draws.
 //!
 //! ```
@@ -17,6 +17,7 @@
 //! # Ok::<(), robot_simulation::Error>(())
 //! ```
 
+mod contributions;
 mod dynamics;
 mod error;
 mod events;
@@ -29,18 +30,17 @@ mod kinks;
 mod motion;
 pub mod plot;
 mod program;
-mod shares;
 mod simulation;
 mod system;
 mod table;
 mod torques;
 mod trajectory;
 
+pub use contributions::{TorqueContributions, torque_contributions};
 pub use dynamics::{DryFriction, Dynamics, Features, State, TorqueLaw, from_fn};
 pub use error::{Cause, Error};
 pub use motion::{Energies, Motion};
 pub use program::RobotProgram;
-pub use shares::{Shares, shares};
 pub use simulation::{SimulationOptions, simulate};
 pub use table::Table;
 pub use torques::Torques;

@@ -16,7 +16,7 @@ pub struct Motion {
     pub states: Vec<State>,
     /// q̈, rad/s² or m/s².
     pub qdd: Vec<Vec<f64>>,
-    /// The driving forces τ, N m or N.
+    /// The joint torques τ, N m or N.
     pub tau: Vec<Vec<f64>>,
     /// The steps that the integrator took, rejected ones too.
     pub steps: usize,

@@ -65,7 +65,7 @@ impl<'p> RobotProgram<'p> {
         Ok(RobotProgram { robot, interpreter, friction, pivots: None })
     }
 
-    /// The same with the pivots of the robot's mass matrix, so that where there are no accelerations the
+    /// The same with the pivots of the robot's mass matrix, so that if there are no accelerations the
     /// error names the joint.
     #[must_use]
     pub fn with_pivots(self, pivots: Pivots) -> RobotProgram<'p> {
@@ -163,12 +163,7 @@ impl DryFriction for RobotProgram<'_> {
         self.values(FunctionKind::MassMatrix, &[(Position.name(), q)])
     }
 
-    fn driving_forces(
-        &self,
-        state: &State,
-        qdd: &[f64],
-        friction: bool,
-    ) -> Result<Vec<f64>, Cause> {
+    fn joint_torques(&self, state: &State, qdd: &[f64], friction: bool) -> Result<Vec<f64>, Cause> {
         let inputs = [
             (Position.name(), state.q.as_slice()),
             (Velocity.name(), &state.qd),

@@ -31,7 +31,7 @@ impl Default for SimulationOptions {
     }
 }
 
-/// The motion law q(t) from a state under driving forces: the direct problem (7) of the paper.
+/// The motion law q(t) from a state under joint torques: the direct problem (7) of the paper.
 ///
 /// The method is that of Dormand and Prince of order 8 with error estimates of orders 5 and 3
 /// (DOP853; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.10).

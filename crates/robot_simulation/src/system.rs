@@ -11,7 +11,7 @@ use crate::friction::{Balance, Holding, Mode, balance};
 /// How far a velocity may be from 0 where a coordinate comes to rest, rad/s or m/s.
 pub(crate) const REST: f64 = 1e-13;
 
-/// ẏ for y = (q, q̇) under the driving forces.
+/// ẏ for y = (q, q̇) under the joint torques.
 ///
 /// With dry friction y has n entries more: for a coordinate that is held, the velocity that it would
 /// have gained, so that steps are short enough for what is asked of its friction.
@@ -20,7 +20,7 @@ pub(crate) struct System<'s, D, L> {
     torques: &'s L,
     /// Dry friction that holds coordinates at rest.
     pub(crate) friction: Option<&'s dyn DryFriction>,
-    /// The modes of the coordinates, where there is such friction.
+    /// The modes of the coordinates, if there is such friction.
     pub(crate) modes: Vec<Mode>,
     /// The error that is asked of a step.
     tolerance: f64,

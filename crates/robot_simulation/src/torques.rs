@@ -1,4 +1,4 @@
-//! Driving forces over time: none, expressions, tables.
+//! Joint torques over time: none, expressions, tables.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::table::{Table, check_times};
 use crate::{expressions, features};
 
-/// Driving forces over time, N m or N.
+/// Joint torques over time, N m or N.
 #[derive(Clone, Debug)]
 pub struct Torques(Law);
 
@@ -34,7 +34,7 @@ enum Meaning {
 }
 
 impl Torques {
-    /// No driving forces on so many coordinates.
+    /// No joint torques on so many coordinates.
     #[must_use]
     pub fn none(degrees_of_freedom: usize) -> Torques {
         let zero = Formula::number(&robot_symbolic::Rational::ZERO);

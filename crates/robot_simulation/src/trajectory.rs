@@ -24,7 +24,7 @@ pub struct Trajectory {
     /// q̈, rad/s² or m/s².
     pub qdd: Vec<Vec<f64>>,
     /// What the tips exert on their surroundings, force (N) then moment (N m), in the tips' frames,
-    /// one tip after the other; `None` where nothing is said of wrenches.
+    /// one tip after the other; `None` if nothing is said of wrenches.
     pub wrenches: Option<Vec<Vec<f64>>>,
 }
 

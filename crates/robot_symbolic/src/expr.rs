@@ -74,13 +74,13 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// The constant that the expression is, where it is one (π is not a [`Number`]).
+    /// The constant that the expression is, if it is one (π is not a [`Number`]).
     #[must_use]
     pub fn as_number(self) -> Option<Number> {
         self.graph.as_number(self.id)
     }
 
-    /// The symbol that the expression is, where it is one.
+    /// The symbol that the expression is, if it is one.
     #[must_use]
     pub fn as_symbol(self) -> Option<SymbolId> {
         match self.graph.node(self.id) {

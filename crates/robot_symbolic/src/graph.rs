@@ -198,7 +198,7 @@ impl Graph {
         self.expr(id)
     }
 
-    /// The symbol of that name where one has been made.
+    /// The symbol of that name if one has been made.
     #[must_use]
     pub fn find_symbol(&self, name: &str) -> Option<Expr<'_>> {
         self.inner.borrow().symbols.get(name).map(|id| self.expr(*id))

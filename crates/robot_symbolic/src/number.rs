@@ -33,7 +33,7 @@ impl Number {
         }
     }
 
-    /// The exact value where there is one.
+    /// The exact value if there is one.
     #[must_use]
     pub fn as_rational(&self) -> Option<&Rational> {
         match self {

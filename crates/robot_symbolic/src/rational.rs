@@ -41,7 +41,7 @@ impl Rational {
         Rational(Repr::Small { numerator: value, denominator: 1 })
     }
 
-    /// `numerator / denominator`; `None` where the denominator is 0.
+    /// `numerator / denominator`; `None` if the denominator is 0.
     #[must_use]
     pub fn new(numerator: i64, denominator: i64) -> Option<Rational> {
         (denominator != 0).then(|| reduce(i128::from(numerator), i128::from(denominator)))
@@ -49,7 +49,7 @@ impl Rational {
 
     /// The exact value of decimal text as robot files hold it: `12`, `-0.35`, `1.5e-3`.
     ///
-    /// `None` where the text is no finite decimal number, or its exponent is beyond ±400 (no `f64`
+    /// `None` if the text is no finite decimal number, or its exponent is beyond ±400 (no `f64`
     /// is that large or small).
     #[must_use]
     pub fn from_decimal(text: &str) -> Option<Rational> {
@@ -111,7 +111,7 @@ impl Rational {
         }
     }
 
-    /// The value as an integer where it is one and fits.
+    /// The value as an integer if it is one and fits.
     #[must_use]
     pub fn to_integer(&self) -> Option<i64> {
         self.to_small().and_then(|(numerator, denominator)| (denominator == 1).then_some(numerator))

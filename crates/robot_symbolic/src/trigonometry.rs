@@ -123,7 +123,7 @@ impl Graph {
 }
 
 /// `c π = quarters · π/2 + fraction · π` with `quarters` modulo 4 and `0 ≤ fraction < 1/2`.
-/// `None` where the multiple is beyond machine words.
+/// `None` if the multiple is beyond machine words.
 pub(crate) fn quarter_turns(multiple: &Rational) -> Option<(u8, Rational)> {
     let (numerator, denominator) = multiple.to_small()?;
     let twice = numerator.checked_mul(2)?;

@@ -49,8 +49,8 @@ pub fn energies<'g>(mechanism: &Mechanism<'g>, motion: &Motion<'g>) -> (Expr<'g>
             None => (rotation, origin),
         };
         poses.push((rotation, origin));
-        let centre = origin + rotation * link.center_of_mass;
-        let velocity = motion.rate(&centre.0);
+        let center = origin + rotation * link.center_of_mass;
+        let velocity = motion.rate(&center.0);
         let velocity = Vector([velocity[0], velocity[1], velocity[2]]);
         // Rᵀ Ṙ = [ω]× in the link's axes.
         let entries: Vec<_> = rotation.0.iter().flatten().copied().collect();
@@ -61,7 +61,7 @@ pub fn energies<'g>(mechanism: &Mechanism<'g>, motion: &Motion<'g>) -> (Expr<'g>
             + omega.dot(link.inertia * omega)
             + link.reflected_inertia * link.velocity * link.velocity;
         kinetic += squares / 2;
-        potential -= link.mass * mechanism.gravity.dot(centre);
+        potential -= link.mass * mechanism.gravity.dot(center);
     }
     (kinetic, potential)
 }

@@ -120,7 +120,7 @@ pub fn magnitude<'v>(values: impl IntoIterator<Item = &'v f64>) -> f64 {
     values.into_iter().fold(0.0, |size, value| value.abs().max(size))
 }
 
-/// The largest difference of two arrays; infinite where one is NaN.
+/// The largest difference of two arrays; infinite if one is NaN.
 pub fn largest_difference(values: &[f64], reference: &[f64]) -> f64 {
     assert_eq!(values.len(), reference.len());
     let differences = values.iter().zip(reference).map(|(a, b)| (a - b).abs());

@@ -16,7 +16,7 @@ pub fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
             Origin::PreviousNormal,
             Origin::ZeroXz,
             Origin::ZeroYz,
-            Origin::MassCentre,
+            Origin::CenterOfMass,
             Origin::Parent,
         ][random.index(7)],
         turn: [Turn::File, Turn::NextNormal, Turn::FirstMoment][random.index(3)],
@@ -28,7 +28,7 @@ pub fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
         residual: [0; 3].map(|_| random.once_in(3).then(|| Entry::ALL[random.index(8)])),
         free: FreeRate::ALL[random.index(6)],
         composite_sum: random.once_in(2),
-        meeting: random
+        projected_at: random
             .once_in(2)
             .then(|| Place { link: random.index(index + 1), turned: random.once_in(2) }),
     };

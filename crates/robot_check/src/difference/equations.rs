@@ -1,4 +1,4 @@
-//! The terms of the driving forces of two robots.
+//! The terms of the joint torques of two robots.
 
 use std::collections::BTreeMap;
 
@@ -13,24 +13,24 @@ use robot_symbolic::{
 
 use crate::difference::{Options, Refusal};
 
-/// What the expansion of one driving force may cost: a fraction of a second.
+/// What the expansion of one joint torque may cost: a fraction of a second.
 const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 100_000,
     max_products: 1_000_000,
 };
 
-/// Driving forces that are too long after which no further one is expanded: joints farther inward have
+/// Joint torques that are too long after which no further one is expanded: joints farther inward have
 /// longer ones.
 const MAX_REFUSED: usize = 3;
 /// Why it is not.
 const FARTHER_OUT: &str =
     "it is not expanded, for three driving forces farther out are too long already";
 
-/// A driving force whose terms differ.
+/// A joint torque whose terms differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Equation {
-    /// The driving force, `Q1`.
+    /// The joint torque, `Q1`.
     pub name: String,
     /// The terms that appear, vanish or change; why there are none.
     pub terms: Result<Vec<Term>, Refusal>,
@@ -41,11 +41,11 @@ pub struct Equation {
 pub struct Term {
     /// The powers, `m2*l1*qdd1*cos(q2)`; `1` for a constant.
     pub powers: String,
-    /// The exact coefficients as text; `None` where the robot does not have the term.
+    /// The exact coefficients as text; `None` if the robot does not have the term.
     pub coefficients: [Option<String>; 2],
 }
 
-/// The driving forces that differ, without friction, with the wrenches of the tips.
+/// The joint torques that differ, without friction, with the wrenches of the tips.
 pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation> {
     let graph = Graph::new();
     let [of_a, of_b] = &options.code;
@@ -66,7 +66,7 @@ pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation
         if terms.as_ref().is_ok_and(Vec::is_empty) {
             continue;
         }
-        let name = format!("{}{}", Kind::DrivingForce.name(), place + 1);
+        let name = format!("{}{}", Kind::GeneralizedForce.name(), place + 1);
         equations.push(Equation { name, terms });
     }
     equations.reverse();
@@ -77,7 +77,7 @@ fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g
     let exact = MechanismOptions::EXACT.with_snap(snap, robot);
     let mechanism = Mechanism::new(robot, graph, &exact);
     let solution = newton_euler(&mechanism, Effects { wrench: true, friction: false });
-    solution.quantities(Kind::DrivingForce).into_iter().map(|quantity| quantity.value).collect()
+    solution.quantities(Kind::GeneralizedForce).into_iter().map(|quantity| quantity.value).collect()
 }
 
 /// Why an equation has no terms to compare.

@@ -45,7 +45,7 @@ pub struct Item {
     pub properties: Vec<(String, String)>,
 }
 
-/// A property that differs; `None` where it is not said of the item.
+/// A property that differs; `None` if it is not said of the item.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Property {
     /// The name: `mass`, `value`.
@@ -143,13 +143,13 @@ fn link(robot: &Robot, link: &Link) -> Item {
     for body in &link.bodies {
         let prefix =
             if body.name == link.name { String::new() } else { format!("{}: ", body.name) };
-        let of_body = figures(body).into_iter();
+        let of_body = body_properties(body).into_iter();
         properties.extend(of_body.map(|(name, value)| (format!("{prefix}{name}"), value)));
     }
     Item { kind: ItemKind::Link, name: link.name.clone(), properties }
 }
 
-fn figures(body: &Body) -> Vec<(String, String)> {
+fn body_properties(body: &Body) -> Vec<(String, String)> {
     let inertia = &body.inertia;
     vec![
         named("mass", formula(&body.mass)),

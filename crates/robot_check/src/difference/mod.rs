@@ -1,7 +1,7 @@
-//! In what two robots differ: what their files say, the terms of their driving forces, the operations
+//! In what two robots differ: what their files say, the terms of their joint torques, the operations
 //! of their functions, and the torques over a box of states.
 //!
-//! Links, joints, frames and parameters are matched by their names, driving forces by the numbers of
+//! Links, joints, frames and parameters are matched by their names, joint torques by the numbers of
 //! their coordinates, terms by their symbols. The names of the robots and remarks do not count.
 
 mod equations;
@@ -28,7 +28,7 @@ pub struct Options {
     pub states: usize,
 }
 
-/// What could not be compared: why, and the remedy where there is one.
+/// What could not be compared: why, and the remedy if there is one.
 pub type Refusal = String;
 
 /// In what two robots differ.
@@ -39,7 +39,7 @@ pub struct Difference {
     /// Parameters, links, joints and frames that came, went or changed, the first robot's in its order,
     /// then those that came.
     pub changes: Vec<Change>,
-    /// The driving forces whose terms differ, or are too long to be expanded.
+    /// The joint torques whose terms differ, or are too long to be expanded.
     pub equations: Vec<Equation>,
     /// The functions whose operations differ.
     pub operations: Result<Vec<Operations>, Refusal>,

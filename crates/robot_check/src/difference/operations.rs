@@ -10,7 +10,7 @@ use crate::difference::{Options, Refusal};
 pub struct Operations {
     /// The function.
     pub function: String,
-    /// Multiplications, additions and divisions of a call for either robot; `None` where the robot
+    /// Multiplications, additions and divisions of a call for either robot; `None` if the robot
     /// lacks the function.
     pub counts: [Option<usize>; 2],
 }

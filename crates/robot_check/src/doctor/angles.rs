@@ -8,7 +8,7 @@ use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 use robot_model::robot::JointKind;
 
-use super::facts::Patient;
+use super::facts::RobotFacts;
 
 /// Programs that write angles leave noise below this, rad.
 const NOISE: f64 = 1e-6;
@@ -21,15 +21,15 @@ const TURN: f64 = TAU + 1e-3;
 /// Joints with cables turn no more than four times to a side, rad.
 const FOUR_TURNS: f64 = 4.0 * TAU + 1e-3;
 
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    let snap = MechanismOptions::ROUNDED.with_snap(None, patient.robot).snap;
-    for angle in &patient.locations.angles {
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    let snap = MechanismOptions::ROUNDED.with_snap(None, facts.robot).snap;
+    for angle in &facts.locations.angles {
         if angle.value.is_constant() {
             found.extend(placed(angle, snap));
         }
     }
-    for link in &patient.links {
-        let coordinate = patient.robot.coordinates.get(link.link.joint.coordinate);
+    for link in &facts.links {
+        let coordinate = facts.robot.coordinates.get(link.link.joint.coordinate);
         let limits = coordinate.filter(|one| one.kind == JointKind::Revolute);
         let limits = limits.and_then(|one| one.limits.as_ref());
         let (Some(limits), Some(place)) = (limits, &link.place.limits) else { continue };

@@ -3,13 +3,13 @@
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 
-use super::facts::Patient;
+use super::facts::RobotFacts;
 
 /// Programs that write axes leave noise below this, in parts of the length.
 const NOISE: f64 = 1e-6;
 
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    for link in &patient.links {
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    for link in &facts.links {
         let axis = &link.link.joint.axis;
         if !axis.iter().all(robot_symbolic::Formula::is_constant) {
             continue;

@@ -2,7 +2,7 @@
 
 use robot_model::diagnostic::{Diagnostic, code};
 
-use super::facts::{BodyFacts, Patient};
+use super::facts::{BodyFacts, RobotFacts};
 
 /// Two modules of an arm may well be alike; three are rare.
 const ALIKE: usize = 3;
@@ -13,8 +13,8 @@ const MAX_SHOWN: usize = 8;
 
 /// Tensors of figures alone are looked at: a parameter that stands on several links says that they
 /// are meant to be alike.
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    let bodies = patient.links.iter().flat_map(|link| &link.bodies);
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    let bodies = facts.links.iter().flat_map(|link| &link.bodies);
     let bodies: Vec<&BodyFacts<'_>> = bodies
         .filter(|body| {
             let entries = &body.body.inertia.entries();

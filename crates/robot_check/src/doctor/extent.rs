@@ -4,16 +4,16 @@ use nalgebra::Vector3;
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 
-use super::facts::{BodyFacts, LinkFacts, Patient};
+use super::facts::{BodyFacts, LinkFacts, RobotFacts};
 
 /// A body's parts lie at its edge or nearer, and one of its ends is at the link's origin: the mass
-/// centre is then no farther than the size of the link, nor is the radius of gyration larger. Motors
+/// center is then no farther than the size of the link, nor is the radius of gyration larger. Motors
 /// and housings stand over, and links are often longer than the frames on them tell.
 const TIMES: f64 = 3.0;
 
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    let reach = patient.reach();
-    for link in &patient.links {
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    let reach = facts.reach();
+    for link in &facts.links {
         for body in link.bodies.iter().filter(|body| body.is_in_units()) {
             if let Some(size) = too_wide(link, body) {
                 found.push(wide(body, size));
@@ -31,7 +31,7 @@ fn too_wide(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<f64> {
     is_wide.then_some(size)
 }
 
-/// Distance of the centre of mass from the box about the origin and the points on the link, and the
+/// Distance of the center of mass from the box about the origin and the points on the link, and the
 /// size that it is held against: the box's diagonal and the radius of gyration, the robot's reach
 /// where both are 0.
 fn too_far(link: &LinkFacts<'_>, body: &BodyFacts<'_>, reach: f64) -> Option<(f64, f64)> {

@@ -1,4 +1,4 @@
-//! The figures of a robot at its nominal values, with their places; NaN where one has none, so that
+//! The figures of a robot at its nominal values, with their places; NaN if one has none, so that
 //! no comparison with it holds.
 
 use nalgebra::{Matrix3, Vector3};
@@ -9,7 +9,7 @@ use robot_model::robot::{Body, JointKind, Link, Robot};
 use robot_numeric::Evaluation;
 
 /// The robot in numbers.
-pub(super) struct Patient<'d> {
+pub(super) struct RobotFacts<'d> {
     pub(super) robot: &'d Robot,
     pub(super) locations: &'d Locations,
     /// Base components, m/s².
@@ -38,12 +38,12 @@ pub(super) struct BodyFacts<'d> {
     pub(super) mass: f64,
     /// Link components, m.
     pub(super) center: Vector3<f64>,
-    /// About the centre of mass, link axes, kg m².
+    /// About the center of mass, link axes, kg m².
     pub(super) tensor: Matrix3<f64>,
 }
 
-impl<'d> Patient<'d> {
-    pub(super) fn new(described: &'d Described) -> Patient<'d> {
+impl<'d> RobotFacts<'d> {
+    pub(super) fn new(described: &'d Described) -> RobotFacts<'d> {
         let Described { robot, locations, .. } = described;
         let value = |name: &str| robot.nominal_value(name);
         let at = Evaluation { value: &value };
@@ -56,7 +56,7 @@ impl<'d> Patient<'d> {
             arm: at.pose(&link.placement).translation.norm(),
             travel: travel(robot, link),
         });
-        Patient { robot, locations, gravity: at.vector(&robot.gravity), links: links.collect() }
+        RobotFacts { robot, locations, gravity: at.vector(&robot.gravity), links: links.collect() }
     }
 
     /// The sum of the arms, m.
@@ -108,7 +108,7 @@ impl LinkFacts<'_> {
 }
 
 impl BodyFacts<'_> {
-    /// √(∫r² dm / m) about the centre of mass, m: half the trace of the tensor is ∫r² dm.
+    /// √(∫r² dm / m) about the center of mass, m: half the trace of the tensor is ∫r² dm.
     pub(super) fn gyration(&self) -> f64 {
         (self.tensor.trace() / (2.0 * self.mass)).sqrt()
     }
@@ -128,12 +128,12 @@ impl BodyFacts<'_> {
         self.place.mass.as_ref().unwrap_or(&self.place.name)
     }
 
-    /// The place of the centre of mass.
+    /// The place of the center of mass.
     pub(super) fn of_center(&self) -> &Span {
         self.place.center_of_mass.as_ref().unwrap_or(&self.place.name)
     }
 
-    /// Whether mass, centre of mass and inertia are in likely units; what is not so is told by
+    /// Whether mass, center of mass and inertia are in likely units; what is not so is told by
     /// [`super::units`], and nothing else is said of it.
     pub(super) fn is_in_units(&self) -> bool {
         !super::units::is_suspect(self)

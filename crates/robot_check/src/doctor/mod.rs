@@ -18,12 +18,12 @@ mod units;
 use robot_model::description::{self, Described, Options};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity};
 
-use facts::Patient;
+use facts::RobotFacts;
 
 /// What is found in a file.
 #[derive(Clone, Debug)]
 pub struct Examination {
-    /// Errors and warnings; where there are errors, those of the reader alone.
+    /// Errors and warnings; if there are errors, those of the reader alone.
     pub found: Diagnostics,
     /// How the file was taken where its format leaves a choice: notes.
     pub choices: Diagnostics,
@@ -51,27 +51,27 @@ impl Examination {
 #[must_use]
 pub fn examine(described: &Described) -> Examination {
     let Described { warnings, choices, .. } = described;
-    let own = slips(described);
-    let (notes, slips): (Vec<_>, Vec<_>) =
+    let own = mistakes(described);
+    let (notes, mistakes): (Vec<_>, Vec<_>) =
         own.into_iter().partition(|found| found.severity == Severity::Note);
     let joined = |of_reader: &Diagnostics, own: Vec<Diagnostic>| {
         let list = of_reader.iter().cloned().chain(own).collect();
         Diagnostics::new(of_reader.source().clone(), list)
     };
-    Examination { found: joined(warnings, slips), choices: joined(choices, notes) }
+    Examination { found: joined(warnings, mistakes), choices: joined(choices, notes) }
 }
 
 /// The warnings and notes of this module alone.
-fn slips(described: &Described) -> Vec<Diagnostic> {
-    let patient = Patient::new(described);
+fn mistakes(described: &Described) -> Vec<Diagnostic> {
+    let facts = RobotFacts::new(described);
     let mut found = Vec::new();
-    units::check(&patient, &mut found);
-    extent::check(&patient, &mut found);
-    origin::check(&patient, &mut found);
-    copies::check(&patient, &mut found);
-    angles::check(&patient, &mut found);
-    axes::check(&patient, &mut found);
-    motion::check(&patient, &mut found);
+    units::check(&facts, &mut found);
+    extent::check(&facts, &mut found);
+    origin::check(&facts, &mut found);
+    copies::check(&facts, &mut found);
+    angles::check(&facts, &mut found);
+    axes::check(&facts, &mut found);
+    motion::check(&facts, &mut found);
     found
 }
 

@@ -6,25 +6,25 @@ use robot_model::robot::JointKind;
 use robot_numeric::Mechanism;
 use robot_numeric::random::Random;
 
-use super::facts::{LinkFacts, Patient};
+use super::facts::{LinkFacts, RobotFacts};
 
 /// A coordinate with less than this part of the largest inertia has none: rounding is a thousand
 /// times smaller, and the smallest joint of an arm has a millionth.
 const NOTHING: f64 = 1e-12;
 /// Postures that are tried: a joint may move nothing in one of them by chance.
-const POSTURES: usize = 3;
+const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    gravity(patient, found);
-    points(patient, found);
-    idle(patient, found);
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    gravity(facts, found);
+    points(facts, found);
+    idle(facts, found);
 }
 
-fn gravity(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    let gravity = &patient.gravity;
+fn gravity(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    let gravity = &facts.gravity;
     let Some(place) =
-        patient.locations.gravity.as_ref().filter(|_| {
+        facts.locations.gravity.as_ref().filter(|_| {
             gravity.z > 0.0 && gravity.z > gravity.x.abs() && gravity.z > gravity.y.abs()
         })
     else {
@@ -43,13 +43,13 @@ fn gravity(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
 }
 
 /// Bodies that rotate, with mass and without moments of inertia.
-fn points(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    for (index, link) in patient.links.iter().enumerate() {
+fn points(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    for (index, link) in facts.links.iter().enumerate() {
         let is_point = |link: &LinkFacts<'_>| {
             link.bodies.iter().all(|body| body.mass > 0.0 && body.tensor.norm() == 0.0)
         };
         let Some(body) = link.bodies.first().filter(|_| is_point(link)) else { continue };
-        if !rotates(patient, index) {
+        if !rotates(facts, index) {
             continue;
         }
         let message = format!("`{}` has mass and no moments of inertia", body.body.name);
@@ -64,9 +64,9 @@ fn points(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
 }
 
 /// Whether a joint turns the link.
-fn rotates(patient: &Patient<'_>, index: usize) -> bool {
+fn rotates(facts: &RobotFacts<'_>, index: usize) -> bool {
     let mut next = Some(index);
-    while let Some(link) = next.and_then(|index| patient.robot.links.get(index)) {
+    while let Some(link) = next.and_then(|index| facts.robot.links.get(index)) {
         if link.joint.kind == JointKind::Revolute {
             return true;
         }
@@ -76,13 +76,13 @@ fn rotates(patient: &Patient<'_>, index: usize) -> bool {
 }
 
 /// Coordinates whose inertia is 0 in every posture.
-fn idle(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    let Ok(mechanism) = Mechanism::nominal(patient.robot) else {
+fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    let Ok(mechanism) = Mechanism::nominal(facts.robot) else {
         return;
     };
     let mut random = Random::new(SEED);
     let mut largest = vec![0.0_f64; mechanism.coordinates()];
-    for _ in 0..POSTURES {
+    for _ in 0..CONFIGURATIONS {
         let Ok(matrix) = mechanism.mass_matrix(&random.state(&mechanism).q) else {
             return;
         };
@@ -91,11 +91,11 @@ fn idle(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
         }
     }
     let most = largest.iter().copied().fold(0.0, f64::max);
-    for (index, (coordinate, own)) in patient.robot.coordinates.iter().zip(&largest).enumerate() {
+    for (index, (coordinate, own)) in facts.robot.coordinates.iter().zip(&largest).enumerate() {
         if *own > NOTHING * most {
             continue;
         }
-        let place = place(patient, index);
+        let place = place(facts, index);
         let message = format!("the joint `{}` moves nothing that has mass", coordinate.joint);
         found.push(
             Diagnostic::warning(code::MOVES_NOTHING, message)
@@ -106,8 +106,8 @@ fn idle(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-fn place(patient: &Patient<'_>, coordinate: usize) -> Span {
-    let links = patient.links.iter();
+fn place(facts: &RobotFacts<'_>, coordinate: usize) -> Span {
+    let links = facts.links.iter();
     let mut moved = links.filter(|link| link.link.joint.coordinate == coordinate);
     moved.next().map(|link| link.place.joint.clone()).unwrap_or_default()
 }

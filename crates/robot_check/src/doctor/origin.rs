@@ -1,18 +1,18 @@
-//! Tensors about the origin of the link's frame that are given as about the centre of mass.
+//! Tensors about the origin of the link's frame that are given as about the center of mass.
 
 use nalgebra::{Matrix3, Vector3};
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 use robot_model::physics::{Verdict, judge};
 
-use super::facts::{BodyFacts, LinkFacts, Patient};
+use super::facts::{BodyFacts, LinkFacts, RobotFacts};
 
-/// A link reaches from its origin to a point that lies so much farther than its centre of mass, or
+/// A link reaches from its origin to a point that lies so much farther than its center of mass, or
 /// to nothing that the file knows; of others the two ends are not known.
 const BETWEEN: f64 = 1.2;
 
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    for link in &patient.links {
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    for link in &facts.links {
         let [body] = link.bodies.as_slice() else { continue };
         if let Some(spread) = about_origin(link, body) {
             found.push(suspicion(body, spread));
@@ -20,11 +20,11 @@ pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Standard deviation of the mass along the line from the origin to the centre of mass, and the
+/// Standard deviation of the mass along the line from the origin to the center of mass, and the
 /// largest that it can have, m, where it has more and would not have it if the tensor were about
 /// the origin.
 ///
-/// Of a mass between the points a and b of a line, with its centre at c, the variance is at most
+/// Of a mass between the points a and b of a line, with its center at c, the variance is at most
 /// (c − a)(b − c) (Bhatia and Davis 2000). The body reaches from the link's origin to the farthest
 /// point on the link, and over both by the radius of the cylinder that has its moment about the
 /// line. About the origin the variance has c² more: a rod from the origin to 2c has c²/3, and seems

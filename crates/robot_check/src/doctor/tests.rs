@@ -8,10 +8,10 @@ fn codes(text: &str) -> Vec<&'static str> {
 }
 
 /// A link of 0.4 m with these figures, and a hand on it.
-fn arm(figures: &str) -> String {
+fn arm(keys: &str) -> String {
     format!(
         "format = 1\n[robot]\nname = \"arm\"\n\
-         [[link]]\nname = \"rod\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n{figures}\n\
+         [[link]]\nname = \"rod\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n{keys}\n\
          [[link]]\nname = \"hand\"\njoint = {{ type = \"revolute\", axis = \"y\" }}\n\
          origin = {{ xyz = [0.4, 0, 0] }}\nmass = 1\ncenter_of_mass = [0.05, 0, 0]\n\
          inertia = {{ xx = 0.001, yy = 0.002, zz = 0.002 }}\n"
@@ -19,7 +19,7 @@ fn arm(figures: &str) -> String {
 }
 
 /// A cylinder of that mass from the origin to (0.4, 0, 0), radius 3 cm, every moment times `scale`,
-/// its tensor about the centre of mass or, wrongly, the origin.
+/// its tensor about the center of mass or, wrongly, the origin.
 fn rod(mass: f64, scale: f64, about_origin: bool) -> String {
     let (length, radius): (f64, f64) = (0.4, 0.03);
     let axial = mass * radius * radius / 2.0;
@@ -57,7 +57,7 @@ fn a_tensor_about_the_origin_is_told() {
 }
 
 #[test]
-fn centres_of_mass_are_looked_for_at_the_link() {
+fn centers_of_mass_are_looked_for_at_the_link() {
     let at = |x: &str| rod(2.0, 1.0, false).replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
     assert_eq!(codes(&at("0.8")), [""; 0]);
     assert_eq!(codes(&at("20")), [code::CENTER_FAR]);
@@ -161,7 +161,7 @@ fn joints_that_move_nothing_are_told() {
 }
 
 /// A link of that length with a body that lies in `[from, to]` along it, of a rectangular section,
-/// uniform; its tensor about the centre of mass or, wrongly, the origin.
+/// uniform; its tensor about the center of mass or, wrongly, the origin.
 fn beam(
     length: f64,
     [from, to]: [f64; 2],
@@ -175,11 +175,11 @@ fn beam(
     let steiner = if about_origin { mass * center * center } else { 0.0 };
     let (xx, yy, zz) =
         (moment(width, height), moment(own, height) + steiner, moment(own, width) + steiner);
-    let figures = format!(
+    let keys = format!(
         "mass = {mass:?}\ncenter_of_mass = [{center:?}, 0, 0]\n\
          inertia = {{ xx = {xx:?}, yy = {yy:?}, zz = {zz:?} }}"
     );
-    arm(&figures).replace("xyz = [0.4, 0, 0]", &format!("xyz = [{length:?}, 0, 0]"))
+    arm(&keys).replace("xyz = [0.4, 0, 0]", &format!("xyz = [{length:?}, 0, 0]"))
 }
 
 /// What is uniform, of matter, and lies between the ends of its link gives no warning, whatever its

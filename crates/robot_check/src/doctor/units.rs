@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, Span, code};
 
-use super::facts::{BodyFacts, Patient};
+use super::facts::{BodyFacts, RobotFacts};
 
 /// The radius of gyration of a rod of 10 m is 2.9 m; the largest industrial arms reach 5 m.
 const WIDEST: f64 = 3.0;
@@ -20,8 +20,8 @@ const HEAVIEST: f64 = 30.0;
 const MOMENTS: &[(&str, f64)] =
     &[("g m^2", 1e-3), ("kg cm^2", 1e-4), ("kg mm^2", 1e-6), ("g cm^2", 1e-7), ("g mm^2", 1e-9)];
 
-pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
-    for link in &patient.links {
+pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    for link in &facts.links {
         if link.arm > LONGEST {
             let place = link.place.origin.as_ref().unwrap_or(&link.place.name);
             found.push(long("the frame of", &link.link.name, link.arm, place));
@@ -41,9 +41,9 @@ pub(super) fn check(patient: &Patient<'_>, found: &mut Vec<Diagnostic>) {
             }
         }
     }
-    let gravity = patient.gravity.norm();
+    let gravity = facts.gravity.norm();
     if gravity > HEAVIEST {
-        let place = patient.locations.gravity.as_ref().unwrap_or(&patient.locations.name);
+        let place = facts.locations.gravity.as_ref().unwrap_or(&facts.locations.name);
         let message = format!("gravity is {} m/s^2", significant(gravity));
         found.push(
             Diagnostic::warning(code::UNITS, message)

@@ -9,7 +9,7 @@ use robot_symbolic::View;
 
 use super::term::Term;
 
-/// The dimension of every symbol of a robot; `None` where the file gives no unit.
+/// The dimension of every symbol of a robot; `None` if the file gives no unit.
 pub(super) struct Dimensions {
     symbols: BTreeMap<String, Option<Dimension>>,
 }
@@ -39,7 +39,7 @@ impl Dimensions {
         Dimensions { symbols }
     }
 
-    /// The dimension of a term: of the product of its symbols' powers; `None` where one of them has
+    /// The dimension of a term: of the product of its symbols' powers; `None` if one of them has
     /// no unit.
     ///
     /// # Errors

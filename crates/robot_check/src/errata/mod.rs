@@ -10,8 +10,8 @@ mod dimension;
 mod entries;
 mod evidence;
 mod latex;
+mod mistake;
 mod printed;
-mod slip;
 mod symbols;
 mod term;
 #[cfg(test)]
@@ -25,6 +25,7 @@ use robot_symbolic::{AngleSums, Expr, Graph, PolynomialOptions, walk};
 use dimension::Dimensions;
 pub use evidence::Evidence;
 use evidence::PrintedTerms;
+pub use mistake::{Mistake, MistakeKind};
 pub use printed::Notation;
 use printed::{PrintedEquation, read_printed};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -33,7 +34,6 @@ use robot_dynamics::quantity::{Kind, Quantity};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code, quote};
 use robot_model::robot::Robot;
 use robot_model::unit::Dimension;
-pub use slip::{Slip, SlipKind};
 use symbols::Symbols;
 use term::Term;
 
@@ -66,14 +66,14 @@ pub struct Difference {
     pub quantity: String,
     /// The line of the equation in the file.
     pub line: usize,
-    /// The printed term, canonical; `None` where a derived term is not in print.
+    /// The printed term, canonical; `None` if a derived term is not in print.
     pub printed: Option<String>,
-    /// The derived term, canonical; `None` where a printed term has no counterpart.
+    /// The derived term, canonical; `None` if a printed term has no counterpart.
     pub derived: Option<String>,
     /// For a printed term without counterpart, the derived term that it resembles most.
     pub nearest: Option<String>,
     /// In what the printed term differs from the derived one; never empty.
-    pub slips: Vec<Slip>,
+    pub mistakes: Vec<Mistake>,
     /// What speaks against the printed term or for the derived one, without the derivation.
     pub evidence: Vec<Evidence>,
 }
@@ -89,14 +89,14 @@ pub struct Comparison {
     pub terms: usize,
     /// Whether the derived equations have the wrenches of the tips: where any printed one has.
     pub wrench: bool,
-    /// Where they differ, in the order of the print.
+    /// The differences, in the order of print.
     pub differences: Vec<Difference>,
 }
 
 /// Compares printed equations with the paper's iterations for a robot, without friction, and without
 /// the wrenches of tips where none of the equations has any of their symbols.
 ///
-/// An equation is `(number) quantity = terms`, the number left out where there is none. In infix text
+/// An equation is `(number) quantity = terms`, the number left out if there is none. In infix text
 /// it stands on a line, continued by indented lines; `#` begins a comment line. In LaTeX it stands
 /// likewise on a line, or in a display (`equation`, `align` …), all else being prose; a vector may be
 /// a column of three rows.
@@ -119,7 +119,7 @@ pub fn compare(
         let solution = newton_euler::newton_euler(&mechanism, effects);
         Kind::ALL.iter().flat_map(|kind| solution.quantities(*kind)).collect()
     };
-    let notation = options.notation.unwrap_or_else(|| Notation::of(&source.text));
+    let notation = options.notation.unwrap_or_else(|| Notation::detect(&source.text));
     let symbols = {
         let quantities = quantities(true);
         let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
@@ -303,7 +303,7 @@ impl<'g> Compared<'_, 'g> {
             printed: printed.map(Term::to_string),
             derived: derived.map(Term::to_string),
             nearest: nearest.map(Term::to_string),
-            slips: slip::slips(printed, derived),
+            mistakes: mistake::mistakes(printed, derived),
             evidence,
         }
     }

@@ -22,7 +22,7 @@ pub enum Notation {
 impl Notation {
     /// What a text looks like: infix text has no backslash but in comments.
     #[must_use]
-    pub fn of(text: &str) -> Notation {
+    pub fn detect(text: &str) -> Notation {
         let mut lines = text.lines().filter(|line| !line.trim_start().starts_with('#'));
         if lines.any(|line| line.contains('\\')) { Notation::Latex } else { Notation::Text }
     }
@@ -31,7 +31,7 @@ impl Notation {
 /// A printed equation: one scalar quantity and what the print says it is.
 #[derive(Clone, Debug)]
 pub(super) struct PrintedEquation {
-    /// The equation's number in print, without parentheses; empty where it has none.
+    /// The equation's number in print, without parentheses; empty if it has none.
     pub(super) number: String,
     /// The quantity on the left: `M_l4.z`, `Q1`.
     pub(super) quantity: String,
@@ -44,7 +44,7 @@ pub(super) struct PrintedEquation {
 /// The equations of a text.
 ///
 /// In text, comment lines start with `#`, and a line that starts with a space continues the one
-/// before. In LaTeX comments start with `%`; where there are displayed equations, all else is prose.
+/// before. In LaTeX comments start with `%`; if there are displayed equations, all else is prose.
 ///
 /// # Errors
 ///
@@ -216,7 +216,7 @@ fn operand_length(bytes: &[u8], start: usize) -> usize {
             let signed = matches!(bytes.get(exponent), Some(b'e' | b'E'));
             let sign = usize::from(matches!(bytes.get(exponent + 1), Some(b'+' | b'-')));
             match run(exponent + 1 + sign, u8::is_ascii_digit) {
-                figures @ 1.. if signed => digits + 1 + sign + figures,
+                length @ 1.. if signed => digits + 1 + sign + length,
                 _ => digits,
             }
         }
@@ -231,7 +231,7 @@ mod tests {
 
     fn read(text: &str) -> Result<Vec<PrintedEquation>, Vec<Diagnostic>> {
         let source = Source { name: "printed".to_owned(), text: text.to_owned() };
-        read_printed(&source, Notation::of(text), &Symbols::default())
+        read_printed(&source, Notation::detect(text), &Symbols::default())
     }
 
     fn texts(equation: &PrintedEquation) -> Vec<&str> {

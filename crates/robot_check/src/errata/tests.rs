@@ -57,7 +57,7 @@ fn terms_without_a_value_are_errors_at_their_place() {
 }
 
 #[test]
-fn every_kind_of_slip_is_told() {
+fn every_kind_of_mistake_is_reported() {
     let cases = [
         (3, "", "missing term"),
         (3, "- m2*l1*r2*cos(q2)*qdd1", "sign"),
@@ -74,15 +74,15 @@ fn every_kind_of_slip_is_told() {
         (3, "+ m2*l1*r2*sin(q1)*qdd1", "factor: sin(q1) for cos(q2)"),
         (3, "+ m2*q1*r2*cos(q2)*qdd1", "factor: q1 for l1"),
     ];
-    for (place, wrong, slip) in cases {
+    for (place, wrong, mistake) in cases {
         let found = spoilt(TERMS[place], wrong);
         assert_eq!(found.len(), 1, "{wrong}: {found:?}");
-        let slips: Vec<String> = found[0].slips.iter().map(Slip::to_string).collect();
-        assert_eq!(slips, [slip], "{wrong}");
+        let mistakes: Vec<String> = found[0].mistakes.iter().map(Mistake::to_string).collect();
+        assert_eq!(mistakes, [mistake], "{wrong}");
         assert_eq!((found[0].number.as_str(), found[0].line), ("2", 1));
     }
     let extra = spoilt(TERMS[6], "+ I2*(qdd1 + qdd2) + m2*l1*r2*cos(q2)*qdd2");
-    assert_eq!((extra.len(), extra[0].slips[0].kind), (1, SlipKind::ExtraTerm));
+    assert_eq!((extra.len(), extra[0].mistakes[0].kind), (1, MistakeKind::ExtraTerm));
     assert_eq!(extra[0].nearest.as_deref(), Some("qdd1*l1*r2*m2*cos(q2)"));
 }
 
@@ -91,7 +91,7 @@ fn like_terms_may_be_printed_apart() {
     // One of two like terms is right: the other alone is told.
     let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + 2*m2*r2^2*qdd1");
     let [extra] = &found[..] else { panic!("{found:?}") };
-    assert_eq!(extra.slips[0].kind, SlipKind::ExtraTerm);
+    assert_eq!(extra.mistakes[0].kind, MistakeKind::ExtraTerm);
     assert_eq!((extra.printed.as_deref(), &extra.derived), (Some("2*qdd1*r2^2*m2"), &None));
     // Nothing of this kind is derived, and the sum is nothing.
     assert_eq!(spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - m1*r1^2*qdd2"), []);
@@ -101,7 +101,7 @@ fn like_terms_may_be_printed_apart() {
 
 /// Every term of an equation spoilt in every way: what differs is told, with a slip.
 #[test]
-fn no_difference_is_without_a_slip() {
+fn no_difference_is_without_a_mistake() {
     let ways =
         ["0*({})", "-({})", "2*({})", "({})/2 + ({})/3", "({})*qd2", "({})*m1 + {}", "{} - 3*({})"];
     for term in TERMS {
@@ -110,7 +110,7 @@ fn no_difference_is_without_a_slip() {
             let found = spoilt(term, &format!("+ {}", way.replace("{}", bare)).replace("+ -", "-"));
             assert!(!found.is_empty(), "{term}, {way}");
             for one in found {
-                assert!(!one.slips.is_empty(), "{term}, {way}: {one:?}");
+                assert!(!one.mistakes.is_empty(), "{term}, {way}: {one:?}");
                 assert_ne!(one.printed, one.derived, "{term}, {way}");
             }
         }
@@ -123,15 +123,15 @@ fn no_difference_is_without_a_slip() {
 fn a_coefficient_counts_in_what_a_term_resembles() {
     let others = "m1*g*r1*cos(q1) + m1*r1^2*qdd1 + I1*qdd1 + m2*g*l1*cos(q1) + m2*g*r2*cos(q1 + q2) \
         + m2*l1^2*qdd1 - m2*l1*r2*sin(q2)*(2*qd1*qd2 + qd2^2) + (m2*r2^2 + I2)*(qdd1 + qdd2)";
-    let slips = |term: &str| -> Vec<String> {
+    let mistakes = |term: &str| -> Vec<String> {
         let found = compared(&robot("planar_2r"), &format!("Q1 = {others} + {term}")).unwrap();
-        found.differences.iter().flat_map(|one| &one.slips).map(Slip::to_string).collect()
+        found.differences.iter().flat_map(|one| &one.mistakes).map(Mistake::to_string).collect()
     };
     let right = "2*m2*l1*r2*cos(q2)*qdd1 + m2*l1*r2*cos(q2)*qdd2";
-    assert_eq!(slips(right), Vec::<String>::new());
+    assert_eq!(mistakes(right), Vec::<String>::new());
     let (first, second) = ("2*m2*l1*r2*cos(q2)*q1", "m2*l1*r2*cos(q2)*q1");
-    assert_eq!(slips(first), ["dot: q1 for qdd1", "missing term"]);
-    assert_eq!(slips(second), ["factor: q1 for qdd2", "missing term"]);
+    assert_eq!(mistakes(first), ["dot: q1 for qdd1", "missing term"]);
+    assert_eq!(mistakes(second), ["factor: q1 for qdd2", "missing term"]);
 }
 
 #[test]
@@ -195,13 +195,13 @@ fn latex_is_compared_as_text_is() {
 \end{align}";
     let found = compared(&robot, text).unwrap();
     assert_eq!((found.equations, found.differences.len()), (4, 1), "{found:#?}");
-    assert_eq!(found.differences[0].slips[0].to_string(), "dot: qd1 for qdd1");
+    assert_eq!(found.differences[0].mistakes[0].to_string(), "dot: qd1 for qdd1");
     assert_eq!((found.differences[0].number.as_str(), found.differences[0].line), ("31", 2));
 }
 
 /// `Q_2`, `Q_m^2` and `\tau_2` are the second joint's generalized force.
 #[test]
-fn a_driving_force_is_known_by_its_usual_letters() {
+fn a_generalized_force_is_known_by_its_usual_letters() {
     let right = r"(m_2 r_2^2 + I_2) (\ddot q_1 + \ddot q_2) + m_2 l_1 r_2 \cos q_2 \ddot q_1
         + m_2 l_1 r_2 \sin q_2 \dot q_1^2 + m_2 g r_2 \cos(q_1 + q_2)";
     for left in ["Q_{2}", "Q_m^2", r"\tau_2"] {

@@ -87,18 +87,18 @@ fn plain(robot: &Robot, set: &BaseSet) -> String {
 /// "value": …}, …]}`
 fn json(robot: &Robot, set: &BaseSet) -> String {
     let entry = |entry: &BaseEntry| {
-        let figures: Map<String, Value> = entry
-            .figures
+        let coefficients: Map<String, Value> = entry
+            .coefficients
             .iter()
-            .filter_map(|(column, figure)| {
-                Some((set.standard.get(*column)?.clone(), Value::String(figure.clone())))
+            .filter_map(|(column, coefficient)| {
+                Some((set.standard.get(*column)?.clone(), Value::String(coefficient.clone())))
             })
             .collect();
         json!({
             "name": entry.name,
             "column": entry.column,
             "formula": entry.formula.text,
-            "figures": figures,
+            "figures": coefficients,
             "value": entry.value.text,
         })
     };

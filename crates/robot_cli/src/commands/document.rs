@@ -9,7 +9,7 @@ use robot_document::{latex, latex::Page, typst};
 
 use crate::Terminal;
 use crate::delivery::{Delivery, ForceArgument};
-use crate::displayed::centimetres;
+use crate::displayed::centimeters;
 use crate::failure::Failure;
 use crate::forms::{EquationArguments, FormName, failed};
 use crate::robot::RobotArgument;
@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
     columns: u8,
     /// The width of a column, such as 8.5cm; without this what fits A4
-    #[arg(long, value_name = "WIDTH", value_parser = centimetres, allow_hyphen_values = true)]
+    #[arg(long, value_name = "WIDTH", value_parser = centimeters, allow_hyphen_values = true)]
     width: Option<f64>,
     /// The file to write; standard output without this, or where it is `-`
     #[arg(short, long, value_name = "FILE", value_parser = source_path)]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use robot_evidence::{Compiler, Evidence, Figures, Module, Profile, prove};
+use robot_evidence::{Compiler, Evidence, Measurements, Module, Profile, prove};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -104,22 +104,22 @@ impl From<ProfileName> for Profile {
 }
 
 /// A named figure.
-type Figure = (&'static str, fn(&Figures) -> u64);
+type Column = (&'static str, fn(&Measurements) -> u64);
 
-const FIGURES: [Figure; 7] = [
-    ("functions", |figures| figures.functions as u64),
-    ("instructions", |figures| figures.instructions as u64),
-    ("jumps", |figures| figures.conditional_jumps as u64),
-    ("panics", |figures| figures.panics as u64),
-    ("frame", |figures| figures.frame),
-    ("stack", |figures| figures.stack),
-    ("bytes", |figures| figures.bytes as u64),
+const COLUMNS: [Column; 7] = [
+    ("functions", |measurements| measurements.functions as u64),
+    ("instructions", |measurements| measurements.instructions as u64),
+    ("jumps", |measurements| measurements.conditional_jumps as u64),
+    ("panics", |measurements| measurements.panics as u64),
+    ("frame", |measurements| measurements.frame),
+    ("stack", |measurements| measurements.stack),
+    ("bytes", |measurements| measurements.bytes as u64),
 ];
 
 /// A table of a profile.
 fn text_of(module: &Module) -> String {
     let mut title = vec![format!("{}: function", module.profile.name())];
-    title.extend(FIGURES.iter().map(|(name, _)| (*name).to_owned()));
+    title.extend(COLUMNS.iter().map(|(name, _)| (*name).to_owned()));
     title.extend(["claim", "calls"].map(str::to_owned));
     let mut rows = vec![title];
     rows.extend(module.functions.iter().map(|function| {
@@ -138,7 +138,9 @@ fn text_of(module: &Module) -> String {
 fn row(function: &Evidence, claim: &str) -> Vec<String> {
     let calls = function.calls.iter().map(|(symbol, count)| format!("{count} {symbol}"));
     let mut row = vec![function.name.clone()];
-    row.extend(FIGURES.iter().map(|(_, figure)| figure(&function.figures).to_string()));
+    row.extend(
+        COLUMNS.iter().map(|(_, measurement)| measurement(&function.measurements).to_string()),
+    );
     row.extend([claim.to_owned(), calls.collect::<Vec<_>>().join(", ")]);
     row
 }
@@ -156,8 +158,8 @@ fn json_of(module: &Module) -> Value {
 fn entry(function: &Evidence) -> Value {
     let mut object = Map::new();
     object.insert("name".to_owned(), json!(function.name));
-    for (name, figure) in FIGURES {
-        object.insert(name.to_owned(), json!(figure(&function.figures)));
+    for (name, measurement) in COLUMNS {
+        object.insert(name.to_owned(), json!(measurement(&function.measurements)));
     }
     let calls = function.calls.iter().map(|(symbol, count)| (symbol.clone(), json!(count)));
     object.insert("calls".to_owned(), Value::Object(calls.collect()));

@@ -80,14 +80,14 @@ fn list(words: &[&str]) -> Value {
 }
 
 fn content(content: Content) -> Value {
-    let figure = || json!({ "type": ["number", "string"] });
+    let formula = || json!({ "type": ["number", "string"] });
     let three =
         |item: Value| json!({ "type": "array", "items": item, "minItems": 3, "maxItems": 3 });
     match content {
         Content::Format => json!({ "const": 1 }),
-        Content::Figure => figure(),
-        Content::Vector => three(figure()),
-        Content::Axis => json!({ "anyOf": [{ "enum": AXES }, three(figure())] }),
+        Content::Formula => formula(),
+        Content::Vector => three(formula()),
+        Content::Axis => json!({ "anyOf": [{ "enum": AXES }, three(formula())] }),
         Content::Number => json!({ "type": "number" }),
         Content::Limits => {
             json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 })

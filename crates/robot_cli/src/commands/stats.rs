@@ -114,7 +114,7 @@ impl Arguments {
             Format::Text => {
                 let mut title =
                     ["function", "step", "M + A + D", "neg"].map(str::to_owned).to_vec();
-                title.extend(counts::FIGURES.iter().map(|(name, _)| (*name).to_owned()));
+                title.extend(counts::COLUMNS.iter().map(|(name, _)| (*name).to_owned()));
                 let rows = std::iter::once(title).chain(steps.iter().map(Step::row));
                 write!(terminal.output, "{}", text::table(&rows.collect::<Vec<_>>()))?;
             }
@@ -132,11 +132,11 @@ struct Step {
 
 impl Step {
     fn row(&self) -> Vec<String> {
-        let figures = counts::FIGURES.iter().map(|(_, figure)| figure(&self.counts).to_string());
+        let cells = counts::COLUMNS.iter().map(|(_, count)| count(&self.counts).to_string());
         let operations = self.counts.operations().to_string();
         let neg = self.counts.neg.to_string();
         let first = [self.function.clone(), self.step.clone(), operations, neg];
-        first.into_iter().chain(figures).collect()
+        first.into_iter().chain(cells).collect()
     }
 
     fn json(&self) -> Value {
@@ -145,7 +145,7 @@ impl Step {
             "step": self.step,
             "operations": self.counts.operations(),
             "neg": self.counts.neg,
-            "counts": counts::figures(&self.counts),
+            "counts": counts::cells(&self.counts),
         })
     }
 }
@@ -181,14 +181,14 @@ fn ablated(found: &[Ablation]) -> Vec<Step> {
 /// A row for each function, and one for what the constructor does of it.
 fn rows(counts: &[(&str, FunctionCounts)]) -> Vec<Vec<String>> {
     let mut title = vec!["function".to_owned()];
-    title.extend(counts::FIGURES.iter().map(|(name, _)| (*name).to_owned()));
+    title.extend(counts::COLUMNS.iter().map(|(name, _)| (*name).to_owned()));
     let mut rows = vec![title];
     for (name, counts) in counts {
         for (name, counts) in
             [((*name).to_owned(), counts.call), (format!("  once for {name}"), counts.constructor)]
         {
-            let figures = counts::FIGURES.iter().map(|(_, figure)| figure(&counts).to_string());
-            rows.push(std::iter::once(name).chain(figures).collect());
+            let cells = counts::COLUMNS.iter().map(|(_, count)| count(&counts).to_string());
+            rows.push(std::iter::once(name).chain(cells).collect());
         }
     }
     rows

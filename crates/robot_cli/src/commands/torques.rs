@@ -1,11 +1,11 @@
-//! `torques`: the driving forces along a trajectory, split by cause.
+//! `torques`: the joint torques along a trajectory, split by cause.
 
 use std::path::PathBuf;
 
 use clap::Args;
 use robot_model::robot::Robot;
-use robot_simulation::plot::shares_figure;
-use robot_simulation::{Shares, Table, Trajectory, shares};
+use robot_simulation::plot::contributions_figure;
+use robot_simulation::{Table, TorqueContributions, Trajectory, torque_contributions};
 
 use crate::Terminal;
 use crate::delivery::ForceArgument;
@@ -87,12 +87,13 @@ impl Arguments {
         let friction = self.friction.is_wanted();
         let trajectory = self.trajectory(&robot, terminal)?;
         let wrench = trajectory.wrenches.is_some();
-        let functions = Shares::functions(friction, wrench);
+        let functions = TorqueContributions::functions(friction, wrench);
         let options = file.options(terminal)?;
         let programs = motion::programs(&file, robot, functions, options)?;
-        let shares = shares(&programs, &self.settings.pairs(), &trajectory, friction)?;
-        let figure = || shares_figure(&programs.robot, &shares);
-        recording.write(&shares.table().csv(), figure, terminal)
+        let contributions =
+            torque_contributions(&programs, &self.settings.pairs(), &trajectory, friction)?;
+        let figure = || contributions_figure(&programs.robot, &contributions);
+        recording.write(&contributions.table().csv(), figure, terminal)
     }
 
     fn trajectory(

@@ -18,8 +18,10 @@ fn hold(entry: &Value) {
     // A number of its own for each name: the figures are the formula's.
     let value = |name: &str| name.bytes().fold(0.5, |sum, byte| sum * 0.7 + f64::from(byte));
     let formula = parse(&entry["formula"]).evaluate(value);
-    let figures = entry["figures"].as_object().unwrap().iter();
-    let sum: f64 = figures.map(|(name, figure)| parse(figure).evaluate(value) * value(name)).sum();
+    let coefficients = entry["figures"].as_object().unwrap().iter();
+    let sum: f64 = coefficients
+        .map(|(name, coefficient)| parse(coefficient).evaluate(value) * value(name))
+        .sum();
     assert!((formula - sum).abs() <= 1e-9 * sum.abs(), "{entry}");
 }
 

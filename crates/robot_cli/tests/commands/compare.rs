@@ -127,9 +127,9 @@ fn every_difference_of_the_paper_has_one_grade_and_the_grade_its_reason() {
         let evidence = difference["evidence"].as_array().unwrap();
         let wrong = evidence.iter().any(|one| text(one).starts_with("not a "));
         assert_eq!(dimension, if wrong { "yes" } else { "—" }, "{row:?}");
-        let slips = difference["slips"].as_array().unwrap();
-        let [slip] = &slips[..] else { panic!("{slips:?}") };
-        let (of, glyph) = match text(&slip["kind"]).as_str() {
+        let mistakes = difference["slips"].as_array().unwrap();
+        let [mistake] = &mistakes[..] else { panic!("{mistakes:?}") };
+        let (of, glyph) = match text(&mistake["kind"]).as_str() {
             "dot" => ("a dot", true),
             "index" => ("an index", true),
             "power" => ("an exponent", true),

@@ -12,7 +12,7 @@ fn demo(file: &str) -> PathBuf {
 
 /// Compares a file with what it should be, or writes it anew with `UPDATE_GOLDENS`.
 #[track_caller]
-fn held(file: &str, now: &str) {
+fn assert_unchanged(file: &str, now: &str) {
     if std::env::var_os("UPDATE_GOLDENS").is_some() {
         fs::write(demo(file), now).unwrap();
     } else if fs::read_to_string(demo(file)).unwrap() != now {
@@ -24,9 +24,9 @@ fn held(file: &str, now: &str) {
 fn the_robot_is_that_of_the_project_and_the_code_is_generated_from_it() {
     for file in ["trttr1.toml", "trttr1.plan"] {
         let robots = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../robots");
-        held(file, &fs::read_to_string(robots.join(file)).unwrap());
+        assert_unchanged(file, &fs::read_to_string(robots.join(file)).unwrap());
     }
     let robot = demo("trttr1.toml");
     let arguments = ["generate", robot.to_str().unwrap(), "--function", "inverse_dynamics"];
-    held("trttr1.rs", &output(&arguments, ""));
+    assert_unchanged("trttr1.rs", &output(&arguments, ""));
 }

@@ -77,7 +77,7 @@ fn assert_close(name: &str, found: f64, expected: f64) {
 }
 
 #[test]
-fn driving_forces_have_the_values_of_the_numeric_solver() {
+fn joint_torques_have_the_values_of_the_numeric_solver() {
     for friction in [false, true] {
         let arguments: &[&str] = if friction { &["--friction"] } else { &[] };
         let (values, mechanism) = evaluated(arguments);

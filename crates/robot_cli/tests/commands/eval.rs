@@ -142,7 +142,7 @@ fn matrices_are_rows_and_csv_has_a_header() {
     }
 }
 
-/// What `forward_dynamics_friction` gives takes the driving forces that it was given, with a wrench and
+/// What `forward_dynamics_friction` gives takes the joint torques that it was given, with a wrench and
 /// without one; a robot without friction has no such function.
 #[test]
 fn forward_dynamics_takes_friction_in() {

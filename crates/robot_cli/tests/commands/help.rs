@@ -120,11 +120,11 @@ fn shells_complete_every_command() {
 }
 
 #[test]
-fn colours_are_for_terminals() {
-    use robot_cli::colours;
+fn colors_are_for_terminals() {
+    use robot_cli::colors;
     use std::ffi::OsStr;
-    assert!(colours(true, None) && colours(true, Some(OsStr::new(""))));
-    assert!(!colours(true, Some(OsStr::new("1"))) && !colours(false, None));
+    assert!(colors(true, None) && colors(true, Some(OsStr::new(""))));
+    assert!(!colors(true, Some(OsStr::new("1"))) && !colors(false, None));
     let shell = Shell::new();
     shell.write("broken.toml", "format = 1\n[robot]\nnam = \"arm\"\n");
     // A pipe is no terminal.

@@ -46,7 +46,7 @@ fn run_between(
     errors: &mut dyn std::io::Write,
 ) -> u8 {
     let mut terminal =
-        robot_cli::Terminal { input: &mut input, output, errors, colours: false, progress: false };
+        robot_cli::Terminal { input: &mut input, output, errors, colors: false, progress: false };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
     robot_cli::run(arguments, &mut terminal)
 }

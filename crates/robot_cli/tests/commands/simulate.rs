@@ -128,7 +128,7 @@ fn everything_that_is_wrong_is_said() {
 }
 
 #[test]
-fn a_motion_by_a_singular_posture_is_reported() {
+fn a_motion_through_a_singular_configuration_is_reported() {
     let from =
         |q0: &str| run(&["simulate", WRIST, "--time", "0.01", "--step", "0.005", "--q0", q0]);
     let near = from("0.1,0.00001,0.2");
@@ -254,9 +254,9 @@ fn the_commands_of_the_document_make_its_pictures() {
         assert!(texts(&made).len() > 10);
         assert_eq!(texts(&kept), texts(&made), "{name} is out of date: run the command above it");
     }
-    let shares = std::fs::read_to_string(folder.join("shares.csv")).unwrap();
-    for (index, t) in column(&shares, "t").iter().enumerate() {
-        assert!((column(&shares, "tau3")[index] - 2.0 * (3.0 * t).sin()).abs() < 1e-9);
+    let contributions = std::fs::read_to_string(folder.join("shares.csv")).unwrap();
+    for (index, t) in column(&contributions, "t").iter().enumerate() {
+        assert!((column(&contributions, "tau3")[index] - 2.0 * (3.0 * t).sin()).abs() < 1e-9);
     }
     assert!(std::fs::read(folder.join("shares.png")).unwrap().starts_with(b"\x89PNG"));
 }

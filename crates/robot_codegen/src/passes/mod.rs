@@ -4,7 +4,7 @@
 //! operations in a hundred, more where a recursion repeats itself, and order the rest.
 //!
 //! Each pass is a function in a file of its own and proved on random programs to keep the values:
-//! to the last bit where it does not reassociate, else to rounding.
+//! to the last bit if it does not reassociate, else to rounding.
 
 mod arrival;
 mod dead_code;
@@ -32,7 +32,7 @@ use crate::program::Program;
 /// for functions of dozens of joints each takes a second. Those of arms have some thousands.
 const MAX_WORK: usize = 100_000;
 
-/// Which passes run, and what they minimise.
+/// Which passes run, and what they minimize.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// `factoring` of sums.

@@ -163,7 +163,7 @@ pub(super) fn assert_same_values(name: &str, pass: impl Fn(&Program) -> Program)
     for seed in 0..2 * SEEDS {
         let program = if seed < SEEDS { random_program(seed) } else { random_polynomials(seed) };
         for (expected, found, bound) in compare(&program, &pass(&program), seed) {
-            // Quotients by values that cancelled to nothing compare nothing.
+            // Quotients by values that canceled to nothing compare nothing.
             if !bound.is_finite() || bound > 1e9 {
                 continue;
             }

@@ -1,10 +1,10 @@
-//! Coefficients with names, and the driving forces as sums of their products.
+//! Coefficients with names, and the joint torques as sums of their products.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
-use super::{Equation, Group, Writer, driving_force, shapes};
+use super::{Equation, Group, Writer, generalized_force, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -37,7 +37,7 @@ impl<'g> Coefficient<'g> {
     }
 }
 
-/// The driving forces as sums of products of coefficients that have names, and the coefficients:
+/// The joint torques as sums of products of coefficients that have names, and the coefficients:
 /// expanded where that is short, else what they have in common gets names too.
 pub(super) fn by_name<'g>(
     writer: &mut Writer<'_, 'g>,
@@ -52,7 +52,7 @@ pub(super) fn by_name<'g>(
         title: title.to_owned(),
         introduction,
         definitions: false,
-        equations: driving_forces(writer, sums, &zeros)?,
+        equations: generalized_forces(writer, sums, &zeros)?,
     }];
     match expanded {
         Some(polynomials) => groups.extend(as_polynomials(writer, sections, &polynomials)?),
@@ -83,10 +83,10 @@ fn zeros(sections: &[Section<'_>], polynomials: &[Vec<Polynomial<'_>>]) -> Vec<S
     zero.map(|(coefficient, _)| coefficient.name.clone()).collect()
 }
 
-/// The summands of a driving force: a coefficient's name and its multiplier.
+/// The summands of a joint torque: a coefficient's name and its multiplier.
 pub(super) type Sum<'g> = Vec<(String, Expr<'g>)>;
 
-fn driving_forces<'g>(
+fn generalized_forces<'g>(
     writer: &Writer<'_, 'g>,
     sums: Vec<Sum<'g>>,
     zeros: &[String],
@@ -96,7 +96,7 @@ fn driving_forces<'g>(
     for (index, sum) in sums.into_iter().enumerate() {
         let kept = sum.into_iter().filter(|(name, _)| !zeros.contains(name));
         let value = kept.fold(graph.zero(), |sum, (name, rates)| sum + graph.symbol(&name) * rates);
-        let symbol = driving_force(index);
+        let symbol = generalized_force(index);
         let polynomial = Polynomial::of(value, &PolynomialOptions::default())
             .map_err(|error| Error::TooLong { reason: error.to_string() })?;
         let (name, left) = (symbol.to_string(), Math::quantity(symbol));

@@ -4,7 +4,7 @@ use robot_symbolic::{Expr, Graph, walk};
 use rustc_hash::FxHashSet;
 
 use super::naming::{Named, worth_naming};
-use super::{Equation, Group, Writer, of_driving_force, shapes};
+use super::{Equation, Group, Writer, of_generalized_force, shapes};
 use crate::error::Error;
 use crate::layout::is_motion;
 use crate::math::Math;
@@ -17,7 +17,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let mut quantities = writer.quantities(writer.options.friction);
     let forces = writer.economical_forces(writer.options.friction);
     for quantity in &mut quantities {
-        quantity.value = of_driving_force(quantity, &forces).unwrap_or(quantity.value);
+        quantity.value = of_generalized_force(quantity, &forces).unwrap_or(quantity.value);
     }
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     let target = Graph::new();

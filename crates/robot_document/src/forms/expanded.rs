@@ -5,8 +5,8 @@ use robot_dynamics::quantity::{Kind, Quantity};
 use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
-use super::loads::{friction_shares, whole};
-use super::{Equation, Group, Writer, of_driving_force};
+use super::loads::{friction_contributions, whole};
+use super::{Equation, Group, Writer, of_generalized_force};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -25,7 +25,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         // Only the economical recursion has sines and cosines of sums.
         let forces = writer.economical_forces(false);
         for quantity in &mut quantities {
-            quantity.value = of_driving_force(quantity, &forces).unwrap_or(quantity.value);
+            quantity.value = of_generalized_force(quantity, &forces).unwrap_or(quantity.value);
         }
     }
     let joints = with_friction(writer, &mut quantities)?;
@@ -61,24 +61,26 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     ])
 }
 
-/// Adds friction to the driving forces. The forces in the joints that dry friction asks for stand under
+/// Adds friction to the joint torques. The forces in the joints that dry friction asks for stand under
 /// its root by names, for no line holds them expanded.
 fn with_friction<'g>(
     writer: &mut Writer<'_, 'g>,
     quantities: &mut [Quantity<'g>],
 ) -> Result<Vec<Coefficient<'g>>, Error> {
-    let of_forces = |quantity: &Quantity<'_>| quantity.symbol.kind == Kind::DrivingForce;
+    let of_forces = |quantity: &Quantity<'_>| quantity.symbol.kind == Kind::GeneralizedForce;
     if !writer.options.friction || !quantities.iter().any(of_forces) {
         return Ok(vec![]);
     }
-    let (joints, shares) = friction_shares(writer, whole);
+    let (joints, contributions) = friction_contributions(writer, whole);
     for quantity in quantities {
-        if let Some(share) = of_driving_force(quantity, &shares) {
-            quantity.value += share;
+        if let Some(contribution) = of_generalized_force(quantity, &contributions) {
+            quantity.value += contribution;
         }
     }
-    let used: Vec<String> =
-        walk::symbols(&shares).into_iter().map(|symbol| writer.graph.symbol_name(symbol)).collect();
+    let used: Vec<String> = walk::symbols(&contributions)
+        .into_iter()
+        .map(|symbol| writer.graph.symbol_name(symbol))
+        .collect();
     let mut forces = joints.coefficients;
     forces.retain(|force| used.contains(&force.name));
     for force in &forces {

@@ -22,7 +22,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         return Err(Error::TooMany { coordinates, limit: MAX_COORDINATES });
     }
     let forces = writer.economical_forces(false);
-    // Per driving force: its coefficients with what they are multiplied by.
+    // Per joint torque: its coefficients with what they are multiplied by.
     let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
     let mut sections = vec![
         masses(writer, &forces, &mut sums),
@@ -71,7 +71,7 @@ fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]
     Section { title: "Mass matrix", by_symbols: false, coefficients }
 }
 
-/// The coefficients of q̇ⱼ q̇ₖ, j ≤ k: of the driving force i it is ∂²Qᵢ/∂q̇ⱼ∂q̇ₖ, half of that where
+/// The coefficients of q̇ⱼ q̇ₖ, j ≤ k: of the joint torque i it is ∂²Qᵢ/∂q̇ⱼ∂q̇ₖ, half of that where
 /// j = k. The Christoffel symbol is half of the derivative in either case.
 fn velocities<'g>(
     writer: &Writer<'_, 'g>,

@@ -1,4 +1,4 @@
-//! Shares of the driving forces that are no products with velocities or accelerations: gravity, the
+//! Shares of the joint torques that are no products with velocities or accelerations: gravity, the
 //! wrenches of the tips, friction.
 
 use robot_dynamics::mechanism::MechanismFriction;
@@ -17,7 +17,7 @@ use crate::math::Math;
 const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
 const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
 
-/// The driving forces at rest, without wrenches.
+/// The joint torques at rest, without wrenches.
 pub(super) fn gravity<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -45,7 +45,7 @@ pub(super) fn wrenches<'g>(
     single(writer, "Wrenches of the tips", writer.symbols.free_letter(&WRENCH), values, sums)
 }
 
-/// A coefficient for each driving force.
+/// A coefficient for each joint torque.
 fn single<'g>(
     writer: &Writer<'_, 'g>,
     title: &'static str,
@@ -65,8 +65,8 @@ fn single<'g>(
 }
 
 /// The figures of friction as the file has them.
-pub(super) fn whole<'g>(figures: &MechanismFriction<'g>) -> MechanismFriction<'g> {
-    figures.clone()
+pub(super) fn whole<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
+    friction.clone()
 }
 
 /// The friction of the joints by those figures of it that `part` takes, and the joint forces that dry
@@ -80,8 +80,8 @@ pub(super) fn frictions<'g>(
     if !writer.options.friction {
         return vec![];
     }
-    let (joints, values) = friction_shares(writer, part);
-    let mut shares = Section { title, by_symbols: true, coefficients: vec![] };
+    let (joints, values) = friction_contributions(writer, part);
+    let mut contributions = Section { title, by_symbols: true, coefficients: vec![] };
     for (index, (value, sum)) in values.into_iter().zip(sums).enumerate() {
         if !value.is_zero() {
             let name = format!("Q_f{}", index + 1);
@@ -89,15 +89,15 @@ pub(super) fn frictions<'g>(
                 Math::Row(vec![Math::Letter('f'), Math::Sign(','), Math::integer(index + 1)]);
             let shape = Math::Letter('Q').with_lower(lower);
             sum.push((name.clone(), writer.graph.one()));
-            shares.coefficients.push(Coefficient { name, shape, value });
+            contributions.coefficients.push(Coefficient { name, shape, value });
         }
     }
-    vec![joints, shares]
+    vec![joints, contributions]
 }
 
-/// The shares of friction in the driving forces, by symbols for the joint forces that dry friction asks
+/// The shares of friction in the joint torques, by symbols for the joint forces that dry friction asks
 /// for, and these.
-pub(super) fn friction_shares<'g>(
+pub(super) fn friction_contributions<'g>(
     writer: &Writer<'_, 'g>,
     part: fn(&MechanismFriction<'g>) -> MechanismFriction<'g>,
 ) -> (Section<'g>, Vec<Expr<'g>>) {
@@ -113,8 +113,9 @@ pub(super) fn friction_shares<'g>(
         if !link.friction.coulomb.is_zero() {
             named = joint_force(writer, index, *force, &mut joints);
         }
-        let share = friction(&part(&link.friction), link.kind, link.axis, named, link.velocity);
-        values[link.coordinate] += share * link.ratio;
+        let contribution =
+            friction(&part(&link.friction), link.kind, link.axis, named, link.velocity);
+        values[link.coordinate] += contribution * link.ratio;
     }
     (joints, values)
 }

@@ -30,13 +30,13 @@ pub enum Form {
     /// Sums of products, like terms merged: the paper's.
     #[default]
     Expanded,
-    /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Driving forces only.
+    /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Joint torques only.
     Grouped,
-    /// The iterations link by link, each quantity by those before it. Driving forces only.
+    /// The iterations link by link, each quantity by those before it. Joint torques only.
     Recursive,
     /// As the economical recursion has them, expressions that are used again under names.
     Compact,
-    /// By base parameters, in which the driving forces are linear. Driving forces only.
+    /// By base parameters, in which the joint torques are linear. Joint torques only.
     Regrouped,
 }
 
@@ -64,28 +64,28 @@ pub struct EquationOptions {
     /// The form.
     pub form: Form,
     /// The quantities, in the order in which they are wanted. The forms [`Form::Grouped`],
-    /// [`Form::Recursive`] and [`Form::Regrouped`] are about the driving forces whatever is chosen.
+    /// [`Form::Recursive`] and [`Form::Regrouped`] are about the joint torques whatever is chosen.
     pub kinds: Vec<Kind>,
-    /// Whether the driving forces include friction, equations (4)-(5).
+    /// Whether the joint torques include friction, equations (4)-(5).
     pub friction: bool,
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
     /// for what the robot file says, or 10⁻⁹.
     pub snap: Option<f64>,
     /// How sines and cosines look.
     pub trigonometry: Trigonometry,
-    /// Whether sines and cosines of sums of angles are kept, for driving forces in all forms but
+    /// Whether sines and cosines of sums of angles are kept, for joint torques in all forms but
     /// [`Form::Recursive`].
     pub angle_sums: AngleSums,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
 }
 
-/// The driving forces, expanded, without friction.
+/// The joint torques, expanded, without friction.
 impl Default for EquationOptions {
     fn default() -> EquationOptions {
         EquationOptions {
             form: Form::Expanded,
-            kinds: vec![Kind::DrivingForce],
+            kinds: vec![Kind::GeneralizedForce],
             friction: false,
             snap: None,
             trigonometry: Trigonometry::Named,
@@ -214,7 +214,7 @@ impl<'g> Writer<'_, 'g> {
         Derivation::new(self.robot, self.graph, &self.mechanism_options(), None)
     }
 
-    /// The driving forces by the economical recursion, the wrenches of the tips included, with sines of
+    /// The joint torques by the economical recursion, the wrenches of the tips included, with sines of
     /// sums of angles where the options want them.
     fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
         let kind = match friction {
@@ -284,13 +284,13 @@ impl<'g> Writer<'_, 'g> {
     }
 }
 
-/// The symbol of a driving force.
-fn driving_force(index: usize) -> Symbol {
-    Symbol { kind: Kind::DrivingForce, number: index + 1, component: None }
+/// The symbol of a joint torque.
+fn generalized_force(index: usize) -> Symbol {
+    Symbol { kind: Kind::GeneralizedForce, number: index + 1, component: None }
 }
 
-/// The value of the coordinate that a driving force moves; of other quantities none.
-fn of_driving_force<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
+/// The value of the coordinate that a joint torque moves; of other quantities none.
+fn of_generalized_force<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
     let place = quantity.symbol.number.checked_sub(1)?;
-    values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::DrivingForce)
+    values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::GeneralizedForce)
 }

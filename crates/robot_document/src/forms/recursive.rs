@@ -7,7 +7,7 @@ use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
 use super::naming::{Named, is_leaf, is_long_constant};
-use super::{Equation, Group, Writer, driving_force, shapes};
+use super::{Equation, Group, Writer, generalized_force, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -15,7 +15,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let effects = Effects { wrench: true, friction: writer.options.friction };
     let iterations = writer.iterations(effects);
     let target = Graph::new();
-    let (mut groups, mut named) = figures(writer, &target)?;
+    let (mut groups, mut named) = link_values(writer, &target)?;
     for (index, motion) in iterations.motions.iter().enumerate() {
         let number = index + 1;
         let mut group = Group::of_definitions(&format!("Link {number}, outward"), vec![]);
@@ -24,7 +24,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             ("omega", Look::Letter('ω'), motion.angular_velocity),
             ("epsilon", Look::Letter('ε'), motion.angular_acceleration),
             ("a", Look::Letter('a'), motion.acceleration),
-            ("a_c", paper(Kind::MassCentreAcceleration), motion.mass_centre_acceleration),
+            ("a_c", paper(Kind::CenterOfMassAcceleration), motion.center_of_mass_acceleration),
             ("F", paper(Kind::Force), motion.force),
             ("M_c", paper(Kind::Moment), motion.moment),
         ] {
@@ -47,36 +47,36 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         }
         groups.push(group);
     }
-    groups.push(driving_forces(writer, &iterations.driving_forces, &named)?);
+    groups.push(generalized_forces(writer, &iterations.generalized_forces, &named)?);
     Ok(groups)
 }
 
-/// Masses, centres of mass and tensors of the links that are more than a number or a symbol.
-fn figures<'h>(
+/// Masses, centers of mass and tensors of the links that are more than a number or a symbol.
+fn link_values<'h>(
     writer: &mut Writer<'_, '_>,
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
     let mechanism = writer.derivation().mechanism;
     let letter = writer.symbols.free_letter(&["m", "M", "A", "B"]);
-    let mut figures: Vec<(String, Math, Expr<'_>)> = vec![];
+    let mut link_values: Vec<(String, Math, Expr<'_>)> = vec![];
     for (link, number) in mechanism.links.iter().zip(1..) {
         let shape = shapes::indexed(letter.chars().next().unwrap_or('m'), &[number]);
-        figures.push((shapes::indexed_name(letter, &[number]), shape, link.mass));
+        link_values.push((shapes::indexed_name(letter, &[number]), shape, link.mass));
         for (component, value) in link.center_of_mass.0.into_iter().enumerate() {
             let name = format!("r{number}.{}", shapes::axis_name(component));
-            figures.push((name, shapes::component('r', number, &[component]), value));
+            link_values.push((name, shapes::component('r', number, &[component]), value));
         }
         for (row, column) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
             let axes = [shapes::axis_name(row), shapes::axis_name(column)].concat();
             let shape = shapes::component('J', number, &[row, column]);
-            figures.push((format!("J{number}.{axes}"), shape, link.inertia.0[row][column]));
+            link_values.push((format!("J{number}.{axes}"), shape, link.inertia.0[row][column]));
         }
     }
-    figures.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value));
-    let values: Vec<Expr<'_>> = figures.iter().map(|(_, _, value)| *value).collect();
+    link_values.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value));
+    let values: Vec<Expr<'_>> = link_values.iter().map(|(_, _, value)| *value).collect();
     let (mut groups, mut named) = definitions(writer, &values, target)?;
     let mut group = Group::of_definitions("Figures of the links", vec![]);
-    for (name, shape, expr) in figures {
+    for (name, shape, expr) in link_values {
         let value = named.rewritten(expr);
         writer.define(&name, shape)?;
         let left = writer.symbols.look(&name);
@@ -129,14 +129,14 @@ fn vector_equations(
     Ok(equations)
 }
 
-fn driving_forces(
+fn generalized_forces(
     writer: &Writer<'_, '_>,
     forces: &[Expr<'_>],
     named: &Named<'_>,
 ) -> Result<Group, Error> {
     let mut equations = vec![];
     for (index, force) in forces.iter().enumerate() {
-        let symbol = driving_force(index);
+        let symbol = generalized_force(index);
         let value = named.rewritten(*force);
         equations.push(sum(writer, symbol.to_string(), Math::quantity(symbol), value)?);
     }

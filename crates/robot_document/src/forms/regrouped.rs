@@ -9,7 +9,7 @@ use super::coefficients::{
     Coefficient, Section, Sum, as_polynomials, by_name, define_all, expanded,
 };
 use super::loads::{frictions, wrenches};
-use super::{Equation, Group, Writer, driving_force, shapes};
+use super::{Equation, Group, Writer, generalized_force, shapes};
 use crate::base_parameters::{self as base, Formulas, Term, Written};
 use crate::error::Error;
 use crate::math::{Fence, Math};
@@ -171,8 +171,8 @@ fn parameter<'g>(
 
 /// Whether a base parameter is the standard one of its name.
 fn is_itself(parameter: &BaseParameter<'_>, known: &Written, standard: &[Option<Written>]) -> bool {
-    let [(place, figure)] = parameter.terms.as_slice() else { return false };
-    figure.is_one() && standard.get(*place).is_some_and(|one| one.as_ref() == Some(known))
+    let [(place, coefficient)] = parameter.terms.as_slice() else { return false };
+    coefficient.is_one() && standard.get(*place).is_some_and(|one| one.as_ref() == Some(known))
 }
 
 /// The symbol that a value is, where it is no more.
@@ -187,14 +187,14 @@ fn is_friction(quantity: Quantity) -> bool {
 }
 
 /// The part of friction that grows with the force in the joint: no parameter is a factor of it alone.
-fn dry<'g>(figures: &MechanismFriction<'g>) -> MechanismFriction<'g> {
-    let zero = figures.viscous.graph().zero();
+fn dry<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
+    let zero = friction.viscous.graph().zero();
     MechanismFriction {
         viscous: zero,
         coulomb_positive: zero,
         coulomb_negative: zero,
         offset: zero,
-        ..figures.clone()
+        ..friction.clone()
     }
 }
 
@@ -224,7 +224,7 @@ fn coefficients<'g>(
     Section { title: "Coefficients of the base parameters", by_symbols: false, coefficients }
 }
 
-/// The driving forces with the coefficients written out, and what else they have under names.
+/// The joint torques with the coefficients written out, and what else they have under names.
 fn inline<'g>(
     writer: &mut Writer<'_, 'g>,
     introduction: String,
@@ -249,7 +249,7 @@ fn inline<'g>(
                 }
             }
         }
-        let symbol = driving_force(index);
+        let symbol = generalized_force(index);
         let Written { text, math } = base::sum(&terms);
         let (name, left) = (symbol.to_string(), Math::quantity(symbol));
         equations.push(Equation { name, text, left, right: math });

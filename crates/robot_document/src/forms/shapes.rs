@@ -9,7 +9,7 @@ pub(super) fn component(letter: char, number: usize, axes: &[usize]) -> Math {
     Math::Letter(letter).with_lower(Math::Row(lower))
 }
 
-/// A letter with numbers below: `M_{12}`, with commas where one has several digits.
+/// A letter with numbers below: `M_{12}`, with commas if one has several digits.
 pub(super) fn indexed(letter: char, numbers: &[usize]) -> Math {
     let apart = numbers.iter().any(|number| *number > 9);
     let mut pieces = vec![];

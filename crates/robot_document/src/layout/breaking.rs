@@ -6,7 +6,7 @@
 
 use super::math::{Fence, Math};
 use super::width::width;
-use crate::error::{Centimetres, Error};
+use crate::error::{Centimeters, Error};
 use crate::forms::Equation;
 
 /// A piece that cannot be broken further is wider than a line.
@@ -46,8 +46,8 @@ pub(crate) fn right_side(equation: &Equation, available: f64) -> Result<Vec<Math
     let rest = available - INDENT;
     broken(&equation.right, available - EQUALS, rest).map_err(|wide| Error::Narrow {
         name: equation.name.clone(),
-        needed: Centimetres::from_points(wide.needed),
-        available: Centimetres::from_points(rest),
+        needed: Centimeters::from_points(wide.needed),
+        available: Centimeters::from_points(rest),
     })
 }
 

@@ -241,7 +241,7 @@ pub(super) fn magnitude_pieces(number: &Number) -> Vec<Math> {
 }
 
 fn magnitude(number: &Number) -> (Level, Vec<Math>) {
-    match Magnitude::of(number) {
+    match Magnitude::new(number) {
         Magnitude::Decimal(digits) => (Level::Atom, vec![Math::Number(digits)]),
         Magnitude::Quotient(parts) => {
             (Level::Product, vec![Math::Fraction(Box::new(parts.map(Math::Number)))])

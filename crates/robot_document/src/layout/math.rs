@@ -20,7 +20,7 @@ pub enum Math {
     Function(FunctionName),
     /// A symbol of the equations.
     Symbol(Symbol),
-    /// Pieces side by side. Neighbours without a sign between them are factors.
+    /// Pieces side by side. Neighbors without a sign between them are factors.
     Row(Vec<Math>),
     /// Indices.
     Script(Box<Script>),

@@ -102,7 +102,7 @@ impl Terms<'_> {
     }
 }
 
-/// A power; in parentheses where there is an upper index already.
+/// A power; in parentheses if there is an upper index already.
 fn raised(pieces: Vec<Math>, exponent: u32) -> Vec<Math> {
     let fence = exponent > 1 && pieces.iter().any(Math::has_upper_index);
     power_of(if fence { vec![fenced(pieces)] } else { pieces }, exponent)

@@ -104,7 +104,7 @@ mod tests {
     fn long_sums_take_several_rows() {
         let term = [Math::Sign('+'), Math::Letter('m')];
         let sum = Math::Row(term.iter().cycle().take(60).cloned().collect());
-        let page = page("arm", &[group(sum)], Layout::of_centimetres(8.0), true).unwrap();
+        let page = page("arm", &[group(sum)], Layout::of_centimeters(8.0), true).unwrap();
         assert!(page.matches("<mtr>").count() > 2, "{page}");
         assert_eq!(page.matches("<mtext>(1)</mtext>").count(), 1);
         assert!(page.contains("<mo form=\"infix\">+</mo>"), "{page}");
@@ -115,7 +115,7 @@ mod tests {
     fn text_of_a_robot_is_never_markup() {
         let hostile = "</title><script>alert(1)</script>&";
         let word = Math::Word(hostile.to_owned());
-        let page = page(hostile, &[group(word)], Layout::of_centimetres(30.0), false).unwrap();
+        let page = page(hostile, &[group(word)], Layout::of_centimeters(30.0), false).unwrap();
         assert!(!page.contains("<script"), "{page}");
         assert_eq!(page.matches("&lt;script&gt;").count(), 3);
     }

@@ -1,4 +1,4 @@
-//! A state with its driving forces, for whoever copies the equations.
+//! A state with its joint torques, for whoever copies the equations.
 
 use robot_model::variable::JointVariable;
 
@@ -18,7 +18,7 @@ pub struct CheckValue {
     pub accelerations: Vec<&'static str>,
     /// The wrench that each tip exerts on its surroundings: force, N, then moment, N m.
     pub wrench: [&'static str; 6],
-    /// The generalized driving forces, N m or N.
+    /// The generalized forces, N m or N.
     pub forces: Vec<f64>,
 }
 

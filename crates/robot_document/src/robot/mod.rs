@@ -13,7 +13,7 @@ use crate::forms::{EquationOptions, Equations, Form, equations};
 use crate::math::Math;
 pub use check_value::CheckValue;
 
-/// The document of a robot with its equations in several forms, and the check value where there is one.
+/// The document of a robot with its equations in several forms, and the check value if there is one.
 ///
 /// # Errors
 ///
@@ -89,7 +89,7 @@ fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
     ])
 }
 
-/// The equations, each numbered and labelled by form and name.
+/// The equations, each numbered and labeled by form and name.
 fn equation_blocks(form: Form, part: &Equations) -> Vec<Block> {
     let mut blocks = vec![];
     for group in &part.groups {

@@ -132,8 +132,8 @@ fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
 }
 
 /// A value of a table: long constants to six digits.
-fn figure(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
-    let long = robot_symbolic::print::to_text(value).is_ok_and(|text| text.len() > LONG_FIGURE);
+fn value_cell(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
+    let long = robot_symbolic::print::to_text(value).is_ok_and(|text| text.len() > LONG_NUMBER);
     if !long || !walk::symbols(&[value]).is_empty() {
         return symbols.expression(value);
     }
@@ -145,9 +145,9 @@ fn figure(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
 }
 
 /// Constants of more bytes of text are rounded in tables.
-const LONG_FIGURE: usize = 10;
+const LONG_NUMBER: usize = 10;
 
-/// Mass, centre of mass and tensor of each link, in the link's axes; columns of zeros are left out.
+/// Mass, center of mass and tensor of each link, in the link's axes; columns of zeros are left out.
 fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     let graph = Graph::new();
     let options = MechanismOptions::EXACT.with_snap(None, robot);
@@ -171,7 +171,7 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
         let mut row =
             vec![vec![Inline::Math(Math::integer(index + 1))], vec![Inline::text(&link.name)]];
         for value in columns.iter().filter_map(|column| values.get(*column)) {
-            row.push(vec![Inline::Math(figure(symbols, *value)?)]);
+            row.push(vec![Inline::Math(value_cell(symbols, *value)?)]);
         }
         rows.push(row);
     }

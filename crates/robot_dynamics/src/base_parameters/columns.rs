@@ -51,7 +51,7 @@ fn drive_column<'g>(
 ) -> Column<'g> {
     let graph = link.ratio.graph();
     let sign = link.friction.sign(link.velocity);
-    let share = match quantity {
+    let contribution = match quantity {
         Quantity::ReflectedInertia => link.acceleration,
         Quantity::ViscousFriction => link.velocity,
         Quantity::ForwardFriction => (sign * sign + sign) / 2,
@@ -60,6 +60,6 @@ fn drive_column<'g>(
         Quantity::Link(_) | Quantity::Moment(_) | Quantity::RotorCoupling => graph.zero(),
     };
     let mut column = vec![graph.zero(); coordinates];
-    column[link.coordinate] = share * link.ratio;
+    column[link.coordinate] = contribution * link.ratio;
     column
 }

@@ -1,7 +1,7 @@
 //! The base (minimal) inertial parameters: the fewest combinations of the parameters of links and
-//! drives that determine the driving forces.
+//! drives that determine the joint torques.
 //!
-//! The driving forces are linear in the standard parameters, ten of each link and those of its drive
+//! The joint torques are linear in the standard parameters, ten of each link and those of its drive
 //! ([`StandardParameter`]); some have no effect, others only together. A base parameter is a kept
 //! standard parameter and what is regrouped under it: β = B π. The columns of the kept ones in the full
 //! regressor Y are the regressor over the base parameters, Y π = Y_base β, and each column of Y is
@@ -10,7 +10,7 @@
 //! The regrouping is that of M. Gautier and W. Khalil, "Direct calculation of minimum set of inertial
 //! parameters of serial robots" (1990), and W. Khalil and E. Dombre, "Modeling, Identification and
 //! Control of Robots" (2002), section 9.4, whose names are used; the conditions are exact for any tree
-//! ([`told`](self)): first joints along gravity, parallel axes, planar arms.
+//! ([`identifiable`](self)): first joints along gravity, parallel axes, planar arms.
 //!
 //! Over frames of Denavit and Hartenberg ([`BaseFrames`]) first and second moments are kept in place of
 //! standard parameters; the formulas are in these all the same.
@@ -20,13 +20,13 @@
 
 mod columns;
 mod echelon;
+mod identifiable;
 mod joint;
 mod moments;
 mod regroup;
 mod scalar;
 mod shared;
 mod standard;
-mod told;
 
 use robot_symbolic::Expr;
 
@@ -107,10 +107,9 @@ impl<'g> BaseParameters<'g> {
     #[must_use]
     pub fn values(&self, standard: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let value = |base: &BaseParameter<'g>| {
-            let terms = base
-                .terms
-                .iter()
-                .filter_map(|(place, figure)| standard.get(*place).map(|value| *figure * *value));
+            let terms = base.terms.iter().filter_map(|(place, coefficient)| {
+                standard.get(*place).map(|value| *coefficient * *value)
+            });
             terms.reduce(|sum, term| sum + term)
         };
         self.base.iter().filter_map(value).collect()
@@ -130,9 +129,9 @@ impl<'g> BaseParameters<'g> {
         let zero = |(_, value): &(_, Expr<'g>)| value.graph().zero();
         let mut standard: Vec<Expr<'g>> = self.standard.iter().map(zero).collect();
         for (parameter, value) in self.base.iter().zip(base) {
-            for (place, figure) in &parameter.unit {
+            for (place, coefficient) in &parameter.unit {
                 if let Some(sum) = standard.get_mut(*place) {
-                    *sum += *figure * *value;
+                    *sum += *coefficient * *value;
                 }
             }
         }
@@ -140,7 +139,7 @@ impl<'g> BaseParameters<'g> {
     }
 }
 
-/// The base parameters of a robot; `None` where [`out_of_reach`] says why.
+/// The base parameters of a robot; `None` if [`out_of_reach`] says why.
 #[must_use]
 pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParameters<'g>> {
     if out_of_reach(derivation.robot).is_some() {
@@ -153,7 +152,7 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
     let parameters: Vec<StandardParameter> =
         standard.iter().map(|(parameter, _)| *parameter).collect();
     let joints: Vec<Joint<'g>> = mechanism.links.iter().map(Joint::new).collect();
-    let conditions = told::conditions(mechanism, &joints);
+    let conditions = identifiable::conditions(mechanism, &joints);
     let mut kept = regroup::regroup(mechanism, &joints, &conditions, &parameters, frames);
     let one = scalar::Scalar::new(mechanism.graph.one());
     let friction = parameters.iter().enumerate();
@@ -166,7 +165,10 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
     }
     let rounded = kept.len() < before;
     let base = |(column, form): Kept<'g>| {
-        let terms = form.into_iter().map(|(place, figure)| (place, tidied(figure.expr))).collect();
+        let terms = form
+            .into_iter()
+            .map(|(place, coefficient)| (place, tidied(coefficient.expr)))
+            .collect();
         let (kept, unit) = kept_parameter(mechanism, column, parameters[column], frames);
         BaseParameter { column, kept, terms, unit }
     };
@@ -184,9 +186,10 @@ fn kept_parameter<'g>(
     let StandardParameter { link, quantity } = parameter;
     match (quantity, frames.and_then(|frames| frames.get(link))) {
         (Quantity::Link(place), Some(frame)) => {
-            let figures = moments::unit_in_file(frame, place).into_iter().enumerate();
-            let unit = figures.map(|(place, figure)| (LINK_PARAMETERS * link + place, figure));
-            let unit = unit.filter(|(_, figure)| !figure.is_zero()).collect();
+            let coefficients = moments::unit_in_file(frame, place).into_iter().enumerate();
+            let unit = coefficients
+                .map(|(place, coefficient)| (LINK_PARAMETERS * link + place, coefficient));
+            let unit = unit.filter(|(_, coefficient)| !coefficient.is_zero()).collect();
             (StandardParameter { link, quantity: Quantity::Moment(place) }, unit)
         }
         _ => (parameter, vec![(column, mechanism.graph.one())]),

@@ -59,11 +59,11 @@ pub(super) fn to_inertia<'g>(forms: &mut [Form<'g>], one: Scalar<'g>) {
     exchange(forms, one, one);
 }
 
-/// A symmetric tensor to its trace times `share`, less itself.
-fn exchange<'g>(forms: &mut [Form<'g>], one: Scalar<'g>, share: Scalar<'g>) {
+/// A symmetric tensor to its trace times `factor`, less itself.
+fn exchange<'g>(forms: &mut [Form<'g>], one: Scalar<'g>, factor: Scalar<'g>) {
     let mut trace = Form::new();
     for place in (0..ENTRIES.len()).filter(|place| is_diagonal(*place)) {
-        add(&mut trace, &forms[TENSOR + place], share);
+        add(&mut trace, &forms[TENSOR + place], factor);
     }
     for place in 0..ENTRIES.len() {
         let mut form = if is_diagonal(place) { trace.clone() } else { Form::new() };

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use robot_model::robot::LINK_PARAMETERS;
 
 use super::echelon::{Echelon, Row};
+use super::identifiable::DRIVE;
 use super::joint::Joint;
 use super::moments::{of_moments, to_inertia, to_second, unit_in_frame};
 use super::scalar::Scalar;
 use super::standard::{Quantity, StandardParameter};
-use super::told::DRIVE;
 use crate::body::{FIRST_MOMENT, tensor_place};
 use crate::economical::WorkingFrame;
 use crate::mechanism::{Mechanism, MechanismLink};
@@ -37,7 +37,7 @@ pub(super) fn regroup<'g>(
     // Per link, what has come together at each place.
     let mut gathered: Vec<Vec<Form<'g>>> =
         vec![vec![Form::new(); LINK_PARAMETERS + DRIVE.len()]; joints.len()];
-    // Per link, the column of each place where there is one.
+    // Per link, the column of each place if there is one.
     let mut columns = vec![vec![None; LINK_PARAMETERS + DRIVE.len()]; joints.len()];
     for (column, parameter) in standard.iter().enumerate() {
         if is_inertial(parameter.quantity) {
@@ -45,9 +45,10 @@ pub(super) fn regroup<'g>(
             let frame = frames.and_then(|frames| frames.get(parameter.link));
             match frame.filter(|_| place < LINK_PARAMETERS) {
                 Some(frame) => {
-                    let figures = unit_in_frame(frame, place);
-                    for (form, figure) in gathered[parameter.link].iter_mut().zip(figures) {
-                        add(form, &Form::from([(column, one)]), Scalar::new(figure));
+                    let coefficients = unit_in_frame(frame, place);
+                    for (form, coefficient) in gathered[parameter.link].iter_mut().zip(coefficients)
+                    {
+                        add(form, &Form::from([(column, one)]), Scalar::new(coefficient));
                     }
                 }
                 None => {
@@ -63,20 +64,20 @@ pub(super) fn regroup<'g>(
             .into_iter()
             .filter(|place| columns[index][*place].is_some())
             .collect();
-        let told = conditions[index].iter().map(|row| {
+        let identifiable = conditions[index].iter().map(|row| {
             let row = if frames.is_some() { of_moments(row) } else { row.clone() };
             order.iter().map(|place| row[*place]).collect()
         });
-        let told = Echelon::of(told);
+        let identifiable = Echelon::of(identifiable);
         if frames.is_some() {
             to_second(&mut gathered[index], one);
         }
         // What is not told, as a body without effect but on the carrier.
         let mut rest = gathered[index].clone();
-        for (pivot, row) in told.rows {
+        for (pivot, row) in identifiable.rows {
             let mut regrouped = Form::new();
-            for (figure, place) in row.iter().zip(&order).skip(pivot + 1) {
-                add(&mut regrouped, &gathered[index][*place], *figure);
+            for (coefficient, place) in row.iter().zip(&order).skip(pivot + 1) {
+                add(&mut regrouped, &gathered[index][*place], *coefficient);
             }
             let place = order[pivot];
             rest[place] = Form::new();
@@ -107,8 +108,8 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
     if factor.is_zero() {
         return;
     }
-    for (column, figure) in form {
-        let more = factor * *figure;
+    for (column, coefficient) in form {
+        let more = factor * *coefficient;
         let total = sum.get(column).map_or(more, |known| *known + more);
         if total.is_zero() {
             sum.remove(column);
@@ -118,7 +119,7 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
     }
 }
 
-/// The places in the order in which they are kept: of those that the driving forces cannot tell
+/// The places in the order in which they are kept: of those that the joint torques cannot tell
 /// apart, the first. The recursion computes the first seven of a rotation, the first four of a
 /// translation. Of second moments it is that along the axis which a rotation does not tell, of inertia
 /// tensors one across it.
@@ -131,8 +132,8 @@ fn preference(link: &MechanismLink<'_>, second: bool) -> Vec<usize> {
     let (kept, left) = if second { (y, z) } else { (z, y) };
     let of_tensor = [tensor(kept, kept), tensor(x, x), tensor(x, y), tensor(x, z), tensor(y, z)];
     let mut order = if link.is_revolute() {
-        let told = of_tensor.into_iter().chain([first(x), first(y)]);
-        told.chain([tensor(left, left), first(z), 0]).collect()
+        let identifiable = of_tensor.into_iter().chain([first(x), first(y)]);
+        identifiable.chain([tensor(left, left), first(z), 0]).collect()
     } else {
         let moments = [0, first(0), first(1), first(2)].into_iter();
         moments.chain(of_tensor).chain([tensor(left, left)]).collect::<Vec<usize>>()

@@ -22,19 +22,19 @@ pub(super) fn reduced<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) ->
     let mut found: Vec<Kept<'g>> = vec![];
     let mut triangle: Vec<Vec<f64>> = vec![];
     for (index, column) in columns.iter().enumerate() {
-        let (rest, shares) = orthogonal(column, &basis);
+        let (rest, projections) = orthogonal(column, &basis);
         let size = norm(column);
         if norm(&rest) > DEPENDENT * size {
             let length = norm(&rest);
-            triangle.push(shares.into_iter().chain([length]).collect());
+            triangle.push(projections.into_iter().chain([length]).collect());
             basis.push((index, rest.iter().map(|entry| entry / length).collect()));
             found.push(kept[index].clone());
             continue;
         }
-        for (place, figure) in solved(&triangle, shares).into_iter().enumerate() {
-            if figure.abs() > ROUNDING {
-                let figure = derivation.mechanism.graph.number(Number::Real(figure));
-                add(&mut found[place].1, &kept[index].1, Scalar::new(figure));
+        for (place, coefficient) in solved(&triangle, projections).into_iter().enumerate() {
+            if coefficient.abs() > ROUNDING {
+                let coefficient = derivation.mechanism.graph.number(Number::Real(coefficient));
+                add(&mut found[place].1, &kept[index].1, Scalar::new(coefficient));
             }
         }
     }
@@ -42,30 +42,30 @@ pub(super) fn reduced<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) ->
 }
 
 /// R x = shares, where R holds the basis columns by column.
-fn solved(triangle: &[Vec<f64>], mut shares: Vec<f64>) -> Vec<f64> {
+fn solved(triangle: &[Vec<f64>], mut projections: Vec<f64>) -> Vec<f64> {
     for (column, entries) in triangle.iter().enumerate().rev() {
-        let figure = shares[column] / entries[column];
+        let coefficient = projections[column] / entries[column];
         for (row, entry) in entries.iter().take(column).enumerate() {
-            shares[row] -= figure * entry;
+            projections[row] -= coefficient * entry;
         }
-        shares[column] = figure;
+        projections[column] = coefficient;
     }
-    shares
+    projections
 }
 
 /// What of a column is orthogonal to the basis, and its shares in it; twice, against rounding.
 fn orthogonal(column: &[f64], basis: &[(usize, Vec<f64>)]) -> (Vec<f64>, Vec<f64>) {
-    let (mut rest, mut shares) = (column.to_vec(), vec![0.0; basis.len()]);
+    let (mut rest, mut projections) = (column.to_vec(), vec![0.0; basis.len()]);
     for _ in 0..2 {
-        for ((_, unit), share) in basis.iter().zip(&mut shares) {
+        for ((_, unit), projection) in basis.iter().zip(&mut projections) {
             let part: f64 = rest.iter().zip(unit).map(|(a, b)| a * b).sum();
-            *share += part;
+            *projection += part;
             for (entry, other) in rest.iter_mut().zip(unit) {
                 *entry -= part * other;
             }
         }
     }
-    (rest, shares)
+    (rest, projections)
 }
 
 fn norm(column: &[f64]) -> f64 {

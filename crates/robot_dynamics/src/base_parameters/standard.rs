@@ -92,7 +92,7 @@ impl Quantity {
     }
 }
 
-/// A parameter in which the driving forces are linear, and a column of the full regressor.
+/// A parameter in which the joint torques are linear, and a column of the full regressor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct StandardParameter {
     /// The link, or the one that the drive moves; an index from 0.
@@ -121,15 +121,15 @@ pub fn standard_parameters<'g>(mechanism: &Mechanism<'g>) -> Vec<(StandardParame
         })
     });
     let of_drives = links.flat_map(|(link, symbols)| {
-        let figures = Quantity::DRIVE.map(|quantity| (quantity, drive_figure(symbols, quantity)));
-        let given = figures.into_iter().filter(|(_, figure)| !figure.is_zero());
-        given.map(move |(quantity, figure)| (StandardParameter { link, quantity }, figure))
+        let entries = Quantity::DRIVE.map(|quantity| (quantity, drive_entry(symbols, quantity)));
+        let given = entries.into_iter().filter(|(_, entry)| !entry.is_zero());
+        given.map(move |(quantity, entry)| (StandardParameter { link, quantity }, entry))
     });
     of_links.chain(of_drives).collect()
 }
 
 /// A quantity of a link's drive.
-fn drive_figure<'g>(link: &MechanismLink<'g>, quantity: Quantity) -> Expr<'g> {
+fn drive_entry<'g>(link: &MechanismLink<'g>, quantity: Quantity) -> Expr<'g> {
     let friction = &link.friction;
     match quantity {
         Quantity::Link(_) | Quantity::Moment(_) => link.mass.graph().zero(),

@@ -7,12 +7,13 @@
 
 use robot_symbolic::{Expr, Graph};
 
-use super::chain::{Chain, ChainLink};
-use super::composite::symmetric;
-use super::inertia::PseudoInertia;
-use super::plan::{LinkPlan, Place};
-use super::rotation::{ConstantRotation, Plane};
-use super::spatial::{Twist, Ways, Wrench};
+use crate::economical::composite::symmetric;
+use crate::economical::frames::Frames;
+use crate::economical::frames::chain::{Chain, ChainLink};
+use crate::economical::plan::{LinkPlan, Place};
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::rotation::{ConstantRotation, Plane};
+use crate::economical::spatial::{Twist, Wrench};
 use crate::matrix::Pivots;
 use crate::vector::{Matrix, Vector};
 
@@ -72,16 +73,16 @@ pub(crate) fn solve<'g>(
     right: &[Expr<'g>],
     method: Method,
 ) -> Vec<Expr<'g>> {
-    let ways = Ways::new(chain, |index| plans[index].composite_sum);
-    let joints = inward(&ways, right, method);
-    outward(&ways, &joints)
+    let frames = Frames::new(chain, |index| plans[index].composite_sum);
+    let joints = inward(&frames, right, method);
+    outward(&frames, &joints)
 }
 
 /// D of each coordinate: what inertia its joint shows where the joints farther out are free.
 pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], method: Method) -> Vec<Expr<'g>> {
-    let ways = Ways::new(chain, |index| plans[index].composite_sum);
+    let frames = Frames::new(chain, |index| plans[index].composite_sum);
     let mut pivots = vec![chain.graph.zero(); chain.degrees_of_freedom];
-    let joints = inward(&ways, &pivots, method);
+    let joints = inward(&frames, &pivots, method);
     for (link, joint) in chain.links.iter().zip(joints) {
         pivots[link.coordinate] = joint.pivot * link.ratio * link.ratio;
     }
@@ -89,8 +90,8 @@ pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], method: Method) 
 }
 
 /// Eliminates the joints, from the tips to the base.
-fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>], method: Method) -> Vec<Eliminated<'g>> {
-    let chain = ways.chain;
+fn inward<'g>(frames: &Frames<'_, 'g>, right: &[Expr<'g>], method: Method) -> Vec<Eliminated<'g>> {
+    let chain = frames.chain;
     let zero = Carried::zero(chain.graph);
     // What children hand over, in the link's own axes and in its home axes.
     let mut own: Vec<Carried<'g>> = chain
@@ -101,15 +102,16 @@ fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>], method: Method) -> Vec<El
     let mut at_home = vec![zero; chain.links.len()];
     let mut joints = vec![];
     for (index, link) in chain.links.iter().enumerate().rev() {
-        let posture = &ways.postures[index];
-        let carried = own[index].turned(&posture.group_turn, method.turns).plus(&at_home[index]);
-        let joint = carried.joint(ways, index, right[link.coordinate], method.pivots);
+        let joint_frame = &frames.joint_frames[index];
+        let carried =
+            own[index].turned(&joint_frame.group_turn, method.turns).plus(&at_home[index]);
+        let joint = carried.joint(frames, index, right[link.coordinate], method.pivots);
         if let Some(parent) = link.parent {
             let rest = carried.without(&joint, link, chain.unit);
-            if ways.is_joined(index) {
-                at_home[parent] = at_home[parent].plus(&rest.moved(ways.arm_at_home(index)));
+            if frames.is_joined(index) {
+                at_home[parent] = at_home[parent].plus(&rest.moved(frames.arm_at_home(index)));
             } else {
-                let moved = rest.rotated(&link.rotation, method.turns).moved(posture.origin);
+                let moved = rest.rotated(&link.rotation, method.turns).moved(joint_frame.origin);
                 own[parent] = own[parent].plus(&moved);
             }
         }
@@ -120,25 +122,26 @@ fn inward<'g>(ways: &Ways<'_, 'g>, right: &[Expr<'g>], method: Method) -> Vec<El
 }
 
 /// The accelerations of the joints, from the base to the tips.
-fn outward<'g>(ways: &Ways<'_, 'g>, joints: &[Eliminated<'g>]) -> Vec<Expr<'g>> {
-    let chain = ways.chain;
+fn outward<'g>(frames: &Frames<'_, 'g>, joints: &[Eliminated<'g>]) -> Vec<Expr<'g>> {
+    let chain = frames.chain;
     let mut solution = vec![chain.graph.zero(); chain.degrees_of_freedom];
     // Of each link, in its home axes.
     let mut motions: Vec<Twist<'g>> = vec![];
     for (index, (link, joint)) in chain.links.iter().zip(joints).enumerate() {
         let carried = link.parent.map(|parent| {
             let place = Place { link: parent, turned: true };
-            let own = match ways.is_joined(index) {
+            let own = match frames.is_joined(index) {
                 true => motions[parent],
-                false => ways.twist_outward(place, &motions[parent]),
+                false => frames.twist_outward(place, &motions[parent]),
             };
-            ways.twist_outward(Place { link: index, turned: false }, &own)
+            frames.twist_outward(Place { link: index, turned: false }, &own)
         });
         // s = (u − Uᵀ A) / D
-        let held = carried.map(|motion| motion.dot(&joint.asked));
-        let rate = held.map_or(joint.force, |held| joint.force - held) * joint.reciprocal;
+        let of_carrier = carried.map(|motion| motion.dot(&joint.asked));
+        let rate = of_carrier.map_or(joint.force, |of_carrier| joint.force - of_carrier)
+            * joint.reciprocal;
         solution[link.coordinate] = rate / link.ratio;
-        let by_joint = ways.joint_twist(index).times(rate);
+        let by_joint = frames.joint_twist(index).times(rate);
         motions.push(carried.map_or(by_joint, |motion| motion.plus(&by_joint)));
     }
     solution
@@ -154,13 +157,13 @@ struct Carried<'g> {
 impl<'g> Carried<'g> {
     fn joint(
         &self,
-        ways: &Ways<'_, 'g>,
+        frames: &Frames<'_, 'g>,
         index: usize,
         right: Expr<'g>,
         pivots: Pivots,
     ) -> Eliminated<'g> {
-        let link = &ways.chain.links[index];
-        let direction = ways.joint_twist(index);
+        let link = &frames.chain.links[index];
+        let direction = frames.joint_twist(index);
         let mut asked = self.inertia.asks_for(&direction);
         let pivot = direction.dot(&asked) + link.reflected_inertia;
         asked.moment.0[2] += link.rotor_coupling;
@@ -175,15 +178,17 @@ impl<'g> Carried<'g> {
     /// What is left where the joint gives way: I − U Uᵀ/D, and p + U u/D.
     fn without(&self, joint: &Eliminated<'g>, link: &ChainLink<'g>, unit: Expr<'g>) -> Carried<'g> {
         let Eliminated { asked, reciprocal, force, .. } = joint;
-        let share = Wrench { force: asked.force * *reciprocal, moment: asked.moment * *reciprocal };
-        let inertia = self.inertia.minus_product(asked, &share);
+        let scaled =
+            Wrench { force: asked.force * *reciprocal, moment: asked.moment * *reciprocal };
+        let inertia = self.inertia.minus_product(asked, &scaled);
         // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ with the reflected inertia r and the rotor's k, which a
         // joint that slides does not feel itself: 0 without a drive.
-        let felt = if link.is_revolute() { link.rotor_coupling } else { unit.graph().zero() };
-        let kept = (link.reflected_inertia - felt) * *reciprocal;
+        let own_coupling =
+            if link.is_revolute() { link.rotor_coupling } else { unit.graph().zero() };
+        let kept = (link.reflected_inertia - own_coupling) * *reciprocal;
         let mut along = Wrench { force: asked.force * kept, moment: asked.moment * kept };
         along.moment.0[2] -= link.rotor_coupling;
-        let wrench = Wrench { force: share.force * *force, moment: share.moment * *force };
+        let wrench = Wrench { force: scaled.force * *force, moment: scaled.moment * *force };
         Carried {
             inertia: inertia.with_along_joint(&along, link.is_revolute(), unit),
             wrench: self.wrench.plus(&wrench),
@@ -298,7 +303,7 @@ impl<'g> ArticulatedInertia<'g> {
                 (self.turning.0[k][2], self.turning.0[2][k]) = (moment.0[k], moment.0[k]);
                 self.coupling.0[2][k] = force.0[k];
             } else {
-                // In the chain's unit of length a translation of one metre is 1/unit.
+                // In the chain's unit of length a translation of one meter is 1/unit.
                 self.coupling.0[k][2] = moment.0[k] * unit;
                 let entry = force.0[k] * unit;
                 (self.mass.0[k][2], self.mass.0[2][k]) = (entry, entry);

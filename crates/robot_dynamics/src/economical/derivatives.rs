@@ -1,4 +1,4 @@
-//! Derivatives of the driving forces by positions and velocities, and the Coriolis matrix, by
+//! Derivatives of the joint torques by positions and velocities, and the Coriolis matrix, by
 //! composite quantities.
 //!
 //! Write a joint's unit motion as the 4 × 4 matrix Ẑ, a link's motion as V, its pseudo-inertia as P
@@ -16,16 +16,17 @@
 
 use robot_symbolic::Expr;
 
-use super::Recursion;
-use super::chain::Chain;
-use super::composite::{composites, gather, inertial_wrench};
-use super::encounter::{GoesInward, Traveller, encounters};
-use super::inertia::PseudoInertia;
-use super::inward::own_wrench;
-use super::momentum::Momentum;
-use super::outward::{self, Accelerations, LinkState};
-use super::plan::Place;
-use super::spatial::{Twist, Ways, Wrench};
+use crate::economical::Recursion;
+use crate::economical::composite::projection::{Propagate, Propagated, projections};
+use crate::economical::composite::{composites, gather, inertial_wrench};
+use crate::economical::frames::Frames;
+use crate::economical::frames::chain::Chain;
+use crate::economical::plan::Place;
+use crate::economical::recursion::inward::own_wrench;
+use crate::economical::recursion::outward::{self, Accelerations, LinkState};
+use crate::economical::spatial::inertia::PseudoInertia;
+use crate::economical::spatial::momentum::Momentum;
+use crate::economical::spatial::{Twist, Wrench};
 use crate::matrix::SquareMatrix;
 use crate::vector::Vector;
 
@@ -39,7 +40,7 @@ pub struct TorqueDerivatives<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// The derivatives of the driving forces at the accelerations q̈; `None` where a drive is
+    /// The derivatives of the joint torques at the accelerations q̈; `None` if a drive is
     /// gyroscopic, whose momentum composites do not hold.
     #[must_use]
     pub fn torque_derivatives(&self) -> Option<TorqueDerivatives<'g>> {
@@ -68,36 +69,36 @@ impl<'g> Recursion<'g> {
     fn torque_derivatives_of(&self, chain: &Chain<'g>) -> TorqueDerivatives<'g> {
         let chain = &chain.without_idle_turns(&[]);
         let states = outward::outward(chain, &self.plans, Accelerations::Given);
-        let ways = Ways::new(chain, |index| self.plans[index].composite_sum);
-        let motions = Motions::new(&ways, &states, chain.graph.integer(2));
+        let frames = Frames::new(chain, |index| self.plans[index].composite_sum);
+        let motions = Motions::new(&frames, &states, chain.graph.integer(2));
         let wrenches = {
             let own = states.iter().enumerate().map(|(index, state)| {
                 let (force, moment) = own_wrench(chain, index, state, &self.plans[index]);
                 Wrench { force, moment }
             });
-            gather(&ways, own.collect())
+            gather(&frames, own.collect())
         };
-        let shares = Shares::new(&ways, &motions);
+        let composites = Composites::new(&frames, &motions);
         let n = chain.degrees_of_freedom;
         let mut positions = SquareMatrix::zero(chain.graph, n);
         let mut velocities = SquareMatrix::zero(chain.graph, n);
-        self.each_pair(&ways, &motions, &shares, &mut velocities);
+        self.each_pair(&frames, &motions, &composites, &mut velocities);
         for (index, link) in chain.links.iter().enumerate() {
-            let load = shares.of_position(&ways, &motions, index, &wrenches[index]);
-            let mut traveller = Traveller::from_home(index, load);
-            for encounter in encounters(&ways, index, self.plans[index].meeting) {
-                traveller.go_to(&ways, encounter.place);
-                let inner = &chain.links[encounter.inner];
+            let load = composites.of_position(&frames, &motions, index, &wrenches[index]);
+            let mut propagated = Propagated::from_home(index, load);
+            for projection in projections(&frames, index, self.plans[index].projected_at) {
+                propagated.propagate_to(&frames, projection.place);
+                let inner = &chain.links[projection.inner];
                 let factor = link.ratio * inner.ratio;
-                let load = &traveller.load;
-                let motion = &motions.links[encounter.inner];
-                let unit = encounter.twist(&ways, &motion.unit);
-                let inward = unit.dot(&load.stirred) * factor;
+                let load = &propagated.load;
+                let motion = &motions.links[projection.inner];
+                let unit = projection.twist(&frames, &motion.unit);
+                let inward = unit.dot(&load.own) * factor;
                 positions.add(inner.coordinate, link.coordinate, inward);
-                if encounter.inner != index {
-                    let shift = encounter.twist(&ways, &motion.shift);
-                    let turning = encounter.twist(&ways, &motion.turning);
-                    let outward = shift.dot(&load.unit) + turning.angular.dot(load.felt);
+                if projection.inner != index {
+                    let shift = projection.twist(&frames, &motion.shift);
+                    let turning = projection.twist(&frames, &motion.turning);
+                    let outward = shift.dot(&load.unit) + turning.angular.dot(load.projected);
                     positions.add(link.coordinate, inner.coordinate, outward * factor);
                 }
             }
@@ -117,38 +118,38 @@ impl<'g> Recursion<'g> {
             link.motion.acceleration = chain.graph.zero();
         }
         let states = outward::outward(&chain, &self.plans, Accelerations::Given);
-        let ways = Ways::new(&chain, |index| self.plans[index].composite_sum);
-        let motions = Motions::new(&ways, &states, chain.graph.one());
-        let shares = Shares::new(&ways, &motions);
+        let frames = Frames::new(&chain, |index| self.plans[index].composite_sum);
+        let motions = Motions::new(&frames, &states, chain.graph.one());
+        let composites = Composites::new(&frames, &motions);
         let mut matrix = SquareMatrix::zero(chain.graph, chain.degrees_of_freedom);
-        self.each_pair(&ways, &motions, &shares, &mut matrix);
+        self.each_pair(&frames, &motions, &composites, &mut matrix);
         Some(matrix)
     }
 
     /// Adds ⟨Ẑᵢ, Ẏ P + Ẑⱼ B⟩ for all pairs of joints, times the factor of the motions.
     fn each_pair(
         &self,
-        ways: &Ways<'_, 'g>,
+        frames: &Frames<'_, 'g>,
         motions: &Motions<'g>,
-        shares: &Shares<'g>,
+        composites: &Composites<'g>,
         matrix: &mut SquareMatrix<'g>,
     ) {
-        let links = &ways.chain.links;
+        let links = &frames.chain.links;
         for (index, link) in links.iter().enumerate() {
-            let load = shares.of_velocity(ways, motions, index);
-            let mut traveller = Traveller::from_home(index, load);
-            for encounter in encounters(ways, index, self.plans[index].meeting) {
-                traveller.go_to(ways, encounter.place);
-                let inner = &links[encounter.inner];
+            let load = composites.of_velocity(frames, motions, index);
+            let mut propagated = Propagated::from_home(index, load);
+            for projection in projections(frames, index, self.plans[index].projected_at) {
+                propagated.propagate_to(frames, projection.place);
+                let inner = &links[projection.inner];
                 let factor = link.ratio * inner.ratio;
-                let load = &traveller.load;
-                let motion = &motions.links[encounter.inner];
-                let unit = encounter.twist(ways, &motion.unit);
-                let inward = unit.dot(&load.stirred) * factor;
+                let load = &propagated.load;
+                let motion = &motions.links[projection.inner];
+                let unit = projection.twist(frames, &motion.unit);
+                let inward = unit.dot(&load.own) * factor;
                 matrix.add(inner.coordinate, link.coordinate, inward);
-                if encounter.inner != index {
-                    let rate = encounter.twist(ways, &motion.rate);
-                    let outward = rate.dot(&load.unit) + unit.angular.dot(load.felt);
+                if projection.inner != index {
+                    let rate = projection.twist(frames, &motion.rate);
+                    let outward = rate.dot(&load.unit) + unit.angular.dot(load.projected);
                     matrix.add(link.coordinate, inner.coordinate, outward * factor);
                 }
             }
@@ -179,25 +180,25 @@ struct Motions<'g> {
 impl<'g> Motions<'g> {
     /// `factor` is 1 or 2: V and Y come in pairs of equal terms in the derivatives, and doubling
     /// them once is cheaper than doubling what they make.
-    fn new(ways: &Ways<'_, 'g>, states: &[LinkState<'g>], factor: Expr<'g>) -> Motions<'g> {
-        let chain = ways.chain;
+    fn new(frames: &Frames<'_, 'g>, states: &[LinkState<'g>], factor: Expr<'g>) -> Motions<'g> {
+        let chain = frames.chain;
         let zero = Vector::zero(chain.graph);
         let (mut links, mut twists): (Vec<JointMotion<'g>>, Vec<Twist<'g>>) = (vec![], vec![]);
         for (index, link) in chain.links.iter().enumerate() {
-            let posture = &ways.postures[index];
-            let home = |vector| ways.parent_to_home(index, vector);
+            let joint_frame = &frames.joint_frames[index];
+            let home = |vector| frames.parent_to_home(index, vector);
             let at_rest = Twist { angular: zero, linear: zero };
             let carrier = link.parent.map_or(at_rest, |parent| twists[parent]);
-            let carried = carrier.linear + carrier.angular.cross(posture.origin);
+            let carried = carrier.linear + carrier.angular.cross(joint_frame.origin);
             let (omega, column, acceleration) = match link.parent {
                 Some(parent) => {
                     let state = &states[parent];
-                    let acceleration = state.acceleration + state.tensor * posture.origin;
+                    let acceleration = state.acceleration + state.tensor * joint_frame.origin;
                     (state.angular_velocity, state.tensor * link.axis, acceleration)
                 }
                 None => (zero, zero, -chain.gravity),
             };
-            let unit = ways.joint_twist(index);
+            let unit = frames.joint_twist(index);
             links.push(JointMotion::new(
                 &unit,
                 factor,
@@ -206,7 +207,7 @@ impl<'g> Motions<'g> {
                 home(column),
                 home(acceleration),
             ));
-            let mut velocity = posture.turn.back(link.rotation.back(carried));
+            let mut velocity = joint_frame.turn.back(link.rotation.back(carried));
             if !link.is_revolute() {
                 velocity.0[2] += link.motion.velocity * factor;
             }
@@ -249,7 +250,7 @@ impl<'g> JointMotion<'g> {
 }
 
 /// P and B of every link with all that it carries, in home axes; B times the factor of the motions.
-struct Shares<'g> {
+struct Composites<'g> {
     inertias: Vec<PseudoInertia<'g>>,
     momenta: Vec<Momentum<'g>>,
 }
@@ -259,55 +260,63 @@ struct Shares<'g> {
 struct Load<'g> {
     /// P Z of the outer joint.
     unit: Wrench<'g>,
-    /// What the outer joint feels of the inner joint's turning, by B.
-    felt: Vector<'g>,
-    /// What the outer joint's own motion stirs up.
-    stirred: Wrench<'g>,
+    /// What B gives at the outer joint for the inner joint's turning.
+    projected: Vector<'g>,
+    /// The wrench of the outer joint's own motion.
+    own: Wrench<'g>,
 }
 
-impl<'g> GoesInward<'g> for Load<'g> {
-    fn inward(&self, ways: &Ways<'_, 'g>, place: Place) -> Self {
+impl<'g> Propagate<'g> for Load<'g> {
+    fn inward(&self, frames: &Frames<'_, 'g>, place: Place) -> Self {
         Load {
-            unit: ways.wrench_inward(place, &self.unit),
-            felt: ways.vector_inward(place, self.felt),
-            stirred: ways.wrench_inward(place, &self.stirred),
+            unit: self.unit.inward(frames, place),
+            projected: self.projected.inward(frames, place),
+            own: self.own.inward(frames, place),
         }
     }
 }
 
-impl<'g> Shares<'g> {
-    fn new(ways: &Ways<'_, 'g>, motions: &Motions<'g>) -> Shares<'g> {
-        let links = ways.chain.links.iter().zip(&motions.twists);
+impl<'g> Composites<'g> {
+    fn new(frames: &Frames<'_, 'g>, motions: &Motions<'g>) -> Composites<'g> {
+        let links = frames.chain.links.iter().zip(&motions.twists);
         let own = links.map(|(link, twist)| Momentum::of_link(twist, &link.inertia)).collect();
-        Shares { inertias: composites(ways), momenta: gather(ways, own) }
+        Composites { inertias: composites(frames), momenta: gather(frames, own) }
     }
 
-    fn of_velocity(&self, ways: &Ways<'_, 'g>, motions: &Motions<'g>, index: usize) -> Load<'g> {
+    fn of_velocity(
+        &self,
+        frames: &Frames<'_, 'g>,
+        motions: &Motions<'g>,
+        index: usize,
+    ) -> Load<'g> {
         let (motion, momentum) = (&motions.links[index], &self.momenta[index]);
         let by_rate = inertial_wrench(&self.inertias[index], &motion.rate);
-        Load { stirred: by_rate.plus(&momentum.stirred(&motion.unit)), ..self.common(ways, index) }
+        Load {
+            own: by_rate.plus(&momentum.wrench_of_unit_rate(&motion.unit)),
+            ..self.common(frames, index)
+        }
     }
 
     fn of_position(
         &self,
-        ways: &Ways<'_, 'g>,
+        frames: &Frames<'_, 'g>,
         motions: &Motions<'g>,
         index: usize,
         whole: &Wrench<'g>,
     ) -> Load<'g> {
         let (motion, momentum) = (&motions.links[index], &self.momenta[index]);
         let by_shift = inertial_wrench(&self.inertias[index], &motion.shift);
-        let by_turning = momentum.stirred(&motion.turning);
+        let by_turning = momentum.wrench_of_unit_rate(&motion.turning);
         let along = whole.carried_by(&motion.unit);
-        Load { stirred: along.plus(&by_shift.plus(&by_turning)), ..self.common(ways, index) }
+        Load { own: along.plus(&by_shift.plus(&by_turning)), ..self.common(frames, index) }
     }
 
-    fn common(&self, ways: &Ways<'_, 'g>, index: usize) -> Load<'g> {
-        let unit = ways.joint_twist(index);
+    fn common(&self, frames: &Frames<'_, 'g>, index: usize) -> Load<'g> {
+        let unit = frames.joint_twist(index);
         Load {
             unit: inertial_wrench(&self.inertias[index], &unit),
-            felt: self.momenta[index].felt(&unit),
-            stirred: Wrench::zero(ways.chain.graph),
+            projected: self.momenta[index].project(&unit),
+            own: Wrench::zero(frames.chain.graph),
         }
     }
 }

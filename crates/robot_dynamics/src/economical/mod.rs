@@ -10,27 +10,12 @@
 //! and Patel 1991 (the tensor U), with further options of this project's own, named in [`plan`].
 
 mod articulated;
-mod chain;
 mod composite;
 mod derivatives;
-mod encounter;
-mod energy;
 mod frames;
-mod gravity;
-mod inertia;
-mod inward;
-mod kinematics;
-mod mass_matrix;
-mod mechanics;
-mod momentum;
-mod outward;
-pub mod pin;
 pub mod plan;
-mod posture;
-mod reframed;
+mod recursion;
 mod regressor;
-mod rotation;
-pub mod search;
 mod spatial;
 
 use robot_symbolic::{Expr, Graph};
@@ -39,16 +24,17 @@ use crate::matrix::{Pivots, SymmetricMatrix};
 use crate::mechanism::Mechanism;
 use crate::vector::Vector;
 use articulated::{Method, Turns};
-use chain::{Base, Chain};
+use composite::{gravity, mass_matrix};
 pub use derivatives::TorqueDerivatives;
-pub(crate) use frames::WorkingFrame;
-use inward::TipWrench;
-pub use kinematics::Pose;
-pub use mechanics::mechanics;
-use outward::{Accelerations, LinkState};
+use frames::chain::{self, Base, Chain};
+pub(crate) use frames::reframed::Reframed;
+pub(crate) use frames::working::WorkingFrame;
 use plan::LinkPlan;
-pub use plan::Plan;
-pub(crate) use reframed::Reframed;
+pub use plan::mechanics::mechanics;
+pub use plan::{Plan, pin, search};
+use recursion::inward::{self, TipWrench};
+pub use recursion::kinematics::Pose;
+use recursion::outward::{self, Accelerations, LinkState};
 pub use regressor::{Column, RegressorColumns};
 pub(crate) use regressor::{regressor, unit_rotor, unit_wrenches};
 pub(crate) use spatial::Wrench;
@@ -75,7 +61,7 @@ pub struct Recursion<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// `None` where a joint axis depends on parameters, for which working frames cannot be chosen.
+    /// `None` if a joint axis depends on parameters, for which working frames cannot be chosen.
     #[must_use]
     pub fn new(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Recursion<'g>> {
         Some(Recursion::from_base(mechanism, &Base::new(mechanism)?, plan))
@@ -94,20 +80,20 @@ impl<'g> Recursion<'g> {
         self.chain.graph
     }
 
-    /// The number of generalised coordinates.
+    /// The number of generalized coordinates.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
         self.chain.degrees_of_freedom
     }
 
-    /// The generalised driving forces Q, with the tips' wrenches where `wrench` asks for them;
+    /// The generalized forces Q, with the tips' wrenches where `wrench` asks for them;
     /// friction is not part of them.
     #[must_use]
     pub fn inverse_dynamics(&self, wrench: bool) -> Vec<Expr<'g>> {
         self.torques(&self.chain, Accelerations::Given, wrench).0
     }
 
-    /// C(q, q̇) q̇ + g(q): the driving forces at rest accelerations, with the tips' wrenches where
+    /// C(q, q̇) q̇ + g(q): the joint torques at rest accelerations, with the tips' wrenches where
     /// `wrench` asks for them.
     #[must_use]
     pub fn bias(&self, wrench: bool) -> Vec<Expr<'g>> {
@@ -118,10 +104,10 @@ impl<'g> Recursion<'g> {
         self.torques(&chain, Accelerations::Given, wrench).0
     }
 
-    /// q̈ for the driving forces `tau`, with the tips' wrenches where `wrench` asks for them.
+    /// q̈ for the joint torques `tau`, with the tips' wrenches where `wrench` asks for them.
     ///
-    /// By M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own driving forces
-    /// cheap ([`LinkPlan::free`]); `None` where the solver does not apply.
+    /// By M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own joint torques
+    /// cheap ([`LinkPlan::free`]); `None` if the solver does not apply.
     #[must_use]
     pub fn forward_dynamics(
         &self,
@@ -197,7 +183,7 @@ impl<'g> Recursion<'g> {
         (inward::inward(chain, &self.plans, &states, tips), states)
     }
 
-    /// g(q): the driving forces that hold the mechanism at rest.
+    /// g(q): the joint torques that hold the mechanism at rest.
     #[must_use]
     pub fn gravity(&self) -> Vec<Expr<'g>> {
         gravity::gravity(&self.chain.without_idle_turns(&[]), &self.plans)

@@ -1,4 +1,4 @@
-//! The driving forces as linear functions of the links' inertial parameters.
+//! The joint torques as linear functions of the links' inertial parameters.
 //!
 //! A unit of each of a link's ten parameters ([`crate::body`]) asks for a wrench, which goes inward to meet the joints. Not all ten have to go: what a joint cannot tell from the
 //! parent's own (for a rotation about z the mass and the moments along z, for a translation the
@@ -13,23 +13,24 @@
 use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::Expr;
 
-use super::Recursion;
-use super::chain::ChainLink;
-use super::encounter::{Traveller, encounters};
-use super::outward::{self, Accelerations, LinkState};
-use super::plan::{LinkPlan, Origin, Place, Plan, Turn};
-use super::rotation::Plane;
-use super::spatial::{Ways, Wrench};
 use crate::body::{Body, FIRST_MOMENT, Moments, TENSOR};
+use crate::economical::Recursion;
+use crate::economical::composite::projection::{Propagated, projections};
+use crate::economical::frames::Frames;
+use crate::economical::frames::chain::ChainLink;
+use crate::economical::plan::{LinkPlan, Origin, Place, Plan, Turn};
+use crate::economical::recursion::outward::{self, Accelerations, LinkState};
+use crate::economical::spatial::Wrench;
+use crate::economical::spatial::rotation::Plane;
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 
 /// The places of the parameters that a rotation about z tells from the parent's, but for I_yy.
-const TOLD_BY_ROTATION: [usize; 7] = [1, 2, 4, 5, 7, 8, 9];
+const IDENTIFIABLE_BY_ROTATION: [usize; 7] = [1, 2, 4, 5, 7, 8, 9];
 /// The same where the last six are second moments.
-const TOLD_OF_SECOND: [usize; 7] = [1, 2, 4, 5, 6, 7, 8];
+const IDENTIFIABLE_SECOND_MOMENTS: [usize; 7] = [1, 2, 4, 5, 6, 7, 8];
 /// The places of the parameters that a translation tells from the parent's.
-const TOLD_BY_TRANSLATION: [usize; 4] = [0, 1, 2, 3];
+const IDENTIFIABLE_BY_TRANSLATION: [usize; 4] = [0, 1, 2, 3];
 
 /// The options of a regressor's recursion: those that need the fewest operations for most arms. They are
 /// the regressor's own, for the parameters are about the links' frames whatever a plan says.
@@ -43,9 +44,9 @@ const OPTIONS: LinkPlan = LinkPlan {
 };
 /// Wrenches from beyond this group of parallel joints, counted from the base, go inward to its axes
 /// and no farther: the motions of the joints inward of it come there, once for all wrenches.
-const MEETING_GROUP: usize = 3;
+const PROJECTION_GROUP: usize = 3;
 
-/// The share of a unit of a parameter in each driving force.
+/// The share of a unit of a parameter in each joint torque.
 pub type Column<'g> = Vec<Expr<'g>>;
 
 /// The columns of a regressor.
@@ -71,18 +72,18 @@ fn rod<'g>(kind: usize, z: Vector<'g>, p: Vector<'g>, moments: Moments) -> Body<
     Body { mass, first, tensor: moments.of_second(second) }
 }
 
-/// A body's share in the driving forces, from those of units in the same frame.
-fn share<'g>(body: &Body<'g>, units: &[Column<'g>]) -> Column<'g> {
-    let mut share: Column<'g> = vec![];
+/// A body's share in the joint torques, from those of units in the same frame.
+fn combination<'g>(body: &Body<'g>, units: &[Column<'g>]) -> Column<'g> {
+    let mut combination: Column<'g> = vec![];
     for (amount, unit) in body.parameters().into_iter().zip(units) {
-        if share.is_empty() {
-            share = vec![amount.graph().zero(); unit.len()];
+        if combination.is_empty() {
+            combination = vec![amount.graph().zero(); unit.len()];
         }
-        for (sum, entry) in share.iter_mut().zip(unit) {
+        for (sum, entry) in combination.iter_mut().zip(unit) {
             *sum += amount * *entry;
         }
     }
-    share
+    combination
 }
 
 /// The wrenches, about the origin, that move a unit of each parameter with U, ω, ε and the
@@ -162,45 +163,45 @@ pub(crate) fn unit_rotor<'g>(
 }
 
 /// The shares of the links' inertial parameters, about the origins and in the axes of their frames, and
-/// of the rotors in the driving forces. `None` where a joint axis depends on parameters.
+/// of the rotors in the joint torques. `None` if a joint axis depends on parameters.
 pub(crate) fn regressor<'g>(
     mechanism: &Mechanism<'g>,
     moments: Moments,
 ) -> Option<RegressorColumns<'g>> {
     let mut own = Recursion::new(mechanism, &Plan::uniform(mechanism.links.len(), &OPTIONS))?;
-    let meetings = meeting_places(&own.ways());
-    for (plan, meeting) in own.plans.iter_mut().zip(meetings) {
-        plan.meeting = meeting;
+    let projected_at = projection_places(&own.frames());
+    for (plan, projected_at) in own.plans.iter_mut().zip(projected_at) {
+        plan.projected_at = projected_at;
     }
-    let (chain, ways) = (&own.chain, own.ways());
+    let (chain, frames) = (&own.chain, own.frames());
     let states = outward::outward(chain, &own.plans, Accelerations::Given);
     let of_link = |(link, units): (usize, Vec<Column<'g>>)| {
         let back = chain.frames[link].axes.transpose();
         let body = move |parameter| Body::unit(chain.graph, parameter).turned(back);
-        (0..LINK_PARAMETERS).map(move |parameter| share(&body(parameter), &units))
+        (0..LINK_PARAMETERS).map(move |parameter| combination(&body(parameter), &units))
     };
-    let units = own.unit_columns(&ways, &states, moments);
+    let units = own.unit_columns(&frames, &states, moments);
     let links = units.into_iter().enumerate().flat_map(of_link).collect();
-    let rotors = (0..chain.links.len()).map(|link| own.rotor_column(&ways, &states, link));
+    let rotors = (0..chain.links.len()).map(|link| own.rotor_column(&frames, &states, link));
     Some(RegressorColumns { links, rotors: rotors.collect() })
 }
 
-/// Per link, where its wrenches meet the motions of the joints inward of [`MEETING_GROUP`].
-fn meeting_places(ways: &Ways<'_, '_>) -> Vec<Option<Place>> {
+/// Per link, where its wrenches meet the motions of the joints inward of [`PROJECTION_GROUP`].
+fn projection_places(frames: &Frames<'_, '_>) -> Vec<Option<Place>> {
     // The groups on the way from the base to each link, and its meeting place.
     let mut found: Vec<(usize, Option<Place>)> = vec![];
-    for (link, joint) in ways.chain.links.iter().enumerate() {
+    for (link, joint) in frames.chain.links.iter().enumerate() {
         let carrier = joint.parent.map(|parent| (parent, found[parent]));
         let (depth, place) = match carrier {
-            Some((_, (depth, place))) if ways.is_joined(link) => (depth, place),
-            Some((parent, (MEETING_GROUP, _))) => {
-                (MEETING_GROUP + 1, Some(Place { link: parent, turned: true }))
+            Some((_, (depth, place))) if frames.is_joined(link) => (depth, place),
+            Some((parent, (PROJECTION_GROUP, _))) => {
+                (PROJECTION_GROUP + 1, Some(Place { link: parent, turned: true }))
             }
             Some((_, (depth, place))) => (depth + 1, place),
             None => (1, None),
         };
         let at_home = Some(Place { link, turned: false });
-        found.push((depth, if depth == MEETING_GROUP { at_home } else { place }));
+        found.push((depth, if depth == PROJECTION_GROUP { at_home } else { place }));
     }
     found.into_iter().map(|(_, place)| place).collect()
 }
@@ -209,7 +210,7 @@ impl<'g> Recursion<'g> {
     /// Per link, the columns of its parameters in its working frame.
     fn unit_columns(
         &self,
-        ways: &Ways<'_, 'g>,
+        frames: &Frames<'_, 'g>,
         states: &[LinkState<'g>],
         moments: Moments,
     ) -> Vec<Vec<Column<'g>>> {
@@ -229,13 +230,13 @@ impl<'g> Recursion<'g> {
                 Moments::Second => second_moment_wrenches(state),
             };
             let mut own = nothing.clone();
-            let told: &[usize] = match (link.is_revolute(), moments) {
-                (true, Moments::Inertia) => &TOLD_BY_ROTATION,
-                (true, Moments::Second) => &TOLD_OF_SECOND,
-                (false, _) => &TOLD_BY_TRANSLATION,
+            let identifiable: &[usize] = match (link.is_revolute(), moments) {
+                (true, Moments::Inertia) => &IDENTIFIABLE_BY_ROTATION,
+                (true, Moments::Second) => &IDENTIFIABLE_SECOND_MOMENTS,
+                (false, _) => &IDENTIFIABLE_BY_TRANSLATION,
             };
-            for parameter in told {
-                own[*parameter] = self.column(ways, index, &wrenches[*parameter]);
+            for parameter in identifiable {
+                own[*parameter] = self.column(frames, index, &wrenches[*parameter]);
             }
             // The base does not move: what is equal to parameters of the base has no share.
             let carrier = link.parent.map_or(&nothing, |parent| &columns[parent]);
@@ -248,7 +249,7 @@ impl<'g> Recursion<'g> {
     /// The shares of a unit of a link's rotor coupling.
     fn rotor_column(
         &self,
-        ways: &Ways<'_, 'g>,
+        frames: &Frames<'_, 'g>,
         states: &[LinkState<'g>],
         index: usize,
     ) -> Column<'g> {
@@ -264,22 +265,22 @@ impl<'g> Recursion<'g> {
             carrier.angular_acceleration,
         );
         let wrench = Wrench { force: Vector::zero(graph), moment };
-        let mut column = self.column(ways, parent, &wrench);
+        let mut column = self.column(frames, parent, &wrench);
         column[link.coordinate] += torque * link.ratio;
         column
     }
 
-    /// The shares of a wrench on a link, in its own axes, in the driving forces.
-    fn column(&self, ways: &Ways<'_, 'g>, index: usize, wrench: &Wrench<'g>) -> Column<'g> {
+    /// The shares of a wrench on a link, in its own axes, in the joint torques.
+    fn column(&self, frames: &Frames<'_, 'g>, index: usize, wrench: &Wrench<'g>) -> Column<'g> {
         let chain = &self.chain;
         let mut column = vec![chain.graph.zero(); chain.degrees_of_freedom];
-        let at_home = wrench.turned_forward(&ways.postures[index].group_turn);
-        let mut traveller = Traveller::from_home(index, at_home);
-        for encounter in encounters(ways, index, self.plans[index].meeting) {
-            traveller.go_to(ways, encounter.place);
-            let inner = &chain.links[encounter.inner];
-            let twist = encounter.twist(ways, &ways.joint_twist(encounter.inner));
-            column[inner.coordinate] += twist.dot(&traveller.load) * inner.ratio;
+        let at_home = wrench.turned_forward(&frames.joint_frames[index].group_turn);
+        let mut propagated = Propagated::from_home(index, at_home);
+        for projection in projections(frames, index, self.plans[index].projected_at) {
+            propagated.propagate_to(frames, projection.place);
+            let inner = &chain.links[projection.inner];
+            let twist = projection.twist(frames, &frames.joint_twist(projection.inner));
+            column[inner.coordinate] += twist.dot(&propagated.load) * inner.ratio;
         }
         column
     }
@@ -293,7 +294,7 @@ fn regrouped<'g>(
     moments: Moments,
 ) {
     if link.is_revolute() {
-        let rod = |kind| share(&rod(kind, link.axis, link.translation, moments), carrier);
+        let rod = |kind| combination(&rod(kind, link.axis, link.translation, moments), carrier);
         own[0] = rod(0);
         own[FIRST_MOMENT + 2] = rod(1);
         if moments == Moments::Second {
@@ -311,6 +312,6 @@ fn regrouped<'g>(
     let axis = |k| link.rotation.forward(turn.forward(Matrix::identity(graph).column(k))).0;
     let rotation = Matrix([0, 1, 2].map(axis)).transpose();
     for (parameter, column) in own.iter_mut().enumerate().skip(TENSOR) {
-        *column = share(&Body::unit(graph, parameter).turned(rotation), carrier);
+        *column = combination(&Body::unit(graph, parameter).turned(rotation), carrier);
     }
 }

@@ -152,10 +152,10 @@ fn slopes(roots: &[Expr<'_>], state: u64) -> BTreeMap<SymbolId, Slope> {
     let mut found = BTreeMap::new();
     for (place, node) in nodes.iter().enumerate().rev() {
         let Slope { sum, size } = slopes[place];
-        let mut add = |operand: Expr<'_>, share: f64| {
+        let mut add = |operand: Expr<'_>, factor: f64| {
             let slope = &mut slopes[place_of(operand)];
-            slope.sum += sum * share;
-            slope.size += size * share.abs();
+            slope.sum += sum * factor;
+            slope.size += size * factor.abs();
         };
         match node.view() {
             View::Number(_) | View::Pi => {}

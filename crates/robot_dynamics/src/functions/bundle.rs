@@ -6,7 +6,7 @@ use super::{Derivation, Function, Input, Output, sharing};
 
 impl<'g> Derivation<'_, 'g> {
     /// Derives the functions of a bundle in one: expressions that they share are computed once, and
-    /// where it is cheaper one function is made of others, such as τ = M q̈ + C q̇ + g.
+    /// if it is cheaper one function is made of others, such as τ = M q̈ + C q̇ + g.
     ///
     /// The output of a function that has one is named after the function. Of functions with several
     /// outputs each keeps its name; where two functions have the same, the function's name stands
@@ -56,7 +56,7 @@ fn outputs(functions: Vec<Function<'_>>) -> Vec<Output<'_>> {
     outputs
 }
 
-/// What the outputs of a function are called where there are those of others.
+/// What the outputs of a function are called if there are those of others.
 fn own_names(function: &Function<'_>) -> Vec<String> {
     match function.outputs.as_slice() {
         [_] => vec![function.name.clone()],

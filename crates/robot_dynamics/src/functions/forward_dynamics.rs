@@ -1,4 +1,4 @@
-//! Forward dynamics: accelerations from driving forces.
+//! Forward dynamics: accelerations from joint torques.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, walk};
@@ -50,7 +50,7 @@ pub(super) fn forward_dynamics<'g>(
 
 /// How the functions of a robot solve M q̈ = b, how many digits that may cost, and what a wrong pivot does.
 pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
-    let way = if derivation.recursion_for_small_pivots().is_some() {
+    let solution = if derivation.recursion_for_small_pivots().is_some() {
         "By articulated bodies: at the nominal parameters there are postures in which the mass matrix is \
          nearly singular, and there these keep digits that a decomposition of it loses."
     } else {
@@ -67,7 +67,7 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
             "No posture of this robot was found in which a pivot is small, and none is checked."
         }
     };
-    vec![way.to_owned(), wrong.to_owned()]
+    vec![solution.to_owned(), wrong.to_owned()]
 }
 
 /// What the function says of friction.
@@ -104,7 +104,7 @@ fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<
     found
 }
 
-/// q̈ for the driving forces `tau` without friction, by the solver that needs fewer operations.
+/// q̈ for the joint torques `tau` without friction, by the solver that needs fewer operations.
 fn accelerations<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
@@ -132,7 +132,7 @@ fn accelerations<'g>(
     }
 }
 
-/// q̈ for the driving forces `tau`, where pivots of M may be small.
+/// q̈ for the joint torques `tau`, where pivots of M may be small.
 fn by_small_pivots<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
@@ -173,7 +173,7 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     small.or_else(long).unwrap_or_else(|| mass_matrix::matrix(derivation).pivots(Pivots::Checked))
 }
 
-/// q̈ for the driving forces `tau`, by the decomposition of M.
+/// q̈ for the joint torques `tau`, by the decomposition of M.
 fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let pivots = derivation.pivots_known();
     let recursion = derivation.recursion.as_ref();

@@ -1,4 +1,4 @@
-//! The weight's share in the driving forces.
+//! The weight's share in the joint torques.
 
 use robot_model::variable::JointVariable;
 

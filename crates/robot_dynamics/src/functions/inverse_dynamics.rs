@@ -8,7 +8,7 @@ use crate::mechanism::Mechanism;
 use crate::newton_euler::{self, NewtonEuler};
 use crate::vector::Vector;
 
-/// The generalised driving forces Q of equation (3).
+/// The generalized forces Q of equation (3).
 pub(super) fn inverse_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
@@ -29,7 +29,7 @@ pub(super) fn inverse_dynamics<'g>(
         }
     };
     let doc = [sum_doc, friction_doc];
-    let tau = derivation.torque_output(driving_forces(derivation, wrench, friction));
+    let tau = derivation.torque_output(generalized_forces(derivation, wrench, friction));
     derivation.of_kind(kind, &doc, vec![tau])
 }
 
@@ -53,7 +53,7 @@ pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
 }
 
 /// Q by the economical recursion, friction added to it.
-fn driving_forces<'g>(
+fn generalized_forces<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
     friction: bool,
@@ -61,12 +61,12 @@ fn driving_forces<'g>(
     let mechanism = &derivation.mechanism;
     let iterations = |friction| newton_euler::newton_euler(mechanism, Effects { wrench, friction });
     let Some(recursion) = &derivation.recursion else {
-        return iterations(friction).driving_forces;
+        return iterations(friction).generalized_forces;
     };
     let mut forces = recursion.inverse_dynamics(wrench);
     if friction {
-        for (force, share) in forces.iter_mut().zip(friction_forces(mechanism, wrench)) {
-            *force += share;
+        for (force, contribution) in forces.iter_mut().zip(friction_forces(mechanism, wrench)) {
+            *force += contribution;
         }
     }
     forces
@@ -78,14 +78,14 @@ pub(super) fn friction_forces<'g>(mechanism: &Mechanism<'g>, wrench: bool) -> Ve
     let NewtonEuler { wrenches, .. } = newton_euler::newton_euler(mechanism, effects);
     let mut forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
     for (link, contact) in mechanism.links.iter().zip(&wrenches) {
-        let share = newton_euler::friction(
+        let contribution = newton_euler::friction(
             &link.friction,
             link.kind,
             link.axis,
             contact.force,
             link.velocity,
         );
-        forces[link.coordinate] += share * link.ratio;
+        forces[link.coordinate] += contribution * link.ratio;
     }
     forces
 }

@@ -106,7 +106,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// has it, and `diagonal`, that of M: kg m² or kg, by coordinates.
     ///
     /// A pivot is the inertia that a joint shows where the joints farther out are free. Forward dynamics has
-    /// no solution where one is not above 0, and few digits where rounding is of its size.
+    /// no solution if one is not above 0, and few digits where rounding is of its size.
     #[must_use]
     pub fn pivots(&self) -> Function<'g> {
         pivots::pivots(self)
@@ -123,7 +123,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Function { name: kind.name().to_owned(), doc, inputs, outputs }
     }
 
-    /// The generalised driving forces as an output.
+    /// The generalized forces as an output.
     fn torque_output(&self, values: Vec<Expr<'g>>) -> Output<'g> {
         Output::new(
             JointVariable::Torque.name(),
@@ -144,7 +144,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         }
     }
 
-    /// The unit of an array over the coordinates, with the translations named where they differ.
+    /// The unit of an array over the coordinates, with the translations named if they differ.
     fn coordinate_unit(&self, variable: JointVariable) -> String {
         self.unit_by_joint(variable.unit(JointKind::Revolute), variable.unit(JointKind::Prismatic))
     }
@@ -169,7 +169,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
     }
 
     /// The unit of a matrix over the coordinates, with the mixed and the translations' entries named
-    /// where they differ.
+    /// if they differ.
     fn matrix_unit(&self, rotation: &str, mixed: &str, translation: &str) -> String {
         let count = |kind| self.robot.coordinates.iter().filter(|c| c.kind == kind).count();
         match (count(JointKind::Revolute), count(JointKind::Prismatic)) {

@@ -22,7 +22,7 @@ const SMALL_OF_MANY: f64 = 1e-5;
 /// Coordinates from which on a robot has many.
 const MANY: usize = 9;
 /// Mass matrices that are looked at, times the square of the coordinates: a second at most where nothing
-/// is optimised.
+/// is optimized.
 const MAX_WORK: usize = 30_000;
 /// Mass matrices that are looked at in any case.
 const LEAST: usize = 60;
@@ -95,16 +95,16 @@ impl<'m> Search<'m> {
         while self.left > half {
             for turned in 0..n {
                 for quarters in 0..4 {
-                    let mut posture = q.clone();
-                    posture[turned] = f64::from(quarters) * std::f64::consts::FRAC_PI_2;
-                    let part = self.smallest_part(&posture);
-                    self.worst.push((part, posture));
+                    let mut joint_frame = q.clone();
+                    joint_frame[turned] = f64::from(quarters) * std::f64::consts::FRAC_PI_2;
+                    let part = self.smallest_part(&joint_frame);
+                    self.worst.push((part, joint_frame));
                     if self.left <= half {
                         break;
                     }
                 }
             }
-            q = self.matrix.posture(&mut random);
+            q = self.matrix.joint_frame(&mut random);
             let other = (random.uniform(0.0, n as f64) as usize).min(n.saturating_sub(1));
             if let Some(entry) = q.get_mut(other) {
                 *entry =
@@ -125,11 +125,11 @@ impl<'m> Search<'m> {
                     if self.left == 0 {
                         return part;
                     }
-                    let mut posture = q.clone();
-                    posture[coordinate] += change;
-                    let found = self.smallest_part(&posture);
+                    let mut joint_frame = q.clone();
+                    joint_frame[coordinate] += change;
+                    let found = self.smallest_part(&joint_frame);
                     if found < part {
-                        (part, q) = (found, posture);
+                        (part, q) = (found, joint_frame);
                     }
                 }
             }
@@ -147,7 +147,7 @@ impl<'m> Search<'m> {
     }
 }
 
-/// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 where one is not above 0.
+/// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 if one is not above 0.
 fn smallest_part(mut matrix: Rows) -> f64 {
     let diagonal: Vec<f64> = (0..matrix.len()).map(|row| matrix[row][row]).collect();
     let mut smallest = 1.0_f64;

@@ -13,7 +13,7 @@ use crate::mechanism::MechanismOptions;
 /// Searches the plan under which these functions together need the fewest multiplications and
 /// additions; what they share counts once.
 ///
-/// `None` where the economical recursion does not apply (a joint axis that depends on parameters).
+/// `None` if the economical recursion does not apply (a joint axis that depends on parameters).
 #[must_use]
 pub fn search_plan(
     robot: &Robot,
@@ -57,5 +57,5 @@ fn objective<'g>(
         let functions = derivation.derived(kind).into_iter();
         functions.flat_map(|function| function.outputs).flat_map(|output| output.values).collect()
     };
-    Objective::of(kinds.iter().copied().flat_map(values).collect())
+    Objective::new(kinds.iter().copied().flat_map(values).collect())
 }

@@ -1,4 +1,4 @@
-//! The regressors: driving forces as linear functions of the robot's parameters.
+//! The regressors: joint torques as linear functions of the robot's parameters.
 
 use robot_model::robot::BaseFrames;
 use robot_model::robot::LINK_PARAMETERS;

@@ -1,4 +1,4 @@
-//! Functions of a bundle by way of other functions of it, where that is cheaper.
+//! Functions of a bundle by way of other functions of it, if that is cheaper.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;
@@ -6,11 +6,11 @@ use robot_symbolic::Expr;
 use super::{Derivation, Effects, Function, FunctionKind};
 use crate::matrix::SymmetricMatrix;
 
-/// Another way to the first output of a function; `None` where the bundle lacks what it starts from.
-type Way = for<'g> fn(&Derivation<'_, 'g>, &[Function<'g>]) -> Option<Vec<Expr<'g>>>;
+/// Another way to the first output of a function; `None` if the bundle lacks what it starts from.
+type Reuse = for<'g> fn(&Derivation<'_, 'g>, &[Function<'g>]) -> Option<Vec<Expr<'g>>>;
 
 /// The ways, in an order in which each starts from what is settled.
-const WAYS: [(FunctionKind, Way); 5] = [
+const REUSES: [(FunctionKind, Reuse); 5] = [
     (FunctionKind::CoriolisMatrix, coriolis_matrix),
     (FunctionKind::Bias, bias),
     (FunctionKind::InverseDynamics(Effects::NONE), inverse_dynamics),
@@ -27,8 +27,8 @@ pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Functi
         derivation.operations(&roots).flops()
     };
     let mut least = cost(functions);
-    for (kind, way) in WAYS {
-        let Some(mut values) = way(derivation, functions) else { continue };
+    for (kind, reuse) in REUSES {
+        let Some(mut values) = reuse(derivation, functions) else { continue };
         let Some(index) = functions.iter().position(|one| one.name == kind.name()) else {
             continue;
         };

@@ -10,7 +10,7 @@ const NOTHING: f64 = 1e-13;
 /// A coordinate with less than this part in a motion has none in it.
 const SHARE: f64 = 1e-4;
 /// Postures that are tried: a robot may be singular in one of them by chance.
-const POSTURES: usize = 3;
+const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 
 /// The coordinates, from 0, whose accelerations no joint torques determine in any posture, at the nominal
@@ -23,8 +23,8 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     let matrix = SampledMassMatrix::new(robot);
     let mut random = Random::new(SEED);
     let mut found: Vec<usize> = (0..matrix.order()).collect();
-    for _ in 0..POSTURES {
-        let here = of_matrix(&matrix.at(&matrix.posture(&mut random)));
+    for _ in 0..CONFIGURATIONS {
+        let here = of_matrix(&matrix.at(&matrix.joint_frame(&mut random)));
         found.retain(|coordinate| here.contains(coordinate));
         // Regular in one posture is enough, and builds ask.
         if found.is_empty() {

@@ -167,7 +167,7 @@ impl<'g> Lowering<'g, '_> {
         Matrix::identity(self.graph).column(column)
     }
 
-    /// Mass, centre of mass and central inertia of the bodies together.
+    /// Mass, center of mass and central inertia of the bodies together.
     fn bodies(&mut self, link: &str, bodies: &[Body]) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
         let parts: Vec<_> = bodies.iter().map(|body| self.body(link, body)).collect();
         if let [single] = parts[..] {

@@ -1,4 +1,4 @@
-//! The regressor's columns of base parameters, times the base parameters: the driving forces with friction.
+//! The regressor's columns of base parameters, times the base parameters: the joint torques with friction.
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -47,7 +47,7 @@ fn check(robot: &Robot, name: &str, seed: u64) -> usize {
 }
 
 #[test]
-fn base_parameters_give_the_driving_forces() {
+fn base_parameters_give_the_joint_torques() {
     for (name, robot, seed) in robots() {
         for base_frames in BaseFrames::ALL {
             let robot = Robot { base_frames, ..robot.clone() };

@@ -17,7 +17,7 @@ use robot_testing::{evaluate, magnitude};
 /// All functions but those over base parameters, which are in `base_parameters.rs`.
 fn kinds(robot: &Robot) -> impl Iterator<Item = FunctionKind> {
     let over_base = [FunctionKind::RegressorBase, FunctionKind::BaseParameters];
-    FunctionKind::of(robot).into_iter().filter(move |kind| !over_base.contains(kind))
+    FunctionKind::of_robot(robot).into_iter().filter(move |kind| !over_base.contains(kind))
 }
 
 /// The outputs that the solver has: of the regressor the columns of the links.

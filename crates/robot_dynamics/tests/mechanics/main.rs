@@ -38,7 +38,7 @@ fn robots() -> Vec<(String, Robot, u64)> {
     });
     let parameters = (2000..2003).map(|seed| {
         let recipe = Recipe { fixed: true, ..Recipe::tree(1 + seed as usize % 4) };
-        let robot = robots::parametrised(&random(seed, &recipe));
+        let robot = robots::parameterized(&random(seed, &recipe));
         (format!("parameters, seed {seed}"), robot, seed)
     });
     let free =

@@ -13,7 +13,7 @@ use robot_testing::solver::{expected, state};
 use robot_testing::{evaluate, magnitude};
 
 #[test]
-fn driving_forces_and_forces_between_links_agree_with_the_numeric_solver() {
+fn joint_torques_and_forces_between_links_agree_with_the_numeric_solver() {
     for (name, robot, seed) in robots() {
         let mut random = Random::new(seed);
         let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
@@ -29,10 +29,10 @@ fn driving_forces_and_forces_between_links_agree_with_the_numeric_solver() {
         let joints = [robot.degrees_of_freedom()];
         let links = [2, robot.links.len(), 3];
         let mut held: Vec<(&str, &[Expr<'_>], FunctionKind, &[usize])> = vec![
-            ("Q", &plain.driving_forces, FunctionKind::InverseDynamics(Effects::NONE), &joints),
+            ("Q", &plain.generalized_forces, FunctionKind::InverseDynamics(Effects::NONE), &joints),
             (
                 "Q with loads and friction",
-                &loaded.driving_forces,
+                &loaded.generalized_forces,
                 FunctionKind::InverseDynamics(Effects::BOTH),
                 &joints,
             ),

@@ -1,4 +1,4 @@
-//! Mass, centre of mass and inertia of a link.
+//! Mass, center of mass and inertia of a link.
 
 use super::inertia::{self, Tensor};
 use super::locations::BodyLocation;
@@ -12,7 +12,7 @@ use crate::robot::{Body, Move, Placement};
 const MASS: Quantity = quantity("the mass", 1, 0, 0);
 const CENTER: Quantity = quantity("the centre of mass", 0, 1, 0);
 
-/// Reads the body of a link; `None` where the link has no mass, which a moving link must say.
+/// Reads the body of a link; `None` if the link has no mass, which a moving link must say.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     table: &mut Table<'_>,

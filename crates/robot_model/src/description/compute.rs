@@ -3,7 +3,7 @@
 use robot_symbolic::{Formula, Rational};
 
 /// A formula of formulas: a number where all of them are, else `pattern` with each `#i` replaced
-/// by the text of the i-th; `None` where the text grows beyond what a formula may be.
+/// by the text of the i-th; `None` if the text grows beyond what a formula may be.
 pub(super) fn compute(
     operands: &[&Formula],
     pattern: &str,

@@ -87,7 +87,7 @@ impl Rounded {
 }
 
 impl Reader<'_> {
-    /// Why the expression has no value at the nominal values of the parameters; `None` where it has
+    /// Why the expression has no value at the nominal values of the parameters; `None` if it has
     /// one, or parameters without a value decide.
     pub(super) fn undefined(&self, formula: &Formula) -> Option<&'static str> {
         let mut reason = None;

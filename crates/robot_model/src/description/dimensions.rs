@@ -30,13 +30,13 @@ pub(super) enum Factors {
     /// Also small whole numbers and halves.
     Counts,
     /// Also other numbers, which may carry units.
-    Figures,
+    Numbers,
 }
 
 /// What is known of an expression's dimension.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dimensioned {
-    /// `None` where a parameter has no unit.
+    /// `None` if a parameter has no unit.
     pub(super) dimension: Option<Dimension>,
     pub(super) factors: Factors,
     /// Whether there is no parameter in it, so that it takes any dimension.
@@ -51,7 +51,7 @@ impl Dimensioned {
     fn number(value: &Rational) -> Dimensioned {
         let twice = (value * &Rational::integer(2)).to_integer();
         let is_count = twice.is_some_and(|twice| twice.abs() <= 2 * COUNT);
-        Dimensioned::pure(if is_count { Factors::Counts } else { Factors::Figures }, true)
+        Dimensioned::pure(if is_count { Factors::Counts } else { Factors::Numbers }, true)
     }
 
     fn product(self, other: Dimensioned, exponent: i8) -> Dimensioned {
@@ -76,7 +76,7 @@ impl Dimensioned {
             (true, true, ..) => Ok(Dimensioned { factors, ..self }),
             (true, false, ..) => Ok(other),
             (false, true, ..) => Ok(self),
-            (_, _, Some(a), Some(b)) if a != b && factors != Factors::Figures => {
+            (_, _, Some(a), Some(b)) if a != b && factors != Factors::Numbers => {
                 Err(Clash { factors, summed: true, here: a, there: b })
             }
             (_, _, Some(_), None) => Ok(self),
@@ -88,7 +88,7 @@ impl Dimensioned {
     /// A function of a pure number.
     fn of_number(self) -> Result<Dimensioned, Clash> {
         match self.known() {
-            Some(here) if here != Dimension::NONE && self.factors != Factors::Figures => {
+            Some(here) if here != Dimension::NONE && self.factors != Factors::Numbers => {
                 Err(Clash { factors: self.factors, summed: false, here, there: Dimension::NONE })
             }
             _ => Ok(Dimensioned::pure(Factors::Certain, self.is_number)),
@@ -132,7 +132,7 @@ fn reported(factors: Factors, message: String) -> Diagnostic {
     match factors {
         Factors::Certain => Diagnostic::error(code::DIMENSION, message)
             .help("correct the expression, or the units of its parameters"),
-        Factors::Counts | Factors::Figures => Diagnostic::warning(code::UNIT_OF_NUMBER, message)
+        Factors::Counts | Factors::Numbers => Diagnostic::warning(code::UNIT_OF_NUMBER, message)
             .help("correct the expression; where a number in it has a unit, make it a parameter"),
     }
 }
@@ -140,7 +140,7 @@ fn reported(factors: Factors, message: String) -> Diagnostic {
 fn where_pure(factors: Factors) -> &'static str {
     match factors {
         Factors::Certain => "",
-        Factors::Counts | Factors::Figures => " if its numbers are pure",
+        Factors::Counts | Factors::Numbers => " if its numbers are pure",
     }
 }
 
@@ -172,7 +172,7 @@ impl Reader<'_> {
         let Some((known, expected)) = found.known().zip(quantity.dimension) else {
             return true;
         };
-        if known == expected || found.factors == Factors::Figures {
+        if known == expected || found.factors == Factors::Numbers {
             return true;
         }
         let diagnostic = match self.alone(formula, quantity, expected) {
@@ -212,7 +212,7 @@ impl Reader<'_> {
         let mut wrong = None;
         let found = formula
             .fold(|step| self.dimension_of_step(&step).map_err(|clash| wrong = Some(clash)).ok());
-        let unknown = Dimensioned { dimension: None, factors: Factors::Figures, is_number: false };
+        let unknown = Dimensioned { dimension: None, factors: Factors::Numbers, is_number: false };
         wrong.map_or(Ok(found.unwrap_or(unknown)), Err)
     }
 

@@ -43,7 +43,7 @@ pub(super) struct DraftLink {
     /// From the joint's frame to the link's own frame, where the file's convention puts them
     /// apart.
     pub(super) after: Placement,
-    /// Placed in the link's own frame; `None` where the link has no mass.
+    /// Placed in the link's own frame; `None` if the link has no mass.
     pub(super) body: Option<(Body, BodyLocation)>,
     pub(super) friction: Friction,
     /// Friction that the file has and the robot has not.

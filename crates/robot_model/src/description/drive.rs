@@ -20,12 +20,12 @@ enum Sign {
 }
 
 /// Figures of one table.
-struct Figures<'r, 'f, 'a> {
+struct Entries<'r, 'f, 'a> {
     reader: &'r mut Reader<'f>,
     table: Table<'a>,
 }
 
-impl Figures<'_, '_, '_> {
+impl Entries<'_, '_, '_> {
     /// Puts the figure of a key into its place where the file has it; the key's place.
     fn read(
         &mut self,
@@ -69,71 +69,71 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     let Some(table) = reader.table(entry.value, &FRICTION) else {
         return friction;
     };
-    let mut figures = Figures { reader, table };
+    let mut entries = Entries { reader, table };
     let force = |what| by_kind(what, kind, (1, 2, -2), (1, 1, -2));
     let viscous = by_kind("the viscous friction", kind, (1, 2, -1), (1, 0, -1));
-    figures.read("viscous", &mut friction.viscous, viscous, NotNegative);
+    entries.read("viscous", &mut friction.viscous, viscous, NotNegative);
     let coulomb = quantity("the coefficient of dry friction", 0, 0, 0);
-    let coulomb = figures.read("coulomb", &mut friction.coulomb, coulomb, NotNegative);
+    let coulomb = entries.read("coulomb", &mut friction.coulomb, coulomb, NotNegative);
     let diameter = quantity("the spindle diameter", 0, 1, 0);
     let diameter =
-        figures.read("spindle_diameter", &mut friction.spindle_diameter, diameter, Positive);
-    spindle(&mut figures, kind, coulomb, diameter);
+        entries.read("spindle_diameter", &mut friction.spindle_diameter, diameter, Positive);
+    spindle(&mut entries, kind, coulomb, diameter);
     let what = force("the dry friction");
     let positive =
-        figures.read("coulomb_positive", &mut friction.coulomb_positive, what, NotNegative);
+        entries.read("coulomb_positive", &mut friction.coulomb_positive, what, NotNegative);
     let negative =
-        figures.read("coulomb_negative", &mut friction.coulomb_negative, what, NotNegative);
+        entries.read("coulomb_negative", &mut friction.coulomb_negative, what, NotNegative);
     let (symmetric, other) = match kind {
         JointKind::Revolute => ("coulomb_torque", "coulomb_force"),
         JointKind::Prismatic => ("coulomb_force", "coulomb_torque"),
     };
     let mut both = Friction::none().coulomb_positive;
-    if let Some(span) = figures.read(symmetric, &mut both, what, NotNegative) {
+    if let Some(span) = entries.read(symmetric, &mut both, what, NotNegative) {
         if positive.or(negative).is_some() {
             let message = format!("`{symmetric}` stands for both directions already");
-            figures.conflict(&span, &message, "keep it, or the two directions");
+            entries.conflict(&span, &message, "keep it, or the two directions");
         }
         friction.coulomb_positive = both.clone();
         friction.coulomb_negative = both;
     } else if positive.is_some() != negative.is_some() {
         let message = "dry friction is given for one direction alone";
         let help = format!("give the other direction too, or `{symmetric}` for both");
-        figures.conflict(&positive.or(negative).unwrap_or_default(), message, &help);
+        entries.conflict(&positive.or(negative).unwrap_or_default(), message, &help);
     }
-    if let Some(entry) = figures.table.get(other) {
+    if let Some(entry) = entries.table.get(other) {
         let message = format!("`{other}` does not fit this joint");
-        figures.conflict(&entry.key, &message, &format!("write `{symmetric}`"));
+        entries.conflict(&entry.key, &message, &format!("write `{symmetric}`"));
     }
-    figures.read("offset", &mut friction.offset, force("the offset"), Any);
+    entries.read("offset", &mut friction.offset, force("the offset"), Any);
     let width = by_kind("the width of the smooth sign", kind, (0, 0, -1), (0, 1, -1));
     let mut smoothing = Friction::none().offset;
-    let smooth = figures.read("smoothing", &mut smoothing, width, Positive);
+    let smooth = entries.read("smoothing", &mut smoothing, width, Positive);
     friction.smoothing = smooth.map(|_| smoothing);
-    figures.table.finish(figures.reader);
+    entries.table.finish(entries.reader);
     friction
 }
 
 /// Equation (5): dry friction of a rotation acts at the spindle's surface.
 fn spindle(
-    figures: &mut Figures<'_, '_, '_>,
+    entries: &mut Entries<'_, '_, '_>,
     kind: JointKind,
     coulomb: Option<Span>,
     diameter: Option<Span>,
 ) {
     match (kind, coulomb, diameter) {
-        (JointKind::Revolute, Some(span), None) => figures.conflict(
+        (JointKind::Revolute, Some(span), None) => entries.conflict(
             &span,
             "`coulomb` of a revolute joint needs `spindle_diameter`",
             "add `spindle_diameter`, in m; for a friction torque that does not depend on the \
              load write `coulomb_torque`",
         ),
-        (JointKind::Revolute, None, Some(span)) => figures.conflict(
+        (JointKind::Revolute, None, Some(span)) => entries.conflict(
             &span,
             "`spindle_diameter` has no effect without `coulomb`",
             "add `coulomb`, or take it away",
         ),
-        (JointKind::Prismatic, _, Some(span)) => figures.conflict(
+        (JointKind::Prismatic, _, Some(span)) => entries.conflict(
             &span,
             "`spindle_diameter` has no effect on a prismatic joint",
             "take it away",
@@ -148,28 +148,28 @@ pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind)
     let Some(table) = reader.table(entry.value, &DRIVE) else {
         return drive;
     };
-    let mut figures = Figures { reader, table };
+    let mut entries = Entries { reader, table };
     let armature = by_kind("the armature", kind, (1, 2, 0), (1, 0, 0));
-    figures.read("armature", &mut drive.armature, armature, Sign::NotNegative);
+    entries.read("armature", &mut drive.armature, armature, Sign::NotNegative);
     let inertia = quantity("the rotor's inertia", 1, 2, 0);
     let inertia =
-        figures.read("rotor_inertia", &mut drive.rotor_inertia, inertia, Sign::NotNegative);
+        entries.read("rotor_inertia", &mut drive.rotor_inertia, inertia, Sign::NotNegative);
     let ratio = by_kind("the gear ratio", kind, (0, 0, 0), (0, -1, 0));
-    let ratio = figures.read("gear_ratio", &mut drive.gear_ratio, ratio, Sign::NotZero);
-    let gyroscopic = figures.table.get("gyroscopic");
+    let ratio = entries.read("gear_ratio", &mut drive.gear_ratio, ratio, Sign::NotZero);
+    let gyroscopic = entries.table.get("gyroscopic");
     if let Some(entry) = &gyroscopic {
-        drive.gyroscopic = figures.reader.boolean(entry.value).unwrap_or_default();
+        drive.gyroscopic = entries.reader.boolean(entry.value).unwrap_or_default();
     }
     if inertia.is_none() {
         let lonely = [ratio, gyroscopic.filter(|_| drive.gyroscopic).map(|entry| entry.key)];
         for span in lonely.into_iter().flatten() {
-            figures.conflict(
+            entries.conflict(
                 &span,
                 "this has no effect without `rotor_inertia`",
                 "add `rotor_inertia`, in kg m^2 about the rotor's axis, or take it away",
             );
         }
     }
-    figures.table.finish(figures.reader);
+    entries.table.finish(entries.reader);
     drive
 }

@@ -77,10 +77,10 @@ fn push_link(
         line(text, &format!("friction = {}", friction(&link.friction, link.joint.kind)));
     }
     if let Some(left_out) = &link.left_out {
-        let figures = friction(left_out, link.joint.kind);
+        let coefficients = friction(left_out, link.joint.kind);
         line(
             text,
-            &format!("# friction = {figures}   # in the source, but not part of its torques"),
+            &format!("# friction = {coefficients}   # in the source, but not part of its torques"),
         );
     }
 }
@@ -95,7 +95,7 @@ fn push_body(text: &mut String, body: Option<&Body>, moving: bool) {
     if Reader::is_zero(&body.mass) {
         line(text, "massless = true");
     } else {
-        line(text, &format!("mass = {}", figure(&body.mass)));
+        line(text, &format!("mass = {}", formula_text(&body.mass)));
     }
     let [center, rpy] = xyz_rpy(&body.placement);
     line(text, &format!("center_of_mass = {}", vector(&center.unwrap_or_else(zeros))));
@@ -106,7 +106,7 @@ fn push_body(text: &mut String, body: Option<&Body>, moving: bool) {
         .zip(entries)
         .enumerate()
         .filter(|(index, (_, entry))| *index < 3 || !Reader::is_zero(entry))
-        .map(|(_, (name, entry))| format!("{name} = {}", figure(entry)))
+        .map(|(_, (name, entry))| format!("{name} = {}", formula_text(entry)))
         .collect();
     inertia.extend(rpy.map(|rpy| format!("rpy = {}", angles(&rpy))));
     let values = entries.map(|entry| entry.evaluate(|_| f64::NAN));
@@ -135,10 +135,10 @@ fn joint(link: &DraftLink) -> String {
         parts.push(format!("limits = [{}, {}]", number(lower), number(upper)));
     }
     if let Some(Mimic { joint, ratio, offset, .. }) = &joint.mimic {
-        let mut mimic = format!("joint = \"{}\", ratio = {}", joint.name, figure(ratio));
+        let mut mimic = format!("joint = \"{}\", ratio = {}", joint.name, formula_text(ratio));
         if !Reader::is_zero(offset) {
             // Writing to a string does not fail.
-            let _ = write!(mimic, ", offset = {}", figure(offset));
+            let _ = write!(mimic, ", offset = {}", formula_text(offset));
         }
         parts.push(format!("mimic = {{ {mimic} }}"));
     }
@@ -163,11 +163,11 @@ fn friction(friction: &Friction, kind: Option<JointKind>) -> String {
         Some(JointKind::Prismatic) => "coulomb_force",
         _ => "coulomb_torque",
     };
-    let figures = [("viscous", &friction.viscous), (both, &friction.coulomb_positive)];
-    let parts: Vec<String> = figures
+    let coefficients = [("viscous", &friction.viscous), (both, &friction.coulomb_positive)];
+    let parts: Vec<String> = coefficients
         .iter()
         .filter(|(_, value)| !Reader::is_zero(value))
-        .map(|(name, value)| format!("{name} = {}", figure(value)))
+        .map(|(name, value)| format!("{name} = {}", formula_text(value)))
         .collect();
     format!("{{ {} }}", parts.join(", "))
 }
@@ -193,14 +193,14 @@ fn xyz_rpy(placement: &Placement) -> [Option<[Formula; 3]>; 2] {
 }
 
 fn vector(vector: &[Formula; 3]) -> String {
-    format!("[{}]", vector.each_ref().map(figure).join(", "))
+    format!("[{}]", vector.each_ref().map(formula_text).join(", "))
 }
 
 fn angles(angles: &[Formula; 3]) -> String {
     format!("[{}]", angles.each_ref().map(angle).join(", "))
 }
 
-/// The angle as a multiple of π/2 where it is one to the last digit of floating point.
+/// The angle as a multiple of π/2 if it is one to the last digit of floating point.
 fn angle(angle: &Formula) -> String {
     const TURNS: &[&str] = &["pi/2", "-pi/2", "pi", "-pi", "3*pi/2", "-3*pi/2", "2*pi", "-2*pi"];
     let value = angle.evaluate(|_| f64::NAN);
@@ -210,12 +210,12 @@ fn angle(angle: &Formula) -> String {
     };
     match TURNS.iter().find(same) {
         Some(turn) => format!("\"{turn}\""),
-        None => figure(angle),
+        None => formula_text(angle),
     }
 }
 
 /// A figure: a number, or an expression in quotes.
-fn figure(formula: &Formula) -> String {
+fn formula_text(formula: &Formula) -> String {
     match formula.as_number() {
         Some(value) => match value.as_rational() {
             Some(value) => number(value),

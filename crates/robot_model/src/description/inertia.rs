@@ -1,4 +1,4 @@
-//! Inertia tensors: reading, the shift to the centre of mass, and what no body can have.
+//! Inertia tensors: reading, the shift to the center of mass, and what no body can have.
 
 use robot_symbolic::Formula;
 
@@ -15,7 +15,7 @@ use crate::robot::{Axis, Inertia, Move};
 
 const MOMENT: Quantity = quantity("a moment of inertia", 1, 2, 0);
 
-/// A tensor about the centre of mass, and the turns from the link's axes to its own.
+/// A tensor about the center of mass, and the turns from the link's axes to its own.
 pub(super) struct Tensor {
     pub(super) inertia: Inertia,
     pub(super) turns: Vec<Move>,
@@ -37,7 +37,7 @@ impl Tensor {
     }
 }
 
-/// Reads `inertia` of a body of that mass and centre of mass.
+/// Reads `inertia` of a body of that mass and center of mass.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     entry: &Entry<'_>,

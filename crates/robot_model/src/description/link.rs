@@ -13,7 +13,7 @@ use super::table::Table;
 use crate::diagnostic::{Diagnostic, code};
 use crate::robot::{Drive, Friction};
 
-/// Reads the link at `index` of the file; `None` where it has no name to go by.
+/// Reads the link at `index` of the file; `None` if it has no name to go by.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     mut table: Table<'_>,

@@ -98,7 +98,7 @@ pub struct BodyLocation {
     pub name: Span,
     /// The mass.
     pub mass: Option<Span>,
-    /// The centre of mass.
+    /// The center of mass.
     pub center_of_mass: Option<Span>,
     /// The inertia's table.
     pub inertia: Option<Span>,

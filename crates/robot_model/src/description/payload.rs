@@ -39,7 +39,7 @@ pub(super) fn read(
         Some(frame) => (frame.parent.clone(), frame.placement.clone()),
         None => (parent, Placement::default()),
     };
-    for mut parameter in figures() {
+    for mut parameter in payload_parameters() {
         if let Some(value) = reader.options.value(&parameter.name) {
             parameter.value = Some(value.clone());
         }
@@ -96,7 +96,7 @@ fn names() -> Payload {
 }
 
 /// The parameters in the order of [`names`].
-fn figures() -> Vec<Parameter> {
+fn payload_parameters() -> Vec<Parameter> {
     let Payload { mass, center_of_mass, inertia } = names();
     let parameter = |name: String, unit: &str, doc: &str| Parameter {
         name,
@@ -105,15 +105,15 @@ fn figures() -> Vec<Parameter> {
         latex: None,
         doc: Some(doc.to_owned()),
     };
-    let mut figures = vec![parameter(mass, "kg", "mass of the payload")];
+    let mut payload_parameters = vec![parameter(mass, "kg", "mass of the payload")];
     for name in center_of_mass {
-        figures.push(parameter(name, "m", "coordinate of the payload's centre of mass"));
+        payload_parameters.push(parameter(name, "m", "coordinate of the payload's centre of mass"));
     }
     for name in inertia {
         let doc = "entry of the payload's inertia tensor about its centre of mass";
-        figures.push(parameter(name, "kg m^2", doc));
+        payload_parameters.push(parameter(name, "kg m^2", doc));
     }
-    figures
+    payload_parameters
 }
 
 /// Puts the payload on the link that carries it, `placement` in the link's frame.

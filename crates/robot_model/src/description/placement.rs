@@ -73,7 +73,7 @@ pub(super) fn of_link(
     }
 }
 
-/// `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`, each zero where it is left out.
+/// `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`, each zero if it is left out.
 pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement {
     let Some(mut table) = reader.table(value, &ORIGIN) else {
         return Placement::default();
@@ -108,17 +108,17 @@ pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Opti
     }
 }
 
-/// `a`, `alpha`, `d` and `theta`, each zero where it is left out.
+/// `a`, `alpha`, `d` and `theta`, each zero if it is left out.
 pub(super) fn row(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Row {
-    let mut figure = |key: &'static str, what: Quantity, is_angle: bool| {
+    let mut length_or_angle = |key: &'static str, what: Quantity, is_angle: bool| {
         let read = if is_angle { Reader::angle } else { Reader::formula };
         table.get(key).map_or_else(zero, |entry| read(reader, entry.value, what))
     };
     Row {
-        a: figure("a", quantity("the length `a`", 0, 1, 0), false),
-        alpha: figure("alpha", quantity("the twist `alpha`", 0, 0, 0), true),
-        d: figure("d", quantity("the offset `d`", 0, 1, 0), false),
-        theta: figure("theta", quantity("the angle `theta`", 0, 0, 0), true),
+        a: length_or_angle("a", quantity("the length `a`", 0, 1, 0), false),
+        alpha: length_or_angle("alpha", quantity("the twist `alpha`", 0, 0, 0), true),
+        d: length_or_angle("d", quantity("the offset `d`", 0, 1, 0), false),
+        theta: length_or_angle("theta", quantity("the angle `theta`", 0, 0, 0), true),
     }
 }
 

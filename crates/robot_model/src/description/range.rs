@@ -101,9 +101,9 @@ impl Range<'_, '_> {
         let what = format!("the friction of `{joint}`");
         let Friction { viscous, coulomb, spindle_diameter, offset, .. } = friction;
         let Friction { coulomb_positive, coulomb_negative, smoothing, .. } = friction;
-        let figures =
+        let formulas =
             [viscous, coulomb, spindle_diameter, offset, coulomb_positive, coulomb_negative];
-        self.all(figures.into_iter().chain(smoothing), &what, at);
+        self.all(formulas.into_iter().chain(smoothing), &what, at);
         self.divisor(smoothing, &what, at);
     }
 
@@ -145,8 +145,8 @@ impl Range<'_, '_> {
     }
 
     /// Reports the first figure that is too large.
-    fn all<'f>(&mut self, figures: impl IntoIterator<Item = &'f Formula>, what: &str, at: &Span) {
-        let known = figures.into_iter().filter_map(|figure| self.reader.known(figure));
+    fn all<'f>(&mut self, formulas: impl IntoIterator<Item = &'f Formula>, what: &str, at: &Span) {
+        let known = formulas.into_iter().filter_map(|formula| self.reader.known(formula));
         let diagnostic = known.into_iter().find_map(|value| too_large(what, value, at));
         if let Some(diagnostic) = diagnostic {
             self.reader.report(diagnostic);
@@ -156,12 +156,12 @@ impl Range<'_, '_> {
     /// Reports figures of which the largest, a divisor somewhere, is too small.
     fn divisor<'f>(
         &mut self,
-        figures: impl IntoIterator<Item = &'f Formula>,
+        formulas: impl IntoIterator<Item = &'f Formula>,
         what: &str,
         at: &Span,
     ) {
         let known: Option<Vec<f64>> =
-            figures.into_iter().map(|figure| self.reader.known(figure)).collect();
+            formulas.into_iter().map(|formula| self.reader.known(formula)).collect();
         let largest = known.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
         if largest != 0.0 && largest < LEAST {
             let message = format!("{what} has a figure of {}", significant(largest));
@@ -177,7 +177,7 @@ impl Range<'_, '_> {
     }
 }
 
-/// What is said of a number that is too large; `None` where it is not.
+/// What is said of a number that is too large; `None` if it is not.
 pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
     let message = || format!("{what} has a figure of {}", significant(value));
     (value.abs() > LARGEST).then(|| {

@@ -47,7 +47,7 @@ pub enum Content {
     /// The number of the format.
     Format,
     /// A number, or an expression over the parameters.
-    Figure,
+    Formula,
     /// Three figures.
     Vector,
     /// A word for an axis, or three figures.
@@ -93,7 +93,7 @@ pub enum Content {
 }
 
 use Content::{
-    Axis, Boolean, Bundles, Components, Figure, Format, Function, Functions, Identifier, Label,
+    Axis, Boolean, Bundles, Components, Format, Formula, Function, Functions, Identifier, Label,
     Latex, Limits, List, Number, OneOrMany, Parameters, Parent, Table, Text, Unit, Vector, Whole,
     Word,
 };
@@ -201,10 +201,10 @@ pub static DH_TABLE: Shape = Shape {
 };
 
 const CONVENTION_DOC: &str = "\"standard\" is Rz(theta) Tz(d) Tx(a) Rx(alpha), \"modified\" is Rx(alpha) Tx(a) Rz(theta) Tz(d).";
-const A: Key = key("a", Figure, "Length along x, m.");
-const ALPHA: Key = key("alpha", Figure, "Angle about x, rad.");
-const D: Key = key("d", Figure, "Length along z, m; a prismatic joint adds to it.");
-const THETA: Key = key("theta", Figure, "Angle about z, rad; a revolute joint adds to it.");
+const A: Key = key("a", Formula, "Length along x, m.");
+const ALPHA: Key = key("alpha", Formula, "Angle about x, rad.");
+const D: Key = key("d", Formula, "Length along z, m; a prismatic joint adds to it.");
+const THETA: Key = key("theta", Formula, "Angle about z, rad; a revolute joint adds to it.");
 
 /// A row of `[dh]`.
 pub static DH_TABLE_ROW: Shape = Shape {
@@ -231,7 +231,7 @@ pub static LINK: Shape = Shape {
         key("origin", Table(&ORIGIN), "The frame at joint position 0 in the parent's frame."),
         key("dh", Table(&DH_ROW), "A Denavit-Hartenberg row in place of `origin`."),
         key("massless", Boolean, "Lets a moving link have no mass."),
-        key("mass", Figure, "Above 0, kg."),
+        key("mass", Formula, "Above 0, kg."),
         depends("center_of_mass", Vector, "In the link's frame, m."),
         depends("inertia", Table(&INERTIA), "The inertia tensor."),
         key("friction", Table(&FRICTION), "Friction in the joint."),
@@ -262,8 +262,8 @@ pub static MIMIC: Shape = Shape {
     doc: "Position = ratio * that of the joint + offset.",
     keys: &[
         needed("joint", Label, "The joint that leads."),
-        key("ratio", Figure, "1 where it is left out."),
-        key("offset", Figure, "0 where it is left out, rad or m."),
+        key("ratio", Formula, "1 where it is left out."),
+        key("offset", Formula, "0 where it is left out, rad or m."),
     ],
 };
 
@@ -287,12 +287,12 @@ pub static INERTIA: Shape = Shape {
     doc: "Entries of the tensor, kg m^2; products are entries, xy = -int xy dm.",
     keys: &[
         key("unchecked", Boolean, "Takes a tensor that no body has."),
-        depends("xx", Figure, "Moment about x."),
-        depends("yy", Figure, "Moment about y."),
-        depends("zz", Figure, "Moment about z."),
-        key("xy", Figure, "Entry (1, 2)."),
-        key("xz", Figure, "Entry (1, 3)."),
-        key("yz", Figure, "Entry (2, 3)."),
+        depends("xx", Formula, "Moment about x."),
+        depends("yy", Formula, "Moment about y."),
+        depends("zz", Formula, "Moment about z."),
+        key("xy", Formula, "Entry (1, 2)."),
+        key("xz", Formula, "Entry (1, 3)."),
+        key("yz", Formula, "Entry (2, 3)."),
         key("rpy", Vector, "The axes of the tensor, turned from the link's, rad."),
         key(
             "about",
@@ -307,15 +307,19 @@ pub static FRICTION: Shape = Shape {
     what: "a friction",
     doc: "Friction in a joint.",
     keys: &[
-        key("viscous", Figure, "b, N m s/rad or N s/m."),
-        key("coulomb", Figure, "c: friction force per contact force across the axis."),
-        key("spindle_diameter", Figure, "Of a revolute joint with `coulomb`, m."),
-        key("coulomb_positive", Figure, "Constant dry friction for positive velocities, N m or N."),
-        key("coulomb_negative", Figure, "The same for negative velocities, a positive figure."),
-        key("coulomb_torque", Figure, "Constant dry friction of a revolute joint, N m."),
-        key("coulomb_force", Figure, "Constant dry friction of a prismatic joint, N."),
-        key("offset", Figure, "A constant, N m or N."),
-        key("smoothing", Figure, "Width v of the smooth sign tanh(qd / v), rad/s or m/s."),
+        key("viscous", Formula, "b, N m s/rad or N s/m."),
+        key("coulomb", Formula, "c: friction force per contact force across the axis."),
+        key("spindle_diameter", Formula, "Of a revolute joint with `coulomb`, m."),
+        key(
+            "coulomb_positive",
+            Formula,
+            "Constant dry friction for positive velocities, N m or N.",
+        ),
+        key("coulomb_negative", Formula, "The same for negative velocities, a positive figure."),
+        key("coulomb_torque", Formula, "Constant dry friction of a revolute joint, N m."),
+        key("coulomb_force", Formula, "Constant dry friction of a prismatic joint, N."),
+        key("offset", Formula, "A constant, N m or N."),
+        key("smoothing", Formula, "Width v of the smooth sign tanh(qd / v), rad/s or m/s."),
     ],
 };
 
@@ -324,11 +328,11 @@ pub static DRIVE: Shape = Shape {
     what: "a drive",
     doc: "Inertia of a drive.",
     keys: &[
-        key("armature", Figure, "Inertia already reflected to the joint, kg m^2 or kg."),
-        key("rotor_inertia", Figure, "Of the rotor about its own axis, kg m^2."),
+        key("armature", Formula, "Inertia already reflected to the joint, kg m^2 or kg."),
+        key("rotor_inertia", Formula, "Of the rotor about its own axis, kg m^2."),
         key(
             "gear_ratio",
-            Figure,
+            Formula,
             "Rotor turns per joint turn N; the reflected inertia is N^2 times the rotor's.",
         ),
         key("gyroscopic", Boolean, "Adds the gyroscopic moments of the rotor."),

@@ -25,7 +25,7 @@ pub struct Code {
 /// The same as the file has it: names of functions, which may be those of the robot's frames.
 #[derive(Clone, Default)]
 pub(super) struct Wanted {
-    /// `None` where the file has no `functions`.
+    /// `None` if the file has no `functions`.
     functions: Option<Vec<Named>>,
     bundles: Vec<(String, Vec<Named>)>,
 }

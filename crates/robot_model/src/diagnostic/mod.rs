@@ -43,7 +43,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// What is wrong, in one line.
     pub message: String,
-    /// The offending text; `None` where it is the file as a whole.
+    /// The offending text; `None` if it is the file as a whole.
     pub primary: Option<Label>,
     /// Other places that matter, such as a first definition.
     pub secondary: Vec<Label>,

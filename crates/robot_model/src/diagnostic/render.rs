@@ -12,7 +12,7 @@ const MAX_SHOWN: usize = 40;
 pub enum Style {
     /// Text alone.
     Plain,
-    /// With the colours of a terminal.
+    /// With the colors of a terminal.
     Terminal,
 }
 

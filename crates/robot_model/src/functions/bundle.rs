@@ -27,7 +27,7 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// Whose name it is; `None` where a bundle can bear it.
+    /// Whose name it is; `None` if a bundle can bear it.
     ///
     /// Functions have names, those of frames begin with `jacobian_`, and `all` means all functions. Names that
     /// differ in case or underscores alone are the same here: a printer of code may name types after bundles. What

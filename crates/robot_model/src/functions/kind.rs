@@ -168,7 +168,7 @@ impl FunctionKind {
     }
 
     /// The arrays over the joints that the function takes, in the order of the call. The wrenches of the tips
-    /// stand behind them where there are any.
+    /// stand behind them if there are any.
     #[must_use]
     pub const fn inputs(self) -> &'static [JointVariable] {
         self.declaration().inputs
@@ -246,7 +246,7 @@ impl FunctionKind {
         FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 
-    /// Why the robot has no such function; `None` where it has.
+    /// Why the robot has no such function; `None` if it has.
     #[must_use]
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let Effects { wrench, friction } = self.effects();
@@ -276,7 +276,7 @@ impl FunctionKind {
 
     /// The functions that a robot has.
     #[must_use]
-    pub fn of(robot: &Robot) -> Vec<FunctionKind> {
+    pub fn of_robot(robot: &Robot) -> Vec<FunctionKind> {
         FunctionKind::ALL.iter().copied().filter(|kind| kind.missing_in(robot).is_none()).collect()
     }
 }

@@ -18,7 +18,7 @@ pub enum FrameRef {
 }
 
 impl FrameRef {
-    /// The name that the robot file gives the frame or the link; `None` where the robot has no such frame.
+    /// The name that the robot file gives the frame or the link; `None` if the robot has no such frame.
     #[must_use]
     pub fn name(self, robot: &Robot) -> Option<&str> {
         match self {
@@ -33,7 +33,7 @@ impl FrameRef {
         named.chain((0..robot.links.len()).map(FrameRef::Link))
     }
 
-    /// The frames of the functions that are asked for by a kind alone: the named frames; where there is
+    /// The frames of the functions that are asked for by a kind alone: the named frames; if there is
     /// none, those of the last link of each branch.
     #[must_use]
     pub fn usual(robot: &Robot) -> Vec<FrameRef> {
@@ -95,7 +95,7 @@ fn identifier(frame: FrameRef, robot: &Robot) -> String {
 /// the robot has, then the functions of single frames: of named ones, then of moving links.
 #[must_use]
 pub fn names(robot: &Robot) -> Vec<(String, FunctionKind)> {
-    let kinds = FunctionKind::of(robot);
+    let kinds = FunctionKind::of_robot(robot);
     let mut names: Vec<(String, FunctionKind)> =
         kinds.iter().map(|kind| (kind.name().to_owned(), *kind)).collect();
     let suffixes = suffixes(robot);

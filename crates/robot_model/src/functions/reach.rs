@@ -37,8 +37,8 @@ fn has_free_geometry(robot: &Robot) -> bool {
     robot.gravity.iter().any(|formula| formula.symbols().next().is_some())
         || robot.links.iter().any(|link| {
             let joint = &link.joint;
-            let mut figures = joint.axis.iter().chain([&joint.ratio, &joint.offset]);
+            let mut formulas = joint.axis.iter().chain([&joint.ratio, &joint.offset]);
             of_placement(&link.placement)
-                || figures.any(|formula| formula.symbols().next().is_some())
+                || formulas.any(|formula| formula.symbols().next().is_some())
         })
 }

@@ -175,8 +175,8 @@ fn about_origins(text: &str) -> String {
     let (mut mass, mut c) = (0.0, [0.0; 3]);
     let mut lines = Vec::new();
     for line in text.lines() {
-        if let Some(figure) = line.strip_prefix("mass = ") {
-            mass = number(figure);
+        if let Some(value) = line.strip_prefix("mass = ") {
+            mass = number(value);
         } else if let Some(list) = line.strip_prefix("center_of_mass = [") {
             let list: Vec<_> = list.trim_end_matches(']').split(',').map(number).collect();
             c.copy_from_slice(&list);

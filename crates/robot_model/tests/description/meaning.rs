@@ -177,7 +177,7 @@ fn friction_and_drive_are_read() {
     let text = revolute("1", rotation) + &link("2", translation);
     let robot = read(&arm(&text)).robot;
     let friction = &robot.links[0].friction;
-    let figures = [
+    let formulas = [
         &friction.viscous,
         &friction.coulomb,
         &friction.spindle_diameter,
@@ -186,10 +186,10 @@ fn friction_and_drive_are_read() {
         &friction.offset,
         friction.smoothing.as_ref().unwrap(),
     ];
-    assert_eq!(figures.map(Formula::text), ["1", "2", "3", "4", "4", "-5", "6"]);
+    assert_eq!(formulas.map(Formula::text), ["1", "2", "3", "4", "4", "-5", "6"]);
     let drive = &robot.links[0].drive;
-    let figures = [&drive.armature, &drive.rotor_inertia, &drive.gear_ratio];
-    assert_eq!(figures.map(Formula::text), ["7", "8", "-9"]);
+    let formulas = [&drive.armature, &drive.rotor_inertia, &drive.gear_ratio];
+    assert_eq!(formulas.map(Formula::text), ["7", "8", "-9"]);
     assert!(drive.gyroscopic);
     let friction = &robot.links[1].friction;
     assert_eq!(friction.coulomb_positive.text(), "3");

@@ -110,15 +110,15 @@ fn friction_is_apart_unless_it_is_asked_for() {
     assert!(has(&described.choices, code::LEFT_OUT, "damping 5, friction 3"));
     let options = Options { friction: true, ..Options::default() };
     let friction = read_taking(&text, &options).robot.links[0].friction.clone();
-    let figures = [&friction.viscous, &friction.coulomb_positive, &friction.coulomb_negative];
-    assert_eq!(figures.map(|figure| figure.text().to_owned()), ["5", "3", "3"]);
+    let attributes = [&friction.viscous, &friction.coulomb_positive, &friction.coulomb_negative];
+    assert_eq!(attributes.map(|formula| formula.text().to_owned()), ["5", "3", "3"]);
     // One of the two alone is friction as well.
-    for (figures, expected) in [("damping=\"5\"", ["5", "0"]), ("friction=\"3\"", ["0", "3"])] {
-        let joint = format!("<axis xyz=\"0 0 1\"/><dynamics {figures}/>");
+    for (attributes, expected) in [("damping=\"5\"", ["5", "0"]), ("friction=\"3\"", ["0", "3"])] {
+        let joint = format!("<axis xyz=\"0 0 1\"/><dynamics {attributes}/>");
         let described = read_taking(&one_link(BODY, &joint), &options);
         let friction = &described.robot.links[0].friction;
         let found = [&friction.viscous, &friction.coulomb_positive];
-        assert_eq!(found.map(|figure| figure.text().to_owned()), expected);
+        assert_eq!(found.map(|formula| formula.text().to_owned()), expected);
     }
 }
 
@@ -193,9 +193,9 @@ fn massless_links_need_a_waiver() {
 
 #[test]
 fn a_moment_alone_is_enough_about_a_vertical_axis_on_the_base() {
-    let body = |figures: &str| {
+    let body = |attributes: &str| {
         format!(
-            "<inertial><mass value=\"0\"/><inertia {figures} ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
+            "<inertial><mass value=\"0\"/><inertia {attributes} ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
         )
     };
     let about_z = body("ixx=\"0\" iyy=\"0\" izz=\"0.35\"");
@@ -203,12 +203,12 @@ fn a_moment_alone_is_enough_about_a_vertical_axis_on_the_base() {
     assert_eq!(codes(&described.warnings), [code::MASS]);
     assert_eq!(torques(&described.robot, &[0.0], &[0.0], &[2.0]), [0.7]);
     // The same where the joint is not vertical, or other moments are given, is no body.
-    for (figures, axis) in [
+    for (attributes, axis) in [
         ("ixx=\"0.35\" iyy=\"0\" izz=\"0\"", "1 0 0"),
         ("ixx=\"0.1\" iyy=\"0\" izz=\"0.35\"", "0 0 1"),
     ] {
-        let text = one_link(&body(figures), &format!("<axis xyz=\"{axis}\"/>"));
-        assert_eq!(codes(&errors(&text))[0], code::MASS, "{figures}");
+        let text = one_link(&body(attributes), &format!("<axis xyz=\"{axis}\"/>"));
+        assert_eq!(codes(&errors(&text))[0], code::MASS, "{attributes}");
     }
 }
 

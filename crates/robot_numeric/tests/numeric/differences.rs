@@ -144,7 +144,7 @@ fn torque_derivatives_agree_with_differences() {
     worst.check(|_| 1e-10);
 }
 
-/// The momentum of a link about its centre of mass, and its mass centre's momentum, in base axes.
+/// The momentum of a link about its center of mass, and its center of mass's momentum, in base axes.
 fn momenta(mechanism: &Mechanism, q: &[f64], qd: &[f64], index: usize) -> Vec<f64> {
     let link = &mechanism.links()[index];
     let pose = mechanism.forward_kinematics(q).unwrap().links[index];

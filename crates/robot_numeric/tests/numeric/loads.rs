@@ -67,13 +67,13 @@ fn every_link_is_in_balance_and_drives_carry_their_share() {
             worst.compare("F_l", name, motion.contact_force.as_slice(), force.as_slice(), 1.0);
             worst.compare("M_l", name, motion.contact_moment.as_slice(), moment.as_slice(), 1.0);
             let joint = &link.joint;
-            let share = match joint.kind {
+            let contribution = match joint.kind {
                 JointKind::Fixed => continue,
                 JointKind::Revolute => joint.axis.dot(&motion.contact_moment),
                 JointKind::Prismatic => joint.axis.dot(&motion.contact_force),
             };
             let rotor = link.rotor_inertia * joint.ratio * qdd[joint.coordinate];
-            torques[joint.coordinate] += joint.ratio * (share + rotor);
+            torques[joint.coordinate] += joint.ratio * (contribution + rotor);
         }
         let loads = Loads { wrenches: state.wrenches.clone(), friction: false };
         let tau = mechanism.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();

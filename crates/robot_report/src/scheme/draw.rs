@@ -17,7 +17,7 @@ use crate::text;
 
 type Point = Vector2<f64>;
 
-/// A drawing in the making. What is written is set last, where there is room.
+/// A drawing in the making. What is written is set last, if there is room.
 pub(crate) struct Drawing<'r> {
     robot: &'r Robot,
     layout: &'r Layout,
@@ -211,8 +211,8 @@ impl<'r> Drawing<'r> {
         let label = |offset: f64| {
             let beside = across * offset;
             let off = beside.abs().component_mul(&size).sum() / (2.0 * offset.abs()) + 3.0;
-            let centre = (from + to) / 2.0 + across * (offset + off.copysign(offset));
-            Rectangle::about(centre, size)
+            let center = (from + to) / 2.0 + across * (offset + off.copysign(offset));
+            Rectangle::about(center, size)
         };
         let line = |offset: f64| {
             let middle = (from + to) / 2.0 + across * offset;
@@ -264,7 +264,7 @@ impl<'r> Drawing<'r> {
         self.written.push(group.with(words_at(&shown, &place, LETTERS)));
     }
 
-    /// The letter of an axis, beyond its end, left out where there is no room for it.
+    /// The letter of an axis, beyond its end, left out if there is no room for it.
     fn letter(&mut self, name: &str, end: Point) {
         let place = self.room.find(end, size_of(name, SMALL), 0.0);
         let class = match name {
@@ -299,7 +299,7 @@ impl<'r> Drawing<'r> {
     }
 }
 
-/// The colours of links.
+/// The colors of links.
 fn hue(index: usize) -> String {
     format!("hue-{}", index % 8)
 }
@@ -324,10 +324,10 @@ fn size_of(words: &str, letters: f64) -> Point {
 }
 
 fn words_at(words: &str, place: &Rectangle, letters: f64) -> Element {
-    let centre = (place.low + place.high) / 2.0;
+    let center = (place.low + place.high) / 2.0;
     holding("text", words)
-        .attribute("x", coordinate(centre.x))
-        .attribute("y", coordinate(centre.y + 0.35 * letters))
+        .attribute("x", coordinate(center.x))
+        .attribute("y", coordinate(center.y + 0.35 * letters))
         .attribute("font-size", coordinate(letters))
         .attribute("text-anchor", "middle")
 }

@@ -13,8 +13,8 @@ pub(crate) struct Rectangle {
 
 impl Rectangle {
     /// Of a width and a height about a point.
-    pub(crate) fn about(centre: Vector2<f64>, size: Vector2<f64>) -> Rectangle {
-        Rectangle { low: centre - size / 2.0, high: centre + size / 2.0 }
+    pub(crate) fn about(center: Vector2<f64>, size: Vector2<f64>) -> Rectangle {
+        Rectangle { low: center - size / 2.0, high: center + size / 2.0 }
     }
 
     /// The area that two have in common.
@@ -81,8 +81,8 @@ impl Room {
                 let angle = std::f64::consts::TAU * (step as f64 / DIRECTIONS as f64) - 0.6;
                 let (sin, cos) = angle.sin_cos();
                 let reach = Vector2::new(cos, sin) * (gap + ring);
-                let centre = point + reach + Vector2::new(cos * size.x, sin * size.y) / 2.0;
-                let label = Rectangle::about(centre, size);
+                let center = point + reach + Vector2::new(cos * size.x, sin * size.y) / 2.0;
+                let label = Rectangle::about(center, size);
                 let cost = self.cost(&label) + 1.2 * ring + 0.2 * step as f64;
                 if cost < best.0 {
                     best = (cost, label);

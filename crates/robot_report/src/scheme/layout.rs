@@ -45,7 +45,7 @@ pub(crate) struct Place {
 pub(crate) struct Segment {
     /// Its ends.
     pub(crate) ends: [Vector3<f64>; 2],
-    /// Its length in the robot file; `None` where two frames at one point are drawn apart.
+    /// Its length in the robot file; `None` if two frames at one point are drawn apart.
     pub(crate) length: Option<Formula>,
 }
 
@@ -123,9 +123,9 @@ impl Layout {
             let before = carrier.and_then(|carrier| carrier.path.last());
             let before = walk.path.last().or(before);
             let before = before.map_or(view.vertical, |last| last.ends[1] - last.ends[0]);
-            // Where there is an offset, what lies beside the carrier's axis stays there.
+            // If there is an offset, what lies beside the carrier's axis stays there.
             let outward = if walk.path.is_empty() { outward } else { own };
-            let to = self.apart(view, walk.position, [own, outward], before);
+            let to = self.separated(view, walk.position, [own, outward], before);
             walk.step(to, None);
         }
         let along = walk.path.last().map(|last| last.ends[1] - last.ends[0]);
@@ -141,9 +141,9 @@ impl Layout {
     }
 
     /// How a frame at the very place of its carrier is drawn beside it: along one of the joint axes,
-    /// on which a joint may be drawn anywhere, or upright; where there is most room, and rather on
+    /// on which a joint may be drawn anywhere, or upright; if there is most room, and rather on
     /// in the direction that leads there.
-    fn apart(
+    fn separated(
         &self,
         view: &View,
         start: Vector3<f64>,
@@ -239,8 +239,9 @@ pub(crate) fn confusion(layout: &Layout, view: &View) -> f64 {
         blame((a - b).norm(), 45.0);
     }
     // Joints are drawn apart where they must be, not more.
-    let apart = places().flat_map(|place| &place.path).filter(|segment| segment.length.is_none());
-    blame(0.0, 40.0 * (apart.count() as f64).sqrt());
+    let separated =
+        places().flat_map(|place| &place.path).filter(|segment| segment.length.is_none());
+    blame(0.0, 40.0 * (separated.count() as f64).sqrt());
     for place in &layout.links {
         // An axis that points at the eye is no line.
         blame(view.point(&place.axis).norm() * 60.0, 25.0);

@@ -23,7 +23,7 @@ pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> E
 
 /// A rotation joint: a cylinder about its axis.
 pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Element {
-    let (centre, along) = (view.point(origin), view.point(axis));
+    let (center, along) = (view.point(origin), view.point(axis));
     let nearness = view.nearness(axis);
     // In coordinates with x along the axis on the page: a strip between two ellipses.
     let (half, bulge) = (HALF * along.norm(), RADIUS * nearness.abs());
@@ -36,7 +36,7 @@ pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) 
     );
     let near = if nearness >= 0.0 { half } else { -half };
     let turn = if along.norm() > 1e-9 { along.y.atan2(along.x).to_degrees() } else { 0.0 };
-    let [x, y, turn] = [centre.x, centre.y, turn].map(coordinate);
+    let [x, y, turn] = [center.x, center.y, turn].map(coordinate);
     let cap = element("ellipse")
         .attribute("cx", coordinate(near))
         .attribute("cy", "0")
@@ -66,9 +66,9 @@ pub(crate) fn slider(
     let faces = (0..3).map(|face| {
         // Of two opposite faces the eye sees one.
         let sign = if view.nearness(&half[face]) >= 0.0 { 1.0 } else { -1.0 };
-        let centre = origin + half[face] * sign;
+        let center = origin + half[face] * sign;
         let (u, v) = (half[(face + 1) % 3], half[(face + 2) % 3]);
-        let corners = [u + v, u - v, -u - v, v - u].map(|corner| view.point(&(centre + corner)));
+        let corners = [u + v, u - v, -u - v, v - u].map(|corner| view.point(&(center + corner)));
         path(&corners, true)
     });
     element("g").class("joint").with_all(rails).with_all(faces)

@@ -14,7 +14,7 @@ impl Exact {
     }
 
     /// `a + b` for |a| ≥ |b|.
-    fn normalised(a: f64, b: f64) -> Self {
+    fn normalized(a: f64, b: f64) -> Self {
         let high = a + b;
         Self { high, low: b - (high - a) }
     }
@@ -27,13 +27,13 @@ impl Exact {
         let sum = self.high + other.high;
         let part = sum - self.high;
         let error = (self.high - (sum - part)) + (other.high - part);
-        Self::normalised(sum, error + (self.low + other.low))
+        Self::normalized(sum, error + (self.low + other.low))
     }
 
     fn times(self, other: Self) -> Self {
         let product = self.high * other.high;
         let error = f64::mul_add(self.high, other.high, -product);
-        Self::normalised(product, error + (self.high * other.low + self.low * other.high))
+        Self::normalized(product, error + (self.high * other.low + self.low * other.high))
     }
 
     fn over(self, divisor: Self) -> Self {
@@ -71,7 +71,7 @@ pub(crate) fn sin_cos(angle: f64) -> (Exact, Exact) {
     let rest = fixed.wrapping_sub(k.wrapping_mul(HALF_PI));
     let high = rest as f64;
     let low = (rest - high as i128) as f64 - k as f64 * HALF_PI_TAIL;
-    let reduced = Exact::normalised(high * UNIT, low * UNIT);
+    let reduced = Exact::normalized(high * UNIT, low * UNIT);
     let (sine, cosine) = first_quadrant(reduced);
     match k.rem_euclid(4) {
         0 => (sine, cosine),

@@ -2,7 +2,7 @@
 
 use crate::exact::HALF_PI;
 
-/// The numbers from 1 to 2³⁰ that come nearest to a multiple of π/2: where one is m·u, m of 53 bits
+/// The numbers from 1 to 2³⁰ that come nearest to a multiple of π/2: if one is m·u, m of 53 bits
 /// and u its last place, m/k is a best approximation to (π/2)/u, a convergent or semiconvergent of the
 /// continued fraction, or a multiple of one.
 pub(crate) fn nearest_angles() -> Vec<f64> {

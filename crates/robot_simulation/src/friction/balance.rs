@@ -74,9 +74,9 @@ pub(crate) fn balance(
     let mut holding = vec![None; modes.len()];
     if modes.contains(&Mode::Held) {
         let backward = State { q: state.q.clone(), qd: directed(&state.qd, modes, -1.0) };
-        let without = friction.driving_forces(&forward, &qdd, false)?;
-        let most = friction.driving_forces(&forward, &qdd, true)?;
-        let least = friction.driving_forces(&backward, &qdd, true)?;
+        let without = friction.joint_torques(&forward, &qdd, false)?;
+        let most = friction.joint_torques(&forward, &qdd, true)?;
+        let least = friction.joint_torques(&backward, &qdd, true)?;
         let size = |index: usize| {
             let range =
                 (most[index] - without[index]).abs() + (least[index] - without[index]).abs();
@@ -110,7 +110,7 @@ fn directed(qd: &[f64], modes: &[Mode], held: f64) -> Vec<f64> {
 
 /// q̈ of the coordinates that move. Without friction by load the equations are linear in q̈. With it
 /// they are M q̈ + Q_f(q̈) = …, solved by Broyden's method from the matrix M (Nocedal and Wright,
-/// Numerical Optimization, 2nd ed., 11.1), for Q_f is small against the driving forces.
+/// Numerical Optimization, 2nd ed., 11.1), for Q_f is small against the joint torques.
 fn accelerations(
     friction: &dyn DryFriction,
     state: &State,
@@ -124,7 +124,7 @@ fn accelerations(
         return Ok(qdd);
     }
     let lacking = |qdd: &[f64]| -> Result<DVector<f64>, Cause> {
-        let forces = friction.driving_forces(state, qdd, true)?;
+        let forces = friction.joint_torques(state, qdd, true)?;
         let lacking = moving.iter().map(|index| tau[*index] - forces[*index]);
         let lacking = DVector::from_iterator(moving.len(), lacking);
         let finite = lacking.iter().all(|force| force.is_finite());

@@ -135,7 +135,7 @@ mod tests {
             Ok(self.mass.clone())
         }
 
-        fn driving_forces(
+        fn joint_torques(
             &self,
             state: &State,
             qdd: &[f64],

@@ -29,8 +29,8 @@ const TITLE_SIZE: u32 = 18;
 const TEXT_SIZE: u32 = 14;
 
 /// The palette of Okabe and Ito (Color Universal Design, 2008) but for its black, which is that
-/// of sums, and its yellow, which is hard to see on white: readers who are blind to some colours tell them apart.
-const COLOURS: [RGBColor; 6] = [
+/// of sums, and its yellow, which is hard to see on white: readers who are blind to some colors tell them apart.
+const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -65,10 +65,10 @@ type Drawn<D> =
 fn fill<D: DrawingBackend>(figure: &Figure, area: &DrawingArea<D, Shift>) -> Drawn<D> {
     area.fill(&WHITE)?;
     let (head, rest) = area.split_vertically(TITLE * SCALE);
-    let centred = style(TITLE_SIZE).pos(Pos::new(HPos::Center, VPos::Center));
+    let centered = style(TITLE_SIZE).pos(Pos::new(HPos::Center, VPos::Center));
     let middle = (WIDTH - LEGEND + VALUE_LABELS) / 2;
     let place = ((middle * SCALE) as i32, (TITLE * SCALE / 2) as i32);
-    head.draw(&Text::new(figure.title.as_str(), place, centred))?;
+    head.draw(&Text::new(figure.title.as_str(), place, centered))?;
     let mut rest = rest;
     for (index, panel) in figure.panels.iter().enumerate() {
         let last = index + 1 == figure.panels.len();
@@ -136,9 +136,9 @@ fn line(number: usize, curve: &Curve) -> (ShapeStyle, Option<u32>) {
     if curve.is_sum {
         return (BLACK.stroke_width(2 * SCALE), None);
     }
-    let colour = COLOURS[number % COLOURS.len()];
-    let dash = [None, Some(8), Some(3)][(number / COLOURS.len()).min(2)];
-    (colour.stroke_width(3 * SCALE / 2), dash.map(|dash| dash * SCALE))
+    let color = COLORS[number % COLORS.len()];
+    let dash = [None, Some(8), Some(3)][(number / COLORS.len()).min(2)];
+    (color.stroke_width(3 * SCALE / 2), dash.map(|dash| dash * SCALE))
 }
 
 /// The points of a curve, few enough; `across` and `up` are pixels to a unit of the axes.

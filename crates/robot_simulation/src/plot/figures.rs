@@ -1,13 +1,13 @@
-//! The figures of motions and of driving forces.
+//! The figures of motions and of joint torques.
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
 
 use super::{Curve, Figure, Panel};
+use crate::contributions::TorqueContributions;
 use crate::motion::{Energies, Motion};
-use crate::shares::Shares;
 
-/// Positions, velocities, driving forces and energies of a motion. Where `conserved`, a last panel
+/// Positions, velocities, joint torques and energies of a motion. Where `conserved`, a last panel
 /// shows by how much the energy has changed since the start: the error of the integration.
 #[must_use]
 pub fn motion_figure(
@@ -47,9 +47,9 @@ pub fn motion_figure(
     Figure { title: format!("Motion of {}", robot.name), t: motion.t.clone(), panels }
 }
 
-/// The driving forces along a trajectory by their shares, a panel for each coordinate.
+/// The joint torques along a trajectory by their shares, a panel for each coordinate.
 #[must_use]
-pub fn shares_figure(robot: &Robot, shares: &Shares) -> Figure {
+pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) -> Figure {
     let panel = |(index, kind): (usize, JointKind)| {
         let curve = |(name, series): (&str, &Vec<Vec<f64>>)| Curve {
             name: if name == "coriolis" { "Coriolis".to_owned() } else { name.to_owned() },
@@ -59,15 +59,15 @@ pub fn shares_figure(robot: &Robot, shares: &Shares) -> Figure {
         Panel {
             quantity: JointVariable::Torque.symbol(index),
             unit: JointVariable::Torque.unit(kind).to_owned(),
-            curves: shares.named().into_iter().map(curve).collect(),
+            curves: contributions.named().into_iter().map(curve).collect(),
         }
     };
     let kinds = robot.coordinates.iter().map(|coordinate| coordinate.kind).enumerate();
     let title = format!("Driving forces of {}", robot.name);
-    Figure { title, t: shares.t.clone(), panels: kinds.map(panel).collect() }
+    Figure { title, t: contributions.t.clone(), panels: kinds.map(panel).collect() }
 }
 
-/// A panel for the coordinates that turn and one for those that slide, where there are such.
+/// A panel for the coordinates that turn and one for those that slide, if there are such.
 fn by_unit(
     robot: &Robot,
     quantity: &str,

@@ -28,8 +28,8 @@ impl<B: DrawingBackend> DrawingBackend for Lowered<B> {
         self.0.present()
     }
 
-    fn draw_pixel(&mut self, point: BackendCoord, colour: BackendColor) -> Done<B> {
-        self.0.draw_pixel(point, colour)
+    fn draw_pixel(&mut self, point: BackendCoord, color: BackendColor) -> Done<B> {
+        self.0.draw_pixel(point, color)
     }
 
     fn draw_line<S: BackendStyle>(

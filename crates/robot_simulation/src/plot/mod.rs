@@ -16,7 +16,7 @@ use robot_build::MARKER;
 use crate::error::Error;
 use letters::Lowered;
 
-pub use figures::{motion_figure, shares_figure};
+pub use figures::{contributions_figure, motion_figure};
 
 /// Panels one below the other over a common time.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,7 +62,7 @@ impl Figure {
     ///
     /// # Errors
     ///
-    /// Where it cannot be drawn.
+    /// If it cannot be drawn.
     pub fn svg(&self) -> Result<String, Error> {
         let (width, height) = draw::size(self);
         let mut text = String::new();
@@ -80,7 +80,7 @@ impl Figure {
     ///
     /// # Errors
     ///
-    /// Where it cannot be drawn.
+    /// If it cannot be drawn.
     pub fn png(&self) -> Result<Vec<u8>, Error> {
         let (width, height) = draw::size(self);
         let (wide, high) = (width * SCALE, height * SCALE);

@@ -1,4 +1,4 @@
-//! Without friction and driving forces the energy stays.
+//! Without friction and joint torques the energy stays.
 
 use robot_simulation::{RobotProgram, Torques};
 

@@ -83,7 +83,7 @@ fn forward(text: &str) -> robot_build::Programs {
     programs(&source, &Options { functions, ..Options::default() }).unwrap()
 }
 
-/// The largest difference between the driving forces and those that the accelerations of
+/// The largest difference between the joint torques and those that the accelerations of
 /// `forward_dynamics_friction` take, in parts of the largest.
 fn forward_error(programs: &robot_build::Programs, given: &[(&str, f64)]) -> f64 {
     let interpreter = Interpreter::new(&programs.module, given).unwrap();

@@ -1,4 +1,4 @@
-//! Driving forces, and what is said of wrong input.
+//! Joint torques, and what is said of wrong input.
 
 use robot_simulation::{
     Cause, Error, RobotProgram, SimulationOptions, State, Table, TorqueLaw, Torques, from_fn,

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod contributions;
 mod energy;
 mod friction;
 mod inputs;
-mod shares;
 mod sticking;
 
 use robot_build::{Functions, Options, Programs, Source, programs};

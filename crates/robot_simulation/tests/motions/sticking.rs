@@ -243,7 +243,7 @@ fn what_holds_a_joint_agrees_with_the_equations() {
         let directed = |sign: f64| {
             let qd = state.qd.iter().map(|qd| if *qd == 0.0 { sign * 1e-200 } else { *qd });
             let state = State { q: state.q.clone(), qd: qd.collect() };
-            friction.driving_forces(&state, qdd, true).unwrap()
+            friction.joint_torques(&state, qdd, true).unwrap()
         };
         let (least, most) = (directed(-1.0), directed(1.0));
         for joint in 0..5 {
@@ -302,7 +302,7 @@ fn two_joints_stick_and_slip_as_small_steps_say() {
         }
         let tau = [7.0 + 4.0 * (4.0 * t).sin(), 2.0 + 3.0 * (5.0 * t).sin()];
         let mass = friction.mass_matrix(&state.q).unwrap();
-        let bias = friction.driving_forces(&state, &[0.0; 2], false).unwrap();
+        let bias = friction.joint_torques(&state, &[0.0; 2], false).unwrap();
         let pushed = [0, 1].map(|i| {
             let gained = STEP * (tau[i] - bias[i] - 0.3 * state.qd[i]);
             mass[2 * i] * state.qd[0] + mass[2 * i + 1] * state.qd[1] + gained

@@ -29,10 +29,10 @@ fn gradient<'g>(root: Expr<'g>, symbols: &[Expr<'g>]) -> Vec<Expr<'g>> {
         if !leads[place] || weight.is_zero() {
             continue;
         }
-        let mut add = |operand: Expr<'g>, share: &dyn Fn() -> Expr<'g>| {
+        let mut add = |operand: Expr<'g>, contribution: &dyn Fn() -> Expr<'g>| {
             let place = places[&operand.id()];
             if leads[place] {
-                weights[place] += share();
+                weights[place] += contribution();
             }
         };
         match node.view() {

@@ -187,7 +187,7 @@ impl<'g> Polynomial<'g> {
         self.is_empty()
     }
 
-    /// The number that the polynomial is, where it is one.
+    /// The number that the polynomial is, if it is one.
     #[must_use]
     pub fn as_number(&self) -> Option<Number> {
         terms::as_number(&self.terms)

@@ -82,14 +82,14 @@ impl Monomial {
         self.0.is_empty()
     }
 
-    /// The exponent of an atom; 0 where it does not occur.
+    /// The exponent of an atom; 0 if it does not occur.
     #[must_use]
     pub fn exponent(&self, atom: Id) -> i32 {
         let factor = self.0.iter().find(|factor| factor.atom() == atom);
         factor.map_or(0, |factor| factor.exponent)
     }
 
-    /// The product, and whether it holds a square that reduces; `None` where an exponent overflows.
+    /// The product, and whether it holds a square that reduces; `None` if an exponent overflows.
     pub(super) fn product(&self, other: &Monomial) -> Option<(Monomial, bool)> {
         let (a, b) = (self.0.as_slice(), other.0.as_slice());
         let mut factors = SmallVec::new();
@@ -148,7 +148,7 @@ impl Monomial {
         (inside, outside)
     }
 
-    /// The monomial with one power less of an atom that it has; `None` where it has none.
+    /// The monomial with one power less of an atom that it has; `None` if it has none.
     pub(super) fn lowered(&self, atom: Id) -> Option<Monomial> {
         let place = self.0.iter().position(|factor| factor.atom() == atom)?;
         let mut factors = self.0.clone();
@@ -161,7 +161,7 @@ impl Monomial {
         Some(Monomial(factors))
     }
 
-    /// `1 / self`; `None` where an exponent overflows.
+    /// `1 / self`; `None` if an exponent overflows.
     pub(super) fn inverse(&self) -> Option<Monomial> {
         let mut factors = self.0.clone();
         for factor in &mut factors {

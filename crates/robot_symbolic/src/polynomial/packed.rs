@@ -68,7 +68,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The layout for a sum of products; `None` where the monomials are too wide, or squares other
+    /// The layout for a sum of products; `None` if the monomials are too wide, or squares other
     /// than those of sines may have to be reduced.
     pub(super) fn new(graph: &Graph, parts: &[Part<'_>]) -> Option<Layout> {
         let mut ranges = ranges(parts);

@@ -33,7 +33,7 @@ pub const MAX_OPERATIONS: u64 = 1_000_000;
      it under names of their own"
 )]
 pub struct TooLarge {
-    /// The operations of the expression, or the largest `u64` where there are more.
+    /// The operations of the expression, or the largest `u64` if there are more.
     pub operations: u64,
     /// The most that were allowed.
     pub limit: u64,

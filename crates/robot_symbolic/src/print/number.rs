@@ -36,7 +36,7 @@ impl Magnitude {
     /// The absolute value of a number. Floating-point constants are the shortest decimals that round to
     /// them.
     #[must_use]
-    pub fn of(number: &Number) -> Magnitude {
+    pub fn new(number: &Number) -> Magnitude {
         let pair = |(a, b): (&str, &str)| [a.to_owned(), b.to_owned()];
         match number {
             Number::Rational(value) => {
@@ -61,7 +61,7 @@ impl Magnitude {
 /// The absolute value as text that reads back, and how tightly it binds. What is not a number is
 /// `(0/0)`, which is as little a number.
 pub(crate) fn magnitude_text(number: &Number) -> (String, Level) {
-    match Magnitude::of(number) {
+    match Magnitude::new(number) {
         Magnitude::Decimal(digits) => (digits, Level::Atom),
         Magnitude::Quotient([above, below]) => (format!("{above}/{below}"), Level::Product),
         Magnitude::Scientific([digits, exponent]) => (format!("{digits}e{exponent}"), Level::Atom),
@@ -69,7 +69,7 @@ pub(crate) fn magnitude_text(number: &Number) -> (String, Level) {
     }
 }
 
-/// `(n, k)` with the value `n / 10^k` and the least such `k`, where there is one.
+/// `(n, k)` with the value `n / 10^k` and the least such `k`, if there is one.
 fn decimal_places(value: &Rational) -> Option<(Rational, usize)> {
     let ten = Rational::integer(10);
     let mut scaled = value.clone();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use robot_check::errata::{Comparison, Difference, SlipKind};
+use robot_check::errata::{Comparison, Difference, MistakeKind};
 use serde_json::{Value, json};
 
 /// A paragraph for each difference, and a summary.
@@ -16,7 +16,7 @@ pub(super) fn text(comparison: &Comparison) -> String {
             "{}, line {}: {}",
             name(difference),
             difference.line,
-            slips(difference)
+            mistakes(difference)
         );
         let terms = [
             ("printed", &difference.printed),
@@ -43,17 +43,17 @@ fn name(difference: &Difference) -> String {
     }
 }
 
-fn slips(difference: &Difference) -> String {
-    let slips: Vec<String> = difference.slips.iter().map(ToString::to_string).collect();
-    slips.join(", ")
+fn mistakes(difference: &Difference) -> String {
+    let mistakes: Vec<String> = difference.mistakes.iter().map(ToString::to_string).collect();
+    mistakes.join(", ")
 }
 
 /// `85 equations (10 only name a quantity), 839 terms: 34 terms differ (23 dot, 8 index, …)`
 fn summary(comparison: &Comparison) -> String {
     let Comparison { equations, names, terms, wrench, differences } = comparison;
-    let mut kinds: BTreeMap<SlipKind, usize> = BTreeMap::new();
-    for slip in differences.iter().flat_map(|difference| &difference.slips) {
-        *kinds.entry(slip.kind).or_default() += 1;
+    let mut kinds: BTreeMap<MistakeKind, usize> = BTreeMap::new();
+    for mistake in differences.iter().flat_map(|difference| &difference.mistakes) {
+        *kinds.entry(mistake.kind).or_default() += 1;
     }
     let kinds: Vec<String> =
         kinds.iter().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
@@ -80,12 +80,12 @@ pub(super) fn json(comparison: &Comparison) -> String {
         .differences
         .iter()
         .map(|difference| {
-            let slips: Vec<Value> = difference
-                .slips
+            let mistakes: Vec<Value> = difference
+                .mistakes
                 .iter()
-                .map(|slip| {
-                    let (printed, derived) = (&slip.printed, &slip.derived);
-                    json!({ "kind": slip.kind.name(), "printed": printed, "derived": derived })
+                .map(|mistake| {
+                    let (printed, derived) = (&mistake.printed, &mistake.derived);
+                    json!({ "kind": mistake.kind.name(), "printed": printed, "derived": derived })
                 })
                 .collect();
             let evidence: Vec<String> =
@@ -94,7 +94,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
                 "number": difference.number,
                 "quantity": difference.quantity,
                 "line": difference.line,
-                "slips": slips,
+                "slips": mistakes,
                 "printed": difference.printed,
                 "derived": difference.derived,
                 "nearest": difference.nearest,
@@ -134,7 +134,7 @@ pub(super) fn markdown(comparison: &Comparison) -> String {
             shown,
             "| {} | {} | {} | {derived} | {} |",
             name(difference).replace('|', "\\|"),
-            slips(difference),
+            mistakes(difference),
             term(&difference.printed),
             evidence.join("; ").replace('|', "\\|"),
         );

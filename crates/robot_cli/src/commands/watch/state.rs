@@ -22,7 +22,7 @@ pub(super) struct Look {
 
 /// How changes are shown.
 pub(super) struct Settings {
-    /// The tolerance for angles, rad, where one is given.
+    /// The tolerance for angles, rad, if one is given.
     pub(super) snap: Option<f64>,
     /// What is taken of a file with a warning.
     pub(super) reading: ReadingArguments,
@@ -38,14 +38,14 @@ pub(super) struct State {
     /// How many looks there were before.
     number: usize,
     /// What last gave a robot.
-    good: Option<Good>,
-    /// What is wrong now; `None` where the file gives a robot.
+    valid: Option<ValidRobot>,
+    /// What is wrong now; `None` if the file gives a robot.
     wrong: Option<Vec<Problem>>,
 }
 
 /// A look that gave a robot.
 #[derive(Clone)]
-struct Good {
+struct ValidRobot {
     number: usize,
     source: Source,
     robot: Robot,
@@ -75,12 +75,12 @@ pub(super) struct Shown {
 impl State {
     /// Whether the file gives a robot now.
     pub(super) fn is_good(&self) -> bool {
-        self.good.is_some() && self.wrong.is_none()
+        self.valid.is_some() && self.wrong.is_none()
     }
 
     /// How code is made of the last robot.
     pub(super) fn options(&self, settings: &Settings) -> Options {
-        let plan = self.good.as_ref().and_then(|good| good.plan.clone());
+        let plan = self.valid.as_ref().and_then(|valid| valid.plan.clone());
         Options { snap: settings.snap, plan, ..settings.reading.options() }
     }
 
@@ -88,25 +88,25 @@ impl State {
     pub(super) fn after(&self, look: &Look, settings: &Settings) -> (State, Shown) {
         let number = self.number;
         let read = look.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
-        match read.and_then(|source| good(number, source, &look.plan, settings)) {
-            Ok(good) => {
-                let shown = self.bettered(&good, settings);
-                (State { number: number + 1, good: Some(good), wrong: None }, shown)
+        match read.and_then(|source| valid(number, source, &look.plan, settings)) {
+            Ok(valid) => {
+                let shown = self.after_valid(&valid, settings);
+                (State { number: number + 1, valid: Some(valid), wrong: None }, shown)
             }
             Err(wrong) => {
-                let shown = self.worsened(&wrong);
-                (State { number: number + 1, good: self.good.clone(), wrong: Some(wrong) }, shown)
+                let shown = self.after_errors(&wrong);
+                (State { number: number + 1, valid: self.valid.clone(), wrong: Some(wrong) }, shown)
             }
         }
     }
 
     /// What is shown of a robot.
-    fn bettered(&self, now: &Good, settings: &Settings) -> Shown {
-        let before = self.good.iter().flat_map(|good| &good.problems);
+    fn after_valid(&self, now: &ValidRobot, settings: &Settings) -> Shown {
+        let before = self.valid.iter().flat_map(|valid| &valid.problems);
         let before: Vec<&Problem> = before.chain(self.wrong.iter().flatten()).collect();
         let problems = texts(absent(&now.problems, &before));
         let gone = gone(before, &now.problems);
-        let Some(good) = &self.good else {
+        let Some(valid) = &self.valid else {
             let (coordinates, parameters) =
                 (now.robot.degrees_of_freedom(), now.robot.parameters.len());
             let changes = format!(
@@ -115,19 +115,19 @@ impl State {
             );
             return Shown { title: title(self.number, None), problems, changes };
         };
-        let found = difference(&good.robot, &now.robot, &compared(good, now, settings));
+        let found = difference(&valid.robot, &now.robot, &compared(valid, now, settings));
         let differences = differences(&found, settings.terms);
         let none = if differences.is_empty() { "nothing changes in the robot\n" } else { "" };
-        let title = title(self.number, Some(good.number));
+        let title = title(self.number, Some(valid.number));
         Shown { title, problems, changes: format!("{gone}{differences}{none}") }
     }
 
     /// What is shown of a file that gives no robot.
-    fn worsened(&self, wrong: &[Problem]) -> Shown {
+    fn after_errors(&self, wrong: &[Problem]) -> Shown {
         let gone = gone(self.wrong.iter().flatten().collect(), wrong);
-        let stands = match &self.good {
+        let stands = match &self.valid {
             None => "there is no robot yet; watching".to_owned(),
-            Some(good) => format!("there is no robot; that of {} stands", name(good.number)),
+            Some(valid) => format!("there is no robot; that of {} stands", name(valid.number)),
         };
         Shown {
             title: title(self.number, None),
@@ -138,12 +138,12 @@ impl State {
 }
 
 /// The robot of a file, or all that is wrong with it.
-fn good(
+fn valid(
     number: usize,
     source: &Source,
     plan: &Result<Option<Plan>, Errors>,
     settings: &Settings,
-) -> Result<Good, Vec<Problem>> {
+) -> Result<ValidRobot, Vec<Problem>> {
     let style = settings.style;
     let options = settings.reading.options();
     let described =
@@ -165,7 +165,7 @@ fn good(
         let line = format!("warning: {error}");
         Problem { text: line.clone(), line }
     }));
-    Ok(Good { number, source: source.clone(), robot: described.robot, plan, problems })
+    Ok(ValidRobot { number, source: source.clone(), robot: described.robot, plan, problems })
 }
 
 fn of_errors(errors: &Errors, style: Style) -> Vec<Problem> {
@@ -232,7 +232,7 @@ fn title(number: usize, from: Option<usize>) -> String {
 
 /// Under which plans two robots are compared: their own, where both have one; a pin goes stale with each
 /// change of its file, and the default plan beside it would tell of the plan, not of the robot.
-fn compared(before: &Good, now: &Good, settings: &Settings) -> DifferenceOptions {
+fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings) -> DifferenceOptions {
     let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;
     let code = [before, now].map(|one| Options {
         snap: settings.snap,

@@ -51,7 +51,7 @@ fn followed_with(
         input: &mut std::io::empty(),
         output: &mut output,
         errors: &mut errors,
-        colours: false,
+        colors: false,
         progress: false,
     };
     let ended = follow(looks.into_iter(), &SETTINGS, page, &mut terminal);

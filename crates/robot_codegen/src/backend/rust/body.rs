@@ -123,7 +123,7 @@ impl<'a> Body<'a> {
         values.iter().filter_map(|value| self.names[value.index()].clone()).collect()
     }
 
-    /// A value as an operand: its name where it has one.
+    /// A value as an operand: its name if it has one.
     fn operand(&self, value: Value) -> Expr {
         match &self.names[value.index()] {
             Some(name) => syntax::variable(name),

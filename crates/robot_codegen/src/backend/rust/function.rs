@@ -295,7 +295,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         syntax::with_body(signature, statements, value)
     }
 
-    /// Short functions are offered for inlining; where there is a loop over states, they have to be
+    /// Short functions are offered for inlining; if there is a loop over states, they have to be
     /// inlined into it for the loop to be vectorised.
     fn inline(&self) -> Option<TokenStream> {
         let short = self.function.core.operations().len() <= INLINE_LIMIT;

@@ -127,7 +127,7 @@ impl RustModule {
 ///
 /// # Errors
 ///
-/// A runtime path that is no path; constants beyond the range of `f32` where that is asked for.
+/// A runtime path that is no path; constants beyond the range of `f32` if that is asked for.
 pub fn generate(module: &Module, options: &RustOptions) -> Result<RustModule, Errors> {
     let mut scope = Scope::new(module, options)?;
     let mut items = items::constants(&mut scope);

@@ -9,14 +9,14 @@ use crate::program::{Layout, Program, Value};
 const FIXED: usize = 256;
 
 /// An estimate, from above, of the bytes of stack that a call of a function takes where nothing is
-/// optimised, sines and cosines themselves apart. `scalar` is the size of a number, 8 or 4 bytes.
+/// optimized, sines and cosines themselves apart. `scalar` is the size of a number, 8 or 4 bytes.
 ///
-/// Without optimisation rustc gives every named value a place of its own. There are the statements
+/// Without optimization rustc gives every named value a place of its own. There are the statements
 /// of the program, those that leave a block twice more, as a part of its tuple and by their outer name;
 /// the entries of inputs, angles, sines and cosines, each twice: in its array and
 /// where a pattern takes it; the outputs four times: as numbers, as rows, as arrays and as the
 /// result; and one in four of the values that wait inside an expression for another one, for the rest
-/// of which registers last. Optimised code takes less. This is no proof: tests hold it against what the compiler
+/// of which registers last. Optimized code takes less. This is no proof: tests hold it against what the compiler
 /// makes of every robot of the project, and `robot-symbolic prove` measures.
 #[must_use]
 pub fn estimate(function: &Function, scalar: usize) -> usize {
@@ -26,12 +26,14 @@ pub fn estimate(function: &Function, scalar: usize) -> usize {
     let angles = 3 * function.angles.results().len();
     let outputs = function.core.results().len();
     let leaving: usize = programs.iter().map(|program| leaving(program)).sum();
-    let held: usize = programs.iter().map(|program| held(program)).sum();
-    FIXED + scalar * (statements + held / 4 + 2 * leaving + 2 * (inputs + angles) + 4 * outputs)
+    let live_values: usize = programs.iter().map(|program| live_values(program)).sum();
+    FIXED
+        + scalar
+            * (statements + live_values / 4 + 2 * leaving + 2 * (inputs + angles) + 4 * outputs)
 }
 
 /// The values without a name that wait for another operand of what uses them.
-fn held(program: &Program) -> usize {
+fn live_values(program: &Program) -> usize {
     let layout = layout(program);
     let is_inside =
         |value: &Value| !layout.is_named(*value) && !program.operation(*value).is_leaf();
@@ -40,7 +42,7 @@ fn held(program: &Program) -> usize {
     inside.map(|operands| operands.count().saturating_sub(1)).sum()
 }
 
-/// The values that leave blocks, where there are several.
+/// The values that leave blocks, if there are several.
 fn leaving(program: &Program) -> usize {
     let layout = layout(program);
     let blocks = || layout.parts.iter().flat_map(|part| &part.blocks);

@@ -55,7 +55,7 @@ pub(super) fn array(elements: impl IntoIterator<Item = Expr>) -> Expr {
     })
 }
 
-/// A tuple, or the element itself where there is one only.
+/// A tuple, or the element itself if there is one only.
 pub(super) fn tuple(elements: Vec<Expr>) -> Expr {
     match <[Expr; 1]>::try_from(elements) {
         Ok([element]) => element,
@@ -88,7 +88,7 @@ pub(super) fn binding(name: &Ident) -> Pat {
     })
 }
 
-/// A name, or `_` where there is none.
+/// A name, or `_` if there is none.
 pub(super) fn optional_binding(name: Option<&Ident>) -> Pat {
     name.map_or_else(
         || {
@@ -109,7 +109,7 @@ pub(super) fn array_pattern(elements: impl IntoIterator<Item = Pat>) -> Pat {
     })
 }
 
-/// A tuple of names, or the name itself where there is one only.
+/// A tuple of names, or the name itself if there is one only.
 pub(super) fn tuple_pattern(names: &[Ident]) -> Pat {
     match names {
         [name] => binding(name),

@@ -41,7 +41,7 @@ impl Variables {
         Variables { namer, inputs, entries, sines, sine, cosines, cosine }
     }
 
-    /// The variable that a load reads, where it is one.
+    /// The variable that a load reads, if it is one.
     pub(super) fn name(&self, source: Source) -> Option<Ident> {
         let (names, index) = match source {
             Source::Input(index) => (&self.entries, index),

@@ -332,7 +332,7 @@ fn has_near(table: &FxHashMap<u64, Vec<Value>>, key: u64) -> bool {
     near(table, key).next().is_some()
 }
 
-/// What a table has under a key and its neighbours, for rounding may cross the border.
+/// What a table has under a key and its neighbors, for rounding may cross the border.
 fn near(table: &FxHashMap<u64, Vec<Value>>, key: u64) -> impl Iterator<Item = Value> + '_ {
     let keys = [key, key.wrapping_sub(1), key.wrapping_add(1)];
     keys.into_iter().filter_map(|key| table.get(&key)).flatten().copied()

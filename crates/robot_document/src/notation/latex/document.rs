@@ -109,7 +109,7 @@ impl Writer {
             }
             Block::Table(table) => self.table(table),
             Block::Equations(list) => {
-                let layout = Layout::of_centimetres(self.page.width);
+                let layout = Layout::of_centimeters(self.page.width);
                 self.latex.push_str(&equations(list, layout)?);
             }
         }
@@ -118,7 +118,7 @@ impl Writer {
 
     /// A line of a paragraph: formulas wider than a column are broken.
     fn inlines(&self, inlines: &[Inline]) -> String {
-        let available = Layout::of_centimetres(self.page.width).width - 20.0;
+        let available = Layout::of_centimeters(self.page.width).width - 20.0;
         let one = |inline: &Inline| match inline {
             Inline::Math(math) if width(math) > available => {
                 // What cannot be broken is printed as it is.
@@ -133,7 +133,7 @@ impl Writer {
         inlines.iter().map(one).collect()
     }
 
-    /// A table as wide as it must be, in a smaller size where that helps; one that fits no page
+    /// A table as wide as it must be, in a smaller size if that helps; one that fits no page
     /// becomes a list.
     fn table(&mut self, table: &Table) {
         self.tables += 1;
@@ -141,7 +141,7 @@ impl Writer {
         let natural = natural_width(table);
         let gaps = COLUMN_GAP * table.head.len() as f64;
         let fits = |available: f64| {
-            let points = Layout::of_centimetres(available).width;
+            let points = Layout::of_centimeters(available).width;
             SIZES.iter().find(|(_, scale)| natural * scale + gaps <= points).map(|(size, _)| *size)
         };
         match (fits(self.page.width), fits(self.page.text_width())) {

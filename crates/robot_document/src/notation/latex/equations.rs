@@ -23,9 +23,9 @@ const NUMBER: f64 = 36.0;
 const MARGIN: f64 = 2.0;
 
 impl Layout {
-    /// A line of so many centimetres.
+    /// A line of so many centimeters.
     #[must_use]
-    pub fn of_centimetres(width: f64) -> Layout {
+    pub fn of_centimeters(width: f64) -> Layout {
         Layout { width: width / 2.54 * 72.27 }
     }
 }

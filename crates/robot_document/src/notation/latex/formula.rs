@@ -104,7 +104,8 @@ impl Writer {
             if before.is_some_and(|before| piece.is_apart_from(before)) {
                 self.push(r"\,");
             }
-            if spacing == Spacing::Wide && before.is_some_and(|before| apart(before, place, piece))
+            if spacing == Spacing::Wide
+                && before.is_some_and(|before| needs_gap(before, place, piece))
             {
                 self.latex.push(' ');
             }
@@ -145,8 +146,8 @@ impl Writer {
     }
 }
 
-/// Whether two neighbours are set apart.
-fn apart(before: &Math, place: usize, piece: &Math) -> bool {
+/// Whether two neighbors are set apart.
+fn needs_gap(before: &Math, place: usize, piece: &Math) -> bool {
     match (before, piece) {
         // The letters s and c of sines and cosines, and a sign before the first term.
         (Math::Letter(_), _) => false,

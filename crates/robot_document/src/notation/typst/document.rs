@@ -71,7 +71,7 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
                 typst.push_str(&self::table(table, tables, page));
             }
             Block::Equations(list) => {
-                typst.push_str(&equations(list, Layout::of_centimetres(page.width))?);
+                typst.push_str(&equations(list, Layout::of_centimeters(page.width))?);
             }
         }
     }
@@ -102,7 +102,7 @@ fn head(document: &Document, page: Page) -> String {
 /// A table in a size that fits a column; one that would be too small becomes a list.
 fn table(table: &Table, number: usize, page: Page) -> String {
     let mut typst = format!("#par[*Table {number}\\.* {}]\n", text(&table.caption));
-    let room = Layout::of_centimetres(page.width).width - CELL_GAP * table.head.len() as f64;
+    let room = Layout::of_centimeters(page.width).width - CELL_GAP * table.head.len() as f64;
     let size = (10.0 * room / natural_width(table)).min(10.0);
     if size < SMALLEST {
         for row in &table.rows {

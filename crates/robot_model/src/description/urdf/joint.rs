@@ -61,7 +61,7 @@ impl Dynamics {
     }
 }
 
-/// Reads a joint; `None` where something that others need is wrong.
+/// Reads a joint; `None` if something that others need is wrong.
 pub(super) fn read<'a>(
     reader: &mut Reader<'_>,
     element: &Element<'a, '_>,
@@ -253,7 +253,7 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     Some(numbers.each_ref().map(Formula::number))
 }
 
-/// Lower and upper limit, 0 where one is left out, as URDF says; none where both are the same.
+/// Lower and upper limit, 0 if one is left out, as URDF says; none where both are the same.
 fn limits(
     reader: &mut Reader<'_>,
     element: &Element<'_, '_>,
@@ -262,7 +262,7 @@ fn limits(
     if attributes.iter().all(Option::is_none) {
         return (None, None);
     }
-    // Infinite limits are written where there are none.
+    // Infinite limits are written if there are none.
     let infinite = |attribute: &Option<Attribute<'_>>| {
         attribute.as_ref().is_some_and(|attribute| {
             let text = attribute.text.trim().trim_start_matches(['+', '-']);

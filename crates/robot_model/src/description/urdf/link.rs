@@ -28,7 +28,7 @@ pub(super) struct Inertial {
     pub(super) body: Body,
     pub(super) place: BodyLocation,
     pub(super) mass: f64,
-    /// xx, yy, zz, xy, xz, yz about the centre of mass, axes of the body's placement.
+    /// xx, yy, zz, xy, xz, yz about the center of mass, axes of the body's placement.
     pub(super) tensor: [f64; 6],
 }
 
@@ -39,7 +39,7 @@ impl Inertial {
     }
 }
 
-/// Reads a link; `None` where its name is wrong or missing.
+/// Reads a link; `None` if its name is wrong or missing.
 pub(super) fn read<'a>(reader: &mut Reader<'_>, node: Node<'a, '_>) -> Option<UrdfLink<'a>> {
     let before = reader.found.len();
     let element = &Element::new(reader, node, &LINK);

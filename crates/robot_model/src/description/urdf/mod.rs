@@ -92,7 +92,7 @@ fn root<'a, 'i>(reader: &mut Reader<'_>, node: Node<'a, 'i>) -> Option<Element<'
     None
 }
 
-/// Links and joints; `None` where there are none, too many, or some without what others need.
+/// Links and joints; `None` if there are none, too many, or some without what others need.
 fn parts<'a>(
     reader: &mut Reader<'_>,
     root: &Element<'a, '_>,

@@ -90,7 +90,7 @@ fn number(word: &str) -> Option<Rational> {
     })
 }
 
-/// A word up to its exponent, where it has one.
+/// A word up to its exponent, if it has one.
 fn without_exponent(word: &str) -> &str {
     match word.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => {

@@ -20,7 +20,7 @@ pub(super) struct Origin {
     pub(super) xyz: Option<Span>,
 }
 
-/// The `<origin>` of an element; at the parent's origin, with its axes, where there is none. Angles
+/// The `<origin>` of an element; at the parent's origin, with its axes, if there is none. Angles
 /// are about fixed axes, R = Rz(yaw) Ry(pitch) Rx(roll).
 pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Origin> {
     let Some(element) = of.child(reader, "origin") else {

@@ -62,7 +62,7 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
 }
 
 /// Sine and cosine of `angle` (radians) with multiply-adds that round twice on every target: the bits
-/// of [`sin_cos`] where there is no [`FUSED`].
+/// of [`sin_cos`] if there is no [`FUSED`].
 #[inline(always)]
 pub fn portable_sin_cos(angle: f64) -> (f64, f64) {
     compute::<false>(angle)

@@ -1,0 +1,331 @@
+//! The builder that a `build.rs` calls.
+
+mod output;
+
+use std::path::{Path, PathBuf};
+
+use robot_codegen::{Scalar, Trigonometry};
+use robot_dynamics::economical::Plan;
+use robot_model::functions::Bundle;
+use robot_model::robot::BaseFrames;
+
+use crate::door::cargo::{self, Directives};
+use crate::door::paths::{RobotFile, robot_files};
+use crate::door::pin::{pin_path, robot_inputs};
+use crate::driver::generate::{Generated, generate};
+use crate::driver::options::{Options, functions_named, kinds_named};
+use crate::driver::programs::read_with;
+use crate::error::{Error, Errors};
+use output::Module;
+
+/// Generates the module of one robot file into `OUT_DIR`, with the options of [`Builder::new`].
+///
+/// # Errors
+///
+/// Everything that is wrong with the file.
+pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
+    Builder::new().compile(&[path])
+}
+
+/// Generates modules from robot files in a build script.
+///
+/// ```no_run
+/// fn main() -> Result<(), robot_build::Errors> {
+///     robot_build::Builder::new()
+///         .functions(["inverse_dynamics", "link_wrenches"])
+///         .snap(1e-8)
+///         .compile(&["robots/left.toml", "robots/right.toml"])
+/// }
+/// ```
+///
+/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. Where the
+/// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` has the same module in
+/// `lift.rs` too, unless another robot or robot file is called so. Several robots have an index `robots.rs`
+/// beside them, which includes them all. Paths are relative to the package.
+///
+/// Cargo is told to run the build script again where a robot file or the plan pinned beside it changes; with
+/// that, it no longer watches the other files of the package, as it does where a build script tells nothing.
+/// `robot-symbolic search` sets the robot file's time, so that a first plan is seen; after a plan came in
+/// another way, such as a checkout, touch the robot file. [`Builder::compile_folder`] sees plans by itself.
+#[derive(Clone, Debug, Default)]
+#[must_use]
+pub struct Builder {
+    options: Options,
+    functions: Option<Vec<String>>,
+    bundles: Vec<(String, Vec<String>)>,
+    out_dir: Option<PathBuf>,
+    package_dir: Option<PathBuf>,
+    allow_outside: bool,
+    silent: bool,
+}
+
+impl Builder {
+    /// The usual functions that a robot has, in `f64`, into `OUT_DIR`.
+    pub fn new() -> Builder {
+        Builder::default()
+    }
+
+    /// The functions to generate, by name; `"all"` for all that the robot has, `"jacobian_tool"` for the
+    /// function of one frame or moving link.
+    ///
+    /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; where it
+    /// chooses none, those of [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that the robot has.
+    pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
+        self.functions = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// A function of that name that computes several functions, given by name, in one call, and their
+    /// common work once: a bundle. Call it again for another.
+    ///
+    /// If there are bundles and no [`Builder::functions`], there are bundles alone.
+    pub fn bundle(
+        mut self,
+        name: impl Into<String>,
+        functions: impl IntoIterator<Item = impl Into<String>>,
+    ) -> Builder {
+        let functions = functions.into_iter().map(Into::into).collect();
+        self.bundles.push((name.into(), functions));
+        self
+    }
+
+    /// The number type of the functions; `f64` without this.
+    pub fn scalar(mut self, scalar: Scalar) -> Builder {
+        self.options.scalar = scalar;
+        self
+    }
+
+    /// Whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
+    /// `f32` and `Lanes` of either. Without this there is none.
+    pub fn generic(mut self, generic: bool) -> Builder {
+        self.options.generic = generic;
+        self
+    }
+
+    /// Gives each function a form `…_batch` over slices of states, computed in blocks of so many
+    /// states, which LLVM turns into vectors; [`DEFAULT_BATCH`](crate::DEFAULT_BATCH) is a good
+    /// number. Without this there is none.
+    pub fn batch(mut self, states: usize) -> Builder {
+        self.options.batch = Some(states);
+        self
+    }
+
+    /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`,
+    /// on which the package must depend. Without this there is none.
+    pub fn parallel(mut self, parallel: bool) -> Builder {
+        self.options.parallel = parallel;
+        self
+    }
+
+    /// Whether products and sums become multiply-adds, which round once on a target that has the
+    /// instruction and are a product and a sum elsewhere. Without this they do not, and the code
+    /// gives the same bits on every target.
+    pub fn fused(mut self, fused: bool) -> Builder {
+        self.options.fused = fused;
+        self
+    }
+
+    /// Where sines and cosines come from; the runtime's polynomials without this.
+    pub fn trigonometry(mut self, trigonometry: Trigonometry) -> Builder {
+        self.options.trigonometry = trigonometry;
+        self
+    }
+
+    /// Constant angles within `radians` of a multiple of π/2 become that multiple; without this
+    /// what the robot file says with `snap`, or 10⁻⁹.
+    pub fn snap(mut self, radians: f64) -> Builder {
+        self.options.snap = Some(radians);
+        self
+    }
+
+    /// Over which parameters of links the base parameters are; without this what the robot file says with
+    /// `base_frames`, or those in the file's frames.
+    pub fn base_frames(mut self, frames: BaseFrames) -> Builder {
+        self.options.base_frames = Some(frames);
+        self
+    }
+
+    /// The path of the runtime in generated code; `::robot_runtime` without this.
+    pub fn runtime(mut self, path: impl Into<String>) -> Builder {
+        self.options.runtime = path.into();
+        self
+    }
+
+    /// The most operations that a call of any of the functions may take: multiplications, additions
+    /// and divisions. More is an error.
+    pub fn max_operations(mut self, limit: u64) -> Builder {
+        self.options.max_operations = Some(limit);
+        self
+    }
+
+    /// The most bytes of stack that a call of any of the functions may take, as
+    /// [`budget`](crate::driver::budget) estimates it. More is an error.
+    pub fn max_stack(mut self, limit: u64) -> Builder {
+        self.options.max_stack = Some(limit);
+        self
+    }
+
+    /// The form of the economical recursion.
+    ///
+    /// Without it, the plan that `robot-symbolic search` pinned beside the robot file is taken,
+    /// if there is one; a stale one is an error.
+    pub fn plan(mut self, plan: Plan) -> Builder {
+        self.options.plan = Some(plan);
+        self
+    }
+
+    /// The folder for the code; `OUT_DIR` without this. For those who commit generated code.
+    ///
+    /// A file that is there under the name of a module and was not generated is an error, not replaced.
+    pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
+        self.out_dir = Some(folder.into());
+        self
+    }
+
+    /// The folder to which paths are relative; that of the package without this.
+    pub fn package_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
+        self.package_dir = Some(folder.into());
+        self
+    }
+
+    /// Whether figures that no body can have are taken, with a warning: masses that are negative, tensors
+    /// with a negative principal moment or one that exceeds the sum of the others.
+    pub fn allow_unphysical(mut self, allow: bool) -> Builder {
+        self.options.allow_unphysical = allow;
+        self
+    }
+
+    /// Whether moving links without mass are taken, with a warning.
+    pub fn allow_massless(mut self, allow: bool) -> Builder {
+        self.options.allow_massless = allow;
+        self
+    }
+
+    /// Whether robot files may lie outside of the package.
+    pub fn allow_outside(mut self, allow: bool) -> Builder {
+        self.allow_outside = allow;
+        self
+    }
+
+    /// Whether Cargo is told, on standard output, of the files that were read and of warnings; it
+    /// is, without this.
+    pub fn emit_directives(mut self, emit: bool) -> Builder {
+        self.silent = !emit;
+        self
+    }
+
+    /// Generates the modules of robot files.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with any of the files or with the options. A `main` that returns it
+    /// shows the robot files' own errors. Cargo is told of each in a line (`cargo::error=`) and fails the
+    /// build, whatever becomes of the result.
+    pub fn compile(&self, paths: &[impl AsRef<Path>]) -> Result<(), Errors> {
+        let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
+        self.telling_cargo(|directives| self.run(&paths, directives))
+    }
+
+    /// Generates the modules of all robot files `*.toml` of a folder, in the order of their names.
+    ///
+    /// Cargo is told to run the build script again where a file comes or goes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Builder::compile`]; a folder that cannot be read or has no robot files.
+    pub fn compile_folder(&self, folder: impl AsRef<Path>) -> Result<(), Errors> {
+        self.telling_cargo(|directives| self.run_folder(folder.as_ref(), directives))
+    }
+
+    /// Does the work and tells Cargo what it has to know of it.
+    fn telling_cargo(
+        &self,
+        work: impl FnOnce(&mut Directives) -> Result<(), Errors>,
+    ) -> Result<(), Errors> {
+        let mut directives = Directives::default();
+        let result = work(&mut directives);
+        if let Err(errors) = &result {
+            directives.errors(errors);
+        }
+        if !self.silent {
+            directives.print();
+        }
+        result
+    }
+
+    fn run_folder(&self, folder: &Path, directives: &mut Directives) -> Result<(), Errors> {
+        directives.rerun_if_changed(folder)?;
+        let files = robot_files(&self.package()?, folder)?;
+        self.run(&files.iter().map(PathBuf::as_path).collect::<Vec<_>>(), directives)
+    }
+
+    fn package(&self) -> Result<PathBuf, Error> {
+        self.package_dir.clone().map_or_else(cargo::package_dir, Ok)
+    }
+
+    fn run(&self, paths: &[&Path], directives: &mut Directives) -> Result<(), Errors> {
+        if paths.is_empty() {
+            return Err(Errors::from(Error::NoRobots));
+        }
+        let package = self.package()?;
+        let out_dir = self.out_dir.clone().map_or_else(cargo::out_dir, |folder| {
+            // A relative folder is the package's, as the robot files are.
+            Ok(package.join(folder))
+        })?;
+        let (mut modules, mut errors) = (vec![], vec![]);
+        for path in paths {
+            match self.module(path, &package, directives) {
+                Ok(generated) => {
+                    modules.push(Module { path: path.display().to_string(), generated });
+                }
+                Err(found) => Errors::extend(&mut errors, found),
+            }
+        }
+        output::check_names(&modules, &mut errors);
+        Errors::check(errors, ())?;
+        modules.iter().filter_map(Module::unportable).for_each(|text| directives.warning(&text));
+        let inputs = paths.iter().flat_map(|path| robot_inputs(&package.join(path)));
+        // A folder of the user's own choice gets no file that was not asked for.
+        output::write(&modules, inputs, &out_dir, self.out_dir.is_none())
+    }
+
+    fn module(
+        &self,
+        path: &Path,
+        package: &Path,
+        directives: &mut Directives,
+    ) -> Result<Generated, Errors> {
+        let file = RobotFile::in_package(path, package, self.allow_outside)?;
+        directives.rerun_if_changed(path)?;
+        // Cargo takes a path that is not there for changed, at every build. That a first plan is seen is up to
+        // `robot-symbolic search`, which sets the robot file's time.
+        let pin = pin_path(path);
+        if package.join(&pin).is_file() {
+            directives.rerun_if_changed(&pin)?;
+        }
+        let options = self.options_for(&file)?;
+        let generated = generate(&file.source, &file.with_pin(&options)?)?;
+        directives.warnings(&generated.warnings);
+        Ok(generated)
+    }
+
+    /// The options, their functions those of the robot.
+    fn options_for(&self, file: &RobotFile) -> Result<Options, Errors> {
+        let mut options = self.options.clone();
+        if self.functions.is_none() && self.bundles.is_empty() {
+            return Ok(options);
+        }
+        let robot = read_with(&file.source, &options)?.robot;
+        if let Some(names) = &self.functions {
+            options.functions = functions_named(names, &robot)?;
+        }
+        for (name, functions) in &self.bundles {
+            let functions = kinds_named(functions, &robot)?;
+            options.bundles.push(Bundle { name: name.clone(), functions });
+        }
+        Ok(options)
+    }
+}
+
+#[cfg(test)]
+mod tests;

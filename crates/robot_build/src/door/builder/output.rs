@@ -1,0 +1,120 @@
+//! The files that a builder writes.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use crate::door::files::{Output, Ownership, Writer};
+use crate::driver::generate::{Generated, unnamed_header};
+use crate::error::{Error, Errors};
+
+/// The name of the index of several robots.
+const INDEX: &str = "robots";
+
+/// Names that Windows keeps for devices: there no file has one of them before its first dot.
+const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
+
+/// The module of a robot file.
+pub(super) struct Module {
+    /// The path of the robot file, as it was given.
+    pub(super) path: String,
+    pub(super) generated: Generated,
+}
+
+impl Module {
+    fn name(&self) -> &str {
+        &self.generated.module_name
+    }
+
+    /// The name of the robot file without its ending, where a file of Rust can have it.
+    fn stem(&self) -> Option<&str> {
+        Path::new(&self.path).file_stem().and_then(OsStr::to_str)
+    }
+
+    /// What keeps the file of the module from being made somewhere.
+    pub(super) fn unportable(&self) -> Option<String> {
+        let (path, name) = (&self.path, self.name());
+        is_device(name).then(|| {
+            format!(
+                "{path}: Windows keeps the name `{name}` for a device, so that `{name}.rs` cannot be written \
+                 there; rename the robot if its package is to be built on Windows"
+            )
+        })
+    }
+}
+
+/// `con`, `lpt1`, in any case.
+fn is_device(name: &str) -> bool {
+    let numbered = |prefix| {
+        let rest = name.strip_prefix(prefix).unwrap_or_default();
+        matches!(rest.as_bytes(), [b'1'..=b'9'])
+    };
+    DEVICES.contains(&name) || numbered("com") || numbered("lpt")
+}
+
+/// Each two files that would have one name.
+pub(super) fn check_names(modules: &[Module], errors: &mut Vec<Error>) {
+    let mut known: BTreeMap<&str, &str> = BTreeMap::new();
+    if modules.len() > 1 {
+        known.insert(INDEX, "the index of all robots");
+    }
+    for module in modules {
+        if let Some(first) = known.insert(module.name(), &module.path) {
+            if first == module.path {
+                errors.push(Error::SameFile { path: first.to_owned() });
+                continue;
+            }
+            errors.push(Error::SameModule {
+                module: module.name().to_owned(),
+                first: first.to_owned(),
+                second: module.path.clone(),
+            });
+        }
+    }
+}
+
+/// Writes a file for each module, and where there are several an index that includes them. `inputs` are the
+/// robot files and their pins.
+///
+/// With `stems`, a robot file that is not called as its module has a second file of its own name, so that
+/// whoever expects `lift.rs` of `lift.toml` finds it.
+pub(super) fn write(
+    modules: &[Module],
+    inputs: impl Iterator<Item = PathBuf>,
+    folder: &Path,
+    stems: bool,
+) -> Result<(), Errors> {
+    let mut index = format!("// {}\n\n", unnamed_header());
+    let mut outputs = vec![];
+    for module in modules {
+        index.push_str(&format!("include!(\"{}.rs\");\n", module.name()));
+        outputs.push(output(folder, module.name(), &module.generated.code));
+        let second = second_name(module, modules).filter(|_| stems);
+        outputs.extend(second.map(|name| output(folder, name, &module.generated.code)));
+    }
+    if modules.len() > 1 {
+        outputs.push(output(folder, INDEX, &index));
+    }
+    Writer::new().inputs(inputs).write(&outputs)?;
+    Ok(())
+}
+
+fn output<'a>(folder: &Path, name: &str, code: &'a str) -> Output<'a> {
+    Output {
+        path: folder.join(format!("{name}.rs")),
+        bytes: code.as_bytes(),
+        ownership: Ownership::Marked,
+    }
+}
+
+/// The robot file's name, where it is not the module's and no other file's.
+///
+/// The text is that of the module's own file: where case makes no difference both are one file.
+fn second_name<'m>(module: &'m Module, modules: &[Module]) -> Option<&'m str> {
+    let stem = module.stem().filter(|stem| *stem != module.name())?;
+    let is_stem = |name: &str| name.eq_ignore_ascii_case(stem);
+    let is_taken = |other: &Module| is_stem(other.name()) || other.stem().is_some_and(is_stem);
+    let others = modules.iter().filter(|other| other.name() != module.name());
+    let is_free = others.into_iter().all(|other| !is_taken(other)) && !is_stem(INDEX);
+    is_free.then_some(stem)
+}

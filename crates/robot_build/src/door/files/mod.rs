@@ -1,0 +1,59 @@
+//! Output files: what may be written where, and how.
+//!
+//! Builder and command write through [`Writer`] alone. It never replaces an input, replaces a file of
+//! somebody else only where it is told to, and replaces a file as a whole or not at all.
+
+mod marker;
+mod place;
+mod staging;
+mod writer;
+
+use std::path::Path;
+
+pub use marker::MARKER;
+pub use writer::{Output, Ownership, Writer};
+
+use crate::error::Error;
+
+/// How a file on disk differs from what would be generated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Staleness {
+    /// There is no such file.
+    Missing,
+    /// The texts differ from this line on, counted from 1.
+    Differs {
+        /// The line.
+        line: usize,
+    },
+}
+
+/// How the file on disk differs from `text`, line ends apart; `None` if it does not.
+///
+/// # Errors
+///
+/// A file that is there but cannot be read; what is not a regular file, which is never read.
+pub fn staleness(path: &Path, text: &str) -> Result<Option<Staleness>, Error> {
+    let failed = |reason: String| Error::File { action: "read", path: path.to_owned(), reason };
+    match std::fs::metadata(path) {
+        Ok(metadata) if metadata.is_file() => {}
+        Ok(_) => return Err(failed("it is not a regular file".to_owned())),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return Ok(Some(Staleness::Missing));
+        }
+        Err(error) => return Err(failed(error.to_string())),
+    }
+    let present = std::fs::read(path).map_err(|error| failed(error.to_string()))?;
+    let present = String::from_utf8_lossy(&present);
+    let (mut old, mut new) = (present.lines(), text.lines());
+    let mut line = 1;
+    loop {
+        match (old.next(), new.next()) {
+            (None, None) => return Ok(None),
+            (a, b) if a == b => line += 1,
+            _ => return Ok(Some(Staleness::Differs { line })),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,327 @@
+//! What may be written where.
+
+use std::fs::{self, Metadata, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::marker::{beginning, first_line, is_marked};
+use super::place::{Place, folder_of, is_of_system, is_same, place};
+use super::staging::{Staged, remove_leftovers};
+use crate::driver::file::File;
+use crate::error::{Error, Errors};
+
+/// How an existing file shows that this program wrote it, so that it may be replaced.
+#[derive(Clone, Copy, Debug)]
+pub enum Ownership {
+    /// By the [`MARKER`](super::MARKER), or that of generated Rust, near its start.
+    Marked,
+    /// By its first line, for formats without comments: whether a line is one that this program writes.
+    Headed(fn(&str) -> bool),
+    /// Not at all: it is written to be edited.
+    Edited,
+}
+
+/// A file to write.
+#[derive(Clone, Debug)]
+pub struct Output<'a> {
+    /// Where.
+    pub path: PathBuf,
+    /// What.
+    pub bytes: &'a [u8],
+    /// Which files it may replace.
+    pub ownership: Ownership,
+}
+
+/// Writes output files.
+///
+/// - An output that is one of the inputs is refused, always: the same file by another path, a symbolic
+///   link or a hard link is the same file.
+/// - A file that is there, not empty and not this program's is refused, unless [`Writer::force`] says
+///   otherwise.
+/// - Everything is checked before anything is written.
+/// - A regular file is written beside its place, in the same folder, and renamed when it is whole and on
+///   the disk; it keeps the permissions of the file that it replaces. A symbolic link stays, and the file
+///   that it leads to is replaced.
+/// - A file whose bytes do not change is not written: its time of change means something.
+/// - A device, a pipe or an open stream such as `/dev/stdout` is written to and never read.
+#[derive(Clone, Debug)]
+#[must_use]
+pub struct Writer {
+    inputs: Vec<PathBuf>,
+    force: bool,
+    remedy: &'static str,
+}
+
+impl Default for Writer {
+    fn default() -> Writer {
+        Writer::new()
+    }
+}
+
+impl Writer {
+    /// A writer that knows no inputs and replaces this program's files alone.
+    pub fn new() -> Writer {
+        let remedy = "choose another name, or move that file away";
+        Writer { inputs: vec![], force: false, remedy }
+    }
+
+    /// Files that were read for the outputs, or will be by the next run.
+    pub fn inputs(mut self, paths: impl IntoIterator<Item = impl Into<PathBuf>>) -> Writer {
+        self.inputs.extend(paths.into_iter().map(Into::into));
+        self
+    }
+
+    /// Whether files that this program did not write are replaced.
+    pub fn force(mut self, force: bool) -> Writer {
+        self.force = force;
+        self
+    }
+
+    /// What a message advises where a file is not replaced.
+    pub fn remedy(mut self, remedy: &'static str) -> Writer {
+        self.remedy = remedy;
+        self
+    }
+
+    /// Whether outputs will be refused, as far as is known before there are any; for long computations.
+    ///
+    /// # Errors
+    ///
+    /// As [`Writer::write`]; two outputs of one name.
+    pub fn check(&self, outputs: &[(&Path, Ownership)]) -> Result<(), Errors> {
+        let mut errors = vec![];
+        for (index, (path, ownership)) in outputs.iter().enumerate() {
+            let others = outputs.iter().take(index);
+            if others.into_iter().any(|(other, _)| is_same(path, other)) {
+                let reason = "two outputs have this name; choose another for one".to_owned();
+                errors.push(Error::File { action: "write", path: (*path).to_owned(), reason });
+            }
+            errors.extend(self.check_one(path, *ownership).err());
+        }
+        Errors::check(errors, ())
+    }
+
+    fn check_one(&self, path: &Path, ownership: Ownership) -> Result<(), Error> {
+        match (self.target(path)?, ownership) {
+            // It may be what will be written.
+            (_, Ownership::Edited) | (Target::Free(_) | Target::Stream, _) => Ok(()),
+            (Target::Regular(target, _), _) => self.check_owner(path, &target, ownership),
+        }
+    }
+
+    /// Writes files, all or, if one is refused or cannot be written, none; gives the number of those
+    /// that changed. Only between the last steps, the renaming of one file after another in the order of
+    /// the list, can some be new and others old.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is refused; what the system says, with the path.
+    pub fn write(&self, outputs: &[Output<'_>]) -> Result<usize, Errors> {
+        let (mut changed, mut errors) = (vec![], vec![]);
+        for output in outputs {
+            match self.change(output) {
+                Ok(target) => changed.extend(target.map(|target| (output, target))),
+                Err(error) => errors.push(error),
+            }
+        }
+        Errors::check(errors, ())?;
+        let mut made = Folders::default();
+        let (mut staged, mut streams) = (vec![], vec![]);
+        for (output, target) in &changed {
+            let failed = |error| cannot_write(&output.path, &error);
+            let (target, present) = match target {
+                Target::Stream => {
+                    streams.push(*output);
+                    continue;
+                }
+                Target::Free(target) => (target, None),
+                Target::Regular(target, present) => (target, Some(present)),
+            };
+            made.make(folder_of(target)).map_err(failed)?;
+            staged.push((output, Staged::file(target, output.bytes, present).map_err(failed)?));
+        }
+        for output in streams {
+            write_stream(output)?;
+        }
+        made.keep();
+        for (output, staged) in staged {
+            staged.put().map_err(|error| cannot_write(&output.path, &error))?;
+        }
+        Ok(changed.len())
+    }
+
+    /// Writes the files of a folder, as [`Writer::write`] does. A folder that is not there yet appears
+    /// with all of its files or not at all; in one that is there the first of the files comes last.
+    /// Gives the number of files that changed.
+    ///
+    /// # Errors
+    ///
+    /// As [`Writer::write`]; a folder that is a file.
+    pub fn write_folder(&self, folder: &Path, files: &[File]) -> Result<usize, Errors> {
+        let failed = |error| cannot_write(folder, &error);
+        let target = match place(folder).map_err(failed)? {
+            Place::Free(target) => target,
+            Place::Folder(target) => {
+                remove_leftovers(&target);
+                let outputs = files.iter().skip(1).chain(files.first());
+                let outputs: Vec<Output<'_>> = outputs
+                    .map(|file| Output {
+                        path: file.path_in(folder),
+                        bytes: file.text.as_bytes(),
+                        ownership: Ownership::Marked,
+                    })
+                    .collect();
+                return self.write(&outputs);
+            }
+            Place::Regular(..) | Place::Stream => {
+                let reason = "it is a file, and a folder is to be written".to_owned();
+                let path = folder.to_owned();
+                return Err(Errors::from(Error::File { action: "write", path, reason }));
+            }
+        };
+        let mut made = Folders::default();
+        made.make(folder_of(&target)).map_err(failed)?;
+        let staged = Staged::folder(&target).map_err(failed)?;
+        for file in files {
+            let path = file.path_in(staged.path());
+            fs::create_dir_all(folder_of(&path))
+                .and_then(|()| create(&path, file.text.as_bytes()))
+                .map_err(|error| cannot_write(&file.path_in(folder), &error))?;
+        }
+        staged.put().map_err(failed)?;
+        made.keep();
+        Ok(files.len())
+    }
+
+    /// What an output shall replace; `None` if it is there already.
+    fn change(&self, output: &Output<'_>) -> Result<Option<Target>, Error> {
+        let target = self.target(&output.path)?;
+        let Target::Regular(path, metadata) = &target else { return Ok(Some(target)) };
+        if metadata.len() == output.bytes.len() as u64
+            && fs::read(path).is_ok_and(|present| present == output.bytes)
+        {
+            remove_leftovers(path);
+            return Ok(None);
+        }
+        self.check_owner(&output.path, path, output.ownership)?;
+        // Where the file itself may not be written, it may not be replaced.
+        let writable = OpenOptions::new().write(true).open(path);
+        writable.map_err(|error| cannot_write(&output.path, &error))?;
+        Ok(Some(target))
+    }
+
+    /// What lies at the path of an output; inputs and folders are refused.
+    fn target(&self, path: &Path) -> Result<Target, Error> {
+        if let Some(input) = self.inputs.iter().find(|input| is_same(path, input)) {
+            return Err(Error::IsInput { path: path.to_owned(), input: input.clone() });
+        }
+        let is_folder = || {
+            let reason = "it is a folder; name a file".to_owned();
+            Error::File { action: "write", path: path.to_owned(), reason }
+        };
+        match place(path).map_err(|error| cannot_write(path, &error))? {
+            Place::Folder(_) => Err(is_folder()),
+            Place::Free(_) if names_folder(path) => Err(is_folder()),
+            Place::Free(target) => Ok(Target::Free(target)),
+            Place::Regular(target, _) if is_of_system(&target) => {
+                let reason =
+                    "it is a file of the system, which nothing replaces; name another".to_owned();
+                Err(Error::File { action: "write", path: path.to_owned(), reason })
+            }
+            Place::Regular(target, metadata) => Ok(Target::Regular(target, metadata)),
+            Place::Stream => Ok(Target::Stream),
+        }
+    }
+
+    /// `path` is for the message, `target` has its symbolic links followed.
+    fn check_owner(&self, path: &Path, target: &Path, ownership: Ownership) -> Result<(), Error> {
+        if self.force {
+            return Ok(());
+        }
+        let beginning = beginning(target).map_err(|error| cannot_write(path, &error))?;
+        let (is_own, reason) = match ownership {
+            Ownership::Marked => {
+                (is_marked(&beginning), "has no line `@generated by` of this program at its start")
+            }
+            Ownership::Headed(is_own) => {
+                (is_own(first_line(&beginning)), "has not the first line that this program writes")
+            }
+            Ownership::Edited => {
+                (false, "is not what would be written; a file to edit may have been")
+            }
+        };
+        // Nothing is lost with an empty file.
+        if is_own || beginning.is_empty() {
+            return Ok(());
+        }
+        Err(Error::Foreign { path: path.to_owned(), reason, remedy: self.remedy })
+    }
+}
+
+/// Where an output goes, symbolic links followed.
+enum Target {
+    Free(PathBuf),
+    Regular(PathBuf, Metadata),
+    Stream,
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
+    Error::File { action: "write", path: path.to_owned(), reason: error.to_string() }
+}
+
+/// Whether a path ends as those of folders do.
+fn names_folder(path: &Path) -> bool {
+    let text = path.as_os_str().to_string_lossy();
+    text.ends_with(std::path::is_separator)
+}
+
+/// Writes a new file, to the disk.
+fn create(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// Writes to what is open already, or no file: after what is there.
+fn write_stream(output: &Output<'_>) -> Result<(), Error> {
+    let written = OpenOptions::new()
+        .append(true)
+        .open(&output.path)
+        .and_then(|mut stream| stream.write_all(output.bytes));
+    written.map_err(|error| cannot_write(&output.path, &error))
+}
+
+/// Folders that are made for outputs; those still empty go again where the outputs fail.
+#[derive(Default)]
+struct Folders(Vec<PathBuf>);
+
+impl Folders {
+    /// Makes a folder and those above it.
+    fn make(&mut self, folder: &Path) -> std::io::Result<()> {
+        let missing = folder.ancestors().take_while(|folder| {
+            !folder.as_os_str().is_empty() && fs::symlink_metadata(folder).is_err()
+        });
+        let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
+        // `missing/..` names nothing, as the system has it, also once `missing` was made.
+        if missing.iter().any(|folder| folder.file_name().is_none()) {
+            return Err(std::io::ErrorKind::NotFound.into());
+        }
+        fs::create_dir_all(folder)?;
+        self.0.extend(missing.into_iter().rev());
+        Ok(())
+    }
+
+    /// They have files now.
+    fn keep(&mut self) {
+        self.0.clear();
+    }
+}
+
+impl Drop for Folders {
+    fn drop(&mut self) {
+        for folder in self.0.iter().rev() {
+            // One with a file in it stays.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! What touches files and the environment: the builder for build scripts, robot files, pins and output files.
+
+pub(crate) mod builder;
+mod cargo;
+pub(crate) mod files;
+pub(crate) mod paths;
+pub(crate) mod pin;

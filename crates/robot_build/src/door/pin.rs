@@ -1,0 +1,197 @@
+//! Pinned plans beside robot files: `panda.plan` beside `panda.toml`.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use robot_dynamics::economical::mechanics;
+use robot_dynamics::economical::pin::Pin;
+use robot_dynamics::economical::search::Found;
+use robot_model::robot::Robot;
+
+use crate::door::files::MARKER;
+use crate::door::paths::RobotFile;
+use crate::driver::options::Options;
+use crate::error::{Error, Errors};
+
+/// A pin is a few kilobytes; a larger file is none.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// Where the pin of a robot file lies: beside it, with the ending `plan` in place of `toml` and after any
+/// other, so that `ur5.toml`, imported from `ur5.urdf`, has a pin of its own.
+#[must_use]
+pub fn pin_path(robot: &Path) -> PathBuf {
+    match robot.extension().and_then(OsStr::to_str) {
+        None | Some("toml") => robot.with_extension("plan"),
+        Some(other) => robot.with_extension(format!("{other}.plan")),
+    }
+}
+
+/// What is read for a robot: its file, and the pin that is or may come to lie beside it.
+#[must_use]
+pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
+    let followed = robot.canonicalize();
+    [robot.to_owned(), pin_path(followed.as_deref().unwrap_or(robot))]
+}
+
+/// The text of a pin of what a search found for a robot.
+#[must_use]
+pub fn pin_text(robot: &Robot, found: &Found) -> String {
+    let mut pin = Pin {
+        fingerprint: fingerprint(robot),
+        digest: String::new(),
+        measure: found.measure,
+        operations: found.operations,
+        plan: found.plan.clone(),
+    };
+    pin.digest = digest(&pin.content());
+    format!("# {MARKER}\n{}", pin.to_text())
+}
+
+impl RobotFile {
+    /// The options with the plan that is pinned beside the file, if one is and the options give
+    /// none.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Pin`]: a pin that is stale, made for other [mechanics](mechanics()) than the file's; one that
+    /// was edited; one that cannot be read. If there is a pin, also everything that is wrong with the robot file.
+    pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
+        let path = pin_path(&self.path);
+        // A link that leads nowhere is there.
+        if options.plan.is_some() || std::fs::symlink_metadata(&path).is_err() {
+            return Ok(options.clone());
+        }
+        let failed = |reason: String| {
+            let robot = self.source.name.clone();
+            Errors::from(Error::Pin { path: pin_path(Path::new(&robot)), robot, reason })
+        };
+        let pin = read_pin(&path).map_err(failed)?;
+        if pin.digest != digest(&pin.content()) {
+            return Err(failed(
+                "the pinned plan was edited: it is not what a search wrote".to_owned(),
+            ));
+        }
+        let robot = crate::read_with(&self.source, options)?.robot;
+        if pin.fingerprint != fingerprint(&robot) {
+            return Err(failed(format!(
+                "the pinned plan is stale: it was searched for other mechanics than the file's now, where inverse \
+                 dynamics took {} operations",
+                pin.operations
+            )));
+        }
+        if !pin.plan.fits(robot.links.len()) {
+            return Err(failed("the pinned plan is not one for this robot's links".to_owned()));
+        }
+        Ok(Options { plan: Some(pin.plan), ..options.clone() })
+    }
+}
+
+/// The pin in a file, or why there is none.
+fn read_pin(path: &Path) -> Result<Pin, String> {
+    let found = std::fs::metadata(path).map_err(|error| error.to_string())?;
+    if !found.is_file() {
+        return Err("a plan is read from a regular file, which this is not".to_owned());
+    }
+    let size = found.len();
+    if size > MAX_BYTES {
+        return Err(format!("the file has {size} bytes, which no pinned plan has"));
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    Pin::from_text(&text).map_err(|error| error.to_string())
+}
+
+fn fingerprint(robot: &Robot) -> String {
+    digest(&mechanics(robot))
+}
+
+fn digest(text: &str) -> String {
+    hmac_sha256::Hash::hash(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_dynamics::economical::Plan;
+    use robot_dynamics::economical::search::Measure;
+
+    use super::*;
+
+    const ROBOT: &str = "format = 1\n[robot]\nname = \"pendulum\"\n[[link]]\nname = \"1\"\n\
+        joint = { type = \"revolute\", axis = \"y\" }\nmass = 2\n\
+        center_of_mass = [0.5, 0, 0]\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
+
+    #[test]
+    fn a_robot_file_and_the_urdf_it_comes_from_have_pins_of_their_own() {
+        let pin = |robot: &str| pin_path(Path::new(robot));
+        assert_eq!(pin("arms/ur5.toml"), Path::new("arms/ur5.plan"));
+        assert_eq!(pin("arms/ur5.urdf"), Path::new("arms/ur5.urdf.plan"));
+    }
+
+    #[test]
+    fn a_pin_is_taken_and_a_stale_one_refused() {
+        let folder = std::env::temp_dir().join(format!("robot_build_pin_{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("pendulum.toml");
+        std::fs::write(&path, ROBOT).unwrap();
+        let options = Options::default();
+        let file = RobotFile::read(&path).unwrap();
+        assert_eq!(file.with_pin(&options).unwrap(), options);
+
+        let robot = crate::read(&file.source).unwrap().robot;
+        let plan = Plan { unit_length: Some((0, 1)), ..Plan::default_for(&robot) };
+        let found = Found {
+            plan: plan.clone(),
+            measure: Measure::Operations,
+            operations: 7,
+            instructions: 5,
+            tried: 1,
+            cut_short: false,
+        };
+        std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
+        assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));
+
+        // Edited by hand into a plan of no links: refused, not followed.
+        let empty = Plan { links: vec![], unit_length: None };
+        let options_with_plan = Options { plan: Some(empty), ..options.clone() };
+        assert!(crate::programs(&file.source, &options_with_plan).is_err());
+
+        // The mechanics of this robot, the links of another.
+        let longer = Found { plan: Plan { links: vec![], unit_length: None }, ..found.clone() };
+        std::fs::write(pin_path(&path), pin_text(&robot, &longer)).unwrap();
+        let error = file.with_pin(&options).unwrap_err().to_string();
+        assert!(error.contains("not one for this robot's links"), "{error}");
+        // A folder where the plan would lie is a plan that cannot be read.
+        std::fs::remove_file(pin_path(&path)).unwrap();
+        std::fs::create_dir(pin_path(&path)).unwrap();
+        let error = file.with_pin(&options).unwrap_err().to_string();
+        assert!(error.contains("a plan is read from a regular file"), "{error}");
+        std::fs::remove_dir(pin_path(&path)).unwrap();
+        std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
+
+        // What people write beside the mechanics is no change of them.
+        let remarked =
+            ROBOT.replace("[robot]\n", "# a remark\n[robot]\ndescription = \"swings\"\n");
+        std::fs::write(&path, remarked).unwrap();
+        assert!(RobotFile::read(&path).unwrap().with_pin(&options).unwrap().plan.is_some());
+
+        std::fs::write(&path, ROBOT.replace("mass = 2", "mass = 3")).unwrap();
+        let changed = RobotFile::read(&path).unwrap();
+        let error = changed.with_pin(&options).unwrap_err().to_string();
+        let remedy = format!("run `robot-symbolic search {}` again", path.display());
+        for part in ["stale", "took 7 operations", &remedy] {
+            assert!(error.contains(part), "{part} is not in {error}");
+        }
+        for format in [1, 2] {
+            let earlier =
+                pin_text(&robot, &found).replace("format = 3", &format!("format = {format}"));
+            std::fs::write(pin_path(&path), earlier).unwrap();
+            let error = changed.with_pin(&options).unwrap_err().to_string();
+            assert!(
+                error.contains(&format!("format {format}")) && error.contains(&remedy),
+                "{error}"
+            );
+        }
+        std::fs::write(pin_path(&path), "format = 4").unwrap();
+        assert!(changed.with_pin(&options).is_err());
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

@@ -1,0 +1,92 @@
+//! What each option and each pass is worth: the operations of functions where one of them is left
+//! out.
+
+use robot_codegen::{FunctionCounts, Resubstitution};
+use robot_dynamics::economical::Plan;
+use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
+use robot_model::description::Described;
+use robot_model::diagnostic::Source;
+use robot_model::functions::Functions;
+
+use crate::driver::generate::counts;
+use crate::driver::options::Options;
+use crate::driver::programs::{plan_of, programs_under, read_with};
+use crate::error::Errors;
+
+/// Functions of more expressions than this are not derived again and again: all functions of an arm of
+/// seven joints are some tens of thousands.
+const MAX_NODES: usize = 40_000;
+
+/// The functions with one option or pass left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ablation {
+    /// What is left out: `none`, a key of a pinned plan, or a pass.
+    pub without: &'static str,
+    /// What each function costs then, by its name.
+    pub counts: Vec<(String, FunctionCounts)>,
+}
+
+/// Takes an option out of a plan.
+type Change = fn(&mut Plan);
+/// Takes a pass out.
+type PassChange = fn(&mut robot_codegen::Options);
+
+/// The options of a [`Plan`] by their names: each as in [`LinkPlan::BASIC`], or the file's frames.
+const OPTIONS: [(&str, Change); 10] = [
+    ("origin", |plan| each(plan, |link| link.origin = Origin::File)),
+    ("turn", |plan| each(plan, |link| link.turn = Turn::File)),
+    ("angle_sum", |plan| each(plan, |link| link.angle_sum = false)),
+    ("column", |plan| each(plan, |link| link.column = false)),
+    ("doubled", |plan| each(plan, |link| link.doubled = false)),
+    ("moment", |plan| each(plan, |link| link.moment = [false; 3])),
+    ("diagonal", |plan| each(plan, |link| link.diagonal = false)),
+    ("residual", |plan| each(plan, |link| link.residual = [None; 3])),
+    ("composite_sum", |plan| each(plan, |link| link.composite_sum = false)),
+    ("unit_length", |plan| plan.unit_length = None),
+];
+
+/// The passes that save operations.
+const PASSES: [(&str, PassChange); 4] = [
+    ("factoring", |options| options.factoring = false),
+    ("pair reuse", |options| options.pair_reuse = false),
+    ("resubstitution", |options| options.resubstitution = Resubstitution::Off),
+    ("any pass", |options| {
+        *options = robot_codegen::Options { cost: options.cost, ..robot_codegen::Options::none() };
+    }),
+];
+
+fn each(plan: &mut Plan, change: fn(&mut LinkPlan)) {
+    plan.links.iter_mut().for_each(change);
+}
+
+/// The operations of functions: as they are, without each option of the recursion, and without each
+/// pass. Options act together, so that what single ones save does not add up.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file or the options.
+pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Errors> {
+    let Described { robot, code, .. } = read_with(source, options)?;
+    let options = options.or_of_file(&code);
+    let (functions, bundles) = options.functions_of(&robot)?;
+    let options = &Options { functions: Functions::Chosen(functions), bundles, ..options };
+    let plan = plan_of(&robot, options).unwrap_or_else(|| Plan::default_for(&robot));
+    let counted = |without, plan: Plan, codegen: &robot_codegen::Options| -> Result<_, Errors> {
+        let options = Options { plan: Some(plan), search: false, ..options.clone() };
+        let programs = programs_under(robot.clone(), &source.name, &options, codegen, MAX_NODES)?;
+        Ok(Ablation { without, counts: counts(&programs.module) })
+    };
+    let codegen = options.codegen();
+    let mut found = vec![counted("none", plan.clone(), &codegen)?];
+    for (name, change) in OPTIONS {
+        let mut changed = plan.clone();
+        change(&mut changed);
+        found.push(counted(name, changed, &codegen)?);
+    }
+    for (name, change) in PASSES {
+        let mut changed = codegen;
+        change(&mut changed);
+        found.push(counted(name, plan.clone(), &changed)?);
+    }
+    Ok(found)
+}

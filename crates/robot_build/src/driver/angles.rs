@@ -1,0 +1,105 @@
+//! Angles that sines and cosines do not take.
+
+use robot_codegen::Trigonometry;
+use robot_model::diagnostic::number;
+use robot_model::robot::{JointKind, Robot};
+use robot_model::variable::JointVariable;
+use robot_runtime::trig::double::LIMIT;
+use robot_symbolic::Formula;
+
+/// Why nothing at these positions (rad or m) has a value: the first joint whose angle is one for which the
+/// polynomials of the runtime give NaN, or all angles together, which a plan may add up; `None` if
+/// neither is.
+#[must_use]
+pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> Option<String> {
+    if trigonometry == Trigonometry::Standard {
+        return None;
+    }
+    let beyond = "beyond the angles that the sines of the program take, below 2^30 rad";
+    let mut sum = 0.0;
+    for joint in robot.links.iter().map(|link| &link.joint) {
+        let Some(position) = q.get(joint.coordinate).filter(|_| joint.kind == JointKind::Revolute)
+        else {
+            continue;
+        };
+        let value = |formula: &Formula| formula.evaluate(|name| robot.nominal_value(name));
+        let angle = value(&joint.ratio) * position + value(&joint.offset);
+        if angle.abs() >= LIMIT {
+            let symbol = JointVariable::Position.symbol(joint.coordinate);
+            let (q, joint) = (number(*position), &joint.name);
+            // Of a joint that mimics another the angle is not the position.
+            let turned = match angle == *position {
+                true => {
+                    format!(
+                        "{symbol} = {q} rad (joint `{joint}`) is {beyond}; give it within a turn"
+                    )
+                }
+                false => {
+                    let angle = number(angle);
+                    format!("at {symbol} = {q} joint `{joint}` is turned by {angle} rad, {beyond}")
+                }
+            };
+            return Some(turned);
+        }
+        sum += angle.abs();
+    }
+    (sum >= LIMIT).then(|| {
+        format!(
+            "the angles of the joints add up to {} rad, {beyond}; give each within a turn",
+            number(sum)
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_codegen::Trigonometry::{Polynomial, Standard};
+
+    use super::*;
+
+    const ARM: &str = r#"
+format = 1
+[robot]
+name = "arm"
+gravity = [0, 0, -9.81]
+[[link]]
+name = "1"
+joint = { type = "revolute", axis = "z" }
+massless = true
+[[link]]
+name = "2"
+joint = { type = "revolute", axis = "z" }
+origin = { xyz = [1, 0, 0] }
+mass = 1
+center_of_mass = [1, 0, 0]
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+"#;
+
+    fn arm() -> Robot {
+        robot_model::description::read("arm.toml", ARM).unwrap().robot
+    }
+
+    #[test]
+    fn what_no_sine_takes_is_named() {
+        let why = |q: [f64; 2]| too_large_angle(&arm(), &q, Polynomial);
+        assert_eq!(why([1e9, 1.0]), None);
+        assert!(why([1.0, -2e9]).unwrap().starts_with("q2 = -2000000000 rad (joint "));
+        assert!(
+            why([1e9, -1e9])
+                .unwrap()
+                .starts_with("the angles of the joints add up to 2000000000 rad")
+        );
+        assert_eq!(too_large_angle(&arm(), &[1e9, 2e9], Standard), None);
+    }
+
+    #[test]
+    fn a_joint_that_mimics_another_is_turned_by_its_own_angle() {
+        let mut robot = arm();
+        let joint = &mut robot.links[1].joint;
+        joint.coordinate = 0;
+        joint.ratio = Formula::parse("8").unwrap();
+        let why = too_large_angle(&robot, &[3e8, 0.0], Polynomial).unwrap();
+        assert!(why.starts_with("at q1 = 300000000 joint `"), "{why}");
+        assert!(why.contains("is turned by 2400000000 rad"), "{why}");
+    }
+}

@@ -1,0 +1,164 @@
+//! What generated code may cost: `[[budget]]` of a robot file, and the options of a build.
+//!
+//! Operations are exact: the multiplications, additions and divisions of one call, as
+//! `robot-symbolic stats` counts them. A build has no compiler to ask for the stack; it holds the
+//! estimate of [`robot_codegen::backend::rust::stack::estimate`] against the limit. `robot-symbolic prove` holds what
+//! release builds take against the same limit.
+
+use std::fmt;
+
+use robot_codegen::backend::rust::stack;
+use robot_codegen::module::Function;
+use robot_model::description::{Budget, Limit};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code};
+use robot_model::functions::FunctionKind;
+
+use crate::driver::options::Options;
+use crate::driver::programs::Programs;
+use crate::error::{Error, Errors};
+
+/// What is limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resource {
+    /// Operations of a call.
+    Operations,
+    /// Bytes of stack of a call.
+    Stack,
+}
+
+/// A function that costs more than it may.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Over {
+    /// The function.
+    pub function: String,
+    /// What it has too much of.
+    pub resource: Resource,
+    /// How much it has.
+    pub found: u64,
+    /// How much it may have.
+    pub limit: u64,
+}
+
+impl Over {
+    /// What to do.
+    #[must_use]
+    pub fn remedy(&self) -> &'static str {
+        match self.resource {
+            Resource::Operations => {
+                "search a cheaper form with `robot-symbolic search`, look for figures that are nearly \
+                 but not quite 0 or right angles, generate fewer outputs, or raise `max_operations`"
+            }
+            Resource::Stack => {
+                "this is what a build without optimisation takes at most; `robot-symbolic prove` \
+                 measures; generate `f32`, or fewer outputs, or raise `max_stack`"
+            }
+        }
+    }
+}
+
+impl fmt::Display for Over {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Over { function, resource, found, limit } = self;
+        match resource {
+            Resource::Operations => {
+                write!(formatter, "`{function}` takes {found} operations; its budget is {limit}")
+            }
+            Resource::Stack => write!(
+                formatter,
+                "`{function}` takes up to {found} bytes of stack; its budget is {limit}"
+            ),
+        }
+    }
+}
+
+/// The most bytes of stack that a function may take; `None` if nothing limits it.
+#[must_use]
+pub fn max_stack(programs: &Programs, options: &Options, function: &str) -> Option<u64> {
+    let of_file = limits(programs, function).filter_map(|(_, stack)| stack);
+    of_file.map(|limit| limit.value).chain(options.max_stack).min()
+}
+
+/// Holds the functions against the file's budgets and those of the options.
+pub(crate) fn check(programs: &Programs, source: &Source, options: &Options) -> Result<(), Errors> {
+    let (mut found, mut errors) = (vec![], vec![]);
+    for function in &programs.module.functions {
+        let limits: Vec<_> = limits(programs, &function.name).collect();
+        if limits.is_empty() && options.max_operations.is_none() && options.max_stack.is_none() {
+            continue;
+        }
+        let [operations, stack] = costs(programs, function, options);
+        for (max_operations, max_stack) in limits {
+            found.extend(max_operations.and_then(|limit| excess(operations, limit)));
+            found.extend(max_stack.and_then(|limit| excess(stack, limit)));
+        }
+        for (cost, limit) in [(operations, options.max_operations), (stack, options.max_stack)] {
+            let over = limit.and_then(|limit| cost.over(limit));
+            errors.extend(over.map(|over| Error::Budget { name: source.name.clone(), over }));
+        }
+    }
+    if !found.is_empty() {
+        let diagnostics = Diagnostics::new(source.clone(), found);
+        errors.push(Error::Robot(Box::new(diagnostics)));
+    }
+    Errors::check(errors, ())
+}
+
+/// What a function costs.
+#[derive(Clone, Copy)]
+struct Cost<'f> {
+    function: &'f str,
+    resource: Resource,
+    found: u64,
+}
+
+impl Cost<'_> {
+    fn over(self, limit: u64) -> Option<Over> {
+        let Cost { function, resource, found } = self;
+        (found > limit).then(|| Over { function: function.to_owned(), resource, found, limit })
+    }
+}
+
+fn costs<'f>(programs: &Programs, function: &'f Function, options: &Options) -> [Cost<'f>; 2] {
+    let operations = programs.module.counts(function).call.operations();
+    let stack = stack::estimate(function, options.scalar.size());
+    [(Resource::Operations, operations), (Resource::Stack, stack)].map(|(resource, found)| Cost {
+        function: &function.name,
+        resource,
+        found: found as u64,
+    })
+}
+
+fn excess(cost: Cost<'_>, limit: &Limit) -> Option<Diagnostic> {
+    let over = cost.over(limit.value)?;
+    Some(
+        Diagnostic::error(code::BUDGET, over.to_string())
+            .at(&limit.place, format!("{} more than this", over.found - over.limit))
+            .help(over.remedy()),
+    )
+}
+
+/// The limits of operations and stack that the file sets a function.
+fn limits<'p>(
+    programs: &'p Programs,
+    function: &str,
+) -> impl Iterator<Item = (Option<&'p Limit>, Option<&'p Limit>)> {
+    let bundle = programs.bundles.iter().find(|bundle| bundle.name == function);
+    let known = || kind(function).map(FunctionKind::name);
+    let named = bundle.map(|bundle| bundle.name.as_str()).or_else(known);
+    let function = function.to_owned();
+    let is_of = move |budget: &&Budget| match &budget.function {
+        Some(wanted) => named == Some(wanted.as_str()) || *wanted == function,
+        None => true,
+    };
+    let budgets = programs.budgets.iter().filter(is_of);
+    budgets.map(|budget| (budget.max_operations.as_ref(), budget.max_stack.as_ref()))
+}
+
+/// What kind of function a name is of: functions of a frame have its name at their end.
+fn kind(name: &str) -> Option<FunctionKind> {
+    let is_of = |kind: &&FunctionKind| {
+        let rest = name.strip_prefix(kind.name());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    FunctionKind::ALL.iter().filter(is_of).max_by_key(|kind| kind.name().len()).copied()
+}

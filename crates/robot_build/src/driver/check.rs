@@ -1,0 +1,66 @@
+//! Check values: what a function gives at a stated state, so that anybody can test their own copy.
+
+use robot_codegen::{Interpreter, OutputValues, Trigonometry};
+
+use crate::driver::programs::Programs;
+use crate::error::Errors;
+
+/// Entries of inputs, taken in turn: plain decimals of either sign.
+const ENTRIES: [f64; 8] = [0.3, -0.5, 0.7, -0.2, 0.9, -0.4, 0.6, -0.8];
+/// Values for parameters without nominal values, taken in turn.
+const PARAMETERS: [f64; 5] = [1.5, 0.8, 1.2, 0.6, 1.1];
+
+/// A function's values at a stated state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckValue {
+    /// The function.
+    pub function: String,
+    /// The parameters without nominal values, with the values taken for them.
+    pub parameters: Vec<(String, f64)>,
+    /// The inputs.
+    pub inputs: Vec<(String, Vec<f64>)>,
+    /// The outputs.
+    pub outputs: Vec<OutputValues>,
+}
+
+/// The check value of a function of a robot.
+///
+/// # Errors
+///
+/// A function that the module has not.
+pub fn check_value(
+    name: &str,
+    programs: &Programs,
+    function: &str,
+    trigonometry: Trigonometry,
+) -> Result<CheckValue, Errors> {
+    let code = |errors| Errors::of_code(name, &errors);
+    let parameters = stated_parameters(programs);
+    let given: Vec<(&str, f64)> =
+        parameters.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    let interpreter =
+        Interpreter::new(&programs.module, &given).map_err(code)?.with_trigonometry(trigonometry);
+    let inputs = stated_inputs(programs, function);
+    let given: Vec<(&str, &[f64])> =
+        inputs.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
+    let outputs = interpreter.call(function, &given).map_err(code)?;
+    Ok(CheckValue { function: function.to_owned(), parameters, inputs, outputs })
+}
+
+fn stated_parameters(programs: &Programs) -> Vec<(String, f64)> {
+    let parameters = programs.module.parameters.iter();
+    let unknown = parameters.filter(|parameter| parameter.nominal.is_none());
+    let values = PARAMETERS.into_iter().cycle();
+    unknown.zip(values).map(|(parameter, value)| (parameter.name.clone(), value)).collect()
+}
+
+fn stated_inputs(programs: &Programs, function: &str) -> Vec<(String, Vec<f64>)> {
+    let Some(function) = programs.module.function(function) else {
+        return vec![];
+    };
+    let inputs = function.inputs.iter().enumerate().map(|(index, input)| {
+        let entries = ENTRIES.into_iter().cycle().skip(3 * index).take(input.symbols.len());
+        (input.name.clone(), entries.collect())
+    });
+    inputs.collect()
+}

@@ -1,0 +1,17 @@
+//! The driver: from texts to texts, without files, environment or terminal.
+
+pub mod ablation;
+pub(crate) mod angles;
+pub mod budget;
+pub mod check;
+pub(crate) mod conventions;
+pub(crate) mod file;
+pub(crate) mod generate;
+pub(crate) mod options;
+pub mod package;
+pub(crate) mod pivots;
+pub(crate) mod problems;
+pub(crate) mod programs;
+pub(crate) mod singular;
+pub mod snapping;
+pub(crate) mod specification;

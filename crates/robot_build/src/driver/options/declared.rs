@@ -1,0 +1,398 @@
+//! The options of generated code, each declared once: the macro, the command line, the builder's tests and the
+//! table of the book take names, values and words from here.
+
+use robot_codegen::{Scalar, Trigonometry};
+use robot_model::robot::BaseFrames;
+
+use super::{DEFAULT_BATCH, Options};
+
+/// An option of generated code.
+#[derive(Clone, Copy, Debug)]
+pub struct OptionSpec {
+    /// The name of the builder's setter and the macro's key; the flag of the command line has `-` for `_`.
+    pub name: &'static str,
+    /// What it is about, for tables.
+    pub title: &'static str,
+    /// What it does, as the command line's help has it.
+    pub help: &'static str,
+    /// What it is for.
+    pub group: Group,
+    /// Its values.
+    pub kind: Kind,
+    /// A value, as the macro takes it.
+    pub example: &'static str,
+    /// Which commands take it.
+    pub commands: Commands,
+    /// Where a robot file says it for all doors.
+    pub in_file: Option<&'static str>,
+    set: fn(&mut Options, Value<'_>) -> Option<()>,
+}
+
+/// What an option is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// How the robot file is read.
+    Read,
+    /// What is derived.
+    Derive,
+    /// How programs are optimized.
+    Optimize,
+    /// How they are printed for a target.
+    Print,
+    /// What they may cost.
+    Limit,
+}
+
+/// Which commands take an option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Commands {
+    /// Those that read a robot.
+    Robot,
+    /// Those that make code.
+    Code,
+    /// That which makes a module for a crate of the user's own.
+    Module,
+    /// None: the robot file says it, or it has no meaning there.
+    None,
+}
+
+/// The values of an option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Yes or no.
+    Flag,
+    /// A whole number; on the command line that which stands for the flag alone, if there is one.
+    Count {
+        /// See [`Kind::Count`].
+        default: Option<usize>,
+    },
+    /// An angle, rad.
+    Angle,
+    /// A word of several; with each what it means, where its name does not say it. The first is the default.
+    Choice(&'static [(&'static str, &'static str)]),
+    /// A path of Rust.
+    Path,
+    /// Names of functions.
+    Functions,
+    /// Names, each with names of functions.
+    Bundles,
+}
+
+/// A value of an option.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value<'v> {
+    /// Of [`Kind::Flag`].
+    Flag(bool),
+    /// Of [`Kind::Count`].
+    Count(u64),
+    /// Of [`Kind::Angle`].
+    Number(f64),
+    /// Of [`Kind::Choice`] and [`Kind::Path`].
+    Word(&'v str),
+}
+
+impl Value<'_> {
+    fn flag(self) -> Option<bool> {
+        if let Value::Flag(flag) = self { Some(flag) } else { None }
+    }
+
+    fn count(self) -> Option<u64> {
+        if let Value::Count(count) = self { Some(count) } else { None }
+    }
+
+    fn size(self) -> Option<usize> {
+        // More than fits is too large for any limit of sizes.
+        self.count().map(|count| usize::try_from(count).unwrap_or(usize::MAX))
+    }
+
+    fn number(self) -> Option<f64> {
+        if let Value::Number(number) = self { Some(number) } else { None }
+    }
+
+    fn word(&self) -> Option<&str> {
+        if let Value::Word(word) = self { Some(word) } else { None }
+    }
+}
+
+impl OptionSpec {
+    /// The option of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static OptionSpec> {
+        OPTIONS.iter().find(|option| option.name == name)
+    }
+
+    /// A value from its text, as the macro and tables write it; `None` of functions and bundles and where the
+    /// text is not a value of the option.
+    #[must_use]
+    pub fn value<'v>(&self, text: &'v str) -> Option<Value<'v>> {
+        let quoted = || text.strip_prefix('"')?.strip_suffix('"');
+        match self.kind {
+            Kind::Flag => text.parse().ok().map(Value::Flag),
+            Kind::Count { .. } => text.parse().ok().map(Value::Count),
+            Kind::Angle => text.parse().ok().map(Value::Number),
+            Kind::Choice(words) => {
+                let is_known = |word: &&str| words.iter().any(|(known, _)| known == word);
+                quoted().filter(is_known).map(Value::Word)
+            }
+            Kind::Path => quoted().map(Value::Word),
+            Kind::Functions | Kind::Bundles => None,
+        }
+    }
+
+    /// The flag of the command line: that of a list is in the singular, for it may be given several times.
+    #[must_use]
+    pub fn flag(&self) -> String {
+        let name = match self.kind {
+            Kind::Functions | Kind::Bundles => self.name.trim_end_matches('s'),
+            _ => self.name,
+        };
+        format!("--{}", name.replace('_', "-"))
+    }
+
+    /// Gives the option a value in `options`; `None` if the value is not one of its kind. Functions and bundles,
+    /// whose names a robot must be known for, and what concerns files alone change nothing.
+    pub fn set(&self, options: &mut Options, value: Value<'_>) -> Option<()> {
+        (self.set)(options, value)
+    }
+}
+
+/// What options have in common.
+const PLAIN: OptionSpec = OptionSpec {
+    name: "",
+    title: "",
+    help: "",
+    group: Group::Print,
+    kind: Kind::Flag,
+    example: "true",
+    commands: Commands::Code,
+    in_file: None,
+    set: |_, _| Some(()),
+};
+
+/// All options, in the order of messages and tables.
+pub const OPTIONS: &[OptionSpec] = &[
+    OptionSpec {
+        name: "functions",
+        title: "functions; `all` for all that the robot has",
+        help: "Functions to generate, several with commas between; `all` for all that the robot has, \
+               `jacobian_NAME` and `jacobian_dot_qd_NAME` for those of one frame or moving link [default: those of \
+               the robot file's [code], else inverse dynamics in its forms and the wrenches in the joints]",
+        group: Group::Derive,
+        kind: Kind::Functions,
+        example: "[\"mass_matrix\"]",
+        in_file: Some("[code] functions"),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "bundles",
+        title: "several functions in one call",
+        help: "A function that computes several in one call, and their common work once; may be given several \
+               times",
+        group: Group::Derive,
+        kind: Kind::Bundles,
+        example: "{ dynamics = [\"mass_matrix\", \"bias\"] }",
+        in_file: Some("[code] bundles"),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "snap",
+        title: "angles near multiples of π/2",
+        help: "Snap constant angles within RAD of a multiple of π/2 to it [default: the robot file's `snap`, else \
+               1e-9]",
+        group: Group::Derive,
+        kind: Kind::Angle,
+        example: "1e-6",
+        commands: Commands::Robot,
+        in_file: Some("[robot] snap"),
+        set: |options, value| value.number().map(|angle| options.snap = Some(angle)),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "base_frames",
+        title: "[frames of the base parameters](base-parameters.md#in-other-frames)",
+        help: "Frames of the base parameters and of the regressor over them: the file's, or those of Denavit and \
+               Hartenberg, with which the regressor needs fewer operations [default: the robot file's \
+               `base_frames`, else file]",
+        group: Group::Derive,
+        kind: Kind::Choice(&[("file", ""), ("denavit_hartenberg", "")]),
+        example: "\"denavit_hartenberg\"",
+        commands: Commands::Robot,
+        in_file: Some("[robot] base_frames"),
+        set: |options, value| {
+            options.base_frames = Some(BaseFrames::from_name(value.word()?)?);
+            Some(())
+        },
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "scalar",
+        title: "`f32` in place of `f64`",
+        help: "Number type of the functions",
+        kind: Kind::Choice(&[("f64", ""), ("f32", "")]),
+        example: "\"f32\"",
+        set: |options, value| {
+            options.scalar = match value.word()? {
+                "f64" => Scalar::F64,
+                "f32" => Scalar::F32,
+                _ => return None,
+            };
+            Some(())
+        },
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "generic",
+        title: "forms over any scalar",
+        help: "Add to each function a form `…_generic` over any scalar of the runtime: f64, f32 and lanes",
+        set: |options, value| value.flag().map(|flag| options.generic = flag),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "batch",
+        title: "forms over slices of states",
+        help: "Add to each function a form `…_batch` over slices of states, computed in blocks of so many",
+        kind: Kind::Count { default: Some(DEFAULT_BATCH) },
+        example: "16",
+        set: |options, value| value.size().map(|states| options.batch = Some(states)),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "parallel",
+        title: "batches over threads",
+        help: "Add to each batch a form `…_batch_parallel` over the threads of the crate rayon; needs batches",
+        set: |options, value| value.flag().map(|flag| options.parallel = flag),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "fused",
+        title: "multiply-adds",
+        help: "Multiply and add in one instruction, which rounds once, if the target has it",
+        group: Group::Optimize,
+        set: |options, value| value.flag().map(|flag| options.fused = flag),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "trigonometry",
+        title: "source of sine and cosine",
+        help: "Where sines and cosines come from",
+        kind: Kind::Choice(&[
+            (
+                "polynomial",
+                "The runtime's branch-free polynomials, for angles below 2³⁰ rad (2¹⁷ in f32): NaN from there on",
+            ),
+            ("standard", "The standard library, for angles of any size; the code then needs it"),
+        ]),
+        example: "\"standard\"",
+        set: |options, value| {
+            options.trigonometry = match value.word()? {
+                "polynomial" => Trigonometry::Polynomial,
+                "standard" => Trigonometry::Standard,
+                _ => return None,
+            };
+            Some(())
+        },
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "max_operations",
+        title: "the most operations of a function",
+        help: "Most operations that a call of any function may take",
+        group: Group::Limit,
+        kind: Kind::Count { default: None },
+        example: "300",
+        commands: Commands::None,
+        in_file: Some("[[budget]] max_operations"),
+        set: |options, value| value.count().map(|limit| options.max_operations = Some(limit)),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "max_stack",
+        title: "the most bytes of stack of a function",
+        help: "Most bytes of stack that a call of any function may take",
+        group: Group::Limit,
+        kind: Kind::Count { default: None },
+        example: "2048",
+        commands: Commands::None,
+        in_file: Some("[[budget]] max_stack"),
+        set: |options, value| value.count().map(|limit| options.max_stack = Some(limit)),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "runtime",
+        title: "path of the runtime",
+        help: "Path of the runtime in the code",
+        kind: Kind::Path,
+        example: "\"::robot_runtime\"",
+        commands: Commands::Module,
+        set: |options, value| value.word().map(|path| options.runtime = path.to_owned()),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "allow_outside",
+        title: "robot files outside of the package",
+        help: "Take a robot file that is not in the package",
+        group: Group::Read,
+        commands: Commands::None,
+        set: |_, value| value.flag().map(drop),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "allow_unphysical",
+        title: "inertias that no body has",
+        help: "Take inertias that no body has, and such masses of a robot file, with a warning",
+        group: Group::Read,
+        commands: Commands::Robot,
+        set: |options, value| value.flag().map(|allow| options.allow_unphysical = allow),
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "allow_massless",
+        title: "moving links without mass",
+        help: "Take moving links without mass, with a warning",
+        group: Group::Read,
+        commands: Commands::Robot,
+        set: |options, value| value.flag().map(|allow| options.allow_massless = allow),
+        ..PLAIN
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_example_changes_one_thing() {
+        // A robot for which they are to be known, a place of files, and the value that is there anyhow.
+        const SAME: [&str; 4] = ["functions", "bundles", "allow_outside", "runtime"];
+        for option in OPTIONS {
+            assert_eq!(OptionSpec::named(option.name).unwrap().title, option.title);
+            let mut options = Options::default();
+            match option.value(option.example) {
+                Some(value) => {
+                    assert_eq!(option.set(&mut options, value), Some(()), "{}", option.name)
+                }
+                None => assert!(matches!(option.kind, Kind::Functions | Kind::Bundles)),
+            }
+            let is_same = options == Options::default();
+            assert_eq!(is_same, SAME.contains(&option.name), "{}", option.name);
+        }
+    }
+
+    #[test]
+    fn values_of_another_kind_are_refused() {
+        for option in OPTIONS {
+            let mut options = Options::default();
+            let wrong = match option.kind {
+                Kind::Flag => Value::Count(1),
+                _ => Value::Flag(true),
+            };
+            let is_list = matches!(option.kind, Kind::Functions | Kind::Bundles);
+            assert_eq!(option.set(&mut options, wrong).is_some(), is_list, "{}", option.name);
+            if let Kind::Choice(_) = option.kind {
+                assert_eq!(option.value("\"x\""), None);
+                assert_eq!(option.set(&mut options, Value::Word("x")), None);
+            }
+            assert_eq!(options, Options::default());
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! A whole crate for a robot: code, runtime, documentation and a test, nothing else needed.
+
+mod call;
+mod readme;
+
+use robot_codegen::Trigonometry;
+use robot_codegen::backend::rust::{self, Names, Wrapping};
+use robot_model::diagnostic::Source;
+
+use crate::driver::budget;
+use crate::driver::check::{CheckValue, check_value};
+use crate::driver::file::File;
+use crate::driver::generate::{header, names, rust_text, unnamed_header};
+use crate::driver::options::Options;
+use crate::driver::programs::{Programs, programs};
+use crate::error::Errors;
+
+/// The files of a crate that holds a robot's functions, in a fixed order.
+///
+/// The crate has no dependencies: the runtime's modules are part of it. Only with
+/// [`Options::parallel`] it has an optional one, `rayon`, for a feature of that name. It is `no_std` where
+/// [`Options::trigonometry`] is the polynomials'; its feature `std` adds fused multiply-add and the
+/// processor's square root. With the standard library's sine and cosine, `std` is a default feature
+/// and needed. [`Options::runtime`] is without effect.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file or the options.
+pub fn package(source: &Source, options: &Options) -> Result<Vec<File>, Errors> {
+    let programs = programs(source, options)?;
+    budget::check(&programs, source, options)?;
+    package_of(&programs, source, options)
+}
+
+/// As [`package`], for programs that are there already; whatever they cost.
+///
+/// # Errors
+///
+/// Everything that is wrong with the options.
+pub fn package_of(
+    programs: &Programs,
+    source: &Source,
+    options: &Options,
+) -> Result<Vec<File>, Errors> {
+    let options = Options { runtime: "crate::runtime".to_owned(), ..options.clone() };
+    let checks = checks(source, programs, &options)?;
+    let names = names(programs);
+    let parts = Parts { source, options: &options, programs, names, checks: &checks };
+    let mut files = vec![
+        file("Cargo.toml", parts.manifest()),
+        file("README.md", readme::readme(&parts)),
+        file("src/lib.rs", parts.root()),
+        file("src/model.rs", parts.model()?),
+    ];
+    for (path, text) in robot_runtime::SOURCES {
+        files.push(file(
+            &format!("src/runtime/{path}"),
+            format!("// {}\n\n{text}", unnamed_header()),
+        ));
+    }
+    files.push(file("tests/check.rs", parts.tests()));
+    Ok(files)
+}
+
+fn file(path: &str, text: String) -> File {
+    File { path: path.to_owned(), text }
+}
+
+/// A check value of every function.
+fn checks(
+    source: &Source,
+    programs: &Programs,
+    options: &Options,
+) -> Result<Vec<CheckValue>, Errors> {
+    let functions = programs.module.functions.iter();
+    let checks = functions
+        .map(|function| check_value(&source.name, programs, &function.name, options.trigonometry));
+    let checks: Vec<CheckValue> = checks.collect::<Result<_, _>>()?;
+    // At stand-in values of parameters a root or a quotient may have no value.
+    let is_finite = |check: &CheckValue| {
+        check.outputs.iter().flat_map(|output| &output.values).all(|value| value.is_finite())
+    };
+    Ok(checks.into_iter().filter(is_finite).collect())
+}
+
+/// What the files are made of.
+struct Parts<'a> {
+    source: &'a Source,
+    options: &'a Options,
+    programs: &'a Programs,
+    /// What the printed items are called.
+    names: Names,
+    checks: &'a [CheckValue],
+}
+
+impl Parts<'_> {
+    /// The name of the crate.
+    fn name(&self) -> &str {
+        &self.names.module
+    }
+
+    /// The method of a function.
+    fn method<'n>(&'n self, function: &'n str) -> &'n str {
+        let functions = &self.programs.module.functions;
+        let index = functions.iter().position(|known| known.name == function);
+        index.and_then(|index| self.names.functions.get(index)).map_or(function, String::as_str)
+    }
+
+    /// For each output of a function, how it is reached from the result of a call.
+    fn outputs(&self, function: &str) -> Vec<String> {
+        match self.programs.module.function(function) {
+            Some(function) if function.outputs.len() > 1 => {
+                rust::output_names(function).iter().map(|name| format!(".{name}")).collect()
+            }
+            _ => vec![String::new()],
+        }
+    }
+
+    fn needs_std(&self) -> bool {
+        self.options.trigonometry == Trigonometry::Standard
+    }
+
+    fn manifest(&self) -> String {
+        let (name, robot) = (self.name(), &self.programs.robot.name);
+        let default = if self.needs_std() { "default = [\"std\"]\n" } else { "" };
+        let (feature, dependency) = match self.options.parallel {
+            true => (
+                "# Batches over threads.\nrayon = [\"dep:rayon\"]\n",
+                "\n[dependencies]\nrayon = { version = \"1.11\", optional = true }\n",
+            ),
+            false => ("", ""),
+        };
+        format!(
+            "# {}\n\n\
+             [package]\n\
+             name = \"{name}\"\n\
+             version = \"0.1.0\"\n\
+             edition = \"2024\"\n\
+             rust-version = \"{}\"\n\
+             description = \"Dynamics of the robot {robot}\"\n\
+             readme = \"README.md\"\n\
+             publish = false\n\n\
+             [features]\n\
+             {default}# Fused multiply-add and square root by the standard library.\n\
+             std = []\n{feature}{dependency}",
+            header(self.source),
+            robot_runtime::RUST_VERSION,
+        )
+    }
+
+    fn root(&self) -> String {
+        let guard = if self.needs_std() {
+            "\n#[cfg(not(feature = \"std\"))]\n\
+             compile_error!(\"sine and cosine are the standard library's: enable the feature `std`\");\n"
+        } else {
+            ""
+        };
+        format!(
+            "// {}\n\n\
+             #![doc = include_str!(\"../README.md\")]\n\
+             #![no_std]\n\
+             #![forbid(unsafe_code)]\n\n\
+             mod model;\n\
+             pub mod runtime;\n\n\
+             pub use model::*;\n\
+             {guard}",
+            header(self.source)
+        )
+    }
+
+    fn model(&self) -> Result<String, Errors> {
+        let code = rust_text(self.programs, self.source, self.options, Wrapping::Items)?;
+        // An inner attribute stands before all items and after the comment at the top.
+        let (comment, items) = code.split_once("\n\n").unwrap_or(("", &code));
+        let lints: Vec<String> =
+            rust::allowed_lints().iter().map(|lint| format!("    {lint},\n")).collect();
+        Ok(format!("{comment}\n\n#![allow(\n{})]\n\n{items}", lints.concat()))
+    }
+
+    /// A test of every function against its check value.
+    fn tests(&self) -> String {
+        let (name, tolerance) = (self.name(), call::tolerance(self.options));
+        let tests: Vec<String> = self.checks.iter().map(|check| call::test(self, check)).collect();
+        format!(
+            "// {}\n\
+             //! The check values of the README.\n\n\
+             use {name}::*;\n\n\
+             /// Compares to a fraction of the largest entry.\n\
+             fn assert_close(found: &[impl Copy + Into<f64>], stated: &[f64]) {{\n    \
+                 let size = stated.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));\n    \
+                 assert_eq!(found.len(), stated.len());\n    \
+                 for (found, stated) in found.iter().zip(stated) {{\n        \
+                     let difference = ((*found).into() - stated).abs();\n        \
+                     assert!(difference <= {tolerance:?} * size, \"off by {{difference}}\");\n    \
+                 }}\n\
+             }}\n{}",
+            header(self.source),
+            tests.concat()
+        )
+    }
+}

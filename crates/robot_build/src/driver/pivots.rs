@@ -1,0 +1,150 @@
+//! The pivots of the mass matrix at states: how many digits forward dynamics has there.
+
+use std::fmt;
+
+use robot_codegen::{Interpreter, Module, Rounded, Trigonometry};
+use robot_dynamics::functions::Derivation;
+use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
+use robot_symbolic::Graph;
+
+use crate::driver::options::Options;
+use crate::driver::programs::MAX_NODES;
+use crate::driver::specification;
+use crate::error::{Error, Errors};
+
+/// Below this part of the joint's entry on the diagonal of M a pivot is worth a word.
+const SMALL: f64 = 1e-8;
+/// The digits of `f64`.
+const DIGITS: f64 = 15.0;
+
+/// The pivots of a robot's mass matrix as a program, solved as its forward dynamics is.
+///
+/// The pivot of a coordinate is the inertia that its joint shows where the joints farther out are free.
+#[derive(Clone, Debug)]
+pub struct Pivots {
+    interpreter: Interpreter<'static>,
+    joints: Vec<String>,
+}
+
+/// A pivot at a state that leaves forward dynamics few digits or none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pivot {
+    /// The joint.
+    pub joint: String,
+    /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, where the state
+    /// has no accelerations.
+    pub part: f64,
+    /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15. With 0 the
+    /// pivot is rounding alone, and the state has no accelerations.
+    pub digits: u32,
+}
+
+impl Pivots {
+    /// The pivots of a robot whose parameters have the values that `given` names, the others their nominal
+    /// ones.
+    ///
+    /// # Errors
+    ///
+    /// A robot too large for code; parameters without a value.
+    pub fn new(robot: &Robot, options: &Options, given: &[(&str, f64)]) -> Result<Pivots, Errors> {
+        let (name, limit) = (&robot.name, MAX_NODES);
+        let graph = Graph::limited(limit);
+        let derivation =
+            Derivation::new(robot, &graph, &options.mechanism(robot), options.plan.clone());
+        let specification = specification::pivots(&derivation);
+        if graph.is_full() {
+            return Err(Errors::from(Error::TooLarge { name: name.clone(), limit }));
+        }
+        let module = Module::compile(&specification, &robot_codegen::Options::none())
+            .map_err(|errors| Errors::of_code(name, &errors))?;
+        let interpreter = Interpreter::owned(module, given)
+            .map_err(|errors| Errors::of_code(name, &errors))?
+            .with_trigonometry(Trigonometry::Standard);
+        let joints = robot.coordinates.iter().map(|coordinate| coordinate.joint.clone()).collect();
+        Ok(Pivots { interpreter, joints })
+    }
+
+    /// The same with sines and cosines from elsewhere than the standard library.
+    #[must_use]
+    pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
+        let interpreter = self.interpreter.with_trigonometry(trigonometry);
+        Pivots { interpreter, ..self }
+    }
+
+    /// The smallest pivot at positions, where it is below 10⁻⁸ of the joint's entry on the diagonal of M or
+    /// has fewer than eight digits left.
+    ///
+    /// # Errors
+    ///
+    /// Positions of another number.
+    pub fn smallest(&self, q: &[f64]) -> Result<Option<Pivot>, robot_codegen::Errors> {
+        let values =
+            self.interpreter.call_rounded("pivots", &[(JointVariable::Position.name(), q)])?;
+        let (pivots, diagonal) = values.split_at(values.len() / 2);
+        let found = pivots.iter().zip(diagonal).zip(&self.joints).map(|((pivot, whole), joint)| {
+            let part = pivot.value / whole.value.abs();
+            Pivot { joint: joint.clone(), part, digits: digits(pivot) }
+        });
+        // From the last row of M on, in the order of its decomposition: what follows a wrong pivot is wrong.
+        let mut smallest: Option<Pivot> = None;
+        for pivot in found.collect::<Vec<_>>().into_iter().rev() {
+            if pivot.is_wrong() {
+                return Ok(Some(pivot));
+            }
+            if smallest.as_ref().is_none_or(|smallest| pivot.part < smallest.part) {
+                smallest = Some(pivot);
+            }
+        }
+        Ok(smallest.filter(|pivot| pivot.part < SMALL || f64::from(pivot.digits) < DIGITS / 2.0))
+    }
+}
+
+impl Pivot {
+    /// Whether there are no accelerations, for the pivot is not above 0 and finite, or is rounding alone.
+    #[must_use]
+    pub fn is_wrong(&self) -> bool {
+        !(self.part > 0.0 && self.part.is_finite()) || self.digits == 0
+    }
+}
+
+/// What it means for the accelerations.
+impl fmt::Display for Pivot {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Pivot { joint, part, digits } = self;
+        if *digits == 0 && part.is_finite() && *part != 0.0 {
+            return write!(
+                formatter,
+                "the mass matrix is singular to within rounding: what the joint `{joint}` shows of inertia \
+                 where the joints farther out are free is rounding alone, and so are the accelerations; look \
+                 at the masses and moments of inertia, and at the posture"
+            );
+        }
+        if self.is_wrong() && *part <= -SMALL {
+            return write!(
+                formatter,
+                "the mass matrix is not positive definite: the joint `{joint}` shows an inertia below 0 \
+                 where the joints farther out are free; look at the masses and moments of inertia"
+            );
+        }
+        if self.is_wrong() {
+            return write!(
+                formatter,
+                "the mass matrix is singular in this posture: the joint `{joint}` shows no inertia where \
+                 the joints farther out are free; it is the state, not the parameters, unless it is so in \
+                 every posture"
+            );
+        }
+        write!(
+            formatter,
+            "the mass matrix is nearly singular: where the joints farther out are free, the joint \
+             `{joint}` shows {part:.1e} of its inertia; the accelerations have about {digits} digits"
+        )
+    }
+}
+
+/// The decimal digits that rounding leaves.
+fn digits(pivot: &Rounded) -> u32 {
+    let left = -(pivot.error / pivot.value.abs()).log10();
+    if left.is_nan() { 0 } else { left.clamp(0.0, DIGITS) as u32 }
+}

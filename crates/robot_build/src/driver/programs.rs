@@ -1,0 +1,125 @@
+//! From the text of a robot file to straight-line programs.
+
+use robot_codegen::Module;
+use robot_dynamics::economical::Plan;
+use robot_dynamics::economical::search::{Measure, search};
+use robot_dynamics::functions::Derivation;
+use robot_dynamics::mechanism::Snap;
+use robot_model::description::{self, Budget, Described};
+use robot_model::diagnostic::{Diagnostics, Source};
+use robot_model::functions::{Bundle, FunctionKind};
+use robot_model::robot::Robot;
+use robot_symbolic::Graph;
+
+use crate::driver::options::Options;
+use crate::driver::{singular, specification};
+use crate::error::{Error, Errors};
+
+/// Functions of more expressions than this do not become code. The usual ones of 64 joints about
+/// skew axes are some tens of thousands.
+pub(crate) const MAX_NODES: usize = 500_000;
+
+/// A robot and the programs of its functions.
+#[derive(Clone, Debug)]
+pub struct Programs {
+    /// The robot.
+    pub robot: Robot,
+    /// What looks like a slip in the file.
+    pub warnings: Diagnostics,
+    /// The constant angles that were taken for multiples of π/2.
+    pub snapped: Vec<Snap>,
+    /// The functions that were wanted, each by itself.
+    pub functions: Vec<FunctionKind>,
+    /// The functions that were wanted in one call.
+    pub bundles: Vec<Bundle>,
+    /// What the file lets the functions cost.
+    pub budgets: Vec<Budget>,
+    /// The programs: what the interpreter runs and the backends print.
+    pub module: Module,
+}
+
+/// Reads a robot file in the format that its name says: TOML or URDF.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file.
+pub fn read(source: &Source) -> Result<Described, Errors> {
+    Ok(description::read(&source.name, &source.text)?)
+}
+
+/// As [`read`], with what the options take that is an error otherwise.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file.
+pub fn read_with(source: &Source, options: &Options) -> Result<Described, Errors> {
+    Ok(description::read_with(&source.name, &source.text, &options.reading())?)
+}
+
+/// Derives the functions of a robot and compiles them to straight-line programs.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file or the options.
+pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
+    let Described { robot, warnings, code, budgets, .. } = read_with(source, options)?;
+    let mut programs = programs_of(robot, &source.name, &options.or_of_file(&code))?;
+    programs.warnings = warnings;
+    programs.budgets = budgets;
+    Ok(programs)
+}
+
+/// As [`programs`], for a robot that is there already; `name` is what errors call its source.
+///
+/// # Errors
+///
+/// Everything that is wrong with the options.
+pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Programs, Errors> {
+    programs_under(robot, name, options, &options.codegen(), MAX_NODES)
+}
+
+/// The plan that the options give, or that is searched.
+pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
+    let measure = if options.fused { Measure::Instructions } else { Measure::Operations };
+    let searched = || search(robot, &options.mechanism(robot), measure).map(|found| found.plan);
+    let given = options.plan.clone();
+    if options.search { given.or_else(searched) } else { given }
+}
+
+/// The options with the plan that they ask for: what is made with them several times searches once.
+#[must_use]
+pub fn planned(robot: &Robot, options: &Options) -> Options {
+    Options { plan: plan_of(robot, options), search: false, ..options.clone() }
+}
+
+/// As [`programs_of`], with passes of choice, of so many expressions at most.
+pub(crate) fn programs_under(
+    robot: Robot,
+    name: &str,
+    options: &Options,
+    codegen: &robot_codegen::Options,
+    limit: usize,
+) -> Result<Programs, Errors> {
+    options.check()?;
+    let base_frames = options.base_frames.unwrap_or(robot.base_frames);
+    let robot = Robot { base_frames, ..robot };
+    let (functions, bundles) = options.functions_of(&robot)?;
+    let graph = Graph::limited(limit);
+    let plan = plan_of(&robot, options);
+    if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
+        return Err(Errors::from(Error::Plan { name: name.to_owned() }));
+    }
+    let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
+    let more = specification::not_generated(&robot, options, &functions, &bundles);
+    let specification = specification::module(&derivation, &functions, &bundles, &more);
+    if graph.is_full() {
+        return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit }));
+    }
+    let module = Module::compile(&specification, codegen)
+        .map_err(|errors| singular::by_cause(name, &robot, &functions, &bundles, &errors))?;
+    let snapped = derivation.mechanism.snapped.clone();
+    let source = Source { name: name.to_owned(), text: String::new() };
+    let warnings = Diagnostics::new(source, vec![]);
+    let budgets = vec![];
+    Ok(Programs { robot, warnings, snapped, functions, bundles, budgets, module })
+}

@@ -1,0 +1,76 @@
+//! What taking angles near multiples of π/2 for them changes, and what it saves.
+
+use robot_dynamics::economical::Plan;
+use robot_dynamics::mechanism::{Mechanism, MechanismOptions, Snap};
+use robot_model::functions::{Effects, FunctionKind, Functions};
+use robot_model::robot::Robot;
+use robot_symbolic::Graph;
+
+use crate::driver::options::Options;
+use crate::driver::programs::programs_of;
+use crate::error::Errors;
+
+/// Tolerances that are tried besides the one that is taken, rad.
+const TRIED: [f64; 3] = [1e-6, 1e-4, 1e-3];
+
+/// What snapping does to a robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapping {
+    /// Under the tolerance that is taken.
+    pub taken: Tried,
+    /// Under larger tolerances, each of which snaps more angles.
+    pub larger: Vec<Tried>,
+}
+
+/// What a tolerance does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    /// The tolerance, rad.
+    pub tolerance: f64,
+    /// The angles that are changed.
+    pub snapped: Vec<Snap>,
+    /// Multiplications, additions and divisions of inverse dynamics then, sines and cosines apart.
+    pub operations: usize,
+}
+
+impl Tried {
+    /// The largest change.
+    #[must_use]
+    pub fn largest(&self) -> Option<&Snap> {
+        self.snapped.iter().max_by(|a, b| a.change.abs().total_cmp(&b.change.abs()))
+    }
+}
+
+/// What snapping does to a robot: with the tolerance given, else the file's, and with larger ones.
+/// All under one plan, the default one if none is given.
+///
+/// # Errors
+///
+/// A tolerance that is no angle; a plan that is not the robot's.
+pub fn snapping(robot: &Robot, snap: Option<f64>, plan: Option<&Plan>) -> Result<Snapping, Errors> {
+    let tolerance = MechanismOptions::ROUNDED.with_snap(snap, robot).snap;
+    let taken = tried(robot, tolerance, plan)?;
+    let mut larger: Vec<Tried> = vec![];
+    for tolerance in TRIED.into_iter().filter(|tried| *tried > tolerance) {
+        let options = MechanismOptions { snap: tolerance, ..MechanismOptions::ROUNDED };
+        let count = Mechanism::new(robot, &Graph::new(), &options).snapped.len();
+        if count > larger.last().unwrap_or(&taken).snapped.len() {
+            larger.push(tried(robot, tolerance, plan)?);
+        }
+    }
+    Ok(Snapping { taken, larger })
+}
+
+fn tried(robot: &Robot, tolerance: f64, plan: Option<&Plan>) -> Result<Tried, Errors> {
+    let options = Options {
+        functions: Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]),
+        snap: Some(tolerance),
+        plan: plan.cloned(),
+        ..Options::default()
+    };
+    let programs = programs_of(robot.clone(), &robot.name, &options)?;
+    let functions = programs.module.functions.iter();
+    let operations =
+        functions.map(|function| programs.module.counts(function).call.operations()).sum();
+    Ok(Tried { tolerance, snapped: programs.snapped, operations })
+}

@@ -1,0 +1,188 @@
+//! `check`: what is wrong with robot files, and what is likely a slip.
+
+mod json;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_build::{Error, RobotFile};
+use robot_check::doctor::{self, Examination};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
+
+use crate::Terminal;
+use crate::delivery::answered;
+use crate::failure::Failure;
+use crate::format::Format;
+use crate::plan::is_of_pin;
+use crate::reading::ReadingArguments;
+use crate::text;
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic check robots/*.toml arm.urdf
+  robot-symbolic check arm.urdf --deny warnings --allow R0607 --format json
+  robot-symbolic check --explain R0608
+
+Errors are what no mechanism can be: no other command takes such a file. Warnings are likely slips; they
+change nothing, and but for a few that the reader knows no other command shows them. Notes tell how the
+file was taken. Every diagnostic has a stable code with a page (docs/diagnostics).
+
+Exit codes: 0 no errors; 1 errors in some file, or warnings with --deny warnings; 2 the command line is
+wrong. Text goes to standard error, JSON to standard output.")]
+pub(crate) struct Arguments {
+    /// Robot files, TOML or URDF
+    #[arg(required_unless_present = "explain", value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// How to show what is found
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Let warnings fail, too
+    #[arg(long, value_enum)]
+    deny: Option<Deny>,
+    /// Leave out warnings and notes with these codes
+    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    allow: Vec<String>,
+    /// Show the page of a code
+    #[arg(long, value_name = "CODE", exclusive = true)]
+    explain: Option<String>,
+    #[command(flatten)]
+    reading: ReadingArguments,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Deny {
+    Warnings,
+}
+
+/// What is found in one file.
+enum Report {
+    Examined(Examination),
+    /// A file that cannot be read, and why.
+    Unread {
+        file: String,
+        reason: String,
+    },
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        if let Some(wanted) = &self.explain {
+            return explain(wanted, terminal);
+        }
+        let wrong: Vec<String> = self
+            .allow
+            .iter()
+            .filter(|code| code::page(code).is_none())
+            .map(|code| unknown(code))
+            .collect();
+        if !wrong.is_empty() {
+            return Err(Failure::Usage(wrong));
+        }
+        let reports: Vec<Report> = self.files.iter().map(|file| self.report(file)).collect();
+        match self.format {
+            Format::Text => {
+                for report in &reports {
+                    show(report, terminal)?;
+                }
+            }
+            Format::Json => answered(&format!("{:#}\n", json::document(&reports)), terminal)?,
+        }
+        let count = |severity| reports.iter().map(|report| report.count(severity)).sum::<usize>();
+        let denied = self.deny == Some(Deny::Warnings) && count(Severity::Warning) > 0;
+        if denied || count(Severity::Error) > 0 { Err(Failure::Shown) } else { Ok(()) }
+    }
+
+    fn report(&self, path: &std::path::Path) -> Report {
+        let options = self.reading.options().reading();
+        let examination = match RobotFile::read(path) {
+            Ok(file) => {
+                let examination = doctor::check(&file.source.name, &file.source.text, &options);
+                with_pin(examination, &file)
+            }
+            Err(errors) => match errors.as_slice() {
+                // Bytes that are no text.
+                [Error::Robot(found)] => Examination::refused((**found).clone()),
+                others => {
+                    let file = path.to_string_lossy().into_owned();
+                    let reasons: Vec<String> = others.iter().map(ToString::to_string).collect();
+                    return Report::Unread { file, reason: reasons.join("; ") };
+                }
+            },
+        };
+        let Examination { found, choices } = examination;
+        Report::Examined(Examination { found: self.wanted(&found), choices: self.wanted(&choices) })
+    }
+
+    /// What is not allowed; errors always.
+    fn wanted(&self, found: &Diagnostics) -> Diagnostics {
+        let wanted = found.iter().filter(|one| {
+            one.severity == Severity::Error || self.allow.iter().all(|code| code != one.code)
+        });
+        Diagnostics::new(found.source().clone(), wanted.cloned().collect())
+    }
+}
+
+/// The same, and whether builds refuse the plan that is pinned beside the file.
+fn with_pin(examination: Examination, file: &RobotFile) -> Examination {
+    let Err(errors) = file.with_pin(&robot_build::Options::default()) else { return examination };
+    if !is_of_pin(&errors) {
+        // Errors of the file itself, which are found already.
+        return examination;
+    }
+    let Examination { found, choices } = examination;
+    let pins = errors.as_slice().iter().map(|error| {
+        Diagnostic::warning(code::PIN, error.to_string()).help(
+            "no code is made of the file until then; other commands search a plan at each call",
+        )
+    });
+    let list = found.iter().cloned().chain(pins).collect();
+    Examination { found: Diagnostics::new(found.source().clone(), list), choices }
+}
+
+impl Report {
+    fn count(&self, severity: Severity) -> usize {
+        match self {
+            Report::Examined(Examination { found, choices }) => {
+                let all = found.iter().chain(choices.iter());
+                all.filter(|one| one.severity == severity).count()
+            }
+            Report::Unread { .. } => usize::from(severity == Severity::Error),
+        }
+    }
+}
+
+fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    let Examination { found, choices } = match report {
+        Report::Examined(examination) => examination,
+        Report::Unread { reason, .. } => {
+            writeln!(terminal.errors, "error: {reason}")?;
+            return Ok(());
+        }
+    };
+    let name = &choices.source().name;
+    for choice in choices.iter() {
+        let place = choice.primary.as_ref().map_or(0, |label| label.span.start);
+        let (line, column) = choices.source().position(place);
+        let (code, message) = (choice.code, &choice.message);
+        writeln!(terminal.errors, "note[{code}]: {name}:{line}:{column}: {message}")?;
+    }
+    if found.is_empty() {
+        answered(&format!("{name}: no errors, no warnings\n"), terminal)?;
+    } else {
+        let style = if terminal.colors { Style::Terminal } else { Style::Plain };
+        writeln!(terminal.errors, "{}", found.render(style).trim_end())?;
+    }
+    Ok(())
+}
+
+fn unknown(wanted: &str) -> String {
+    let known: Vec<&str> = code::TABLE.iter().map(|(code, _)| *code).collect();
+    text::unknown("code", wanted, &known)
+}
+
+fn explain(wanted: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    let Some(page) = code::page(&wanted.to_uppercase()) else {
+        return Err(Failure::Usage(vec![unknown(wanted)]));
+    };
+    Ok(terminal.output.write_all(page.as_bytes())?)
+}

@@ -1,0 +1,116 @@
+//! `watch`: what changes in a robot at each save of its file.
+
+mod files;
+mod page;
+mod state;
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::Args;
+use robot_model::diagnostic::Style;
+
+use crate::Terminal;
+use crate::delivery::{ForceArgument, file_of};
+use crate::failure::Failure;
+use crate::progress::watched;
+use crate::robot::RobotArgument;
+use files::Files;
+use page::Page;
+use state::{Look, Settings, Shown, State};
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic watch robots/trttr1.toml
+  robot-symbolic watch robots/trttr1.toml --report trttr1.html
+
+Derives the robot again whenever its file or its pinned plan is saved, and shows what has changed since
+the last save that gave a robot: parameters, links, joints and frames, terms of the driving forces,
+operations, errors and warnings that came or went. A file that is wrong or away for a while is waited for.
+The page of --report is written anew at each save that gives a robot, and a browser that shows it reloads it
+and keeps its place. Where no page can be made of a robot, the last one stands. Operations are those under the pinned plans, or under the default plan where either
+save has no plan of its own: nothing is searched.
+
+Changes go to standard output, errors and warnings to standard error. Exit codes: Ctrl-C ends with 0 where
+the file last gave a robot and its page, and with 1 where it did not; 2 the command line is wrong.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    robot: RobotArgument,
+    /// A page about the robot to write, as the command `report` does without a compiler
+    #[arg(long, value_name = "PATH")]
+    report: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgument,
+    /// How many terms of each equation are shown at most
+    #[arg(long, default_value_t = 20)]
+    terms: usize,
+    /// End after so many saves; without this Ctrl-C ends
+    #[arg(long, value_name = "COUNT")]
+    saves: Option<usize>,
+}
+
+/// Whether Ctrl-C was pressed, or the process was asked to end.
+static OVER: AtomicBool = AtomicBool::new(false);
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        // A name that is wrong from the start is not waited for.
+        self.robot.source()?;
+        if self.report.is_some() && file_of(self.report.as_deref()).is_none() {
+            let message = "--report is a file that is written anew at each save; name one";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
+        let writer = self.force.writer(self.robot.inputs());
+        let page = self.report.clone().map(|path| Page::open(path, writer)).transpose()?;
+        ctrlc::set_handler(|| OVER.store(true, Ordering::Relaxed))
+            .map_err(|error| Failure::input(format!("cannot wait for Ctrl-C: {error}")))?;
+        let saves = self.saves.unwrap_or(usize::MAX);
+        let options = self.robot.reading.options();
+        let looks = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));
+        let style = if terminal.colors { Style::Terminal } else { Style::Plain };
+        let reading = self.robot.reading;
+        let settings = Settings { snap: self.robot.snap(), reading, terms: self.terms, style };
+        follow(looks, &settings, page, terminal)
+    }
+}
+
+/// Shows what changes from look to look, until there are no more.
+fn follow(
+    looks: impl Iterator<Item = Look>,
+    settings: &Settings,
+    mut page: Option<Page>,
+    terminal: &mut Terminal<'_>,
+) -> Result<(), Failure> {
+    let mut state = State::default();
+    let mut has_page = true;
+    let followed = looks.into_iter().try_for_each(|look| {
+        let shown;
+        (state, shown) = watched("deriving", terminal, || state.after(&look, settings));
+        let Shown { title, problems, changes } = shown;
+        write!(terminal.output, "{title}").and_then(|()| terminal.output.flush())?;
+        write!(terminal.errors, "{problems}").and_then(|()| terminal.errors.flush())?;
+        write!(terminal.output, "{changes}").and_then(|()| terminal.output.flush())?;
+        match (&mut page, state.is_good().then_some(&look.source)) {
+            (Some(page), Some(Ok(source))) => {
+                let options = state.options(settings);
+                let made = watched("writing", terminal, || Page::made(source, &options));
+                has_page = made.is_ok();
+                match made {
+                    Ok(made) => page.write(made),
+                    // The next save may give one.
+                    Err(error) => {
+                        Failure::from(error).report(terminal);
+                        Ok(writeln!(terminal.errors, "{}", page.standing())?)
+                    }
+                }
+            }
+            _ => Ok(()),
+        }
+    });
+    // The last page stays, and nothing reloads it, however the watch has ended.
+    page.map_or(Ok(()), Page::finish).and(followed)?;
+    if state.is_good() && has_page { Ok(()) } else { Err(Failure::Shown) }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,61 @@
+//! A mechanism in other frames of its links.
+
+use crate::economical::frames::chain::Limits;
+use crate::economical::frames::working::{WorkingFrame, axes_about, between, normal_with_parent};
+use crate::mechanism::Mechanism;
+use crate::vector::{Matrix, Vector};
+
+/// A mechanism whose links have other frames than in the file, with the same motions.
+#[derive(Clone, Debug)]
+pub(crate) struct Reframed<'g> {
+    /// The mechanism in those frames.
+    pub(crate) mechanism: Mechanism<'g>,
+    /// The frames in those of the file.
+    pub(crate) frames: Vec<WorkingFrame<'g>>,
+}
+
+impl<'g> Reframed<'g> {
+    /// In frames of Denavit and Hartenberg, by the geometry alone: z is the joint axis, the origin lies
+    /// where the common normal with the axis of the parent's joint meets it; x is the file's as near as
+    /// that allows.
+    ///
+    /// Where no normal has a sure place, and for translations and first joints, the origin is the
+    /// file's. `None` if a joint axis depends on parameters.
+    pub(crate) fn denavit_hartenberg(mechanism: &Mechanism<'g>) -> Option<Reframed<'g>> {
+        let farthest = Limits::of(mechanism).shift;
+        let mut frames: Vec<WorkingFrame<'g>> = vec![];
+        for link in &mechanism.links {
+            let axes = axes_about(link.axis)?;
+            let parent = link.parent.map(|parent| &frames[parent]).filter(|_| link.is_revolute());
+            let along = parent.and_then(|parent| {
+                normal_with_parent(link, axes, parent.axes, parent.origin, farthest)
+            });
+            let origin = match along {
+                Some(along) => link.axis * along,
+                None => Vector::zero(mechanism.graph),
+            };
+            frames.push(WorkingFrame { axes, origin, flipped: false });
+        }
+        Some(Reframed { mechanism: in_frames(mechanism, &frames), frames })
+    }
+}
+
+fn in_frames<'g>(mechanism: &Mechanism<'g>, frames: &[WorkingFrame<'g>]) -> Mechanism<'g> {
+    let mut moved = mechanism.clone();
+    let z = Matrix::identity(mechanism.graph).column(2);
+    for (link, own) in moved.links.iter_mut().zip(frames) {
+        let back = own.axes.transpose();
+        let parent = link.parent.map(|parent| &frames[parent]);
+        (link.rotation, link.translation) = between(link, own, parent);
+        link.center_of_mass = back * (link.center_of_mass - own.origin);
+        link.inertia = back * link.inertia * own.axes;
+        link.axis = z;
+    }
+    for frame in &mut moved.frames {
+        let Some(own) = frame.link.map(|link| &frames[link]) else { continue };
+        let back = own.axes.transpose();
+        frame.rotation = back * frame.rotation;
+        frame.translation = back * (frame.translation - own.origin);
+    }
+    moved
+}

@@ -1,0 +1,200 @@
+//! The options of the economical recursion, as data.
+//!
+//! Every option yields the same torques; they differ in operations. Letters in brackets are those
+//! of the ablation tables in `docs/performance.md`.
+
+pub(super) mod mechanics;
+pub mod pin;
+pub mod search;
+
+use robot_model::robot::Robot;
+
+/// The options for a whole mechanism.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// Per link, in the mechanism's order.
+    pub links: Vec<LinkPlan>,
+    /// \[l\] The unit of length in which the recursion works: that of the component (0, 1, 2) of
+    /// this link's position in its parent, which thereby becomes ±1.
+    pub unit_length: Option<(usize, usize)>,
+}
+
+/// The options for one link.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LinkPlan {
+    /// \[t\] Where the working frame's origin lies on the joint axis.
+    pub origin: Origin,
+    /// \[t, φ\] How the working frame is turned about the joint axis.
+    pub turn: Turn,
+    /// \[a\] Whether the joint joins the parallel group of its parent's joint: rotations then go
+    /// by the sum of the group's angles. Without effect where the axes are not parallel.
+    pub angle_sum: bool,
+    /// \[c\] Whether the third column of U comes from the parent's U.
+    pub column: bool,
+    /// \[u\] Whether the third row of U then comes from doubled products, U₃₁ = ω_x 2ω_z − U₁₃, which
+    /// spares an addition where the angular acceleration across the axis is not needed itself.
+    pub doubled: bool,
+    /// \[b\] Per component of the moment: products of angular velocities and accelerations in place
+    /// of entries of U.
+    pub moment: [bool; 3],
+    /// \[d\] Whether differences of squared angular velocities come from the diagonal of U, which
+    /// spares a square where U's third column is known.
+    pub diagonal: bool,
+    /// \[m, z\] What of the link's mass, first moment and second moment along its joint axis stays
+    /// with it, so that an entry of the parent's inertia vanishes; in that order.
+    pub residual: [Option<Entry>; 3],
+    /// What the joint's acceleration is taken for where it is free to choose.
+    pub free: FreeRate,
+    /// Whether composite inertias use the home axes of the parallel group, as `angle_sum` has it
+    /// for motions.
+    pub composite_sum: bool,
+    /// Where this link's wrench for a unit acceleration of its joint meets the motions of the
+    /// joints farther inward: a place on the way to the base; `None` for each joint's own.
+    pub projected_at: Option<Place>,
+}
+
+/// What a joint's acceleration is taken for in forward dynamics, where the bias may be that of any
+/// accelerations q̈*, since q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FreeRate {
+    /// 0.
+    Zero,
+    /// What makes the link's own acceleration along the joint axis vanish: ε_z of a rotation, a_z of
+    /// a translation.
+    Still,
+    /// What makes U₁₂ vanish.
+    Upper,
+    /// What makes U₂₁ vanish.
+    Lower,
+    /// What makes the acceleration of the next link's origin vanish along x.
+    NextX,
+    /// What makes the acceleration of the next link's origin vanish along y.
+    NextY,
+}
+
+impl FreeRate {
+    /// All choices.
+    pub const ALL: [FreeRate; 6] = [
+        FreeRate::Zero,
+        FreeRate::Still,
+        FreeRate::Upper,
+        FreeRate::Lower,
+        FreeRate::NextX,
+        FreeRate::NextY,
+    ];
+}
+
+/// Axes about the origin of a link's working frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The link.
+    pub link: usize,
+    /// The axes of the working frame; otherwise those before the joints of the link's parallel
+    /// group turn it.
+    pub turned: bool,
+}
+
+/// Where a working frame's origin lies on its joint axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Where the robot file has it.
+    File,
+    /// At the foot of the common normal with the next joint's axis (modified Denavit–Hartenberg).
+    NextNormal,
+    /// At the foot of the common normal with the previous joint's axis (Denavit–Hartenberg).
+    PreviousNormal,
+    /// Where the regrouped Σxz vanishes.
+    ZeroXz,
+    /// Where the regrouped Σyz vanishes.
+    ZeroYz,
+    /// At the link's center of mass: for translation joints, whose axis has a direction only.
+    CenterOfMass,
+    /// Where the parent's origin lies at joint position 0: for translation joints.
+    Parent,
+}
+
+/// How a working frame is turned about its joint axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// The x axis as near to the file's as the joint axis allows.
+    File,
+    /// The x axis along the common normal with the next joint's axis.
+    NextNormal,
+    /// The x axis along the regrouped first moment, so that its y component vanishes.
+    FirstMoment,
+}
+
+/// An entry of a link's regrouped inertia that can be made to vanish, or a difference of two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// First moment, x.
+    X,
+    /// First moment, y.
+    Y,
+    /// Second moment Σxx.
+    Xx,
+    /// Second moment Σyy.
+    Yy,
+    /// Second moment Σxy.
+    Xy,
+    /// Second moment Σxz.
+    Xz,
+    /// Second moment Σyz.
+    Yz,
+    /// The difference Σxx − Σyy.
+    XxYy,
+}
+
+impl Entry {
+    /// All entries.
+    pub const ALL: [Entry; 8] =
+        [Entry::X, Entry::Y, Entry::Xx, Entry::Yy, Entry::Xy, Entry::Xz, Entry::Yz, Entry::XxYy];
+}
+
+impl LinkPlan {
+    /// Frames of modified Denavit–Hartenberg, full regrouping, nothing else.
+    pub const BASIC: LinkPlan = LinkPlan {
+        origin: Origin::NextNormal,
+        turn: Turn::NextNormal,
+        angle_sum: false,
+        column: false,
+        doubled: false,
+        moment: [false; 3],
+        diagonal: false,
+        residual: [None; 3],
+        free: FreeRate::Zero,
+        composite_sum: false,
+        projected_at: None,
+    };
+}
+
+impl Plan {
+    /// Whether the plan is one for that many links and names only links that there are.
+    #[must_use]
+    pub fn fits(&self, links: usize) -> bool {
+        let projected_at = self.links.iter().filter_map(|link| link.projected_at);
+        self.links.len() == links
+            && self.unit_length.is_none_or(|(link, component)| link < links && component < 3)
+            && projected_at.into_iter().all(|place| place.link < links)
+    }
+
+    /// What suits most arms, without a search: the cheapest searched plans have most links so.
+    #[must_use]
+    pub fn default_for(robot: &Robot) -> Plan {
+        let link = LinkPlan {
+            angle_sum: true,
+            column: true,
+            doubled: true,
+            moment: [false, false, true],
+            diagonal: true,
+            ..LinkPlan::BASIC
+        };
+        Plan::uniform(robot.links.len(), &link)
+    }
+
+    /// The same plan for every link.
+    #[must_use]
+    pub fn uniform(links: usize, plan: &LinkPlan) -> Plan {
+        Plan { links: vec![plan.clone(); links], unit_length: None }
+    }
+}

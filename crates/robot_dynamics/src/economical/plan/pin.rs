@@ -1,0 +1,313 @@
+//! Pinned plans: what a search found, as text beside the robot file, so that builds need not search.
+
+use std::fmt::Write as _;
+
+use serde::Deserialize;
+
+use crate::economical::plan::search::Measure;
+use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
+
+/// A plan with what it was searched for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pin {
+    /// Identifies the [mechanics](crate::economical::plan::mechanics()) that the plan was searched for; a pin with another is
+    /// stale.
+    pub fingerprint: String,
+    /// Identifies the rest of the pin, [`Pin::content`]; a pin with another was edited.
+    pub digest: String,
+    /// What the search minimized.
+    pub measure: Measure,
+    /// The multiplications and additions of inverse dynamics under the plan.
+    pub operations: usize,
+    /// The plan.
+    pub plan: Plan,
+}
+
+/// Text that is no pin: what is wrong and what was expected.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct PinError(String);
+
+/// The format that is written and read.
+const FORMAT: u32 = 3;
+
+/// The names of options that are on or off, with access to each.
+type Flag = (&'static str, fn(&mut LinkPlan) -> &mut bool);
+
+const FLAGS: [Flag; 8] = [
+    ("angle_sum", |plan| &mut plan.angle_sum),
+    ("column", |plan| &mut plan.column),
+    ("doubled", |plan| &mut plan.doubled),
+    ("diagonal", |plan| &mut plan.diagonal),
+    ("moment_x", |plan| &mut plan.moment[0]),
+    ("moment_y", |plan| &mut plan.moment[1]),
+    ("moment_z", |plan| &mut plan.moment[2]),
+    ("composite_sum", |plan| &mut plan.composite_sum),
+];
+
+const ORIGINS: [(&str, Origin); 7] = [
+    ("file", Origin::File),
+    ("next_normal", Origin::NextNormal),
+    ("previous_normal", Origin::PreviousNormal),
+    ("zero_xz", Origin::ZeroXz),
+    ("zero_yz", Origin::ZeroYz),
+    ("mass_centre", Origin::CenterOfMass),
+    ("parent", Origin::Parent),
+];
+
+const TURNS: [(&str, Turn); 3] =
+    [("file", Turn::File), ("next_normal", Turn::NextNormal), ("first_moment", Turn::FirstMoment)];
+
+const ENTRIES: [(&str, Option<Entry>); 9] = [
+    ("none", None),
+    ("x", Some(Entry::X)),
+    ("y", Some(Entry::Y)),
+    ("xx", Some(Entry::Xx)),
+    ("yy", Some(Entry::Yy)),
+    ("xy", Some(Entry::Xy)),
+    ("xz", Some(Entry::Xz)),
+    ("yz", Some(Entry::Yz)),
+    ("xx_yy", Some(Entry::XxYy)),
+];
+
+const RATES: [(&str, FreeRate); 6] = [
+    ("zero", FreeRate::Zero),
+    ("still", FreeRate::Still),
+    ("upper", FreeRate::Upper),
+    ("lower", FreeRate::Lower),
+    ("next_x", FreeRate::NextX),
+    ("next_y", FreeRate::NextY),
+];
+
+const MEASURES: [(&str, Measure); 2] =
+    [("operations", Measure::Operations), ("instructions", Measure::Instructions)];
+
+impl Pin {
+    /// The text, TOML.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let mut text = String::from(
+            "# The cheapest form of the recursion for the robot file beside this one. Written by\n\
+             # `robot-symbolic search`; after a change of the robot's mechanics, run it again.\n",
+        );
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "format = {FORMAT}\ndigest = \"{}\"", self.digest);
+        text.push_str(&self.content());
+        text
+    }
+
+    /// What the search found and for what, as [`Pin::to_text`] writes it: all but the remarks, the format and
+    /// the digest.
+    #[must_use]
+    pub fn content(&self) -> String {
+        let mut text = format!("fingerprint = \"{}\"\n", self.fingerprint);
+        if self.measure == Measure::Instructions {
+            text.push_str("measure = \"instructions\"\n");
+        }
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "operations = {}", self.operations);
+        if let Some((link, component)) = self.plan.unit_length {
+            let _ = writeln!(text, "unit_length = [{link}, {component}]");
+        }
+        for link in &self.plan.links {
+            text.push_str(&link_text(link));
+        }
+        text
+    }
+
+    /// Reads what [`Pin::to_text`] wrote.
+    ///
+    /// # Errors
+    ///
+    /// Text that is no pin, or one of another version.
+    pub fn from_text(text: &str) -> Result<Pin, PinError> {
+        // The format first: others may have other keys.
+        let RawFormat { format } = read(text)?;
+        match format {
+            FORMAT => {}
+            1 | 2 => {
+                return Err(PinError(format!(
+                    "the pinned plan is of format {format}, which earlier versions wrote; expected {FORMAT}"
+                )));
+            }
+            other => {
+                return Err(PinError(format!(
+                    "the pinned plan is of format {other}, which this version does not know; expected {FORMAT}"
+                )));
+            }
+        }
+        let raw: RawPin = read(text)?;
+        let links = raw.link.iter().map(RawLink::plan).collect::<Result<_, _>>()?;
+        let unit_length = raw.unit_length.map(|[link, component]| (link, component));
+        Ok(Pin {
+            fingerprint: raw.fingerprint,
+            digest: raw.digest,
+            measure: raw
+                .measure
+                .as_deref()
+                .map_or(Ok(Measure::Operations), |name| value_of(&MEASURES, name))?,
+            operations: raw.operations,
+            plan: Plan { links, unit_length },
+        })
+    }
+}
+
+fn link_text(link: &LinkPlan) -> String {
+    let mut plan = link.clone();
+    let flags: Vec<String> = FLAGS
+        .iter()
+        .filter(|(_, flag)| *flag(&mut plan))
+        .map(|(name, _)| format!("\"{name}\""))
+        .collect();
+    let residual = link.residual.map(|entry| format!("\"{}\"", name_of(&ENTRIES, entry)));
+    let mut text = format!(
+        "\n[[link]]\norigin = \"{}\"\nturn = \"{}\"\noptions = [{}]\nresidual = [{}]\nfree = \"{}\"\n",
+        name_of(&ORIGINS, link.origin),
+        name_of(&TURNS, link.turn),
+        flags.join(", "),
+        residual.join(", "),
+        name_of(&RATES, link.free),
+    );
+    if let Some(Place { link, turned }) = link.projected_at {
+        let _ = writeln!(text, "meeting = {{ link = {link}, turned = {turned} }}");
+    }
+    text
+}
+
+fn name_of<T: PartialEq + Copy>(table: &[(&'static str, T)], value: T) -> &'static str {
+    table.iter().find(|(_, known)| *known == value).map_or("", |(name, _)| *name)
+}
+
+fn value_of<T: Copy>(table: &[(&'static str, T)], name: &str) -> Result<T, PinError> {
+    let known = table.iter().find(|(known, _)| *known == name).map(|(_, value)| *value);
+    known.ok_or_else(|| {
+        let names: Vec<&str> = table.iter().map(|(name, _)| *name).collect();
+        PinError(format!("`{name}` is unknown; expected one of {}", names.join(", ")))
+    })
+}
+
+fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, PinError> {
+    toml::from_str(text).map_err(|error| PinError(error.to_string().trim().to_owned()))
+}
+
+#[derive(Deserialize)]
+struct RawFormat {
+    format: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPin {
+    #[serde(rename = "format")]
+    _format: u32,
+    fingerprint: String,
+    digest: String,
+    /// Operations where it is not said.
+    measure: Option<String>,
+    operations: usize,
+    unit_length: Option<[usize; 2]>,
+    #[serde(default)]
+    link: Vec<RawLink>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawLink {
+    origin: String,
+    turn: String,
+    options: Vec<String>,
+    residual: [String; 3],
+    free: String,
+    meeting: Option<RawPlace>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPlace {
+    link: usize,
+    turned: bool,
+}
+
+impl RawLink {
+    fn plan(&self) -> Result<LinkPlan, PinError> {
+        let [mass, first, second] = &self.residual;
+        let mut plan = LinkPlan {
+            origin: value_of(&ORIGINS, &self.origin)?,
+            turn: value_of(&TURNS, &self.turn)?,
+            residual: [
+                value_of(&ENTRIES, mass)?,
+                value_of(&ENTRIES, first)?,
+                value_of(&ENTRIES, second)?,
+            ],
+            free: value_of(&RATES, &self.free)?,
+            projected_at: self
+                .meeting
+                .as_ref()
+                .map(|place| Place { link: place.link, turned: place.turned }),
+            ..LinkPlan::BASIC
+        };
+        for name in &self.options {
+            let flag = value_of(&FLAGS, name)?;
+            *flag(&mut plan) = true;
+        }
+        Ok(plan)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_option_survives_the_round_trip() {
+        let links = ORIGINS.iter().enumerate().map(|(index, (_, origin))| LinkPlan {
+            origin: *origin,
+            turn: TURNS[index % 3].1,
+            column: index % 2 == 0,
+            moment: [index == 1, index == 2, index == 3],
+            residual: [ENTRIES[index].1, ENTRIES[index + 1].1, ENTRIES[index + 2].1],
+            free: RATES[index % 6].1,
+            projected_at: (index > 3).then_some(Place { link: index, turned: index == 5 }),
+            ..LinkPlan::BASIC
+        });
+        let plan = Plan { links: links.collect(), unit_length: Some((3, 1)) };
+        let fingerprint = "ab12".to_owned();
+        let digest = "cd34".to_owned();
+        let pin = Pin { fingerprint, digest, measure: Measure::Operations, operations: 239, plan };
+        assert!(pin.to_text().ends_with(&pin.content()) && !pin.content().contains("cd34"));
+        assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin.clone()));
+        let pin = Pin { measure: Measure::Instructions, ..pin };
+        assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin));
+    }
+
+    #[test]
+    fn other_text_is_no_pin() {
+        let pin = Pin {
+            fingerprint: String::new(),
+            digest: String::new(),
+            measure: Measure::Operations,
+            operations: 0,
+            plan: Plan { links: vec![LinkPlan::BASIC], unit_length: None },
+        };
+        let text = pin.to_text();
+        for (good, bad) in [
+            ("format = 3", "format = 4"),
+            ("format = 3", "format = 1"),
+            ("format = 3", "format = 2"),
+            ("next_normal", "next_norm"),
+            ("options = []", "options = [\"colum\"]"),
+            ("operations", "operation"),
+        ] {
+            assert!(text.contains(good), "{good}");
+            let error = Pin::from_text(&text.replacen(good, bad, 1)).unwrap_err();
+            assert!(!error.to_string().is_empty());
+        }
+        // Another format may have other keys; its number is what is wrong with it.
+        let other = Pin::from_text("format = 4\nplan = \"cheap\"").unwrap_err().to_string();
+        assert!(other.contains("format 4") && other.contains("expected 3"), "{other}");
+        for format in ["format = 1", "format = 2"] {
+            let earlier = Pin::from_text(&text.replacen("format = 3", format, 1)).unwrap_err();
+            assert!(earlier.to_string().contains("earlier version"), "{earlier}");
+        }
+    }
+}

@@ -1,0 +1,445 @@
+//! The search for the cheapest plan of a robot, by regenerating and counting.
+//!
+//! Coordinate descent in a fixed order: deterministic, bounded, and each step a whole generation, so
+//! that a plan's cost is what the code will have. A plan is taken only where its torques agree with
+//! those of the paper's iterations at test states.
+
+use std::collections::BTreeSet;
+
+use robot_model::functions::Effects;
+use robot_model::robot::{Parameter, Robot};
+use robot_symbolic::{Counter, Expr, Graph, Operations, SymbolId, walk};
+
+use crate::economical::Recursion;
+use crate::economical::frames::chain::Base;
+use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
+use crate::mechanism::{Mechanism, MechanismOptions};
+use crate::newton_euler;
+
+/// A plan must reproduce the torques to this fraction of the largest.
+const TOLERANCE: f64 = 1e-12;
+/// Sweeps over all options of all links after which the descent ends, improved or not.
+const MAX_SWEEPS: usize = 6;
+/// How many of the starting plans are descended from: the cheapest.
+const DESCENTS: usize = 2;
+/// Plans after which no new descent begins.
+const MAX_TRIES: usize = 3000;
+/// Operations, summed over the candidates, after which a search ends with the best plan so far: the time
+/// of a search goes with them. The longest arms of seven joints take some two million and a second.
+/// A chain of dozens of joints, of which not even the first sweep would fit, is not descended from at
+/// all: its plan is the best of the uniform ones.
+const MAX_WORK: usize = 2_500_000;
+/// The same for searches that count several functions, of which each may be ten times as long.
+const MAX_WORK_FOR: usize = 40 * MAX_WORK;
+
+/// What a search minimizes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    /// Multiplications and additions.
+    #[default]
+    Operations,
+    /// The same where each product and the sum that alone uses it are one multiply-add: for targets
+    /// that have the instruction, and code that uses it.
+    Instructions,
+}
+
+impl Measure {
+    fn of(self, count: &Operations) -> usize {
+        match self {
+            Measure::Operations => count.flops(),
+            Measure::Instructions => count.instructions(),
+        }
+    }
+}
+
+/// What a search found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The cheapest plan.
+    pub plan: Plan,
+    /// What was minimized.
+    pub measure: Measure,
+    /// The plan's multiplications and additions, sines and cosines apart.
+    pub operations: usize,
+    /// The same, fusible pairs counted once.
+    pub instructions: usize,
+    /// How many plans were generated and counted.
+    pub tried: usize,
+    /// Whether the search ended early, for the length of the mechanism: then it is the best plan that
+    /// was met, and others were not tried.
+    pub cut_short: bool,
+}
+
+/// What a search counts and checks of a candidate.
+#[derive(Clone, Debug)]
+pub struct Objective<'g> {
+    /// The expressions whose operations count.
+    pub counted: Vec<Expr<'g>>,
+    /// The expressions that must have the right values.
+    pub checked: Vec<Expr<'g>>,
+}
+
+impl<'g> Objective<'g> {
+    /// Expressions that are both counted and checked.
+    #[must_use]
+    pub fn new(roots: Vec<Expr<'g>>) -> Objective<'g> {
+        Objective { checked: roots.clone(), counted: roots }
+    }
+}
+
+type ObjectiveOf<'m, 'g> = &'m dyn Fn(&Recursion<'g>) -> Objective<'g>;
+
+/// Which options a search tries, besides those of frames and inertias.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scope {
+    /// Those of the recursion over motions and forces.
+    pub motions: bool,
+    /// Those of composite inertias.
+    pub composites: bool,
+    /// The choice of accelerations in forward dynamics.
+    pub free: bool,
+}
+
+/// Searches the cheapest plan for inverse dynamics.
+///
+/// The robot's parameters are free: what depends on them alone costs nothing. `None` if the
+/// economical recursion does not apply (a joint axis that depends on parameters).
+#[must_use]
+pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Option<Found> {
+    let graph = Graph::new();
+    let mechanism = Mechanism::new(robot, &graph, options);
+    let base = Base::new(&mechanism)?;
+    let effects = Effects { wrench: false, friction: false };
+    let reference = newton_euler::newton_euler(&mechanism, effects).generalized_forces;
+    let torques: ObjectiveOf<'_, '_> =
+        &|recursion| Objective::new(recursion.inverse_dynamics(false));
+    let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
+    search.measure = measure;
+    Some(search.run(Scope { motions: true, composites: false, free: false }))
+}
+
+/// Searches the plan with the fewest multiplications and additions for any functions.
+///
+/// Candidates are held against the values under the plan that keeps the file's frames. `None` if
+/// the economical recursion does not apply (a joint axis that depends on parameters).
+#[must_use]
+pub fn search_for(
+    robot: &Robot,
+    options: &MechanismOptions,
+    scope: Scope,
+    objective: &dyn for<'m, 'g> Fn(&'m Mechanism<'g>, &Recursion<'g>) -> Objective<'g>,
+) -> Option<Found> {
+    let graph = Graph::new();
+    let mechanism = Mechanism::new(robot, &graph, options);
+    let base = Base::new(&mechanism)?;
+    let file = Plan::uniform(mechanism.links.len(), &FILE);
+    let of_mechanism: ObjectiveOf<'_, '_> = &|recursion| objective(&mechanism, recursion);
+    let reference = of_mechanism(&Recursion::from_base(&mechanism, &base, &file)).checked;
+    let mut search = Search::new(robot, &mechanism, &base, of_mechanism, &reference);
+    search.max_work = MAX_WORK_FOR;
+    Some(search.run(scope))
+}
+
+/// The frames of the file.
+const FILE: LinkPlan = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC };
+
+/// Plans to descend from: the same options for every link.
+fn starts(links: usize) -> Vec<Plan> {
+    let searched = LinkPlan { angle_sum: true, column: true, diagonal: true, ..LinkPlan::BASIC };
+    let starts = [
+        LinkPlan::BASIC,
+        FILE,
+        LinkPlan { moment: [false, false, true], ..searched.clone() },
+        LinkPlan { moment: [true; 3], doubled: true, ..searched.clone() },
+        LinkPlan { origin: Origin::PreviousNormal, composite_sum: true, ..searched },
+    ];
+    starts.iter().map(|start| Plan::uniform(links, start)).collect()
+}
+
+/// A fixed sequence of pseudo-random numbers (xorshift): the search is the same at every run.
+struct Steps(u64);
+
+impl Steps {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 33) as usize % bound.max(1)
+    }
+}
+
+struct Search<'m, 'g> {
+    mechanism: &'m Mechanism<'g>,
+    base: &'m Base<'g>,
+    objective: ObjectiveOf<'m, 'g>,
+    /// The robot's parameters: all other symbols are inputs.
+    parameters: BTreeSet<SymbolId>,
+    counter: Counter,
+    states: Vec<Vec<f64>>,
+    reference: Vec<Vec<f64>>,
+    measure: Measure,
+    tried: usize,
+    work: usize,
+    max_work: usize,
+}
+
+impl<'m, 'g> Search<'m, 'g> {
+    fn new(
+        robot: &Robot,
+        mechanism: &'m Mechanism<'g>,
+        base: &'m Base<'g>,
+        objective: ObjectiveOf<'m, 'g>,
+        reference: &[Expr<'g>],
+    ) -> Search<'m, 'g> {
+        let graph = mechanism.graph;
+        let symbol =
+            |parameter: &Parameter| graph.find_symbol(&parameter.name).and_then(Expr::as_symbol);
+        let parameters = robot.parameters.iter().filter_map(symbol).collect();
+        let states: Vec<Vec<f64>> =
+            (0..4).map(|state| test_state(state, graph.symbol_count())).collect();
+        let reference = states.iter().map(|state| evaluate(reference, state)).collect();
+        Search {
+            mechanism,
+            base,
+            objective,
+            parameters,
+            counter: Counter::default(),
+            states,
+            reference,
+            measure: Measure::Operations,
+            tried: 0,
+            work: 0,
+            max_work: MAX_WORK,
+        }
+    }
+
+    /// The best of the descents from the cheapest of a few plans, and of further descents from
+    /// neighbors of the best.
+    fn run(&mut self, scope: Scope) -> Found {
+        let mut ranked: Vec<(usize, Plan)> = vec![];
+        for start in starts(self.mechanism.links.len()) {
+            ranked.push((self.cost(&start), start));
+        }
+        ranked.sort_by_key(|(cost, _)| *cost);
+        let (mut best, mut plan) = ranked[0].clone();
+        if !self.can_sweep(scope, &plan, best) {
+            self.end();
+        }
+        for (cost, start) in ranked.into_iter().take(DESCENTS) {
+            let found = self.descend(scope, start, cost);
+            if found.0 < best {
+                (best, plan) = found;
+            }
+        }
+        // Out of a dead end by a few changes at random, from there downhill again.
+        let mut steps = Steps(1);
+        while self.tried < MAX_TRIES && !self.is_spent() && !plan.links.is_empty() {
+            let perturbed = self.perturb(scope, &plan, &mut steps);
+            let cost = self.cost(&perturbed);
+            let (cost, candidate) = self.descend(scope, perturbed, cost);
+            if cost <= best && self.better(&candidate, best + 1).is_some() {
+                (best, plan) = (cost, candidate);
+            }
+        }
+        let (tried, cut_short) = (self.tried, self.is_spent());
+        let candidate = self.candidate(&plan);
+        let count = self.operations(&candidate.counted);
+        let (operations, instructions) = (count.flops(), count.instructions());
+        Found { plan, measure: self.measure, operations, instructions, tried, cut_short }
+    }
+
+    /// Whether there is work left for all changes of all links once.
+    fn can_sweep(&self, scope: Scope, plan: &Plan, cost: usize) -> bool {
+        let links = plan.links.iter().enumerate();
+        let changes: usize =
+            links.map(|(link, plan)| self.alternatives(scope, plan, link).len()).sum();
+        self.work + changes * cost <= self.max_work
+    }
+
+    /// A plan with a few options changed.
+    fn perturb(&self, scope: Scope, plan: &Plan, steps: &mut Steps) -> Plan {
+        let mut perturbed = plan.clone();
+        for _ in 0..2 + steps.below(3) {
+            let link = steps.below(perturbed.links.len());
+            let changes = self.alternatives(scope, &perturbed.links[link], link);
+            let change = steps.below(changes.len());
+            changes[change](&mut perturbed.links[link]);
+        }
+        perturbed
+    }
+
+    fn candidate(&self, plan: &Plan) -> Objective<'g> {
+        (self.objective)(&Recursion::from_base(self.mechanism, self.base, plan))
+    }
+
+    fn cost(&mut self, plan: &Plan) -> usize {
+        let candidate = self.candidate(plan);
+        self.cost_of(&candidate)
+    }
+
+    fn cost_of(&mut self, candidate: &Objective<'g>) -> usize {
+        let count = self.operations(&candidate.counted);
+        self.tried += 1;
+        self.work += count.flops();
+        self.measure.of(&count)
+    }
+
+    /// Lets nothing more be tried.
+    fn end(&mut self) {
+        self.work = self.max_work;
+    }
+
+    fn is_spent(&self) -> bool {
+        self.work >= self.max_work
+    }
+
+    fn operations(&mut self, roots: &[Expr<'g>]) -> Operations {
+        let Search { counter, parameters, .. } = self;
+        counter.count(roots, |symbol| parameters.contains(&symbol))
+    }
+
+    /// The cost where it is below a bound and the values are right.
+    fn better(&mut self, plan: &Plan, bound: usize) -> Option<usize> {
+        let candidate = self.candidate(plan);
+        let cost = self.cost_of(&candidate);
+        (cost < bound && self.is_accurate(&candidate.checked)).then_some(cost)
+    }
+
+    fn is_accurate(&self, roots: &[Expr<'g>]) -> bool {
+        self.states.iter().zip(&self.reference).all(|(state, reference)| {
+            let size = reference.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+            let values = evaluate(roots, state);
+            // A comparison with NaN is false: such a plan is refused.
+            values.iter().zip(reference).all(|(a, b)| (a - b).abs() <= TOLERANCE * size)
+        })
+    }
+
+    fn descend(&mut self, scope: Scope, mut plan: Plan, mut cost: usize) -> (usize, Plan) {
+        for _ in 0..MAX_SWEEPS {
+            let before = cost;
+            for link in (0..plan.links.len()).rev() {
+                for alternative in self.alternatives(scope, &plan.links[link], link) {
+                    self.try_link(&mut plan, &mut cost, link, &alternative);
+                }
+            }
+            self.descend_unit(&mut plan, &mut cost);
+            if cost == before {
+                break;
+            }
+        }
+        (cost, plan)
+    }
+
+    /// The changes of one option, or of two that go together, of a link.
+    fn alternatives(&self, scope: Scope, current: &LinkPlan, link: usize) -> Vec<Change> {
+        let mut changes = frame_changes(current);
+        if scope.motions {
+            changes.extend(motion_changes());
+        }
+        if scope.free {
+            for free in FreeRate::ALL {
+                changes.push(Box::new(move |plan| plan.free = free));
+            }
+        }
+        if scope.composites {
+            changes.push(Box::new(|plan| plan.composite_sum ^= true));
+            changes.push(Box::new(|plan| plan.projected_at = None));
+            let mut inward = Some(link);
+            while let Some(link) = inward {
+                for turned in [false, true] {
+                    let place = Some(Place { link, turned });
+                    changes.push(Box::new(move |plan| plan.projected_at = place));
+                }
+                inward = self.mechanism.links[link].parent;
+            }
+        }
+        changes
+    }
+
+    fn try_link(&mut self, plan: &mut Plan, cost: &mut usize, link: usize, change: &Change) {
+        let mut candidate = plan.clone();
+        change(&mut candidate.links[link]);
+        if candidate.links[link] == plan.links[link] || self.is_spent() {
+            return;
+        }
+        if let Some(lower) = self.better(&candidate, *cost) {
+            (*plan, *cost) = (candidate, lower);
+        }
+    }
+
+    fn descend_unit(&mut self, plan: &mut Plan, cost: &mut usize) {
+        let components = (0..plan.links.len()).flat_map(|link| (0..3).map(move |k| (link, k)));
+        for unit in components {
+            if self.is_spent() {
+                return;
+            }
+            let candidate = Plan { unit_length: Some(unit), ..plan.clone() };
+            if let Some(lower) = self.better(&candidate, *cost) {
+                (*plan, *cost) = (candidate, lower);
+            }
+        }
+    }
+}
+
+type Change = Box<dyn Fn(&mut LinkPlan)>;
+
+/// Changes of working frames and of what stays with a link.
+fn frame_changes(current: &LinkPlan) -> Vec<Change> {
+    let mut changes: Vec<Change> = vec![];
+    let origins = [
+        Origin::File,
+        Origin::NextNormal,
+        Origin::PreviousNormal,
+        Origin::ZeroXz,
+        Origin::ZeroYz,
+        Origin::CenterOfMass,
+        Origin::Parent,
+    ];
+    for turn in [current.turn, Turn::File, Turn::NextNormal, Turn::FirstMoment] {
+        for origin in origins {
+            changes.push(Box::new(move |plan| {
+                (plan.origin, plan.turn) = (origin, turn);
+            }));
+        }
+    }
+    for kind in 0..3 {
+        changes.push(Box::new(move |plan| plan.residual[kind] = None));
+        for entry in Entry::ALL {
+            changes.push(Box::new(move |plan| plan.residual[kind] = Some(entry)));
+        }
+    }
+    changes
+}
+
+/// Changes of the recursion over motions and forces.
+fn motion_changes() -> Vec<Change> {
+    let mut changes: Vec<Change> = vec![
+        Box::new(|plan| plan.angle_sum ^= true),
+        Box::new(|plan| plan.column ^= true),
+        Box::new(|plan| plan.diagonal ^= true),
+        Box::new(|plan| plan.doubled ^= true),
+        Box::new(|plan| {
+            plan.column ^= true;
+            plan.diagonal ^= true;
+        }),
+        Box::new(|plan| {
+            plan.angle_sum ^= true;
+            plan.column ^= true;
+        }),
+    ];
+    for k in 0..3 {
+        changes.push(Box::new(move |plan| plan.moment[k] ^= true));
+    }
+    changes
+}
+
+fn evaluate(roots: &[Expr<'_>], state: &[f64]) -> Vec<f64> {
+    walk::evaluate(roots, |symbol| state.get(symbol.index()).copied().unwrap_or(f64::NAN))
+}
+
+/// Values for all symbols, spread by the golden ratio: parameters positive, states of order 1.
+fn test_state(state: usize, symbols: usize) -> Vec<f64> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let value = |symbol: usize| ((state * 131 + symbol + 1) as f64 * GOLDEN).fract() + 0.4;
+    (0..symbols).map(value).collect()
+}

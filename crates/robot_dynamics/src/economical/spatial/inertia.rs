@@ -1,0 +1,151 @@
+//! Links as pseudo-inertias.
+
+use robot_symbolic::{Expr, Graph};
+
+use crate::economical::plan::Entry;
+use crate::mechanism::MechanismLink;
+use crate::vector::{Matrix, Vector};
+
+/// What rounding leaves of a moment that vanishes, in units of the largest.
+const ROUNDING: f64 = 1e-14;
+
+/// The distribution of mass of a body in some frame: the 4 × 4 pseudo-inertia
+/// P = \[\[Σ, h\], \[hᵀ, m\]\] by its blocks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PseudoInertia<'g> {
+    /// Second moments Σ = ∫ r rᵀ dm, kg m²; the inertia tensor is tr(Σ) 1 − Σ.
+    pub(crate) second: Matrix<'g>,
+    /// First moment h = ∫ r dm, kg m.
+    pub(crate) first: Vector<'g>,
+    /// Mass m = ∫ dm, kg.
+    pub(crate) mass: Expr<'g>,
+}
+
+impl<'g> PseudoInertia<'g> {
+    pub(crate) fn zero(graph: &'g Graph) -> PseudoInertia<'g> {
+        PseudoInertia {
+            second: Matrix::zero(graph),
+            first: Vector::zero(graph),
+            mass: graph.zero(),
+        }
+    }
+
+    /// The link's own, in the link's frame.
+    pub(crate) fn of_link(link: &MechanismLink<'g>) -> PseudoInertia<'g> {
+        let graph = link.mass.graph();
+        let (inertia, center) = (link.inertia, link.center_of_mass);
+        // About the center of mass J = tr(Σ) 1 − Σ, hence tr J = 2 tr Σ.
+        let central = Matrix::identity(graph) * (inertia.trace() / 2) - inertia;
+        let first = center * link.mass;
+        PseudoInertia { second: central + Matrix::outer(first, center), first, mass: link.mass }
+    }
+
+    /// Masses on a line through the origin: mass, first and second moment along a unit vector.
+    pub(crate) fn rod([mass, first, second]: [Expr<'g>; 3], direction: Vector<'g>) -> Self {
+        PseudoInertia {
+            second: Matrix::outer(direction, direction) * second,
+            first: direction * first,
+            mass,
+        }
+    }
+
+    /// The same body in a frame in which its own lies at `origin`, turned by `rotation`: T P Tᵀ.
+    pub(crate) fn seen_from(self, rotation: Matrix<'g>, origin: Vector<'g>) -> PseudoInertia<'g> {
+        let turned = rotation * self.first;
+        let mixed = Matrix::outer(turned, origin);
+        let second = rotation * self.second * rotation.transpose()
+            + (mixed + mixed.transpose())
+            + Matrix::outer(origin * self.mass, origin);
+        PseudoInertia { second, first: turned + origin * self.mass, mass: self.mass }.symmetric()
+    }
+
+    /// The same body in a frame that lies at `origin`, turned by `rotation`, in this one.
+    pub(crate) fn seen_in(self, rotation: Matrix<'g>, origin: Vector<'g>) -> PseudoInertia<'g> {
+        let back = rotation.transpose();
+        self.seen_from(back, -(back * origin))
+    }
+
+    pub(crate) fn plus(self, other: PseudoInertia<'g>) -> PseudoInertia<'g> {
+        PseudoInertia {
+            second: self.second + other.second,
+            first: self.first + other.first,
+            mass: self.mass + other.mass,
+        }
+    }
+
+    pub(crate) fn minus(self, other: PseudoInertia<'g>) -> PseudoInertia<'g> {
+        PseudoInertia {
+            second: self.second - other.second,
+            first: self.first - other.first,
+            mass: self.mass - other.mass,
+        }
+    }
+
+    /// The entries that a rotation about z cannot tell from those of the parent: m, h_z, Σzz.
+    pub(crate) fn along_z(self) -> [Expr<'g>; 3] {
+        [self.mass, self.first.0[2], self.second.0[2][2]]
+    }
+
+    /// Sets m, h_z and Σzz.
+    pub(crate) fn with_along_z(mut self, [mass, first, second]: [Expr<'g>; 3]) -> Self {
+        (self.mass, self.first.0[2], self.second.0[2][2]) = (mass, first, second);
+        self
+    }
+
+    pub(crate) fn entry(&self, entry: Entry) -> Expr<'g> {
+        let (Vector(h), Matrix(s)) = (self.first, self.second);
+        match entry {
+            Entry::X => h[0],
+            Entry::Y => h[1],
+            Entry::Xx => s[0][0],
+            Entry::Yy => s[1][1],
+            Entry::Xy => s[0][1],
+            Entry::Xz => s[0][2],
+            Entry::Yz => s[1][2],
+            Entry::XxYy => s[0][0] - s[1][1],
+        }
+    }
+
+    /// Makes an entry exactly 0 after it was solved for: rounding would leave a residue.
+    pub(crate) fn clear(&mut self, entry: Entry) {
+        let zero = self.mass.graph().zero();
+        let (Vector(h), Matrix(s)) = (&mut self.first, &mut self.second);
+        match entry {
+            Entry::X => h[0] = zero,
+            Entry::Y => h[1] = zero,
+            Entry::Xx => s[0][0] = zero,
+            Entry::Yy => s[1][1] = zero,
+            Entry::Xy => (s[0][1], s[1][0]) = (zero, zero),
+            Entry::Xz => (s[0][2], s[2][0]) = (zero, zero),
+            Entry::Yz => (s[1][2], s[2][1]) = (zero, zero),
+            Entry::XxYy => s[1][1] = s[0][0],
+        }
+    }
+
+    /// Rounded moments next to 0, against the largest of their kind, are 0: they come from turning
+    /// by an angle that makes them vanish.
+    pub(crate) fn clean(mut self) -> PseudoInertia<'g> {
+        let zero = self.mass.graph().zero();
+        let clean = |entries: &mut dyn Iterator<Item = &mut Expr<'g>>| {
+            let mut entries: Vec<_> = entries.collect();
+            let size = |entry: &Expr<'g>| entry.as_number().map_or(0.0, |n| n.to_f64().abs());
+            let largest = entries.iter().map(|entry| size(entry)).fold(0.0, f64::max);
+            for entry in &mut entries {
+                let rounded = entry.as_number().is_some_and(|n| n.as_rational().is_none());
+                if rounded && size(entry) < ROUNDING * largest {
+                    **entry = zero;
+                }
+            }
+        };
+        clean(&mut self.first.0.iter_mut());
+        clean(&mut self.second.0.iter_mut().flatten());
+        self
+    }
+
+    /// The upper triangle copied to the lower, so that both are one expression.
+    fn symmetric(mut self) -> PseudoInertia<'g> {
+        let Matrix(s) = &mut self.second;
+        (s[1][0], s[2][0], s[2][1]) = (s[0][1], s[0][2], s[1][2]);
+        self
+    }
+}

@@ -1,0 +1,198 @@
+//! The joint torques along a trajectory, split by cause.
+
+use robot_build::{Effects, FunctionKind, Programs, Trigonometry, too_large_angle};
+use robot_codegen::Interpreter;
+use robot_model::diagnostic::number;
+use robot_model::robot::Robot;
+use robot_model::variable::JointVariable::{Acceleration, Position, Torque, Velocity};
+use robot_model::variable::WRENCH;
+
+use crate::error::Error;
+use crate::program::{check_functions, difference};
+use crate::table::Table;
+use crate::trajectory::Trajectory;
+
+/// The joint torques along a trajectory, N m or N, each with a sample of n entries for each time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TorqueContributions {
+    /// t, s.
+    pub t: Vec<f64>,
+    /// The whole joint torque τ: the sum of the shares.
+    pub total: Vec<Vec<f64>>,
+    /// That of the accelerations, M q̈.
+    pub inertia: Vec<Vec<f64>>,
+    /// That of the velocities, C q̇: Coriolis and centrifugal forces.
+    pub coriolis: Vec<Vec<f64>>,
+    /// That of the weight, g.
+    pub gravity: Vec<Vec<f64>>,
+    /// That of friction, Q_f, if it is asked for. It holds the dry friction that a wrench causes
+    /// by its load.
+    pub friction: Option<Vec<Vec<f64>>>,
+    /// That of the tips' wrenches, if they are given.
+    pub wrench: Option<Vec<Vec<f64>>>,
+}
+
+/// The samples of a share over time, a column for each coordinate.
+type Series = Vec<Vec<f64>>;
+
+impl TorqueContributions {
+    /// The functions that the programs need.
+    #[must_use]
+    pub fn functions(friction: bool, wrench: bool) -> Vec<FunctionKind> {
+        use FunctionKind as Kind;
+        let mut kinds = vec![Kind::MassMatrix, Kind::Bias, Kind::Gravity];
+        if friction || wrench {
+            kinds.push(Kind::InverseDynamics(Effects::NONE));
+        }
+        if wrench {
+            kinds.push(Kind::InverseDynamics(Effects::WRENCH));
+        }
+        if friction {
+            kinds.push(Kind::InverseDynamics(Effects { friction, wrench }));
+        }
+        kinds
+    }
+
+    /// The shares that there are, by name, the total last.
+    #[must_use]
+    pub fn named(&self) -> Vec<(&'static str, &Series)> {
+        let mut contributions = vec![
+            ("inertia", &self.inertia),
+            ("coriolis", &self.coriolis),
+            ("gravity", &self.gravity),
+        ];
+        contributions.extend(self.friction.as_ref().map(|series| ("friction", series)));
+        contributions.extend(self.wrench.as_ref().map(|series| ("wrench", series)));
+        contributions.push(("total", &self.total));
+        contributions
+    }
+
+    /// The columns t, tau1 …, then each share's: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
+    /// wrench1 ….
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let mut table = Table::default();
+        table.push("t", self.t.clone());
+        table.push_numbered(Torque.name(), &self.total);
+        for (name, series) in self.named().into_iter().filter(|(name, _)| *name != "total") {
+            table.push_numbered(name, series);
+        }
+        table
+    }
+}
+
+/// The joint torques along a trajectory of the robot, the inverse problem (6) of the paper, split by
+/// cause; `given` are parameters that are not to have their nominal values. The programs have the
+/// functions of [`TorqueContributions::functions`].
+///
+/// # Errors
+///
+/// Functions that the programs lack, parameters without values, samples of the wrong length.
+pub fn torque_contributions(
+    programs: &Programs,
+    given: &[(&str, f64)],
+    trajectory: &Trajectory,
+    friction: bool,
+) -> Result<TorqueContributions, Error> {
+    let wrench = trajectory.wrenches.is_some();
+    check_functions(programs, &TorqueContributions::functions(friction, wrench))?;
+    let interpreter = Interpreter::new(&programs.module, given)?;
+    let loads = wrenches(&programs.robot, trajectory);
+    let motion = Motion { interpreter: &interpreter, trajectory, loads: &loads };
+    let contributions = motion.contributions(friction)?;
+    for ((total, t), q) in contributions.total.iter().zip(&contributions.t).zip(&trajectory.q) {
+        if total.iter().all(|torque| torque.is_finite()) {
+            continue;
+        }
+        let angle = too_large_angle(&programs.robot, q, Trigonometry::default());
+        let why = angle.unwrap_or_else(|| {
+            "look at the size of the trajectory and of the parameters".to_owned()
+        });
+        let message = format!("at t = {} s torques have no finite value; {why}", number(*t));
+        return Err(Error::input(message));
+    }
+    Ok(contributions)
+}
+
+/// The wrench of each tip along a trajectory, by the names of the functions' inputs.
+fn wrenches(robot: &Robot, trajectory: &Trajectory) -> Vec<(String, Series)> {
+    let Some(samples) = &trajectory.wrenches else { return vec![] };
+    let name = |tip| format!("{WRENCH}{}", robot.wrench_suffix(tip));
+    let of_tip = |tip: usize| {
+        let chunk = |sample: &Vec<f64>| sample.chunks(6).nth(tip).unwrap_or_default().to_vec();
+        samples.iter().map(chunk).collect()
+    };
+    let tips = robot.tips().enumerate();
+    tips.map(|(tip, (frame, _))| (name(frame), of_tip(tip))).collect()
+}
+
+/// A trajectory whose joint torques are computed.
+struct Motion<'t> {
+    interpreter: &'t Interpreter<'t>,
+    trajectory: &'t Trajectory,
+    loads: &'t [(String, Series)],
+}
+
+impl Motion<'_> {
+    /// The outputs of a function at all times.
+    fn series(&self, kind: FunctionKind, inputs: &[(&str, &[Vec<f64>])]) -> Result<Series, Error> {
+        let callable = self.interpreter.function(kind.name())?;
+        Ok(callable.states(self.trajectory.t.len(), inputs)?)
+    }
+
+    fn contributions(&self, friction: bool) -> Result<TorqueContributions, Error> {
+        use FunctionKind as Kind;
+        let Trajectory { t, q, qd, qdd, wrenches } = self.trajectory;
+        let motion = [(Position, q), (Velocity, qd), (Acceleration, qdd)]
+            .map(|(variable, samples)| (variable.name(), samples.as_slice()));
+        let loads = self.loads.iter().map(|(name, wrench)| (name.as_str(), wrench.as_slice()));
+        let loaded: Vec<(&str, &[Vec<f64>])> = motion.into_iter().chain(loads).collect();
+        let matrices = self.series(Kind::MassMatrix, &motion[..1])?;
+        let inertia: Series =
+            matrices.iter().zip(qdd).map(|(matrix, qdd)| product(matrix, qdd)).collect();
+        let gravity = self.series(Kind::Gravity, &motion[..1])?;
+        let coriolis = differences(&self.series(Kind::Bias, &motion[..2])?, &gravity);
+        let wrench = wrenches.is_some();
+        let of = |friction| Kind::InverseDynamics(Effects { friction, wrench });
+        let without = match friction || wrench {
+            true => self.series(of(false), &loaded)?,
+            false => vec![],
+        };
+        let friction = friction.then(|| self.series(of(true), &loaded)).transpose()?;
+        let friction = friction.map(|with| differences(&with, &without));
+        let unloaded = wrench.then(|| self.series(Kind::InverseDynamics(Effects::NONE), &motion));
+        let wrench = unloaded.transpose()?.map(|unloaded| differences(&without, &unloaded));
+        let mut contributions = TorqueContributions {
+            t: t.clone(),
+            total: vec![],
+            inertia,
+            coriolis,
+            gravity,
+            friction,
+            wrench,
+        };
+        let parts = contributions.named();
+        let parts = parts.into_iter().filter(|(name, _)| *name != "total");
+        let parts: Vec<&Series> = parts.map(|(_, series)| series).collect();
+        contributions.total = (0..t.len()).map(|time| sum(&parts, time)).collect();
+        Ok(contributions)
+    }
+}
+
+/// M q̈ of a mass matrix, row by row.
+fn product(matrix: &[f64], qdd: &[f64]) -> Vec<f64> {
+    let rows = matrix.chunks(qdd.len().max(1));
+    rows.map(|row| row.iter().zip(qdd).map(|(m, qdd)| m * qdd).sum()).collect()
+}
+
+/// a − b at all times.
+fn differences(a: &[Vec<f64>], b: &[Vec<f64>]) -> Series {
+    a.iter().zip(b).map(|(a, b)| difference(a, b)).collect()
+}
+
+/// The sum of some shares at a time.
+fn sum(parts: &[&Series], time: usize) -> Vec<f64> {
+    let samples = || parts.iter().filter_map(|part| part.get(time));
+    let entries = samples().map(Vec::len).max().unwrap_or_default();
+    (0..entries).map(|entry| samples().filter_map(|sample| sample.get(entry)).sum()).collect()
+}
