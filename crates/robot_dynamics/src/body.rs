@@ -16,18 +16,18 @@ pub(crate) const TENSOR: usize = 4;
 /// The entries of the tensor in the order of the parameters.
 pub(crate) const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
 
-/// What the last six of a body's parameters are.
+/// The meaning of the last six of a body's parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moments {
     /// The inertia tensor I.
     Inertia,
-    /// The second moments Σ = ∫ r rᵀ dm; I = tr(Σ) 1 − Σ. What is said of a tensor's entries, and its
-    /// turning, holds for them alike.
+    /// The second moments Σ = ∫ r rᵀ dm; I = tr(Σ) 1 − Σ. Both are indexed and turned in the
+    /// same way.
     Second,
 }
 
 impl Moments {
-    /// The tensor of these second moments.
+    /// The inertia tensor of these second moments.
     pub(crate) fn of_second<'g>(self, second: Matrix<'g>) -> Matrix<'g> {
         match self {
             Moments::Inertia => Matrix::identity(second.0[0][0].graph()) * second.trace() - second,
@@ -48,7 +48,7 @@ pub(crate) struct Body<'g> {
 }
 
 impl<'g> Body<'g> {
-    /// The link's own, about the origin of its frame.
+    /// The link's body, about the origin of the link's frame.
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> Body<'g> {
         let center = link.center_of_mass;
         let first = center * link.mass;
@@ -57,7 +57,7 @@ impl<'g> Body<'g> {
         Body { mass: link.mass, first, tensor }
     }
 
-    /// A unit of one parameter, nothing of the others.
+    /// A body with one parameter 1 and the others 0.
     pub(crate) fn unit(graph: &'g Graph, parameter: usize) -> Body<'g> {
         let one_at = |place: usize| graph.integer(i64::from(parameter == place));
         Body {
@@ -67,7 +67,7 @@ impl<'g> Body<'g> {
         }
     }
 
-    /// The same body in the axes that `rotation` takes its components to.
+    /// This body in the axes that `rotation` takes its components to.
     pub(crate) fn turned(self, rotation: Matrix<'g>) -> Body<'g> {
         Body {
             mass: self.mass,
@@ -76,7 +76,7 @@ impl<'g> Body<'g> {
         }
     }
 
-    /// The same body about an origin from which its own lies at `arm`.
+    /// This body about an origin from which its own origin lies at `arm`.
     pub(crate) fn about(self, arm: Vector<'g>) -> Body<'g> {
         let Body { mass, first, tensor } = self;
         let diagonal = Matrix::identity(mass.graph()) * (first.dot(arm) * 2 + arm.dot(arm) * mass);

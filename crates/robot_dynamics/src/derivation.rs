@@ -1,4 +1,4 @@
-//! A robot in symbols with its recursion: what functions and base parameters are derived from.
+//! A robot in symbols with its recursion: the source of all functions and base parameters.
 
 use std::cell::OnceCell;
 
@@ -21,7 +21,7 @@ pub struct Derivation<'r, 'g> {
     /// The economical recursion; `None` if a joint axis depends on parameters, for which it
     /// cannot be set up: functions then come from the paper's iterations.
     pub recursion: Option<Recursion<'g>>,
-    /// Whether pivots of the mass matrix may be small; found when it is asked for.
+    /// Whether pivots of the mass matrix may be small; computed on first use.
     pub(crate) small_pivots: OnceCell<bool>,
 }
 
@@ -51,7 +51,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         operations(roots, |symbol| free.contains(&symbol))
     }
 
-    /// The same robot in the same graph under another plan.
+    /// This robot in the same graph, under another plan.
     #[must_use]
     pub fn with_plan(&self, plan: &Plan) -> Derivation<'r, 'g> {
         let mechanism = self.mechanism.clone();
@@ -66,7 +66,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         names.iter().map(|name| self.mechanism.graph.symbol(name)).collect()
     }
 
-    /// The paper's joint torques with some variables 0: what stands in where the economical recursion
+    /// The paper's joint torques with some variables 0: the substitute if the economical recursion
     /// cannot be set up.
     pub(crate) fn paper_torques(&self, wrench: bool, zero: &[JointVariable]) -> Vec<Expr<'g>> {
         let effects = Effects { wrench, friction: false };

@@ -2,10 +2,10 @@
 
 use robot_symbolic::{Expr, Graph};
 
-/// What is known of the pivots of a matrix that is to be positive definite.
+/// Knowledge about the pivots of a matrix that must be positive definite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pivots {
-    /// Nothing: one that is not above 0 and finite makes NaN of what depends on it.
+    /// Nothing is known: a pivot that is not above 0 and finite makes all results that depend on it NaN.
     Checked,
     /// They are above 0 and finite.
     Positive,
@@ -65,16 +65,16 @@ impl<'g> SymmetricMatrix<'g> {
         (0..self.order).flat_map(row).collect()
     }
 
-    /// x of A x = b, by A = Lᵀ D L from the last row to the first, which keeps the zeros between
+    /// Solves A x = b by A = Lᵀ D L from the last row to the first, which keeps the zeros between
     /// branches of a tree zero (R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section
-    /// 6.5). A division per row whose pivot is not constant, no branch. A is to be positive
+    /// 6.5). One division per row whose pivot is not constant, no branch. A must be positive
     /// definite.
     #[must_use]
     pub fn solve(self, right: Vec<Expr<'g>>, pivots: Pivots) -> Vec<Expr<'g>> {
         self.solve_all(vec![right], pivots).into_iter().flatten().collect()
     }
 
-    /// As [`SymmetricMatrix::solve`], for several right sides, with one factorization.
+    /// [`SymmetricMatrix::solve`] for several right sides, with one factorization.
     #[must_use]
     pub fn solve_all(
         mut self,

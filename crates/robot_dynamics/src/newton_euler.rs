@@ -6,7 +6,7 @@
 //! joints about or along any axis.
 //!
 //! This recursion is for people: its expressions expand to the equations that the paper prints. The
-//! code's own recursion is cheaper, and its inner forces mean nothing.
+//! code's own recursion is cheaper, and its inner forces have no physical meaning.
 
 use robot_model::functions::Effects;
 use robot_model::robot::JointKind;
@@ -38,7 +38,7 @@ pub struct LinkMotion<'g> {
     pub moment: Vector<'g>,
 }
 
-/// The contact torsor of a joint, in its link's frame.
+/// The wrench that a link receives through its joint, in the link's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkWrench<'g> {
     /// F̄_l: the force that the link receives through its joint, equation (26), N.
@@ -47,7 +47,7 @@ pub struct LinkWrench<'g> {
     pub moment: Vector<'g>,
 }
 
-/// Everything that the iterations yield.
+/// The results of both iterations.
 #[derive(Clone, Debug)]
 pub struct NewtonEuler<'g> {
     /// Per link, from the outward iterations.
@@ -67,7 +67,7 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
     let mut generalized_forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
     let mut kinds = vec![JointKind::Revolute; mechanism.degrees_of_freedom];
     for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
-        // (2): the torsor projected on the joint axis, with the drive's own inertia.
+        // (2): the wrench projected on the joint axis, with the drive's own inertia.
         let contact = if link.is_revolute() { wrench.moment } else { wrench.force };
         let mut force = contact.dot(link.axis)
             + link.reflected_inertia * link.acceleration
@@ -148,7 +148,7 @@ fn inward<'g>(
     }
     for (index, link) in mechanism.links.iter().enumerate().rev() {
         let motion = &motions[index];
-        // (26) and (36): what the children and the tips hand over, and the link's own share.
+        // (26) and (36): the wrenches of the children and the tips, and the link's own contribution.
         let own = LinkWrench {
             force: motion.force,
             moment: motion.moment + link.center_of_mass.cross(motion.force),
@@ -163,7 +163,7 @@ fn inward<'g>(
     wrenches
 }
 
-/// What a gyroscopic rotor asks of the link that carries it, beside what it would ask locked: the
+/// The moment that a gyroscopic rotor requires of the link that carries it, beyond that of a locked rotor: the
 /// rate of its angular momentum J N q̇ a, with the joint axis a fixed to the carrier.
 fn rotor_moment<'g>(link: &MechanismLink<'g>, carrier: &LinkMotion<'g>) -> Vector<'g> {
     let axis = link.axis_in_parent();
@@ -171,7 +171,7 @@ fn rotor_moment<'g>(link: &MechanismLink<'g>, carrier: &LinkMotion<'g>) -> Vecto
     (axis * link.acceleration + turning) * link.rotor_coupling
 }
 
-/// What a gyroscopic rotor asks of its joint while its carrier turns: J N a · ε of the carrier.
+/// The torque that a gyroscopic rotor requires of its joint while its carrier turns: J N a · ε of the carrier.
 fn rotor_torque<'g>(link: &MechanismLink<'g>, motions: &[LinkMotion<'g>]) -> Expr<'g> {
     let carrier = link.parent.map(|parent| motions[parent].angular_acceleration);
     let zero = link.rotor_coupling.graph().zero();
@@ -179,7 +179,7 @@ fn rotor_torque<'g>(link: &MechanismLink<'g>, motions: &[LinkMotion<'g>]) -> Exp
 }
 
 impl<'g> LinkWrench<'g> {
-    /// The torsor in the axes and about the origin of the frame in which its own frame lies at
+    /// The wrench in the axes and about the origin of the frame in which its own frame lies at
     /// `origin`, turned by `rotation`.
     fn seen_from(self, rotation: Matrix<'g>, origin: Vector<'g>) -> LinkWrench<'g> {
         let force = rotation * self.force;

@@ -119,7 +119,7 @@ pub(crate) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> 
     energy
 }
 
-/// The shares of the links' inertial parameters and of the rotors in the joint torques.
+/// The contributions of the links' inertial parameters and of the rotors to the joint torques.
 pub(crate) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> RegressorColumns<'g> {
     let mechanism = &derivation.mechanism;
     let effects = Effects { wrench: false, friction: false };
@@ -152,7 +152,7 @@ pub(crate) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> RegressorColumns
     }
 }
 
-/// The shares of a wrench on a link in the joint torques.
+/// The contributions of a wrench on a link to the joint torques.
 fn column<'g>(
     derivation: &Derivation<'_, 'g>,
     motions: &[LinkMotion<'g>],

@@ -7,7 +7,7 @@ use robot_model::unit::Dimension;
 /// A scalar quantity of a robot's dynamics, or one component of a vector.
 #[derive(Clone, Debug)]
 pub struct Quantity<'g> {
-    /// Which quantity it is.
+    /// Its symbol.
     pub symbol: Symbol,
     /// Its value.
     pub value: Expr<'g>,
@@ -72,7 +72,7 @@ impl Kind {
 /// A quantity of one link or joint: `F_l5.x`, `Q2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Symbol {
-    /// Which quantity.
+    /// The kind of quantity.
     pub kind: Kind,
     /// The number of the link or coordinate, from 1.
     pub number: usize,

@@ -46,7 +46,7 @@ impl<'g> Vector<'g> {
         self.0.iter().all(|component| component.is_zero())
     }
 
-    /// Each component through a function.
+    /// Applies a function to each component.
     #[must_use]
     pub fn map(self, function: impl FnMut(Expr<'g>) -> Expr<'g>) -> Vector<'g> {
         Vector(self.0.map(function))
@@ -104,7 +104,7 @@ impl<'g> Matrix<'g> {
         Vector(self.0.map(|row| row[column]))
     }
 
-    /// Each entry through a function.
+    /// Applies a function to each entry.
     #[must_use]
     pub fn map(self, mut function: impl FnMut(Expr<'g>) -> Expr<'g>) -> Matrix<'g> {
         Matrix(self.0.map(|row| row.map(&mut function)))

@@ -377,7 +377,7 @@ mod tests {
             vec![file("src/model.rs", BROKEN), file("src/runtime/mod.rs", "//! No runtime.")];
         let probe = Probe::of_files(files, false).unwrap();
         let object = Compiler::default().compile(&probe, profile).unwrap();
-        Module::of(&object, &probe.roots, profile).unwrap()
+        module(&object, &probe.roots, profile).unwrap()
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(crate) fn base_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Column<'g
     }
 }
 
-/// Those of the links with those of the drives.
+/// The columns of the links, then those of the drives.
 fn with_drives<'g>(
     derivation: &Derivation<'_, 'g>,
     RegressorColumns { links, rotors }: &RegressorColumns<'g>,

@@ -2,10 +2,10 @@
 
 use super::scalar::Scalar;
 
-/// A row of figures.
+/// A row of coefficients.
 pub(super) type Row<'g> = Vec<Scalar<'g>>;
 
-/// Constants this much smaller than the largest figure of a column are no pivots.
+/// Constants this much smaller than the largest entry of a column are not taken as pivots.
 const SMALL: f64 = 0.05;
 
 /// Rows with a pivot each: 1 there, 0 in the other rows and to the left; in order of the pivots. The

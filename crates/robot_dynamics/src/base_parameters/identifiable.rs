@@ -1,4 +1,4 @@
-//! What the joint torques tell of each link's parameters.
+//! Identifiability conditions: which linear functions of each link's parameters the joint torques determine.
 //!
 //! Joint torques vanish at all states where the kinetic energy does and the potential energy is
 //! constant. A joint's own velocity and position occur in the energies of its link and of the links
@@ -41,7 +41,7 @@ struct Span<'g> {
     potential: Vec<Row<'g>>,
 }
 
-/// Per link, the linear functions of its parameters that are told: places as in [`Quantity::place`].
+/// Per link, the identifiable linear functions of its parameters: places as in [`Quantity::place`].
 pub(super) fn conditions<'g>(mechanism: &Mechanism<'g>, joints: &[Joint<'g>]) -> Vec<Vec<Row<'g>>> {
     let base = at_base(mechanism);
     let mut spans: Vec<Span<'g>> = vec![];
@@ -68,7 +68,7 @@ fn at_base<'g>(mechanism: &Mechanism<'g>) -> Span<'g> {
 }
 
 impl<'g> Span<'g> {
-    /// What the carrier's motions are at a link, at all positions of its joint.
+    /// The motions of the carrier seen at a link, over all positions of its joint.
     fn carried(&self, joint: &Joint<'g>) -> Span<'g> {
         let functions = |of: &[Row<'g>]| {
             let here = of.iter().map(|row| joint.function_here(row));

@@ -1,4 +1,4 @@
-//! What a joint and the placement before it make of twists and of bodies.
+//! How twists and bodies change over a joint and the placement before it.
 
 use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::{Expr, Graph};
@@ -12,7 +12,7 @@ use crate::vector::{Matrix, Vector};
 /// Angular velocity, then the velocity of the point at the origin.
 const TWIST: usize = 6;
 
-/// A linear map by what it makes of units.
+/// A linear map, by the images of the unit vectors.
 struct Map<'g> {
     columns: Vec<Row<'g>>,
 }
@@ -22,7 +22,7 @@ impl<'g> Map<'g> {
         Map { columns: (0..units).map(|unit| image(unit).map(Scalar::new).to_vec()).collect() }
     }
 
-    /// What becomes of a vector.
+    /// The image of a vector.
     fn apply(&self, vector: &[Scalar<'g>]) -> Row<'g> {
         let mut result: Row<'g> = vec![];
         for (amount, column) in vector.iter().zip(&self.columns) {
@@ -36,7 +36,7 @@ impl<'g> Map<'g> {
         result
     }
 
-    /// The function of what comes in that a linear function of what comes out is.
+    /// The pullback of a linear function: a function of the map's arguments.
     fn pull_back(&self, function: &[Scalar<'g>]) -> Row<'g> {
         let entry = |column: &Row<'g>| dot(function, column);
         self.columns.iter().map(entry).collect()
@@ -171,7 +171,7 @@ fn moving<'g>(
     rate.parameters()
 }
 
-/// What two twists make of a body's parameters: m v₁ · v₂ + h · (v₁ × ω₂ + v₂ × ω₁) + ω₁ · I ω₂. With
+/// The bilinear form of two twists in a body's parameters: m v₁ · v₂ + h · (v₁ × ω₂ + v₂ × ω₁) + ω₁ · I ω₂. With
 /// equal twists it is twice the kinetic energy.
 pub(super) fn energy<'g>(a: &Row<'g>, b: &Row<'g>) -> Row<'g> {
     let ((w, v), (u, x)) = (a.split_at(3), b.split_at(3));

@@ -15,8 +15,8 @@
 //! Over frames of Denavit and Hartenberg ([`BaseFrames`]) first and second moments are kept in place of
 //! standard parameters; the formulas are in these all the same.
 //!
-//! Where joints share a coordinate, what the mechanism's coordinates tell less than independent ones
-//! would is found by the rank of the columns at seeded states, and the figures are rounded.
+//! If joints share a coordinate, the mechanism determines fewer combinations than it would with independent
+//! ones: these are found by the rank of the columns at seeded states, and the coefficients are rounded.
 
 mod columns;
 mod echelon;
@@ -49,7 +49,7 @@ pub struct BaseParameters<'g> {
     pub standard: Vec<(StandardParameter, Expr<'g>)>,
     /// The base parameters, in the order of their columns.
     pub base: Vec<BaseParameter<'g>>,
-    /// Whether figures were found at seeded states, and rounded: where joints share a coordinate and
+    /// Whether coefficients were found at seeded states, and rounded: if joints share a coordinate and
     /// that matters.
     pub rounded: bool,
     /// Over which parameters of links they are.
@@ -64,7 +64,7 @@ pub struct BaseParameter<'g> {
     pub column: usize,
     /// The kept parameter: a standard one, or a moment in another frame ([`Quantity::Moment`]).
     pub kept: StandardParameter,
-    /// A row of B: the figures of standard parameters by their places, all but those that are 0, in
+    /// A row of B: the coefficients of standard parameters by their places, all but those that are 0, in
     /// order. Where the kept ones are standard parameters, that of the kept one is 1, and no other
     /// kept one occurs.
     pub terms: Vec<(usize, Expr<'g>)>,
@@ -176,7 +176,7 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
     Some(BaseParameters { base, standard, rounded, frames: derivation.robot.base_frames })
 }
 
-/// What is kept at a place, and the standard parameters that a unit of it is.
+/// The quantity kept at a place, and the standard parameters that a unit of it consists of.
 fn kept_parameter<'g>(
     mechanism: &Mechanism<'g>,
     column: usize,

@@ -1,4 +1,4 @@
-//! From the tips inward: what a link's joint tells is kept, the rest goes to the carrier.
+//! Regrouping, from the tips inward: keeps what a link's joint identifies, and moves the rest to the carrier.
 
 use std::collections::BTreeMap;
 
@@ -14,14 +14,14 @@ use crate::body::{FIRST_MOMENT, tensor_place};
 use crate::economical::WorkingFrame;
 use crate::mechanism::{Mechanism, MechanismLink};
 
-/// A linear function of the standard parameters: figures by their places.
+/// A linear function of the standard parameters: coefficients by their places.
 pub(super) type Form<'g> = BTreeMap<usize, Scalar<'g>>;
 
 /// A kept parameter: its place among the standard ones, and what is regrouped under it, itself
 /// included.
 pub(super) type Kept<'g> = (usize, Form<'g>);
 
-/// Keeps of the parameters of links, and of the drives' inertias and offsets, as many as are told.
+/// Keeps as many parameters of the links, and of the drives' inertias and offsets, as are identifiable.
 ///
 /// With `frames` of the links, in which the mechanism, its joints and the conditions are, moments are
 /// kept in place of parameters: a kept one is at the place of the parameter of its number. Forms are
@@ -72,7 +72,7 @@ pub(super) fn regroup<'g>(
         if frames.is_some() {
             to_second(&mut gathered[index], one);
         }
-        // What is not told, as a body without effect but on the carrier.
+        // The unidentifiable rest, as a body that acts on the carrier alone.
         let mut rest = gathered[index].clone();
         for (pivot, row) in identifiable.rows {
             let mut regrouped = Form::new();
@@ -98,7 +98,7 @@ pub(super) fn regroup<'g>(
     kept
 }
 
-/// Whether the quantity is told by inertia or position; friction is not.
+/// Whether the quantity is identified by inertia or position; friction is not.
 pub(super) fn is_inertial(quantity: Quantity) -> bool {
     matches!(quantity, Quantity::Link(_)) || DRIVE.contains(&quantity)
 }
@@ -119,9 +119,9 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
     }
 }
 
-/// The places in the order in which they are kept: of those that the joint torques cannot tell
-/// apart, the first. The recursion computes the first seven of a rotation, the first four of a
-/// translation. Of second moments it is that along the axis which a rotation does not tell, of inertia
+/// The places in the order in which they are kept: of those that the joint torques cannot distinguish,
+/// the first. The recursion computes the first seven of a rotation, the first four of a
+/// translation. Of second moments it is the one along the axis, which a rotation does not identify; of inertia
 /// tensors one across it.
 fn preference(link: &MechanismLink<'_>, second: bool) -> Vec<usize> {
     let size = |component: usize| Scalar::new(link.axis.0[component]).size();

@@ -1,4 +1,4 @@
-//! Figures whose zeros are known.
+//! Scalars with a decided zero: expressions that are known to vanish or not.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -10,24 +10,24 @@ const POINTS: usize = 3;
 const SEED: u64 = 1990;
 /// A difference below this part of what it is the difference of may be 0.
 const NOTICED: f64 = 1e-9;
-/// What an expanded difference may hold before the values at the points decide.
+/// Limits of an expanded difference, beyond which the values at the points decide.
 const EXPANSION: PolynomialOptions = PolynomialOptions {
     angle_sums: robot_symbolic::AngleSums::Expand,
     max_terms: 2_000,
     max_products: 100_000,
 };
 
-/// What a tidied figure may hold: a longer one is no tidier for having no brackets.
+/// Limits of a tidied scalar: a longer one is no tidier for having no brackets.
 const TIDY: PolynomialOptions =
     PolynomialOptions { max_terms: 100, max_products: 10_000, ..EXPANSION };
 
-/// Longer expressions, by their nodes, are left as they are: those of chains about skew axes, whose sines
-/// and cosines stand in every figure.
+/// Longer expressions, by their nodes, are left as they are, such as those of chains about skew axes, whose sines
+/// and cosines occur in every coefficient.
 const SHORT: usize = 100;
 
 /// An expression in constants and parameters, with its values at seeded values of the parameters.
 ///
-/// A figure that vanishes is the constant 0. Rational numbers decide that exactly. Of the others, a
+/// A scalar that vanishes is the constant 0. Rational numbers decide that exactly. Of the others, a
 /// sum that is small at all points is 0 where its canonical polynomial is; it is not where that is a
 /// polynomial in parameters with rational coefficients. Where irrational constants occur or the
 /// polynomial would be too large, the values at the points decide.
@@ -64,12 +64,12 @@ impl<'g> Scalar<'g> {
         self.expr.as_number().is_some()
     }
 
-    /// A rough size, for the choice among figures.
+    /// A rough size, to choose among scalars.
     pub(super) fn size(self) -> f64 {
         self.at[0].abs()
     }
 
-    /// The same figure, 0 where it vanishes against `scale`.
+    /// This scalar, or 0 if it vanishes against `scale`.
     fn settled(self, scale: [f64; POINTS]) -> Scalar<'g> {
         let small = self.at.iter().zip(scale).all(|(value, scale)| value.abs() <= NOTICED * scale);
         let exact = |expr: Expr<'_>| expr.as_number().is_some_and(|n| n.as_rational().is_some());

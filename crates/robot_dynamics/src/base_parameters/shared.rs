@@ -1,4 +1,4 @@
-//! Joints that share a coordinate tell less than joints with one each.
+//! Joints that share a coordinate: fewer parameters are identifiable than with a coordinate for each joint.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Number, Random, SymbolId, walk};
@@ -10,9 +10,9 @@ use crate::derivation::Derivation;
 
 /// The seed of the states.
 const SEED: u64 = 19_900_402;
-/// What is left of a column, in parts of it, where it depends on others.
+/// A column depends on others if its residual is below this part of it.
 const DEPENDENT: f64 = 1e-9;
-/// Figures below this are the rounding of 0.
+/// Coefficients below this are rounding errors of 0.
 const ROUNDING: f64 = 1e-10;
 
 /// The kept parameters without those whose columns at seeded states depend on others'.
@@ -41,7 +41,7 @@ pub(super) fn reduced<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) ->
     found
 }
 
-/// R x = shares, where R holds the basis columns by column.
+/// Solves R x = `projections` for x, with the columns of R in `triangle`.
 fn solved(triangle: &[Vec<f64>], mut projections: Vec<f64>) -> Vec<f64> {
     for (column, entries) in triangle.iter().enumerate().rev() {
         let coefficient = projections[column] / entries[column];
@@ -53,7 +53,7 @@ fn solved(triangle: &[Vec<f64>], mut projections: Vec<f64>) -> Vec<f64> {
     projections
 }
 
-/// What of a column is orthogonal to the basis, and its shares in it; twice, against rounding.
+/// Gram–Schmidt with reorthogonalization: the residual of `column` and its coefficients in `basis`.
 fn orthogonal(column: &[f64], basis: &[(usize, Vec<f64>)]) -> (Vec<f64>, Vec<f64>) {
     let (mut rest, mut projections) = (column.to_vec(), vec![0.0; basis.len()]);
     for _ in 0..2 {
@@ -72,7 +72,7 @@ fn norm(column: &[f64]) -> f64 {
     column.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
-/// The columns of the kept parameters at states enough to tell them apart, a few of them at rest.
+/// The columns of the kept parameters at enough states to distinguish them, a few of them at rest.
 fn sampled<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Vec<f64>> {
     let graph = derivation.mechanism.graph;
     let all = base_columns(derivation);
@@ -81,7 +81,7 @@ fn sampled<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Vec<f6
     let states = 3 * kept.len() / rows.max(1) + 12;
     let mut random = Random::new(SEED);
     let mut columns = vec![vec![]; kept.len()];
-    // Parameters on which no figure depends, such as the widths of smooth signs.
+    // Parameters that no coefficient depends on, such as the widths of smooth signs, have random values too.
     let mut values: Vec<f64> =
         (0..graph.symbol_count()).map(|_| random.uniform(0.5, 1.5)).collect();
     for state in 0..states {

@@ -1,4 +1,4 @@
-//! The standard parameters: those of the full regressor's columns.
+//! The standard parameters, one for each column of the full regressor.
 
 use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::Expr;
@@ -6,7 +6,7 @@ use robot_symbolic::Expr;
 use crate::body::Body;
 use crate::mechanism::{Mechanism, MechanismLink};
 
-/// What is measured of a link or of the drive of its joint.
+/// An inertial quantity of a link, or a quantity of the drive of its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
     /// One of the link's ten: m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz, with the first
@@ -34,12 +34,12 @@ pub enum Quantity {
 /// The names of a link's ten parameters, as Khalil and Dombre have them.
 const NAMES: [&str; LINK_PARAMETERS] = ["M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ"];
 
-/// The same where the last six are second moments.
+/// The names if the last six parameters are second moments.
 const MOMENTS: [&str; LINK_PARAMETERS] =
     ["M", "MX", "MY", "MZ", "SXX", "SXY", "SYY", "SXZ", "SYZ", "SZZ"];
 
 impl Quantity {
-    /// Those of a drive.
+    /// The quantities of a drive.
     pub const DRIVE: [Quantity; 6] = [
         Quantity::ReflectedInertia,
         Quantity::ViscousFriction,
@@ -64,7 +64,7 @@ impl Quantity {
         }
     }
 
-    /// What it is, in words.
+    /// The quantity in words.
     #[must_use]
     pub fn meaning(self) -> &'static str {
         match self {
@@ -81,7 +81,7 @@ impl Quantity {
         }
     }
 
-    /// The place among the quantities that inertias and positions are told by.
+    /// The place among the quantities that inertias and positions identify.
     pub(super) fn place(self) -> usize {
         match self {
             Quantity::Link(place) | Quantity::Moment(place) => place,
@@ -95,9 +95,9 @@ impl Quantity {
 /// A parameter in which the joint torques are linear, and a column of the full regressor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct StandardParameter {
-    /// The link, or the one that the drive moves; an index from 0.
+    /// The link, or the link that the drive moves; an index from 0.
     pub link: usize,
-    /// What of it.
+    /// The quantity.
     pub quantity: Quantity,
 }
 

@@ -2,7 +2,7 @@
 //! links, not with its third power.
 //!
 //! R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 7.2, for a mechanism at rest and
-//! without gravity: what moves and pulls it is in b. Each joint is eliminated on the way inward, from
+//! without gravity: everything that moves and pulls it is in b. Each joint is eliminated on the way inward, from
 //! the inertia that its link and all that it carries show to its parent.
 
 use robot_symbolic::{Expr, Graph};
@@ -17,7 +17,7 @@ use crate::economical::spatial::{Twist, Wrench};
 use crate::matrix::Pivots;
 use crate::vector::{Matrix, Vector};
 
-/// The inertia that a link and all that it carries show where their joints are free.
+/// The inertia of a link and all that it carries, as its joint sees it if the joints farther out are free.
 ///
 /// Unlike that of one rigid body its mass may depend on the direction: a motion (ω, v) asks for the
 /// moment I ω + H v and the force Hᵀ ω + M v.
@@ -31,11 +31,11 @@ struct ArticulatedInertia<'g> {
     mass: Matrix<'g>,
 }
 
-/// A joint eliminated.
+/// An eliminated joint.
 #[derive(Clone, Debug)]
 struct Eliminated<'g> {
-    /// U = I S and the moment of the drive's gyroscopic rotor: what a unit acceleration of the joint
-    /// asks of the parent, in home axes.
+    /// U = I S and the moment of the drive's gyroscopic rotor: the wrench that a unit acceleration of the joint
+    /// requires from the parent, in home axes.
     asked: Wrench<'g>,
     /// D = Sᵀ U and the drive's reflected inertia.
     pivot: Expr<'g>,
@@ -45,28 +45,28 @@ struct Eliminated<'g> {
     force: Expr<'g>,
 }
 
-/// How inertias are turned from a link's axes to its parent's.
+/// The form in which inertias are turned from a link's axes to its parent's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turns {
     /// With the fewest operations.
     Cheap,
-    /// So that small moments keep their digits: for robots whose pivots may be small.
+    /// In a form that keeps the digits of small moments: for robots whose pivots may be small.
     Exact,
 }
 
-/// How joints are eliminated.
+/// The options of the elimination of joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Method {
     pub(crate) turns: Turns,
     pub(crate) pivots: Pivots,
 }
 
-/// Whether each coordinate moves one joint: elsewhere joints cannot be eliminated one by one.
+/// Whether each coordinate moves one joint: otherwise joints cannot be eliminated one by one.
 pub(crate) fn applies(chain: &Chain<'_>) -> bool {
     (0..chain.links.len()).all(|link| chain.drives_alone(link))
 }
 
-/// x of M x = b, both by coordinates; a division for each joint. M is taken for positive definite.
+/// Solves M x = b by coordinates, with a division for each joint. M must be positive definite.
 pub(crate) fn solve<'g>(
     chain: &Chain<'g>,
     plans: &[LinkPlan],
@@ -78,7 +78,7 @@ pub(crate) fn solve<'g>(
     outward(&frames, &joints)
 }
 
-/// D of each coordinate: what inertia its joint shows where the joints farther out are free.
+/// D of each coordinate: the inertia that its joint shows if the joints farther out are free.
 pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], method: Method) -> Vec<Expr<'g>> {
     let frames = Frames::new(chain, |index| plans[index].composite_sum);
     let mut pivots = vec![chain.graph.zero(); chain.degrees_of_freedom];
@@ -93,7 +93,7 @@ pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], method: Method) 
 fn inward<'g>(frames: &Frames<'_, 'g>, right: &[Expr<'g>], method: Method) -> Vec<Eliminated<'g>> {
     let chain = frames.chain;
     let zero = Carried::zero(chain.graph);
-    // What children hand over, in the link's own axes and in its home axes.
+    // The sums over the children, in the link's own axes and in its home axes.
     let mut own: Vec<Carried<'g>> = chain
         .links
         .iter()
@@ -147,7 +147,7 @@ fn outward<'g>(frames: &Frames<'_, 'g>, joints: &[Eliminated<'g>]) -> Vec<Expr<'
     solution
 }
 
-/// What a link and all that it carries ask for: an inertia's wrench and one that no motion changes.
+/// An articulated body: the inertia of a link and all that it carries, and a bias wrench.
 #[derive(Clone, Copy, Debug)]
 struct Carried<'g> {
     inertia: ArticulatedInertia<'g>,
@@ -175,14 +175,14 @@ impl<'g> Carried<'g> {
         }
     }
 
-    /// What is left where the joint gives way: I − U Uᵀ/D, and p + U u/D.
+    /// The rest after the joint is free: I − U Uᵀ/D, and p + U u/D.
     fn without(&self, joint: &Eliminated<'g>, link: &ChainLink<'g>, unit: Expr<'g>) -> Carried<'g> {
         let Eliminated { asked, reciprocal, force, .. } = joint;
         let scaled =
             Wrench { force: asked.force * *reciprocal, moment: asked.moment * *reciprocal };
         let inertia = self.inertia.minus_product(asked, &scaled);
         // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ with the reflected inertia r and the rotor's k, which a
-        // joint that slides does not feel itself: 0 without a drive.
+        // prismatic joint does not feel: 0 without a drive.
         let own_coupling =
             if link.is_revolute() { link.rotor_coupling } else { unit.graph().zero() };
         let kept = (link.reflected_inertia - own_coupling) * *reciprocal;
@@ -196,7 +196,7 @@ impl<'g> Carried<'g> {
     }
 }
 
-/// On the way to the parent.
+/// The steps on the way to the parent.
 impl<'g> Carried<'g> {
     fn zero(graph: &'g Graph) -> Self {
         Carried { inertia: ArticulatedInertia::zero(graph), wrench: Wrench::zero(graph) }
@@ -212,7 +212,7 @@ impl<'g> Carried<'g> {
         Carried { inertia, wrench: self.wrench.plus(&other.wrench) }
     }
 
-    /// In the axes from which its own are turned.
+    /// The inertia in the axes that its own axes were turned from.
     fn turned(&self, plane: &Plane<'g>, turns: Turns) -> Self {
         let symmetric_tensor = |tensor| match turns {
             Turns::Cheap => plane.forward_symmetric(tensor),
@@ -229,7 +229,7 @@ impl<'g> Carried<'g> {
         Carried { inertia, wrench: self.wrench.turned_forward(plane) }
     }
 
-    /// In the axes from which its own are rotated.
+    /// The inertia in the axes that its own axes were rotated from.
     fn rotated(&self, rotation: &ConstantRotation<'g>, turns: Turns) -> Self {
         let symmetric_tensor = |tensor| match turns {
             Turns::Cheap => rotation.forward_symmetric(tensor),
@@ -248,7 +248,7 @@ impl<'g> Carried<'g> {
         Carried { inertia, wrench }
     }
 
-    /// About an origin from which its own lies at `arm`.
+    /// The inertia about an origin from which its own origin lies at `arm`.
     fn moved(&self, arm: Vector<'g>) -> Self {
         Carried { inertia: self.inertia.about(arm), wrench: self.wrench.about(arm) }
     }
@@ -265,7 +265,7 @@ impl<'g> ArticulatedInertia<'g> {
         ArticulatedInertia { turning: zero, coupling: zero, mass: zero }
     }
 
-    /// Of one rigid body: I = tr(Σ) 1 − Σ, H = \[h\]×, M = m 1.
+    /// The inertia of one rigid body: I = tr(Σ) 1 − Σ, H = \[h\]×, M = m 1.
     fn of(body: &PseudoInertia<'g>) -> Self {
         let one = Matrix::identity(body.mass.graph());
         ArticulatedInertia {
@@ -283,7 +283,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Minus the product of two wrenches of which one is a multiple of the other.
+    /// Subtracts the product of two wrenches, one a multiple of the other.
     fn minus_product(&self, a: &Wrench<'g>, b: &Wrench<'g>) -> Self {
         let minus = |Matrix(entries): Matrix<'g>, a: Vector<'g>, b: Vector<'g>| {
             move |i: usize, j: usize| entries[i][j] - a.0[i] * b.0[j]
@@ -295,7 +295,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// With the wrench known that a unit acceleration along the joint asks for.
+    /// Sets the wrench that a unit acceleration along the joint requires, which is known.
     fn with_along_joint(mut self, along: &Wrench<'g>, revolute: bool, unit: Expr<'g>) -> Self {
         let Wrench { force, moment } = *along;
         for k in 0..3 {
@@ -312,7 +312,7 @@ impl<'g> ArticulatedInertia<'g> {
         self
     }
 
-    /// The same about an origin from which its own lies at `arm` = p: H + P M and I − H P + P (H + P M)ᵀ
+    /// The inertia about an origin from which its own origin lies at `arm` = p: H + P M and I − H P + P (H + P M)ᵀ
     /// with P = \[p\]×.
     fn about(&self, arm: Vector<'g>) -> Self {
         let p = Matrix::skew(arm);

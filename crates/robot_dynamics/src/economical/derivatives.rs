@@ -41,14 +41,14 @@ pub struct TorqueDerivatives<'g> {
 
 impl<'g> Recursion<'g> {
     /// The derivatives of the joint torques at the accelerations q̈; `None` if a drive is
-    /// gyroscopic, whose momentum composites do not hold.
+    /// gyroscopic: composites do not include its momentum.
     #[must_use]
     pub fn torque_derivatives(&self) -> Option<TorqueDerivatives<'g>> {
         let holds = !self.chain.is_gyroscopic();
         holds.then(|| self.torque_derivatives_of(&self.chain))
     }
 
-    /// The derivatives at other accelerations than the symbols q̈, one per coordinate; `None` as in
+    /// The derivatives at accelerations other than the symbols q̈, one per coordinate; `None` under the condition of
     /// [`Recursion::torque_derivatives`].
     #[must_use]
     pub fn torque_derivatives_at(
@@ -106,8 +106,8 @@ impl<'g> Recursion<'g> {
         TorqueDerivatives { positions, velocities }
     }
 
-    /// C(q, q̇) by Christoffel symbols: C q̇ is what velocities ask for, and Ṁ − 2 C is skew. `None`
-    /// as in [`Recursion::torque_derivatives`].
+    /// C(q, q̇) by Christoffel symbols: C q̇ are the Coriolis and centrifugal terms, and Ṁ − 2 C is skew-symmetric.
+    /// `None` under the condition of [`Recursion::torque_derivatives`].
     #[must_use]
     pub fn coriolis_matrix(&self) -> Option<SquareMatrix<'g>> {
         if self.chain.is_gyroscopic() {
@@ -166,7 +166,7 @@ struct JointMotion<'g> {
     rate: Twist<'g>,
     /// The angular part of Y itself.
     turning: Twist<'g>,
-    /// X.
+    /// X, the shift of the accelerations.
     shift: Twist<'g>,
 }
 
@@ -179,7 +179,7 @@ struct Motions<'g> {
 
 impl<'g> Motions<'g> {
     /// `factor` is 1 or 2: V and Y come in pairs of equal terms in the derivatives, and doubling
-    /// them once is cheaper than doubling what they make.
+    /// them once is cheaper than doubling the products.
     fn new(frames: &Frames<'_, 'g>, states: &[LinkState<'g>], factor: Expr<'g>) -> Motions<'g> {
         let chain = frames.chain;
         let zero = Vector::zero(chain.graph);
@@ -249,20 +249,20 @@ impl<'g> JointMotion<'g> {
     }
 }
 
-/// P and B of every link with all that it carries, in home axes; B times the factor of the motions.
+/// P and B of every link and all that it carries, in home axes; B times the factor of the motions.
 struct Composites<'g> {
     inertias: Vec<PseudoInertia<'g>>,
     momenta: Vec<Momentum<'g>>,
 }
 
-/// What an outer joint sends to meet the inner joints.
+/// The quantities of an outer joint that are propagated to the inner joints.
 #[derive(Clone, Copy, Debug)]
 struct Load<'g> {
     /// P Z of the outer joint.
     unit: Wrench<'g>,
-    /// What B gives at the outer joint for the inner joint's turning.
+    /// The projection of B on the outer joint, per component of the inner joint's turning.
     projected: Vector<'g>,
-    /// The wrench of the outer joint's own motion.
+    /// The wrench caused by the outer joint's own motion.
     own: Wrench<'g>,
 }
 

@@ -1,10 +1,15 @@
-//! The economical recursion: the same torques as the paper's iterations with the fewest operations.
+//! The economical recursion: a second form of Newton–Euler, made for code, that computes the same joint torques
+//! as the paper's iterations with the fewest operations, and whose inner forces have no physical meaning.
 //!
-//! Links are pseudo-inertias ([`inertia`](self)); accelerations of a link's points go by the tensor
+//! Links are pseudo-inertias ([`spatial::inertia`](self)); accelerations of a link's points are given by the tensor
 //! U = \[ε\]× + \[ω\]×²; each link has a working frame with z along its joint axis; inertial
-//! parameters that a joint cannot tell from its parent's are regrouped there, so that a link behind a
+//! parameters that a joint cannot distinguish from its parent's are regrouped there, so that a link behind a
 //! rotation keeps seven of its ten. Within this one recursion, a [`Plan`] chooses among equivalent
 //! forms per link; [`search`] finds the cheapest plan for a robot by trying and counting.
+//!
+//! The folders follow the flow: [`plan`] chooses the forms, `frames` prepares the mechanism in working frames,
+//! `spatial` has the algebra of twists, wrenches and inertias, `recursion` goes outward and inward, and `composite`,
+//! `articulated`, `derivatives` and `regressor` make the other functions.
 //!
 //! Sources: Khalil and Kleinfinger 1987 (regrouping, modified Denavit–Hartenberg frames), Balafoutis
 //! and Patel 1991 (the tensor U), with further options of this project's own, named in [`plan`].
@@ -39,15 +44,15 @@ pub use regressor::{Column, RegressorColumns};
 pub(crate) use regressor::{regressor, unit_rotor, unit_wrenches};
 pub(crate) use spatial::Wrench;
 
-/// How forward dynamics solves M q̈ = b.
+/// The method that forward dynamics solves M q̈ = b by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
-    /// By the mass matrix and its decomposition: for few joints.
+    /// Decomposes the mass matrix: for few joints.
     MassMatrix,
-    /// Joint by joint, without the matrix: for many. Applies where each coordinate moves one joint.
+    /// Eliminates joint by joint, without the matrix: for many. Applies if each coordinate moves one joint.
     ArticulatedBodies,
-    /// The same in more operations, so that small pivots keep their digits: for robots with links that
-    /// have next to no inertia about their joint axes.
+    /// Eliminates joint by joint with more operations, so that small pivots keep their digits: for robots with
+    /// links that have next to no inertia about their joint axes.
     SmallPivots,
 }
 
@@ -61,13 +66,14 @@ pub struct Recursion<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// `None` if a joint axis depends on parameters, for which working frames cannot be chosen.
+    /// Prepares the recursion; `None` if a joint axis depends on parameters, for which working frames cannot be
+    /// chosen.
     #[must_use]
     pub fn new(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Recursion<'g>> {
         Some(Recursion::from_base(mechanism, &Base::new(mechanism)?, plan))
     }
 
-    /// The same from what does not depend on the plan.
+    /// Prepares the recursion from the part that does not depend on the plan.
     fn from_base(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Plan) -> Recursion<'g> {
         let chain = chain::prepare(mechanism, base, plan);
         let tips = tip_wrenches(mechanism, &chain);
@@ -86,14 +92,14 @@ impl<'g> Recursion<'g> {
         self.chain.degrees_of_freedom
     }
 
-    /// The generalized forces Q, with the tips' wrenches where `wrench` asks for them;
-    /// friction is not part of them.
+    /// The generalized forces Q, with the tips' wrenches if `wrench` asks for them;
+    /// friction is not included.
     #[must_use]
     pub fn inverse_dynamics(&self, wrench: bool) -> Vec<Expr<'g>> {
         self.torques(&self.chain, Accelerations::Given, wrench).0
     }
 
-    /// C(q, q̇) q̇ + g(q): the joint torques at rest accelerations, with the tips' wrenches where
+    /// The bias torques C(q, q̇) q̇ + g(q), with the tips' wrenches if
     /// `wrench` asks for them.
     #[must_use]
     pub fn bias(&self, wrench: bool) -> Vec<Expr<'g>> {
@@ -104,9 +110,9 @@ impl<'g> Recursion<'g> {
         self.torques(&chain, Accelerations::Given, wrench).0
     }
 
-    /// q̈ for the joint torques `tau`, with the tips' wrenches where `wrench` asks for them.
+    /// q̈ for the joint torques `tau`, with the tips' wrenches if `wrench` asks for them.
     ///
-    /// By M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own joint torques
+    /// Solves M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own joint torques
     /// cheap ([`LinkPlan::free`]); `None` if the solver does not apply.
     #[must_use]
     pub fn forward_dynamics(
@@ -148,15 +154,15 @@ impl<'g> Recursion<'g> {
         articulated::applies(&self.chain)
     }
 
-    /// x of M x = b, both by coordinates, with [`Solver::SmallPivots`].
+    /// Solves M x = b, both by coordinates, with [`Solver::SmallPivots`].
     pub(crate) fn solve_articulated(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let chain = self.chain.without_idle_turns(&[]);
         let method = Method { turns: Turns::Exact, pivots: Pivots::Checked };
         articulated::solve(&chain, &self.plans, right, method)
     }
 
-    /// D of M = Lᵀ D L by coordinates, as [`Recursion::forward_dynamics`] has it with that solver; `None`
-    /// where the solver does not apply.
+    /// D of M = Lᵀ D L by coordinates, as [`Recursion::forward_dynamics`] computes it with that solver; `None`
+    /// if the solver does not apply.
     pub(crate) fn pivots(&self, solver: Solver) -> Option<Vec<Expr<'g>>> {
         let chain = self.chain.without_idle_turns(&[]);
         let pivots = Pivots::Checked;

@@ -1,10 +1,11 @@
 //! The joint torques as linear functions of the links' inertial parameters.
 //!
-//! A unit of each of a link's ten parameters ([`crate::body`]) asks for a wrench, which goes inward to meet the joints. Not all ten have to go: what a joint cannot tell from the
+//! A unit of each of a link's ten parameters ([`crate::body`]) requires a wrench, which is propagated inward and
+//! projected on the joints. Not all ten wrenches are needed: a parameter that a joint cannot distinguish from the
 //! parent's own (for a rotation about z the mass and the moments along z, for a translation the
-//! whole tensor) makes the same share as the parent's parameters that it is equal to. That is the
+//! whole tensor) has the same contribution as the parent's parameters that it is equal to. That is the
 //! regrouping of Khalil and Dombre (Modeling, Identification and Control of Robots, section 9.4) read
-//! backwards: it saves columns here where there it removes them.
+//! backwards: here it saves columns, there it removes them.
 //!
 //! The last six of a link's parameters are the entries of its inertia tensor or its second moments
 //! ([`Moments`]). Wrenches of second moments have more zeros and share more products: from tensor to
@@ -25,15 +26,15 @@ use crate::economical::spatial::rotation::Plane;
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 
-/// The places of the parameters that a rotation about z tells from the parent's, but for I_yy.
+/// The places of the parameters that a rotation about z distinguishes from the parent's, but for I_yy.
 const IDENTIFIABLE_BY_ROTATION: [usize; 7] = [1, 2, 4, 5, 7, 8, 9];
-/// The same where the last six are second moments.
+/// The places if the last six parameters are second moments.
 const IDENTIFIABLE_SECOND_MOMENTS: [usize; 7] = [1, 2, 4, 5, 6, 7, 8];
-/// The places of the parameters that a translation tells from the parent's.
+/// The places of the parameters that a translation distinguishes from the parent's.
 const IDENTIFIABLE_BY_TRANSLATION: [usize; 4] = [0, 1, 2, 3];
 
 /// The options of a regressor's recursion: those that need the fewest operations for most arms. They are
-/// the regressor's own, for the parameters are about the links' frames whatever a plan says.
+/// the regressor's own because the parameters are about the links' frames whatever a plan says.
 const OPTIONS: LinkPlan = LinkPlan {
     origin: Origin::File,
     turn: Turn::File,
@@ -43,10 +44,10 @@ const OPTIONS: LinkPlan = LinkPlan {
     ..LinkPlan::BASIC
 };
 /// Wrenches from beyond this group of parallel joints, counted from the base, go inward to its axes
-/// and no farther: the motions of the joints inward of it come there, once for all wrenches.
+/// and no farther: the motions of the joints inward of it are taken there, once for all wrenches.
 const PROJECTION_GROUP: usize = 3;
 
-/// The share of a unit of a parameter in each joint torque.
+/// The contribution of a unit of a parameter to each joint torque.
 pub type Column<'g> = Vec<Expr<'g>>;
 
 /// The columns of a regressor.
@@ -72,7 +73,7 @@ fn rod<'g>(kind: usize, z: Vector<'g>, p: Vector<'g>, moments: Moments) -> Body<
     Body { mass, first, tensor: moments.of_second(second) }
 }
 
-/// A body's share in the joint torques, from those of units in the same frame.
+/// A body's contribution to the joint torques, from those of units in the same frame.
 fn combination<'g>(body: &Body<'g>, units: &[Column<'g>]) -> Column<'g> {
     let mut combination: Column<'g> = vec![];
     for (amount, unit) in body.parameters().into_iter().zip(units) {
@@ -125,7 +126,7 @@ pub(crate) fn unit_wrenches<'g>(
     ]
 }
 
-/// The same where the last six parameters are second moments: n = ∫ r × U r dm.
+/// The wrenches if the last six parameters are second moments: n = ∫ r × U r dm.
 fn second_moment_wrenches<'g>(state: &LinkState<'g>) -> [Wrench<'g>; LINK_PARAMETERS] {
     let (Matrix(u), Vector(w)) = (state.tensor, state.angular_velocity);
     let graph = w[0].graph();
@@ -143,16 +144,16 @@ fn second_moment_wrenches<'g>(state: &LinkState<'g>) -> [Wrench<'g>; LINK_PARAME
         moment(zero, -u[2][0], u[1][0]),
         moment(u[2][0], -u[2][1], u[1][1] - u[0][0]),
         moment(u[2][1], zero, -u[0][1]),
-        // U_xx − U_zz = ω_x² − ω_z², of which U_xx is made
+        // U_xx − U_zz = ω_x² − ω_z², from which U_xx is made
         moment(-u[1][0], w[0] * w[0] - w[2] * w[2], u[1][2]),
         moment(u[2][2] - u[1][1], u[0][1], -u[0][2]),
         moment(-u[1][2], u[0][2], zero),
     ]
 }
 
-/// What a rotor asks of its joint per unit of its coupling, a · ε, and of the link that carries it,
-/// q̈ a + q̇ ω × a: with the joint axis a, its velocity and acceleration, and ω and ε of the carrier,
-/// in the carrier's axes.
+/// The torque that a rotor requires of its joint per unit of its coupling, a · ε, and the moment it requires of
+/// the link that carries it, q̈ a + q̇ ω × a: with the joint axis a, its velocity and acceleration, and ω and ε of
+/// the carrier, in the carrier's axes.
 pub(crate) fn unit_rotor<'g>(
     axis: Vector<'g>,
     [velocity, acceleration]: [Expr<'g>; 2],
@@ -162,8 +163,8 @@ pub(crate) fn unit_rotor<'g>(
     (axis.dot(epsilon), axis * acceleration + omega.cross(axis) * velocity)
 }
 
-/// The shares of the links' inertial parameters, about the origins and in the axes of their frames, and
-/// of the rotors in the joint torques. `None` if a joint axis depends on parameters.
+/// The contributions of the links' inertial parameters, about the origins and in the axes of their frames, and
+/// of the rotors, to the joint torques. `None` if a joint axis depends on parameters.
 pub(crate) fn regressor<'g>(
     mechanism: &Mechanism<'g>,
     moments: Moments,
@@ -186,9 +187,9 @@ pub(crate) fn regressor<'g>(
     Some(RegressorColumns { links, rotors: rotors.collect() })
 }
 
-/// Per link, where its wrenches meet the motions of the joints inward of [`PROJECTION_GROUP`].
+/// Per link, the place where its wrenches are projected on the motions of the joints inward of [`PROJECTION_GROUP`].
 fn projection_places(frames: &Frames<'_, '_>) -> Vec<Option<Place>> {
-    // The groups on the way from the base to each link, and its meeting place.
+    // The groups from the base to each link, and its place of projection.
     let mut found: Vec<(usize, Option<Place>)> = vec![];
     for (link, joint) in frames.chain.links.iter().enumerate() {
         let carrier = joint.parent.map(|parent| (parent, found[parent]));
@@ -238,7 +239,7 @@ impl<'g> Recursion<'g> {
             for parameter in identifiable {
                 own[*parameter] = self.column(frames, index, &wrenches[*parameter]);
             }
-            // The base does not move: what is equal to parameters of the base has no share.
+            // The base does not move: parameters equal to the base's contribute nothing.
             let carrier = link.parent.map_or(&nothing, |parent| &columns[parent]);
             regrouped(link, carrier, &mut own, moments);
             columns.push(own);
@@ -246,7 +247,7 @@ impl<'g> Recursion<'g> {
         columns
     }
 
-    /// The shares of a unit of a link's rotor coupling.
+    /// The contributions of a unit of a link's rotor coupling.
     fn rotor_column(
         &self,
         frames: &Frames<'_, 'g>,
@@ -270,7 +271,7 @@ impl<'g> Recursion<'g> {
         column
     }
 
-    /// The shares of a wrench on a link, in its own axes, in the joint torques.
+    /// The contributions of a wrench on a link, in its own axes, to the joint torques.
     fn column(&self, frames: &Frames<'_, 'g>, index: usize, wrench: &Wrench<'g>) -> Column<'g> {
         let chain = &self.chain;
         let mut column = vec![chain.graph.zero(); chain.degrees_of_freedom];
@@ -286,7 +287,7 @@ impl<'g> Recursion<'g> {
     }
 }
 
-/// The columns of the parameters that the link's joint cannot tell from those of its carrier.
+/// The columns of the parameters that the link's joint cannot distinguish from those of its carrier.
 fn regrouped<'g>(
     link: &ChainLink<'g>,
     carrier: &[Column<'g>],

@@ -1,9 +1,9 @@
 //! Functions without the parameters that do not act on them.
 //!
-//! A recursion sums what it need not: of a link that turns about z alone, I_xx enters both second
-//! moments Σ_xx and Σ_yy, and cancels in their sum. Rounding does not cancel it: a parameter that has
-//! no effect on a function would cost it digits. So such parameters are found, by slopes at seeded
-//! states, and given a constant in the function's expressions.
+//! A recursion includes terms that cancel: of a link that turns about z alone, I_xx enters both second
+//! moments Σ_xx and Σ_yy, and cancels in their sum. Rounding does not cancel it: a parameter without
+//! effect on a function would cost it digits. Such parameters are found by slopes at seeded
+//! states, and replaced by a constant in the function's expressions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +18,7 @@ const STATES: u64 = 3;
 const NOTICED: f64 = 1e-8;
 /// A parameter that changes so many times ...
 const CHANGE: f64 = 1e3;
-/// ... and changes no value by more than this part of it does not act: its share in the value is
+/// ... and changes no value by more than this part of it does not act: its contribution to the value is
 /// below the rounding of the value.
 const UNCHANGED: f64 = 1e-10;
 /// Values below this part of the largest are rounding.
@@ -34,7 +34,7 @@ impl<'g> Derivation<'_, 'g> {
         if idle.is_empty() || graph.is_full() {
             return function;
         }
-        // What stands in a denominator must not be 0.
+        // A value in a denominator must not be 0.
         for constant in [0, 1] {
             let settled = walk::rebuild(&roots, graph, |name| {
                 let symbol = graph.symbol(name);
@@ -106,7 +106,8 @@ fn same(a: &[f64], b: &[f64]) -> bool {
     })
 }
 
-/// Values at any parameters, also such as no body has: there a pivot below 0 is to show what it depends on.
+/// Values at any parameters, including those that no body can have: there a pivot below 0 is to show what it
+/// depends on.
 fn evaluate(evaluator: &Evaluator, value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
     evaluator.values_by(value, |function, argument| match function {
         Elementary::RecipPositive => argument.recip(),

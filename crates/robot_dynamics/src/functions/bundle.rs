@@ -1,15 +1,15 @@
-//! Several functions in one call that shares their work.
+//! Several functions in one call that compute common expressions once.
 
 use robot_model::functions::Bundle;
 
 use super::{Derivation, Function, Input, Output, sharing};
 
 impl<'g> Derivation<'_, 'g> {
-    /// Derives the functions of a bundle in one: expressions that they share are computed once, and
-    /// if it is cheaper one function is made of others, such as τ = M q̈ + C q̇ + g.
+    /// Derives the functions of a bundle as one: expressions that they have in common are computed once, and
+    /// if it is cheaper one function is made from others, such as τ = M q̈ + C q̇ + g.
     ///
-    /// The output of a function that has one is named after the function. Of functions with several
-    /// outputs each keeps its name; where two functions have the same, the function's name stands
+    /// A function's only output is named after the function. Functions with several
+    /// outputs keep the outputs' names; if two functions have the same one, the function's name is put
     /// before it.
     #[must_use]
     pub fn bundle(&self, bundle: &Bundle) -> Function<'g> {
@@ -56,7 +56,7 @@ fn outputs(functions: Vec<Function<'_>>) -> Vec<Output<'_>> {
     outputs
 }
 
-/// What the outputs of a function are called if there are those of others.
+/// The names of a function's outputs beside those of others.
 fn own_names(function: &Function<'_>) -> Vec<String> {
     match function.outputs.as_slice() {
         [_] => vec![function.name.clone()],

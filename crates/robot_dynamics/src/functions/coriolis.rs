@@ -26,7 +26,7 @@ pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'
     )
 }
 
-/// ½ ∂τ/∂q̇, for C q̇ is a quadratic form in q̇ with the Christoffel symbols for coefficients.
+/// ½ ∂τ/∂q̇, because C q̇ is a quadratic form in q̇ with the Christoffel symbols as coefficients.
 fn half_velocity_slopes<'g>(derivation: &Derivation<'_, 'g>) -> SquareMatrix<'g> {
     let bias = inverse_dynamics::bias_torques(derivation);
     let slopes =

@@ -7,14 +7,14 @@ use super::{Derivation, Effects, Function, FunctionKind, Output, inverse_dynamic
 use crate::economical::Solver;
 use crate::matrix::Pivots;
 
-/// Coordinates up to which M is decomposed without a look at articulated bodies: these need fewer
-/// operations from some ten joints on, and share nothing with other functions of a bundle.
+/// Up to this number of coordinates M is decomposed and articulated bodies are not tried: these need fewer
+/// operations from some ten joints on, and have nothing in common with other functions of a bundle.
 const FEW: usize = 8;
-/// Coordinates beyond which M is not tried: its decomposition grows with their third power.
+/// Beyond this number of coordinates M is not tried: its decomposition grows with their third power.
 const MANY: usize = 16;
 
-/// Rounds in which the accelerations and the dry friction that they cause by the load are found
-/// together. Each leaves of the error about the part that the coefficient of friction is.
+/// Rounds in which the accelerations and the load-dependent dry friction that they cause are found
+/// together. Each reduces the error to about the coefficient of friction times it.
 const FRICTION_ROUNDS: usize = 8;
 
 /// q̈ of M q̈ = τ − C q̇ − g, or of M q̈ = τ − C q̇ − g − Q_f.
@@ -48,7 +48,8 @@ pub(super) fn forward_dynamics<'g>(
     function
 }
 
-/// How the functions of a robot solve M q̈ = b, how many digits that may cost, and what a wrong pivot does.
+/// The documentation of how the functions of a robot solve M q̈ = b, how many digits that may cost, and what a
+/// wrong pivot does.
 pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     let solution = if derivation.recursion_for_small_pivots().is_some() {
         "By articulated bodies: at the nominal parameters there are postures in which the mass matrix is \
@@ -70,7 +71,7 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     vec![solution.to_owned(), wrong.to_owned()]
 }
 
-/// What the function says of friction.
+/// The documentation of the function's friction.
 const FRICTION_DOC: &str = "Forward dynamics with the friction of the joints, viscous and dry: the \
      accelerations that the driving forces `tau` bring about, the solution of M q̈ = τ − C q̇ − g − Q_f. \
      Dry friction takes the sign of the velocity, or its smooth sign where the robot gives `smoothing`; \
@@ -132,7 +133,7 @@ fn accelerations<'g>(
     }
 }
 
-/// q̈ for the joint torques `tau`, where pivots of M may be small.
+/// q̈ for the joint torques `tau` if pivots of M may be small.
 fn by_small_pivots<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
@@ -142,15 +143,15 @@ fn by_small_pivots<'g>(
     recursion.forward_dynamics(tau, wrench, Solver::SmallPivots, Pivots::Checked)
 }
 
-/// q̈ for the symbols τ in derivatives, which solve M x = b for many b: by the decomposition of M, but
-/// where pivots may be small.
+/// q̈ for the symbols τ in derivatives, which solve M x = b for many b: by the decomposition of M, unless
+/// pivots may be small.
 pub(super) fn for_derivatives<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     let tau = derivation.coordinate_symbols(JointVariable::Torque);
     let careful = by_small_pivots(derivation, false, &tau);
     careful.unwrap_or_else(|| by_matrix(derivation, false, &tau))
 }
 
-/// x of M x = b, for each b by coordinates.
+/// Solves M x = b, for each b by coordinates.
 pub(super) fn solve_all<'g>(
     derivation: &Derivation<'_, 'g>,
     right: Vec<Vec<Expr<'g>>>,
@@ -161,7 +162,7 @@ pub(super) fn solve_all<'g>(
     }
 }
 
-/// D of M = Lᵀ D L by coordinates, as the accelerations have it.
+/// D of M = Lᵀ D L by coordinates, as the accelerations use it.
 pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     let small = derivation.recursion_for_small_pivots();
     let small = small.and_then(|recursion| recursion.pivots(Solver::SmallPivots));

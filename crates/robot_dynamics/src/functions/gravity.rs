@@ -1,4 +1,4 @@
-//! The weight's share in the joint torques.
+//! The gravity terms of the joint torques.
 
 use robot_model::variable::JointVariable;
 

@@ -1,4 +1,4 @@
-//! Inverse dynamics, with and without wrenches and friction, and the contact torsors.
+//! Inverse dynamics, with and without wrenches and friction, and the wrenches in the joints.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;

@@ -64,7 +64,7 @@ fn pose_outputs<'g>(poses: &[Pose<'g>]) -> Vec<Output<'g>> {
     ]
 }
 
-/// The links' frames are the file's: they come cheapest from working frames at the same places.
+/// The links' frames are the file's: they are cheapest from working frames at the same places.
 fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     let of_plan = |angle_sum: bool| {
         let file =
@@ -81,7 +81,7 @@ fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     forms.min_by_key(cost).unwrap_or_else(|| plain::link_poses(derivation))
 }
 
-/// The functions of each frame of which the kind alone asks.
+/// The functions of all frames that the kind asks for.
 pub(super) fn per_frame<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
@@ -95,7 +95,7 @@ pub(super) fn per_frame<'g>(
     functions.map(|function| Function { name: kind.name().to_owned(), ..function }).collect()
 }
 
-/// The function of one frame; `None` of a frame that the robot has not.
+/// The function of one frame; `None` if the robot does not have the frame.
 pub(super) fn of_frame<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,

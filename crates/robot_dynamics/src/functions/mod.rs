@@ -40,7 +40,7 @@ use robot_model::variable::{JointVariable, WRENCH};
 pub type Output<'g> = named::Output<Vec<Expr<'g>>>;
 
 impl<'r, 'g> Derivation<'r, 'g> {
-    /// The recursion, where it has to solve M q̈ = b by articulated bodies so as to keep digits: where
+    /// The recursion, if it has to solve M q̈ = b by articulated bodies so as to keep digits: if
     /// pivots of M may be small, and each coordinate moves one joint.
     fn recursion_for_small_pivots(&self) -> Option<&Recursion<'g>> {
         let recursion = self.recursion.as_ref().filter(|recursion| recursion.is_articulated());
@@ -51,30 +51,30 @@ impl<'r, 'g> Derivation<'r, 'g> {
         *self.small_pivots.get_or_init(|| pivots::may_be_small(self.robot))
     }
 
-    /// What is known of the pivots of M: where all figures are numbers and no posture makes one small, they
-    /// are positive, and need no check at run time.
+    /// Whether the pivots of M are known to be positive: if all values are numbers and no configuration makes a pivot
+    /// small, they need no check at run time.
     fn pivots_known(&self) -> Pivots {
         let is_sure = self.robot.parameters.is_empty() && !self.may_have_small_pivots();
         if is_sure { Pivots::Positive } else { Pivots::Checked }
     }
 
-    /// Derives the functions of a kind: one, or one per frame. What the robot lacks (a tip,
-    /// friction) is taken for 0: ask [`FunctionKind::missing_in`] first.
+    /// Derives the functions of a kind: one, or one per frame. Properties that the robot lacks (a tip,
+    /// friction) are taken as 0: ask [`FunctionKind::missing_in`] first.
     ///
-    /// A parameter that does not act on a function does not occur in it.
+    /// A parameter that has no effect on a function does not occur in it.
     #[must_use]
     pub fn functions(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let derived = self.derived(kind).into_iter();
         derived.map(|function| self.of_acting_parameters(function)).collect()
     }
 
-    /// The regressor over base parameters that were found before, as [`Derivation::functions`] gives it.
+    /// The regressor over known base parameters, as [`Derivation::functions`] derives it.
     #[must_use]
     pub fn regressor_over(&self, base: &BaseParameters<'g>) -> Function<'g> {
         self.of_acting_parameters(regressor::regressor_over(self, base))
     }
 
-    /// The functions as they are derived: with parameters that cancel.
+    /// The functions as derived, with the parameters that cancel.
     fn derived(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let function = match kind {
             FunctionKind::InverseDynamics(_) => inverse_dynamics::inverse_dynamics(self, kind),
@@ -105,8 +105,8 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// The function `pivots` of the inputs `q`, with the outputs `pivots`, D of M = Lᵀ D L as forward dynamics
     /// has it, and `diagonal`, that of M: kg m² or kg, by coordinates.
     ///
-    /// A pivot is the inertia that a joint shows where the joints farther out are free. Forward dynamics has
-    /// no solution if one is not above 0, and few digits where rounding is of its size.
+    /// A pivot is the inertia that a joint shows if the joints farther out are free. Forward dynamics has
+    /// no solution if one is not above 0, and few digits if rounding is of its size.
     #[must_use]
     pub fn pivots(&self) -> Function<'g> {
         pivots::pivots(self)
@@ -149,7 +149,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         self.unit_by_joint(variable.unit(JointKind::Revolute), variable.unit(JointKind::Prismatic))
     }
 
-    /// The same of an array with other units.
+    /// An array over the coordinates with other units.
     fn unit_by_joint(&self, rotation: &str, translation: &str) -> String {
         let kinds = &self.robot.coordinates;
         let translations: Vec<String> = kinds

@@ -1,9 +1,9 @@
 //! Whether pivots of the mass matrix may become small, which decides how forward dynamics is solved.
 //!
-//! The pivot D of a coordinate in M = Lᵀ D L is the inertia that it shows where all joints farther out
-//! are free. The decomposition of M takes it from the diagonal of M, so that it loses as many digits as
+//! The pivot D of a coordinate in M = Lᵀ D L is its inertia if all joints farther out
+//! are free. The decomposition of M takes it from the diagonal of M, so it loses as many digits as
 //! D is smaller than the diagonal: none to speak of in most arms, all of them in a wrist whose links have
-//! no mass, where the axes of the first and the last joint come into line. Articulated bodies do not
+//! no mass, if the axes of the first and the last joint come into line. Articulated bodies do not
 //! subtract what they have not added, and keep the digits.
 
 use robot_model::robot::Robot;
@@ -13,27 +13,27 @@ use robot_symbolic::Random;
 use super::sampled::{Rows, SampledMassMatrix};
 use super::{Derivation, Function, Output, forward_dynamics, mass_matrix};
 
-/// Pivots below this part of the diagonal of M are small: two digits of sixteen are lost. Those of the arms
-/// of industry with up to eight joints stay above 0.02 in any posture.
+/// Pivots below this part of the diagonal of M are small: two digits of sixteen are lost. Those of industrial
+/// arms with up to eight joints stay above 0.02 in any configuration.
 const SMALL: f64 = 1e-2;
-/// The same from [`MANY`] coordinates on: the inner joints of long chains and of humanoids have pivots down
-/// to 10⁻⁴ for the length of what they carry alone, and are solved by articulated bodies anyhow.
+/// The threshold from [`MANY`] coordinates on: the inner joints of long chains and of humanoids have pivots down
+/// to 10⁻⁴ because of the length of what they carry, and are solved by articulated bodies in any case.
 const SMALL_OF_MANY: f64 = 1e-5;
 /// Coordinates from which on a robot has many.
 const MANY: usize = 9;
-/// Mass matrices that are looked at, times the square of the coordinates: a second at most where nothing
+/// The number of mass matrices to evaluate, times the square of the coordinates: a second at most if nothing
 /// is optimized.
 const MAX_WORK: usize = 30_000;
-/// Mass matrices that are looked at in any case.
+/// The number of mass matrices to evaluate in any case.
 const LEAST: usize = 60;
-/// Postures from which smaller pivots are looked for.
+/// The number of configurations from which smaller pivots are searched.
 const DESCENTS: usize = 3;
 /// The step, in rad or m, with which a descent begins, and the one below which it ends.
 const STEPS: [f64; 2] = [0.4, 1e-4];
 const SEED: u64 = 1;
 
-/// The function `pivots` of q: the pivots as forward dynamics has them, and the diagonal of M. It is no
-/// [`super::FunctionKind`]: what evaluates forward dynamics asks it how many digits are left.
+/// The function `pivots` of q: the pivots as in forward dynamics, and the diagonal of M. It is not a
+/// [`super::FunctionKind`]: callers that evaluate forward dynamics ask it how many digits are left.
 pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let matrix = mass_matrix::matrix(derivation);
     let diagonal = (0..matrix.order()).map(|row| matrix.at(row, row)).collect();
@@ -52,10 +52,10 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     }
 }
 
-/// Whether a pivot of M is small in some posture, at nominal parameters; those without a value are 1.
+/// Whether a pivot of M is small in some configuration, at nominal parameters; those without a value are 1.
 ///
-/// A pivot is no smaller than the inertia of the joint's own link and drive. Where that bound is not
-/// enough, mass matrices are looked at: in postures with joints at right angles, where axes come into line
+/// A pivot is no smaller than the inertia of the joint's own link and drive. If that bound is not
+/// enough, mass matrices are evaluated: in configurations with joints at right angles, where axes come into line
 /// in most wrists, in others at random, and from the worst of them downhill.
 pub(super) fn may_be_small(robot: &Robot) -> bool {
     let matrix = SampledMassMatrix::new(robot);
@@ -63,13 +63,13 @@ pub(super) fn may_be_small(robot: &Robot) -> bool {
     !matrix.keeps_pivots_above(small) && Search::new(&matrix, small).finds_one()
 }
 
-/// A look for small pivots.
+/// A search for small pivots.
 struct Search<'m> {
     matrix: &'m SampledMassMatrix,
     small: f64,
-    /// Mass matrices that may still be looked at.
+    /// The mass matrices that may still be evaluated.
     left: usize,
-    /// The smallest parts found, with their postures.
+    /// The smallest ratios found, with their configurations.
     worst: Vec<(f64, Vec<f64>)>,
 }
 
@@ -86,7 +86,7 @@ impl<'m> Search<'m> {
             || worst.into_iter().any(|(part, q)| self.descend(part, q) < self.small)
     }
 
-    /// Postures with a joint or two at right angles and the others anywhere, half of what may be looked at.
+    /// Tries configurations with a joint or two at right angles and the others anywhere, with half of the budget.
     fn look_around(&mut self) {
         let n = self.matrix.order();
         let mut random = Random::new(SEED);
@@ -115,7 +115,7 @@ impl<'m> Search<'m> {
         self.worst.truncate(DESCENTS);
     }
 
-    /// The smallest part of a descent, one coordinate after the other.
+    /// The smallest ratio of a descent, one coordinate after the other.
     fn descend(&mut self, mut part: f64, mut q: Vec<f64>) -> f64 {
         let [mut step, end] = STEPS;
         while step > end && part >= self.small {
@@ -140,14 +140,14 @@ impl<'m> Search<'m> {
         part
     }
 
-    /// The smallest pivot in a posture, each as a part of the diagonal of M.
+    /// The smallest pivot in a configuration, each relative to the diagonal of M.
     fn smallest_part(&mut self, q: &[f64]) -> f64 {
         self.left = self.left.saturating_sub(1);
         smallest_part(self.matrix.at(q))
     }
 }
 
-/// The smallest pivot of M = Lᵀ D L, each as a part of the diagonal of M; 0 if one is not above 0.
+/// The smallest pivot of M = Lᵀ D L, each relative to the diagonal of M; 0 if one is not above 0.
 fn smallest_part(mut matrix: Rows) -> f64 {
     let diagonal: Vec<f64> = (0..matrix.len()).map(|row| matrix[row][row]).collect();
     let mut smallest = 1.0_f64;

@@ -11,7 +11,7 @@ use crate::economical::{Recursion, TorqueDerivatives};
 use crate::mechanism::MechanismOptions;
 
 /// Searches the plan under which these functions together need the fewest multiplications and
-/// additions; what they share counts once.
+/// additions; common expressions count once.
 ///
 /// `None` if the economical recursion does not apply (a joint axis that depends on parameters).
 #[must_use]
@@ -48,7 +48,7 @@ fn objective<'g>(
 ) -> Objective<'g> {
     let values = |kind: FunctionKind| -> Vec<Expr<'g>> {
         if kind == FunctionKind::InverseDynamicsDerivatives
-            // The other ways to them are tried once, when the plan is found.
+            // Alternatives for the functions are tried once, when the plan is found.
             && let Some(TorqueDerivatives { positions, velocities }) =
                 recursion.torque_derivatives()
         {

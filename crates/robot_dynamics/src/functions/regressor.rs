@@ -86,7 +86,7 @@ pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Functio
     ))
 }
 
-/// Over which parameters of links a base set is that is not in the file's frames.
+/// Describes the link parameters of a base set that is not in the file's frames.
 const OF_DENAVIT_HARTENBERG: &str = "They are over frames of Denavit and Hartenberg: of each link z is the \
     joint axis, and the origin lies on it where the common normal with the axis of the parent's joint \
     meets it, through the parent's origin where the axes are parallel, at the file's where there is no \
@@ -153,7 +153,7 @@ fn paragraphs(derivation: &Derivation<'_, '_>, drives: &[String]) -> Vec<String>
     paragraphs
 }
 
-/// What a drive's column is, in words.
+/// The meaning of a drive's column, in words.
 fn drive_meaning(
     derivation: &Derivation<'_, '_>,
     place: usize,

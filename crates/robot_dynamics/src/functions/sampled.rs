@@ -1,4 +1,4 @@
-//! A robot in numbers: its mass matrix at any posture, and bounds on its pivots.
+//! A robot in numbers: its mass matrix in any configuration, and bounds on its pivots.
 //!
 //! It decides which code is made, never what the code computes.
 
@@ -14,12 +14,12 @@ pub(super) struct SampledMassMatrix {
     values: Evaluator,
     order: usize,
     symbols: Vec<Symbol>,
-    /// How far the coordinates are taken to go: rad or m.
+    /// The assumed range of the coordinates: rad or m.
     ranges: Vec<f64>,
     links: Vec<SampledLink>,
 }
 
-/// What a symbol stands for.
+/// The meaning of a symbol.
 #[derive(Clone, Copy)]
 enum Symbol {
     Coordinate(usize),
@@ -33,7 +33,7 @@ struct SampledLink {
     coordinate: usize,
     ratio: f64,
     mass: f64,
-    /// The inertia about the joint axis, or the mass where the joint slides.
+    /// The inertia about the joint axis, or the mass for a prismatic joint.
     own: f64,
     /// The trace of the tensor about the center of mass.
     trace: f64,
@@ -88,13 +88,13 @@ impl SampledMassMatrix {
         self.order
     }
 
-    /// M at a posture.
+    /// M in a configuration.
     pub(super) fn at(&self, q: &[f64]) -> Rows {
         let values = self.values.values(|symbol| value(symbol, &self.symbols, q));
         values.chunks(self.order.max(1)).map(<[f64]>::to_vec).collect()
     }
 
-    /// A posture: angles in ±π, distances in ±0.5 m.
+    /// A random configuration: angles in ±π, distances in ±0.5 m.
     pub(super) fn joint_frame(&self, random: &mut Random) -> Vec<f64> {
         self.ranges.iter().map(|range| random.uniform(-range, *range)).collect()
     }
@@ -107,7 +107,7 @@ impl SampledMassMatrix {
             least[link.coordinate] += ratio * (link.own + link.reflected);
             most[link.coordinate] += ratio * link.reflected;
         }
-        // How far joints that slide are taken to go.
+        // The assumed travel of prismatic joints.
         let travel: f64 = self.links.iter().map(|link| link.offset).sum();
         for outer in &self.links {
             let mut arm = outer.arm;
@@ -154,7 +154,7 @@ fn of_link<'g>(link: &MechanismLink<'g>, carries_rotor: bool) -> [Expr<'g>; 7] {
     [
         link.ratio,
         link.mass,
-        // A rotor may turn against its carrier, of whose inertia the file has it as a part: no bound.
+        // A rotor may turn against its carrier, whose inertia in the file includes it: no bound.
         if carries_rotor { own.graph().zero() } else { own },
         link.inertia.trace(),
         center.dot(center),

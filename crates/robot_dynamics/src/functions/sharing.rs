@@ -1,4 +1,4 @@
-//! Functions of a bundle by way of other functions of it, if that is cheaper.
+//! Functions of a bundle made from other functions of it, if that is cheaper.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;
@@ -6,10 +6,11 @@ use robot_symbolic::Expr;
 use super::{Derivation, Effects, Function, FunctionKind};
 use crate::matrix::SymmetricMatrix;
 
-/// Another way to the first output of a function; `None` if the bundle lacks what it starts from.
+/// An alternative derivation of a function's first output from other functions; `None` if the bundle lacks one of
+/// them.
 type Reuse = for<'g> fn(&Derivation<'_, 'g>, &[Function<'g>]) -> Option<Vec<Expr<'g>>>;
 
-/// The ways, in an order in which each starts from what is settled.
+/// The alternatives, in an order in which each starts from functions that are settled.
 const REUSES: [(FunctionKind, Reuse); 5] = [
     (FunctionKind::CoriolisMatrix, coriolis_matrix),
     (FunctionKind::Bias, bias),
@@ -18,7 +19,7 @@ const REUSES: [(FunctionKind, Reuse); 5] = [
     (FunctionKind::Energies, kinetic_energy),
 ];
 
-/// Takes each other way under which the functions together need fewer operations.
+/// Applies each alternative that makes the functions together need fewer operations.
 pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Function<'g>]) {
     let cost = |functions: &[Function<'g>]| {
         let outputs = functions.iter().flat_map(|function| &function.outputs);
@@ -49,7 +50,7 @@ fn swap<'g>(functions: &mut [Function<'g>], index: usize, values: &mut Vec<Expr<
     }
 }
 
-/// The values of an output of a function, where the bundle has it.
+/// The values of an output of a function, if the bundle has it.
 fn values<'f, 'g>(
     functions: &'f [Function<'g>],
     kind: FunctionKind,

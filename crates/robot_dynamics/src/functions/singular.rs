@@ -1,20 +1,20 @@
-//! Accelerations that no joint torques determine, as the mass matrix is singular in every posture.
+//! Accelerations that no joint torques determine because the mass matrix is singular in every configuration.
 
 use robot_model::robot::Robot;
 use robot_symbolic::Random;
 
 use super::sampled::{Rows, SampledMassMatrix};
 
-/// A part of the largest entry that is rounding: it is a thousand times smaller.
+/// Entries below this part of the largest are rounding errors.
 const NOTHING: f64 = 1e-13;
-/// A coordinate with less than this part in a motion has none in it.
+/// A coordinate with less than this part in a motion takes no part in it.
 const SHARE: f64 = 1e-4;
-/// Postures that are tried: a robot may be singular in one of them by chance.
+/// The number of configurations to try: a robot may be singular in one of them by chance.
 const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 
-/// The coordinates, from 0, whose accelerations no joint torques determine in any posture, at the nominal
-/// parameters; none where the mass matrix is regular somewhere, or a parameter has no nominal value.
+/// The coordinates, from 0, whose accelerations no joint torques determine in any configuration, at the nominal
+/// parameters; empty if the mass matrix is regular somewhere, or a parameter has no nominal value.
 #[must_use]
 pub fn undetermined(robot: &Robot) -> Vec<usize> {
     if robot.parameters.iter().any(|parameter| parameter.value.is_none()) {
@@ -26,7 +26,7 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     for _ in 0..CONFIGURATIONS {
         let here = of_matrix(&matrix.at(&matrix.joint_frame(&mut random)));
         found.retain(|coordinate| here.contains(coordinate));
-        // Regular in one posture is enough, and builds ask.
+        // One regular configuration is enough, and builds call this.
         if found.is_empty() {
             break;
         }

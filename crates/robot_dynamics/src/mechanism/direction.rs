@@ -27,7 +27,7 @@ pub(super) fn unit_vector<'g>(
 }
 
 /// A vector of rational numbers as the shortest one of integers in its direction, so that the length
-/// in the file leaves no trace; where those need more than a machine word, with the largest component
+/// in the file has no effect; if those need more than a machine word, with the largest component
 /// ±1, so that no square overflows. Other vectors as they are.
 fn shortened(vector: Vector<'_>) -> Vector<'_> {
     let numbers = vector.0.map(Expr::as_number);
@@ -46,7 +46,7 @@ fn shortened(vector: Vector<'_>) -> Vector<'_> {
     Vector(components.map(|component| graph.number(component)))
 }
 
-/// The components times the least common multiple of their denominators, where the largest is ±1 and
+/// The components times the least common multiple of their denominators, if the largest is ±1 and
 /// all fit a machine word.
 fn integers(components: &[Rational; 3]) -> Option<[Rational; 3]> {
     let mut multiple: i64 = 1;

@@ -52,7 +52,7 @@ impl<'g> Lowering<'g, '_> {
         Vector([0, 1, 2].map(|i| self.value(&formulas[i])))
     }
 
-    /// An irrational constant as a float where code asks for it; everything else as it is.
+    /// An irrational constant as a float if code needs it; everything else unchanged.
     fn round(&self, expr: Expr<'g>) -> Expr<'g> {
         let keep = !self.options.rounded || expr.as_number().is_some();
         if keep || !walk::symbols(&[expr]).is_empty() {
@@ -196,7 +196,7 @@ impl<'g> Lowering<'g, '_> {
     }
 }
 
-/// What a point mass at `r` adds to an inertia tensor: m (r² 1 − r rᵀ).
+/// The contribution of a point mass at `r` to an inertia tensor: m (r² 1 − r rᵀ).
 fn steiner<'g>(mass: Expr<'g>, r: Vector<'g>) -> Matrix<'g> {
     (Matrix::identity(mass.graph()) * r.dot(r) - Matrix::outer(r, r)) * mass
 }

@@ -10,12 +10,12 @@ use robot_symbolic::{Expr, Graph};
 
 use crate::vector::{Matrix, Vector};
 
-/// How a robot's values become expressions.
+/// The choices in making expressions of a robot's values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MechanismOptions {
     /// Constant angles within this many radians of a multiple of π/2 become that multiple, so that
     /// rotations with rounded angles are exact; each change is reported in [`Mechanism::snapped`].
-    /// With 0, constant angles are what the file says to the last digit.
+    /// With 0, constant angles are taken from the file to the last digit.
     pub snap: f64,
     /// Whether irrational constants (the sine of an arbitrary constant angle) become floating-point
     /// numbers, as code needs them, or stay symbols, as print does.
@@ -28,7 +28,7 @@ impl MechanismOptions {
     /// For code: irrational constants as floating-point numbers.
     pub const ROUNDED: MechanismOptions = MechanismOptions { snap: snap::DEFAULT, rounded: true };
 
-    /// The same with a tolerance: the one given, else the robot file's, else [`snap::DEFAULT`].
+    /// These options with a tolerance: the one given, else the robot file's, else [`snap::DEFAULT`].
     #[must_use]
     pub fn with_snap(self, given: Option<f64>, robot: &Robot) -> MechanismOptions {
         MechanismOptions { snap: given.or(robot.snap).unwrap_or(snap::DEFAULT), ..self }
@@ -58,11 +58,11 @@ pub struct Mechanism<'g> {
 /// A constant angle that was taken for a multiple of π/2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snap {
-    /// The link or frame whose placement it is.
+    /// The link or frame whose placement has the angle.
     pub name: String,
     /// The angle in the file, rad.
     pub angle: f64,
-    /// What it was taken for minus what it is, rad.
+    /// The multiple of π/2 minus the angle, rad.
     pub change: f64,
 }
 
@@ -81,7 +81,7 @@ pub struct MechanismLink<'g> {
     pub axis: Vector<'g>,
     /// The coordinate that moves the joint.
     pub coordinate: usize,
-    /// The joint's position per coordinate.
+    /// The joint's position per unit of the coordinate.
     pub ratio: Expr<'g>,
     /// Joint position, rad or m.
     pub position: Expr<'g>,
@@ -95,11 +95,11 @@ pub struct MechanismLink<'g> {
     pub center_of_mass: Vector<'g>,
     /// Inertia tensor about the center of mass, kg m².
     pub inertia: Matrix<'g>,
-    /// Friction figures.
+    /// Friction.
     pub friction: MechanismFriction<'g>,
     /// Inertia of the drive reflected to the joint: armature + N² × rotor inertia, kg m² or kg.
     pub reflected_inertia: Expr<'g>,
-    /// N × rotor inertia where the drive is gyroscopic and its carrier, the parent link, moves; 0
+    /// N × rotor inertia if the drive is gyroscopic and its carrier, the parent link, moves; 0
     /// otherwise. The rotor's angular momentum against its carrier is this times the joint's
     /// velocity, about the joint axis: kg m² per rad or m of the joint.
     pub rotor_coupling: Expr<'g>,
@@ -145,7 +145,7 @@ pub struct MechanismFrame<'g> {
     pub rotation: Matrix<'g>,
     /// Origin, link components, m.
     pub translation: Vector<'g>,
-    /// Force and moment that the frame exerts on its surroundings, frame components, where it is a
+    /// Force and moment that the frame exerts on its surroundings, frame components, if it is a
     /// tip; N and N m.
     pub wrench: Option<(Vector<'g>, Vector<'g>)>,
 }

@@ -1,4 +1,4 @@
-//! The weight's share in the joint torques.
+//! The gravity terms of the joint torques.
 
 use robot_symbolic::Expr;
 
@@ -8,7 +8,7 @@ use crate::economical::frames::chain::Chain;
 use crate::economical::plan::LinkPlan;
 use crate::vector::Vector;
 
-/// g(q): per joint, the moment or force along its axis that holds all that its link carries.
+/// g(q): per joint, the moment or force along its axis that supports all that its link carries.
 ///
 /// Only first moments are summed toward the base: the weight acts on each joint as if in one point.
 pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>> {

@@ -10,8 +10,8 @@ use crate::matrix::SymmetricMatrix;
 /// M(q), drives included.
 ///
 /// An element couples two joints, one inward of the other: the wrench that a unit acceleration of
-/// the outer joint asks for, and the motion that a unit rate of the inner joint gives. Their
-/// product is the same wherever they meet: at the inner joint (R. Featherstone's composite-body
+/// the outer joint requires, and the motion that a unit rate of the inner joint makes. Their
+/// product is the same wherever it is taken: at the inner joint (R. Featherstone's composite-body
 /// algorithm, "Rigid Body Dynamics Algorithms", 2008, Table 6.2), at the outer one or between, as
 /// [`LinkPlan::projected_at`] of the outer link says.
 pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> SymmetricMatrix<'g> {
@@ -32,7 +32,7 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
             let element = motion.dot(&propagated.load);
             let inner = &chain.links[other];
             let coupled = element * link.ratio * inner.ratio;
-            // Joints of one coordinate meet on its diagonal twice, in either order.
+            // Two joints of one coordinate contribute to its diagonal entry twice, in either order.
             let twice = other != index && inner.coordinate == link.coordinate;
             let coupled = if twice { coupled * 2 } else { coupled };
             matrix.add(link.coordinate, inner.coordinate, coupled);

@@ -14,15 +14,15 @@ use crate::vector::{Matrix, Vector};
 
 /// A quantity that parents sum over their children.
 pub(crate) trait Accumulate<'g>: Copy {
-    /// The sum of nothing.
+    /// The empty sum.
     fn zero(graph: &'g Graph) -> Self;
-    /// The sum of two.
+    /// The sum of both.
     fn plus(&self, other: &Self) -> Self;
     /// The quantity in the axes that its own axes were turned from.
     fn turned(&self, plane: &Plane<'g>) -> Self;
     /// The quantity in the axes that its own axes were rotated from.
     fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self;
-    /// The quantity about the origin that its own origin lies `arm` away from.
+    /// The quantity about an origin from which its own origin lies at `arm`.
     fn shifted(&self, arm: Vector<'g>) -> Self;
     /// [`Accumulate::shifted`] in two summands: the part that is constant if the arm is, and the rest.
     fn shifted_in_parts(&self, arm: Vector<'g>) -> (Self, Self) {
@@ -30,12 +30,12 @@ pub(crate) trait Accumulate<'g>: Copy {
     }
 }
 
-/// Every link's own with all that it carries, about its origin, in its home axes.
+/// Sums a quantity of every link over all that it carries, about the link's origin, in its home axes.
 ///
 /// `own` is in the links' own axes.
 pub(crate) fn gather<'g, T: Accumulate<'g>>(frames: &Frames<'_, 'g>, mut own: Vec<T>) -> Vec<T> {
     let chain = frames.chain;
-    // What children hand over, in the link's own axes and in its home axes.
+    // The sums over the children, in the link's own axes and in its home axes.
     let none = T::zero(chain.graph);
     let mut from_children = vec![none; chain.links.len()];
     let mut at_home = vec![none; chain.links.len()];
@@ -62,8 +62,8 @@ pub(crate) fn gather<'g, T: Accumulate<'g>>(frames: &Frames<'_, 'g>, mut own: Ve
 
 /// The composite pseudo-inertia of every link about its origin, in its home axes.
 ///
-/// Mass that was regrouped is where it was regrouped to, so that behind rotations a composite has
-/// no mass: only its action on the joint axes is that of the robot.
+/// Regrouped mass counts where it was regrouped to, so that behind rotations a composite has
+/// no mass: only its effect on the joint axes is that of the robot.
 pub(crate) fn composites<'g>(frames: &Frames<'_, 'g>) -> Vec<PseudoInertia<'g>> {
     gather(frames, frames.chain.links.iter().map(|link| link.inertia).collect())
 }

@@ -1,23 +1,23 @@
-//! Where the wrenches of outer joints meet the motions of inner joints.
+//! Projection of the wrenches of outer joints on the motions of inner joints.
 
 use crate::economical::composite::Accumulate;
 use crate::economical::frames::Frames;
 use crate::economical::plan::Place;
 use crate::economical::spatial::Twist;
 
-/// A meeting of what an outer link asks for with the motion of an inner joint.
+/// One entry (i, j) of a joint-by-joint product: where link j's wrench is projected on the motion of joint i.
 #[derive(Clone, Debug)]
 pub(crate) struct Projection {
     /// The link of the inner joint; at first the outer link itself.
     pub(crate) inner: usize,
-    /// Where they meet.
+    /// The place where both are expressed.
     pub(crate) place: Place,
-    /// The places through which the inner joint's motion comes from its home axes, from outside in.
+    /// The places that the inner joint's motion passes on the way from its home axes, from outside in.
     route: Vec<Place>,
 }
 
-/// The encounters of a link with itself and all links inward of it: wrenches go inward as far as
-/// `projected_at`, and from farther inward the motions come there.
+/// The projections of a link's wrench on its own joint and on all joints inward of it: the wrench goes inward as
+/// far as `projected_at`, and the motions of joints farther inward come there.
 pub(crate) fn projections(
     frames: &Frames<'_, '_>,
     link: usize,
@@ -41,13 +41,13 @@ pub(crate) fn projections(
 }
 
 impl Projection {
-    /// A motion in the inner link's home axes, at the meeting place.
+    /// A motion given in the inner link's home axes, at the place of the projection.
     pub(crate) fn twist<'g>(&self, frames: &Frames<'_, 'g>, at_home: &Twist<'g>) -> Twist<'g> {
         self.route.iter().rev().fold(*at_home, |twist, place| frames.twist_outward(*place, &twist))
     }
 }
 
-/// A quantity that is taken inward along the mechanism, from place to place.
+/// A quantity that can be taken inward along the mechanism, from place to place.
 pub(crate) trait Propagate<'g> {
     /// The quantity at the next place inward of `place`.
     fn inward(&self, frames: &Frames<'_, 'g>, place: Place) -> Self;
@@ -67,7 +67,7 @@ impl<'g, T: Accumulate<'g>> Propagate<'g> for T {
     }
 }
 
-/// A quantity on its way inward, and the place that it has reached.
+/// A quantity on its way inward, with the place that it has reached.
 #[derive(Clone, Debug)]
 pub(crate) struct Propagated<T> {
     place: Place,

@@ -13,7 +13,7 @@ use crate::vector::{Matrix, Vector};
 
 /// Residuals may exceed the robot's own mass, first and second moment by no more than this factor,
 /// and working frames lie no farther off than this many of its reaches: beyond, differences of large
-/// numbers would cost digits.
+/// numbers would lose digits.
 const GROWTH_CAP: f64 = 3.0;
 
 /// A mechanism in working frames.
@@ -55,7 +55,7 @@ pub(crate) struct ChainLink<'g> {
     pub(crate) parent: Option<usize>,
     pub(crate) kind: JointKind,
     pub(crate) coordinate: usize,
-    /// The coordinate's share in the joint's motion along or about z, sign included.
+    /// The joint's motion along or about z per unit of the coordinate, sign included.
     pub(crate) ratio: Expr<'g>,
     pub(crate) motion: JointMotion<'g>,
     /// From the parent's working frame to this one at joint position 0.
@@ -77,7 +77,7 @@ impl<'g> ChainLink<'g> {
         self.kind == JointKind::Revolute
     }
 
-    /// Whether the link's mass is spread alike all round the joint axis, so that no turn about it shows.
+    /// Whether the link's mass is axisymmetric about the joint axis, so that no turn about it has an effect.
     fn is_symmetric(&self) -> bool {
         let Matrix(second) = self.inertia.second;
         let [x, y, _] = self.inertia.first.0;
@@ -91,21 +91,21 @@ impl<'g> ChainLink<'g> {
     }
 }
 
-/// What does not depend on a plan: frames at the links' own origins, and the links' inertias there,
+/// The part that does not depend on a plan: frames at the links' own origins, and the links' inertias there,
 /// as they are and regrouped.
 #[derive(Clone, Debug)]
 pub(crate) struct Base<'g> {
     file: Vec<WorkingFrame<'g>>,
-    /// Those of the links, and of the base: at first nothing.
+    /// The inertias of the links, then of the base, which starts with none.
     inertias: Vec<PseudoInertia<'g>>,
     regrouped: Vec<PseudoInertia<'g>>,
     limits: Limits,
 }
 
-/// What a plan may not exceed, from the robot's own size.
+/// Limits of a plan, from the robot's own size.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// How far an origin may be shifted along its axis, m.
+    /// The farthest shift of an origin along its axis, m.
     pub(super) shift: f64,
     /// Mass, first and second moment of a residual.
     residual: [f64; 3],
@@ -161,8 +161,8 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Pla
 }
 
 impl<'g> Chain<'g> {
-    /// The chain without the turns that no joint torque depends on: of the last links whose mass is spread
-    /// alike all round their joint axis, but those at which a wrench acts. The working frame of such a link may
+    /// The chain without the turns that no joint torque depends on: those of the last links that are axisymmetric
+    /// about their joint axes, unless a wrench acts on them. The working frame of such a link may
     /// stay behind while the link turns in it: its velocities are the same vectors, and its inertia has the
     /// same entries.
     pub(crate) fn without_idle_turns(&self, tips: &[TipWrench<'g>]) -> Chain<'g> {
@@ -192,7 +192,7 @@ fn displacements<'g>(
         .collect()
 }
 
-/// Moves to each parent what the joint cannot tell from the parent's own: for a rotation about z
+/// Moves to each parent the inertia that the joint cannot distinguish from the parent's own: for a rotation about z
 /// the mass and the moments along z, for a translation all second moments.
 fn regroup<'g>(
     mechanism: &Mechanism<'g>,
@@ -229,7 +229,7 @@ fn move_inward<'g>(
     inertias[parent] = inertias[parent].plus(moved.seen_from(rotation, origin));
 }
 
-/// Gives back to links, from the tips to the base, what makes an entry of the parent vanish.
+/// Returns inertia to links, from the tips to the base, so that an entry of the parent vanishes.
 fn leave_residuals<'g>(
     mechanism: &Mechanism<'g>,
     plans: &[LinkPlan],
@@ -266,8 +266,8 @@ fn rod_at<'g>(rod: [Expr<'g>; 3], (rotation, origin): Displacement<'g>) -> Pseud
     PseudoInertia::rod(rod, Matrix::identity(rod[0].graph()).column(2)).seen_from(rotation, origin)
 }
 
-/// How much of a kind (0 mass, 1 first, 2 second moment along the axis) makes the parent's entry
-/// vanish; `None` if nothing does, or too much would be needed.
+/// The amount of a kind (0 mass, 1 first, 2 second moment along the axis) that makes the parent's entry
+/// vanish; `None` if there is none, or if it exceeds `limit`.
 fn solve<'g>(
     parent: &PseudoInertia<'g>,
     place: Displacement<'g>,
@@ -338,7 +338,7 @@ impl<'g> Chain<'g> {
         (link + 1..self.links.len()).filter(move |child| self.links[*child].parent == Some(link))
     }
 
-    /// A joint's position, velocity or acceleration in rad or m, from that in the unit of length.
+    /// Converts a joint's position, velocity or acceleration from the unit of length to rad or m.
     pub(crate) fn in_meters(&self, link: &ChainLink<'g>, motion: Expr<'g>) -> Expr<'g> {
         if link.is_revolute() { motion } else { motion * self.unit }
     }
@@ -355,8 +355,8 @@ impl<'g> Chain<'g> {
             && self.links[link].ratio.as_number().is_some_and(|ratio| !ratio.is_zero())
     }
 
-    /// Takes a component of a link's position for the unit of length. Second moments and torques
-    /// keep the meter: r and a shrink by the unit where h grows by it, and m by its square.
+    /// Makes a component of a link's position the unit of length. Second moments and torques
+    /// keep the meter: r and a shrink by the unit, h grows by it, and m by its square.
     fn rescale(&mut self, link: usize, component: usize) {
         let Some(length) = self.links.get(link).map(|link| link.translation.0[component]) else {
             return;

@@ -1,4 +1,4 @@
-//! Where the links' working frames are relative to each other: turns, origins, parallel groups.
+//! The links' working frames relative to each other: turns, origins, parallel groups.
 
 use robot_symbolic::{Expr, Number};
 
@@ -6,7 +6,7 @@ use crate::economical::frames::chain::{Chain, ChainLink};
 use crate::economical::spatial::rotation::Plane;
 use crate::vector::Vector;
 
-/// The place of a link's working frame.
+/// The pose of a link's working frame relative to its parent's.
 ///
 /// Links whose joint axes are parallel may form a group: the *home axes* of a group are the axes
 /// before any of its joints turns, shared by its links. A link in no group is a group of its own.
@@ -22,8 +22,8 @@ pub(crate) struct JointFrame<'g> {
     pub(crate) origin: Vector<'g>,
 }
 
-/// The postures of all links; a link whose axis is parallel to its parent's is of the parent's
-/// group where `joins` says so.
+/// The joint frames of all links; a link whose axis is parallel to its parent's belongs to the parent's
+/// group if `joins` says so.
 pub(crate) fn joint_frames<'g>(
     chain: &Chain<'g>,
     joins: impl Fn(usize) -> bool,

@@ -11,7 +11,7 @@ use crate::vector::Vector;
 use chain::Chain;
 use joint_frame::{JointFrame, joint_frames};
 
-/// The frames through which a quantity passes on its way along the mechanism: each link has its
+/// The frames that a quantity passes on its way along the mechanism: each link has its
 /// home axes (before the joints of its parallel group turn) and its own axes, both about the
 /// link's origin.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub(crate) struct Frames<'c, 'g> {
 }
 
 impl<'c, 'g> Frames<'c, 'g> {
-    /// `joins` tells which links join the parallel group of their parent.
+    /// `joins` says which links join the parallel group of their parent.
     pub(crate) fn new(chain: &'c Chain<'g>, joins: impl Fn(usize) -> bool) -> Frames<'c, 'g> {
         Frames { chain, joint_frames: joint_frames(chain, joins) }
     }
@@ -31,7 +31,7 @@ impl<'c, 'g> Frames<'c, 'g> {
         self.joint_frames[link].group != link
     }
 
-    /// Components in the parent's own axes (the base's) to components in the link's home axes.
+    /// Converts components in the parent's own axes (the base's) to components in the link's home axes.
     pub(crate) fn parent_to_home(&self, link: usize, vector: Vector<'g>) -> Vector<'g> {
         match self.chain.links[link].parent {
             Some(parent) if self.is_joined(link) => {
@@ -50,7 +50,7 @@ impl<'c, 'g> Frames<'c, 'g> {
         }
     }
 
-    /// The place after `place` on the way to the base; `None` at the base.
+    /// The next place after `place` on the way to the base; `None` at the base.
     pub(crate) fn inward(&self, place: Place) -> Option<Place> {
         if place.turned {
             return Some(Place { turned: false, ..place });
@@ -59,7 +59,7 @@ impl<'c, 'g> Frames<'c, 'g> {
         Some(Place { link: parent, turned: !self.is_joined(place.link) })
     }
 
-    /// A twist at the place inward of `place`, at `place`.
+    /// A twist given at the place inward of `place`, at `place`.
     pub(crate) fn twist_outward(&self, place: Place, twist: &Twist<'g>) -> Twist<'g> {
         let (link, joint_frame) = (&self.chain.links[place.link], &self.joint_frames[place.link]);
         if place.turned {
@@ -75,7 +75,7 @@ impl<'c, 'g> Frames<'c, 'g> {
         }
     }
 
-    /// The motion for a unit rate of the joint; at home and in the link's own axes it is the same.
+    /// The motion for a unit rate of the joint; it is the same in home axes and in the link's own axes.
     pub(crate) fn joint_twist(&self, link: usize) -> Twist<'g> {
         let (zero, one) = (self.chain.graph.zero(), self.chain.graph.one());
         let link = &self.chain.links[link];

@@ -1,25 +1,25 @@
-//! A mechanism in other frames of its links.
+//! A mechanism with other link frames than the file's.
 
 use crate::economical::frames::chain::Limits;
 use crate::economical::frames::working::{WorkingFrame, axes_about, between, normal_with_parent};
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 
-/// A mechanism whose links have other frames than in the file, with the same motions.
+/// A mechanism with other link frames than the file's and the same motions.
 #[derive(Clone, Debug)]
 pub(crate) struct Reframed<'g> {
     /// The mechanism in those frames.
     pub(crate) mechanism: Mechanism<'g>,
-    /// The frames in those of the file.
+    /// The frames, each in the file's frame of its link.
     pub(crate) frames: Vec<WorkingFrame<'g>>,
 }
 
 impl<'g> Reframed<'g> {
-    /// In frames of Denavit and Hartenberg, by the geometry alone: z is the joint axis, the origin lies
-    /// where the common normal with the axis of the parent's joint meets it; x is the file's as near as
+    /// Frames of Denavit and Hartenberg, by the geometry alone: z is the joint axis, the origin lies
+    /// where the common normal with the axis of the parent's joint meets it; x is as near to the file's as
     /// that allows.
     ///
-    /// Where no normal has a sure place, and for translations and first joints, the origin is the
+    /// If no normal has a well-defined place, and for translations and first joints, the origin is the
     /// file's. `None` if a joint axis depends on parameters.
     pub(crate) fn denavit_hartenberg(mechanism: &Mechanism<'g>) -> Option<Reframed<'g>> {
         let farthest = Limits::of(mechanism).shift;

@@ -11,7 +11,7 @@ use crate::vector::{Matrix, Vector};
 /// Axes closer to parallel than this sine squared have no common normal worth dividing by.
 const NEARLY_PARALLEL: f64 = 1e-4;
 
-/// Axes whose sine squared is not above this are parallel but for rounding.
+/// Axes with a sine squared of at most this are parallel up to rounding.
 const PARALLEL: f64 = 1e-24;
 
 /// A frame fixed to a link.
@@ -79,12 +79,12 @@ fn coefficient(expr: Expr<'_>) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// How far from a link's origin, along its joint axis, the common normal meets it with the axis of its
-/// parent's joint: the one through the parent's origin where the axes are parallel. All in frames of the
+/// The distance from a link's origin, along its joint axis, to the foot of the common normal with the axis of its
+/// parent's joint: the normal through the parent's origin if the axes are parallel. All in frames of the
 /// file with z along the joint axes, but for the parent's origin, which is in its frame in the file.
 ///
 /// `None` if that depends on parameters, is farther than `farthest`, or the axes are so close to
-/// parallel that the normal has no sure place.
+/// parallel that the foot is not well defined.
 pub(crate) fn normal_with_parent<'g>(
     link: &MechanismLink<'g>,
     axes: Matrix<'g>,
@@ -106,7 +106,7 @@ pub(crate) fn normal_with_parent<'g>(
 }
 
 /// Places the working frames as the plan says, from the base outward; origins that would lie farther
-/// along their axes than `farthest`, in m, stay where the file has them.
+/// along their axes than `farthest`, in m, stay at the file's origins.
 pub(crate) fn place<'g>(
     mechanism: &Mechanism<'g>,
     plans: &[LinkPlan],
@@ -144,7 +144,7 @@ pub(crate) fn place<'g>(
     placed
 }
 
-/// The position along the joint axis where a rotating link's working frame has its origin.
+/// The position along the joint axis of the origin of a rotating link's working frame.
 fn origin_along<'g>(
     origin: Origin,
     link: &MechanismLink<'g>,
@@ -189,7 +189,7 @@ fn free_origin<'g>(
     }
 }
 
-/// `numerator / denominator` where the denominator is a number that is not small.
+/// `numerator / denominator` if the denominator is a number that is not small.
 fn safe_quotient<'g>(numerator: Expr<'g>, denominator: Expr<'g>) -> Option<Expr<'g>> {
     let size = denominator.as_number()?.to_f64().abs();
     (size > 1e-3 && !numerator.is_zero()).then(|| numerator / denominator)
@@ -217,7 +217,7 @@ fn direction<'g>([x, y, _]: [Expr<'g>; 3]) -> Option<(Expr<'g>, Expr<'g>)> {
 struct Axis<'g> {
     direction: Vector<'g>,
     point: Vector<'g>,
-    /// Whether the axis lies somewhere; that of a translation has a direction only.
+    /// Whether the axis has a position; the axis of a translation has a direction only.
     has_place: bool,
 }
 
@@ -236,7 +236,7 @@ impl<'g> Axis<'g> {
         self.direction.0[0].is_zero() && self.direction.0[1].is_zero()
     }
 
-    /// Where the common normal with the z axis meets it.
+    /// The position on the z axis of the foot of the common normal with it.
     fn foot_on_z(&self) -> Option<Expr<'g>> {
         let size = self.sine_squared().as_number()?.to_f64();
         (size > NEARLY_PARALLEL).then(|| self.foot())
@@ -247,7 +247,7 @@ impl<'g> Axis<'g> {
         x * x + y * y
     }
 
-    /// The same where the axes are known not to be parallel.
+    /// [`Axis::foot_on_z`] if the axes are known not to be parallel.
     fn foot(&self) -> Expr<'g> {
         let along = self.direction.0[2] * self.point.dot(self.direction);
         (self.point.0[2] - along) / self.sine_squared()
@@ -280,7 +280,7 @@ pub(crate) fn between<'g>(
     }
 }
 
-/// Rounded entries next to 0 are 0: they come from turning by an angle and back.
+/// Sets rounded entries next to 0 to 0: they come from turning by an angle and back.
 fn clean(matrix: Matrix<'_>) -> Matrix<'_> {
     matrix.map(|entry| match entry.as_number() {
         Some(number) if number.as_rational().is_none() && number.to_f64().abs() < 1e-15 => {
@@ -311,7 +311,7 @@ mod tests {
         };
         assert_eq!(quotient(3.0, -2.0), Some(-1.5));
         assert_eq!((quotient(3.0, 1e-4), quotient(3.0, 0.0)), (None, None));
-        // A shift by 0 is none.
+        // A shift by 0 changes nothing.
         assert_eq!(safe_quotient(graph.zero(), number(2.0)), None);
         assert_eq!(safe_quotient(number(3.0), graph.symbol("h")), None);
     }

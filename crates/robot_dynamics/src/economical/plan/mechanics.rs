@@ -1,25 +1,25 @@
-//! What a plan depends on: the text that a pin's fingerprint is taken of.
+//! What a plan depends on: the text whose hash is a pin's fingerprint.
 //!
-//! A [search](crate::economical::plan::search) generates inverse dynamics without wrench and friction under each candidate, counts
-//! its operations, holds its torques against the paper's iterations, and leaves the robot's parameters free. So
-//! its result depends on
+//! A [search](crate::economical::search) generates inverse dynamics without wrench and friction under each
+//! candidate, counts its operations, holds its torques against the paper's iterations, and leaves the robot's
+//! parameters free. So its result depends on
 //!
 //! - the tree of links, the kinds of joints and which coordinate moves each;
 //! - gravity, placements, axes, ratios and offsets, bodies and drives as expressions, constant angles snapped as
-//!   the file says: which entries are zero, equal or constant is what forms differ by.
+//!   the file says: forms differ by which entries are zero, equal or constant.
 //!
 //! It does not depend on, and the text leaves out,
 //!
-//! - remarks, docs, units, LaTeX, the order of keys: no expression holds them;
-//! - names of the robot, of links, joints and frames, and limits: no expression holds these either;
+//! - remarks, docs, units, LaTeX, the order of keys: no expression contains them;
+//! - names of the robot, of links, joints and frames, and limits: no expression contains these either;
 //! - nominal values of parameters: a search sees symbols;
 //! - names of parameters and their order in the file: symbols are numbered in the order of their first use in
-//!   the mechanism, so that two parameters that become one are another mechanism, and a new name is none;
-//! - friction, named frames and tips: they are added to what was searched.
+//!   the mechanism, so that merging two parameters gives another mechanism, and renaming one does not;
+//! - friction, named frames and tips: they are added to the searched torques.
 //!
-//! Numbers that stand in the place of a parameter count to the last digit, a mass of 2 or 3 as well. Most digits
+//! Numbers in the place of a parameter count to the last digit, a mass of 2 or 3 as well. Most digits
 //! change no form, but 0 and 1 do, numbers that are equal or cancel do, and the comparison of the torques was one
-//! at those numbers. Figures that change without a change of the form are what parameters are for.
+//! at those numbers. For values that change without changing the form, use parameters.
 //!
 //! Irrational constants stay symbols here ([`MechanismOptions::EXACT`]): the sine of an angle in floating point
 //! may differ in a bit between platforms.
@@ -32,10 +32,10 @@ use robot_symbolic::{Expr, Graph, Id, Number, View, walk};
 
 use crate::mechanism::{Mechanism, MechanismLink, MechanismOptions};
 
-/// Mechanisms of more expressions than this become no code.
+/// Mechanisms with more expressions than this cannot become code.
 const MAX_NODES: usize = 500_000;
 
-/// All that a plan for the robot depends on, as text: equal for robots that have the same plan.
+/// All that a plan for the robot depends on, as text: equal texts mean equal plans.
 ///
 /// A line for each expression, by the numbers of its operands, then a line for gravity and one for each link.
 #[must_use]
@@ -61,7 +61,7 @@ pub fn mechanics(robot: &Robot) -> String {
     text
 }
 
-/// The robot without what no plan depends on, where expressions might hold it.
+/// The robot without the properties that no plan depends on but expressions might contain.
 fn bare(robot: &Robot) -> Robot {
     let links = robot.links.iter().map(|link| Link { friction: Friction::none(), ..link.clone() });
     // Parameters that are not listed become symbols in the order of their first use.

@@ -27,48 +27,48 @@ pub struct LinkPlan {
     /// \[t, φ\] How the working frame is turned about the joint axis.
     pub turn: Turn,
     /// \[a\] Whether the joint joins the parallel group of its parent's joint: rotations then go
-    /// by the sum of the group's angles. Without effect where the axes are not parallel.
+    /// by the sum of the group's angles. Has no effect if the axes are not parallel.
     pub angle_sum: bool,
     /// \[c\] Whether the third column of U comes from the parent's U.
     pub column: bool,
     /// \[u\] Whether the third row of U then comes from doubled products, U₃₁ = ω_x 2ω_z − U₁₃, which
-    /// spares an addition where the angular acceleration across the axis is not needed itself.
+    /// saves an addition if the angular acceleration across the axis is not needed itself.
     pub doubled: bool,
     /// \[b\] Per component of the moment: products of angular velocities and accelerations in place
     /// of entries of U.
     pub moment: [bool; 3],
     /// \[d\] Whether differences of squared angular velocities come from the diagonal of U, which
-    /// spares a square where U's third column is known.
+    /// saves a square if U's third column is known.
     pub diagonal: bool,
-    /// \[m, z\] What of the link's mass, first moment and second moment along its joint axis stays
-    /// with it, so that an entry of the parent's inertia vanishes; in that order.
+    /// \[m, z\] The parts of the link's mass, first moment and second moment along its joint axis that stay
+    /// with the link so that an entry of the parent's inertia vanishes; in that order.
     pub residual: [Option<Entry>; 3],
-    /// What the joint's acceleration is taken for where it is free to choose.
+    /// The acceleration assumed for the joint if it is free to choose.
     pub free: FreeRate,
-    /// Whether composite inertias use the home axes of the parallel group, as `angle_sum` has it
-    /// for motions.
+    /// Whether composite inertias use the home axes of the parallel group, as motions do with
+    /// `angle_sum`.
     pub composite_sum: bool,
-    /// Where this link's wrench for a unit acceleration of its joint meets the motions of the
-    /// joints farther inward: a place on the way to the base; `None` for each joint's own.
+    /// The place, on the way to the base, where this link's wrench for a unit acceleration of its joint is
+    /// projected on the motions of the joints farther inward; `None` for each joint's own.
     pub projected_at: Option<Place>,
 }
 
-/// What a joint's acceleration is taken for in forward dynamics, where the bias may be that of any
+/// The acceleration assumed for a joint in forward dynamics, where the bias may be that of any
 /// accelerations q̈*, since q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FreeRate {
     /// 0.
     Zero,
-    /// What makes the link's own acceleration along the joint axis vanish: ε_z of a rotation, a_z of
+    /// Makes the link's own acceleration along the joint axis vanish: ε_z of a rotation, a_z of
     /// a translation.
     Still,
-    /// What makes U₁₂ vanish.
+    /// Makes U₁₂ vanish.
     Upper,
-    /// What makes U₂₁ vanish.
+    /// Makes U₂₁ vanish.
     Lower,
-    /// What makes the acceleration of the next link's origin vanish along x.
+    /// Makes the acceleration of the next link's origin vanish along x.
     NextX,
-    /// What makes the acceleration of the next link's origin vanish along y.
+    /// Makes the acceleration of the next link's origin vanish along y.
     NextY,
 }
 
@@ -94,10 +94,10 @@ pub struct Place {
     pub turned: bool,
 }
 
-/// Where a working frame's origin lies on its joint axis.
+/// The position of a working frame's origin on its joint axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// Where the robot file has it.
+    /// At the robot file's origin.
     File,
     /// At the foot of the common normal with the next joint's axis (modified Denavit–Hartenberg).
     NextNormal,
@@ -109,11 +109,11 @@ pub enum Origin {
     ZeroYz,
     /// At the link's center of mass: for translation joints, whose axis has a direction only.
     CenterOfMass,
-    /// Where the parent's origin lies at joint position 0: for translation joints.
+    /// At the parent's origin at joint position 0: for translation joints.
     Parent,
 }
 
-/// How a working frame is turned about its joint axis.
+/// The turn of a working frame about its joint axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
     /// The x axis as near to the file's as the joint axis allows.
@@ -169,7 +169,7 @@ impl LinkPlan {
 }
 
 impl Plan {
-    /// Whether the plan is one for that many links and names only links that there are.
+    /// Whether the plan is for that many links and names no others.
     #[must_use]
     pub fn fits(&self, links: usize) -> bool {
         let projected_at = self.links.iter().filter_map(|link| link.projected_at);
@@ -178,7 +178,7 @@ impl Plan {
             && projected_at.into_iter().all(|place| place.link < links)
     }
 
-    /// What suits most arms, without a search: the cheapest searched plans have most links so.
+    /// The options that suit most arms, without a search: the cheapest searched plans have most links so.
     #[must_use]
     pub fn default_for(robot: &Robot) -> Plan {
         let link = LinkPlan {
@@ -192,7 +192,7 @@ impl Plan {
         Plan::uniform(robot.links.len(), &link)
     }
 
-    /// The same plan for every link.
+    /// A plan with these options for every link.
     #[must_use]
     pub fn uniform(links: usize, plan: &LinkPlan) -> Plan {
         Plan { links: vec![plan.clone(); links], unit_length: None }

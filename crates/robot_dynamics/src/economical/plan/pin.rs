@@ -1,4 +1,4 @@
-//! Pinned plans: what a search found, as text beside the robot file, so that builds need not search.
+//! Pinned plans: the result of a search, as text beside the robot file, so that builds need not search.
 
 use std::fmt::Write as _;
 
@@ -7,15 +7,15 @@ use serde::Deserialize;
 use crate::economical::plan::search::Measure;
 use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 
-/// A plan with what it was searched for.
+/// A plan and the mechanics that it was searched for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
-    /// Identifies the [mechanics](crate::economical::plan::mechanics()) that the plan was searched for; a pin with another is
-    /// stale.
+    /// Identifies the [mechanics](crate::economical::mechanics()) that the plan was searched for; with any other,
+    /// the pin is stale.
     pub fingerprint: String,
-    /// Identifies the rest of the pin, [`Pin::content`]; a pin with another was edited.
+    /// Identifies the rest of the pin, [`Pin::content`]; with any other, the pin was edited.
     pub digest: String,
-    /// What the search minimized.
+    /// The measure that the search minimized.
     pub measure: Measure,
     /// The multiplications and additions of inverse dynamics under the plan.
     pub operations: usize,
@@ -23,7 +23,7 @@ pub struct Pin {
     pub plan: Plan,
 }
 
-/// Text that is no pin: what is wrong and what was expected.
+/// A text that is not a pin: what is wrong and what was expected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct PinError(String);
@@ -96,8 +96,8 @@ impl Pin {
         text
     }
 
-    /// What the search found and for what, as [`Pin::to_text`] writes it: all but the remarks, the format and
-    /// the digest.
+    /// The result of the search and the mechanics it is for, as [`Pin::to_text`] writes them: all but the remarks,
+    /// the format and the digest.
     #[must_use]
     pub fn content(&self) -> String {
         let mut text = format!("fingerprint = \"{}\"\n", self.fingerprint);
@@ -115,11 +115,11 @@ impl Pin {
         text
     }
 
-    /// Reads what [`Pin::to_text`] wrote.
+    /// Reads the text that [`Pin::to_text`] wrote.
     ///
     /// # Errors
     ///
-    /// Text that is no pin, or one of another version.
+    /// A text that is not a pin, or is one of another version.
     pub fn from_text(text: &str) -> Result<Pin, PinError> {
         // The format first: others may have other keys.
         let RawFormat { format } = read(text)?;
@@ -202,7 +202,7 @@ struct RawPin {
     _format: u32,
     fingerprint: String,
     digest: String,
-    /// Operations where it is not said.
+    /// The default measure: operations.
     measure: Option<String>,
     operations: usize,
     unit_length: Option<[usize; 2]>,

@@ -1,7 +1,7 @@
 //! The search for the cheapest plan of a robot, by regenerating and counting.
 //!
-//! Coordinate descent in a fixed order: deterministic, bounded, and each step a whole generation, so
-//! that a plan's cost is what the code will have. A plan is taken only where its torques agree with
+//! Coordinate descent in a fixed order: deterministic, bounded, and with a whole generation at each step, so
+//! that a plan's cost is the code's. A plan is accepted only if its torques agree with
 //! those of the paper's iterations at test states.
 
 use std::collections::BTreeSet;
@@ -18,27 +18,27 @@ use crate::newton_euler;
 
 /// A plan must reproduce the torques to this fraction of the largest.
 const TOLERANCE: f64 = 1e-12;
-/// Sweeps over all options of all links after which the descent ends, improved or not.
+/// The most sweeps over all options of all links, improved or not.
 const MAX_SWEEPS: usize = 6;
-/// How many of the starting plans are descended from: the cheapest.
+/// The number of starting plans to descend from: the cheapest.
 const DESCENTS: usize = 2;
-/// Plans after which no new descent begins.
+/// The number of plans after which no new descent begins.
 const MAX_TRIES: usize = 3000;
 /// Operations, summed over the candidates, after which a search ends with the best plan so far: the time
 /// of a search goes with them. The longest arms of seven joints take some two million and a second.
-/// A chain of dozens of joints, of which not even the first sweep would fit, is not descended from at
+/// Chains of dozens of joints, of which not even the first sweep would fit, are not descended from at
 /// all: its plan is the best of the uniform ones.
 const MAX_WORK: usize = 2_500_000;
-/// The same for searches that count several functions, of which each may be ten times as long.
+/// The limit of searches that count several functions, each of which may be ten times as long.
 const MAX_WORK_FOR: usize = 40 * MAX_WORK;
 
-/// What a search minimizes.
+/// The measure that a search minimizes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Measure {
     /// Multiplications and additions.
     #[default]
     Operations,
-    /// The same where each product and the sum that alone uses it are one multiply-add: for targets
+    /// Operations with each product and the only sum that uses it counted as one multiply-add: for targets
     /// that have the instruction, and code that uses it.
     Instructions,
 }
@@ -52,25 +52,25 @@ impl Measure {
     }
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The cheapest plan.
     pub plan: Plan,
-    /// What was minimized.
+    /// The measure that was minimized.
     pub measure: Measure,
     /// The plan's multiplications and additions, sines and cosines apart.
     pub operations: usize,
-    /// The same, fusible pairs counted once.
+    /// The operations with fusible pairs counted once.
     pub instructions: usize,
-    /// How many plans were generated and counted.
+    /// The number of plans that were generated and counted.
     pub tried: usize,
-    /// Whether the search ended early, for the length of the mechanism: then it is the best plan that
-    /// was met, and others were not tried.
+    /// Whether the search ended early because of the length of the mechanism: then it is the best plan that
+    /// was seen, and others were not tried.
     pub cut_short: bool,
 }
 
-/// What a search counts and checks of a candidate.
+/// The expressions of a candidate that a search counts and checks.
 #[derive(Clone, Debug)]
 pub struct Objective<'g> {
     /// The expressions whose operations count.
@@ -89,12 +89,12 @@ impl<'g> Objective<'g> {
 
 type ObjectiveOf<'m, 'g> = &'m dyn Fn(&Recursion<'g>) -> Objective<'g>;
 
-/// Which options a search tries, besides those of frames and inertias.
+/// The groups of options that a search tries, besides those of frames and inertias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scope {
-    /// Those of the recursion over motions and forces.
+    /// The options of the recursion over motions and forces.
     pub motions: bool,
-    /// Those of composite inertias.
+    /// The options of composite inertias.
     pub composites: bool,
     /// The choice of accelerations in forward dynamics.
     pub free: bool,
@@ -118,9 +118,9 @@ pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Op
     Some(search.run(Scope { motions: true, composites: false, free: false }))
 }
 
-/// Searches the plan with the fewest multiplications and additions for any functions.
+/// Searches the plan with the fewest multiplications and additions for the given functions.
 ///
-/// Candidates are held against the values under the plan that keeps the file's frames. `None` if
+/// Candidates are checked against the values under the plan that keeps the file's frames. `None` if
 /// the economical recursion does not apply (a joint axis that depends on parameters).
 #[must_use]
 pub fn search_for(
@@ -248,7 +248,7 @@ impl<'m, 'g> Search<'m, 'g> {
         Found { plan, measure: self.measure, operations, instructions, tried, cut_short }
     }
 
-    /// Whether there is work left for all changes of all links once.
+    /// Whether the budget is enough to try all changes of all links once.
     fn can_sweep(&self, scope: Scope, plan: &Plan, cost: usize) -> bool {
         let links = plan.links.iter().enumerate();
         let changes: usize =
@@ -256,7 +256,7 @@ impl<'m, 'g> Search<'m, 'g> {
         self.work + changes * cost <= self.max_work
     }
 
-    /// A plan with a few options changed.
+    /// A copy of the plan with a few options changed at random.
     fn perturb(&self, scope: Scope, plan: &Plan, steps: &mut Steps) -> Plan {
         let mut perturbed = plan.clone();
         for _ in 0..2 + steps.below(3) {
@@ -284,7 +284,7 @@ impl<'m, 'g> Search<'m, 'g> {
         self.measure.of(&count)
     }
 
-    /// Lets nothing more be tried.
+    /// Ends the search.
     fn end(&mut self) {
         self.work = self.max_work;
     }
@@ -298,7 +298,7 @@ impl<'m, 'g> Search<'m, 'g> {
         counter.count(roots, |symbol| parameters.contains(&symbol))
     }
 
-    /// The cost where it is below a bound and the values are right.
+    /// The plan's cost if it is below a bound and the values are right.
     fn better(&mut self, plan: &Plan, bound: usize) -> Option<usize> {
         let candidate = self.candidate(plan);
         let cost = self.cost_of(&candidate);
@@ -309,7 +309,7 @@ impl<'m, 'g> Search<'m, 'g> {
         self.states.iter().zip(&self.reference).all(|(state, reference)| {
             let size = reference.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
             let values = evaluate(roots, state);
-            // A comparison with NaN is false: such a plan is refused.
+            // A comparison with NaN is false: such a plan is rejected.
             values.iter().zip(reference).all(|(a, b)| (a - b).abs() <= TOLERANCE * size)
         })
     }

@@ -8,8 +8,8 @@ use crate::economical::frames::Frames;
 use crate::vector::{Matrix, Vector};
 
 impl<'g> Recursion<'g> {
-    /// Kinetic energy, drives included, J. Regrouping leaves it as it is: what moves between links
-    /// moves with both.
+    /// Kinetic energy, drives included, J. Regrouping does not change it: inertia is moved between links
+    /// only if it moves with both.
     #[must_use]
     pub fn kinetic_energy(&self) -> Expr<'g> {
         let chain = &self.chain.without_idle_turns(&[]);
@@ -57,7 +57,7 @@ impl<'g> Recursion<'g> {
         twice / 2
     }
 
-    /// Potential energy of the weight, J; 0 where all mass is in the base frame's origin.
+    /// Gravitational potential energy, J; 0 if all mass is at the base frame's origin.
     #[must_use]
     pub fn potential_energy(&self) -> Expr<'g> {
         weight_in_base(&self.chain.without_idle_turns(&[]), &self.plans)

@@ -71,8 +71,8 @@ pub(crate) fn inward<'g>(
     torques
 }
 
-/// What a gyroscopic rotor asks of its joint, J N a · ε, and of the link that carries it,
-/// J N (q̈ a + q̇ ω × a), with ω and ε of the carrier.
+/// The torque that a gyroscopic rotor requires of its joint, J N a · ε, and the moment it requires of the link
+/// that carries it, J N (q̈ a + q̇ ω × a), with ω and ε of the carrier.
 fn rotor<'g>(
     chain: &Chain<'g>,
     link: &ChainLink<'g>,
@@ -89,7 +89,7 @@ fn rotor<'g>(
     (torque, link.axis * momentum(rate) + turning)
 }
 
-/// What a link's own inertia asks for: F = m a + U h, and the moment about its origin.
+/// The wrench that a link's own inertia requires: F = m a + U h, and the moment about its origin.
 pub(crate) fn own_wrench<'g>(
     chain: &Chain<'g>,
     index: usize,

@@ -8,7 +8,7 @@ use crate::economical::recursion::outward::{self, Accelerations};
 use crate::mechanism::MechanismFrame;
 use crate::vector::{Matrix, Vector};
 
-/// A frame in the base frame.
+/// The pose of a frame in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pose<'g> {
     /// Frame components to base components.
@@ -144,7 +144,7 @@ impl<'g> Recursion<'g> {
         vectors.into_iter().flat_map(|vector| vector.0).collect()
     }
 
-    /// Ways through the axes of parallel groups, as `angle_sum` has it for motions.
+    /// The frames along the mechanism, with parallel groups as `angle_sum` chooses them for motions.
     pub(in crate::economical) fn frames(&self) -> Frames<'_, 'g> {
         Frames::new(&self.chain, |index| self.plans[index].angle_sum)
     }
@@ -165,7 +165,7 @@ fn own_axes<'g>(frames: &Frames<'_, 'g>) -> Vec<Matrix<'g>> {
     own
 }
 
-/// Each row through a function: the product with a rotation from the right, whose transpose turns
+/// Applies a function to each row: the product with a rotation from the right, whose transpose turns
 /// the rows.
 fn rows<'g>(Matrix(matrix): Matrix<'g>, turn: impl Fn(Vector<'g>) -> Vector<'g>) -> Matrix<'g> {
     Matrix(matrix.map(|row| turn(Vector(row)).0))

@@ -12,8 +12,8 @@ use crate::economical::plan::{FreeRate, LinkPlan};
 use crate::economical::spatial::rotation::Plane;
 use crate::vector::{Matrix, Vector};
 
-/// Levers shorter than this, in the chain's unit of length, bring nothing to rest: the accelerations
-/// that they would take cost digits.
+/// Levers shorter than this, in the chain's unit of length, are not used to cancel an acceleration: the joint
+/// accelerations needed would lose digits.
 const MIN_REACH: f64 = 5e-2;
 
 /// The frame shared by a group of links whose joint axes are parallel: before any of their joints
@@ -49,12 +49,12 @@ struct Rest {
     component: usize,
 }
 
-/// Which accelerations the joints have.
+/// The accelerations that the joints have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Accelerations {
-    /// Those of the chain's links.
+    /// The accelerations of the chain's links.
     Given,
-    /// Those that each link's plan chooses.
+    /// The accelerations that each link's plan chooses.
     Free,
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn outward<'g>(
     states
 }
 
-/// The acceleration that the parent gives a link's origin, in the link's axes.
+/// The acceleration of a link's origin due to its parent, in the link's axes.
 fn carried_acceleration<'g>(
     chain: &Chain<'g>,
     index: usize,
@@ -124,12 +124,12 @@ impl<'g> Group<'g> {
     }
 }
 
-/// How a link turns, but for its own joint's acceleration.
+/// The rotational state of a link, without its own joint's acceleration.
 struct Turning<'g> {
     omega: Vector<'g>,
-    /// ε with the carried share about z only.
+    /// ε with only the carried contribution about z.
     epsilon: Vector<'g>,
-    /// The third column of U where it is known.
+    /// The third column of U if it is known.
     column: Option<Vector<'g>>,
     /// Whether the third row of U then comes from doubled products.
     doubled: bool,
@@ -209,7 +209,7 @@ impl<'g> Turning<'g> {
         }
     }
 
-    /// ε_z for a choice of the joint's acceleration, and what it brings to rest; `None` for the
+    /// ε_z for a choice of the joint's acceleration, and the acceleration that it cancels; `None` for the
     /// joint at rest.
     fn chosen(
         &self,
@@ -274,7 +274,7 @@ impl<'g> Turning<'g> {
     }
 }
 
-/// U = \[ε\]× + \[ω\]×², its third column where it is known.
+/// U = \[ε\]× + \[ω\]×², with its third column if that is known.
 fn tensor<'g>(
     omega: Vector<'g>,
     epsilon: Vector<'g>,

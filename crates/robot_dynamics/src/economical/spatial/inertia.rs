@@ -6,7 +6,7 @@ use crate::economical::plan::Entry;
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
 
-/// What rounding leaves of a moment that vanishes, in units of the largest.
+/// The residue of a moment that vanishes but for rounding, in units of the largest.
 const ROUNDING: f64 = 1e-14;
 
 /// The distribution of mass of a body in some frame: the 4 × 4 pseudo-inertia
@@ -30,7 +30,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// The link's own, in the link's frame.
+    /// The pseudo-inertia of a link, in the link's frame.
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> PseudoInertia<'g> {
         let graph = link.mass.graph();
         let (inertia, center) = (link.inertia, link.center_of_mass);
@@ -40,7 +40,7 @@ impl<'g> PseudoInertia<'g> {
         PseudoInertia { second: central + Matrix::outer(first, center), first, mass: link.mass }
     }
 
-    /// Masses on a line through the origin: mass, first and second moment along a unit vector.
+    /// The pseudo-inertia of masses on a line through the origin: mass, first and second moment along a unit vector.
     pub(crate) fn rod([mass, first, second]: [Expr<'g>; 3], direction: Vector<'g>) -> Self {
         PseudoInertia {
             second: Matrix::outer(direction, direction) * second,
@@ -49,7 +49,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// The same body in a frame in which its own lies at `origin`, turned by `rotation`: T P Tᵀ.
+    /// This body in a frame in which its own frame lies at `origin`, turned by `rotation`: T P Tᵀ.
     pub(crate) fn seen_from(self, rotation: Matrix<'g>, origin: Vector<'g>) -> PseudoInertia<'g> {
         let turned = rotation * self.first;
         let mixed = Matrix::outer(turned, origin);
@@ -59,7 +59,7 @@ impl<'g> PseudoInertia<'g> {
         PseudoInertia { second, first: turned + origin * self.mass, mass: self.mass }.symmetric()
     }
 
-    /// The same body in a frame that lies at `origin`, turned by `rotation`, in this one.
+    /// This body in a frame that lies at `origin`, turned by `rotation`, in its own frame.
     pub(crate) fn seen_in(self, rotation: Matrix<'g>, origin: Vector<'g>) -> PseudoInertia<'g> {
         let back = rotation.transpose();
         self.seen_from(back, -(back * origin))
@@ -81,7 +81,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// The entries that a rotation about z cannot tell from those of the parent: m, h_z, Σzz.
+    /// The entries that a rotation about z cannot distinguish from those of the parent: m, h_z, Σzz.
     pub(crate) fn along_z(self) -> [Expr<'g>; 3] {
         [self.mass, self.first.0[2], self.second.0[2][2]]
     }
@@ -106,7 +106,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// Makes an entry exactly 0 after it was solved for: rounding would leave a residue.
+    /// Sets an entry that was solved for to exactly 0: rounding would leave a residue.
     pub(crate) fn clear(&mut self, entry: Entry) {
         let zero = self.mass.graph().zero();
         let (Vector(h), Matrix(s)) = (&mut self.first, &mut self.second);
@@ -122,7 +122,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// Rounded moments next to 0, against the largest of their kind, are 0: they come from turning
+    /// Sets rounded moments next to 0, against the largest of their kind, to 0: they come from turning
     /// by an angle that makes them vanish.
     pub(crate) fn clean(mut self) -> PseudoInertia<'g> {
         let zero = self.mass.graph().zero();
@@ -142,7 +142,7 @@ impl<'g> PseudoInertia<'g> {
         self
     }
 
-    /// The upper triangle copied to the lower, so that both are one expression.
+    /// Copies the upper triangle to the lower, so that both are one expression.
     fn symmetric(mut self) -> PseudoInertia<'g> {
         let Matrix(s) = &mut self.second;
         (s[1][0], s[2][0], s[2][1]) = (s[0][1], s[0][2], s[1][2]);

@@ -1,4 +1,4 @@
-//! Twists and wrenches about the origins of working frames, and their way from frame to frame.
+//! Twists and wrenches about the origins of working frames, and how they change from frame to frame.
 
 pub(crate) mod inertia;
 pub(crate) mod momentum;
@@ -37,7 +37,7 @@ impl<'g> Twist<'g> {
         Twist { angular: self.angular * rate, linear: self.linear * rate }
     }
 
-    /// The same motion about an origin at `arm`.
+    /// This motion, about an origin at `arm`.
     pub(crate) fn about(self, arm: Vector<'g>) -> Twist<'g> {
         Twist { linear: self.linear + self.angular.cross(arm), ..self }
     }
@@ -48,7 +48,7 @@ impl<'g> Twist<'g> {
 }
 
 impl<'g> Wrench<'g> {
-    /// The same wrench about an origin from which its own lies at `arm`.
+    /// This wrench, about an origin from which its own origin lies at `arm`.
     pub(crate) fn about(self, arm: Vector<'g>) -> Wrench<'g> {
         Wrench { moment: self.moment + arm.cross(self.force), ..self }
     }

@@ -17,7 +17,7 @@ pub(crate) struct Momentum<'g> {
 }
 
 impl<'g> Momentum<'g> {
-    /// That of one link.
+    /// The momentum of one link.
     pub(crate) fn of_link(motion: &Twist<'g>, inertia: &PseudoInertia<'g>) -> Momentum<'g> {
         let Twist { angular, linear } = *motion;
         let turning = Matrix::skew(angular);
@@ -37,7 +37,7 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// What a joint with the motion `joint` feels of Ẑ B, per component of Z's angular part.
+    /// The projection of Ẑ B on a joint with the motion `joint`, per component of Z's angular part.
     pub(crate) fn project(&self, joint: &Twist<'g>) -> Vector<'g> {
         let Matrix(b) = self.second;
         let Vector(z) = joint.angular;

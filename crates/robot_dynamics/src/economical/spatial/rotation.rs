@@ -181,7 +181,7 @@ impl<'g> ConstantRotation<'g> {
         }
     }
 
-    /// As [`ConstantRotation::forward_tensor`], by [`Plane::forward_entries`].
+    /// [`ConstantRotation::forward_tensor`] by [`Plane::forward_entries`].
     pub(crate) fn forward_entries(&self, tensor: Matrix<'g>) -> Matrix<'g> {
         match &self.before {
             Before::Planes(planes) => {
@@ -202,7 +202,7 @@ fn planes<'g>(planes: &[Plane<'g>]) -> Before<'g> {
     Before::Planes(planes.to_vec())
 }
 
-/// The square root of a constant: exact where it is rational, else a float.
+/// The square root of a constant: exact if it is rational, else a float.
 pub(crate) fn constant_root(constant: Expr<'_>) -> Expr<'_> {
     let root = constant.sqrt();
     if root.as_number().is_some() {
