@@ -80,7 +80,7 @@ fn push_link(
         let figures = friction(left_out, link.joint.kind);
         line(
             text,
-            &format!("# friction = {figures}   # in the source, but not part of its torques"),
+            &format!("# friction = {figures}   # in the source, but not included in the torques"),
         );
     }
 }
