@@ -63,7 +63,7 @@ pub fn shares_figure(robot: &Robot, shares: &Shares) -> Figure {
         }
     };
     let kinds = robot.coordinates.iter().map(|coordinate| coordinate.kind).enumerate();
-    let title = format!("Driving forces of {}", robot.name);
+    let title = format!("Joint torques of {}", robot.name);
     Figure { title, t: shares.t.clone(), panels: kinds.map(panel).collect() }
 }
 
