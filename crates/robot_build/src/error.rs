@@ -36,15 +36,16 @@ pub enum Error {
         reason: String,
     },
     /// An empty list of functions.
-    #[error("no functions are chosen; name some, or leave the choice out for all that there are")]
+    #[error(
+        "the list of functions is empty; name some functions, or leave it out to use the \
+        default"
+    )]
     NoFunctions,
     /// A tolerance that is no angle.
     #[error(transparent)]
     Snap(#[from] InvalidSnap),
     /// A number of states that is no size of a block.
-    #[error(
-        "a batch in blocks of {states} states is not possible; choose 1 to {most}, 8 is a good number"
-    )]
+    #[error("a batch cannot have blocks of {states} states; choose 1 to {most}, for example 8")]
     Batch {
         /// The number.
         states: usize,
@@ -52,7 +53,7 @@ pub enum Error {
         most: usize,
     },
     /// Threads without states to share among them.
-    #[error("`parallel` is about batches: choose their size too, with `batch`")]
+    #[error("`parallel` applies to batches: set their size with `batch`")]
     ParallelWithoutBatch,
     /// What the code generator refuses.
     #[error("{name}: {error}")]
@@ -64,9 +65,9 @@ pub enum Error {
     },
     /// A mass matrix that is singular in every posture, so that there is no forward dynamics.
     #[error(
-        "{name}: the mass matrix is singular in every posture, so that there is no forward dynamics: no \
-         driving forces determine the accelerations of {}; give mass or inertia to what moves there, or \
-         `armature` to its drive (R0611)",
+        "{name}: the mass matrix is singular in every posture, so forward dynamics has no \
+         solution: the joint torques do not determine the accelerations of {}; give mass or \
+         inertia to the links that these joints move, or `armature` to their drives (R0611)",
         quoted(joints)
     )]
     Singular {
@@ -77,8 +78,8 @@ pub enum Error {
     },
     /// Functions of more expressions than code is made of.
     #[error(
-        "{name}: the functions are more than {limit} expressions, too many for this; choose fewer functions, \
-         or give figures as numbers where the file has long expressions"
+        "{name}: the functions need more than {limit} expressions; choose fewer functions, or \
+         replace long expressions in the file with numbers"
     )]
     TooLarge {
         /// The robot file.
@@ -98,7 +99,8 @@ pub enum Error {
     },
     /// An output that is an input.
     #[error(
-        "{} is not written: it is the input {}, which an output never replaces; choose another name",
+        "{} is not written: it is the input {}, and an output never replaces an input; choose \
+         another name",
         shown(path),
         shown(input)
     )]
@@ -120,8 +122,8 @@ pub enum Error {
     },
     /// A robot file outside of the package.
     #[error(
-        "{} lies outside of the package {}; a build reads what belongs to the package: move the file \
-         there, or allow it with `allow_outside`",
+        "{} is outside the package {}; a build reads only files of the package: move the file \
+         there, or allow it with the option `allow_outside`",
         shown(path),
         shown(package)
     )]
@@ -140,10 +142,7 @@ pub enum Error {
         remedy: &'static str,
     },
     /// A pinned plan that is stale or no plan.
-    #[error(
-        "{}: {reason}; run `robot-symbolic search {robot}` again, or remove the file",
-        shown(path)
-    )]
+    #[error("{}: {reason}; search for a plan again, or remove the file", shown(path))]
     Pin {
         /// The file of the pin.
         path: PathBuf,
@@ -153,7 +152,7 @@ pub enum Error {
         reason: String,
     },
     /// A plan for another robot.
-    #[error("{name}: the plan of the recursion is not one for this robot's links; search it anew")]
+    #[error("{name}: the plan does not match the links of this robot; search for a plan again")]
     Plan {
         /// The robot file.
         name: String,
@@ -167,7 +166,7 @@ pub enum Error {
         over: crate::driver::budget::Over,
     },
     /// No robot file at all.
-    #[error("no robot file is given; name one or more")]
+    #[error("no robot file is given; name at least one")]
     NoRobots,
     /// A robot file that is named more than once.
     #[error("{path} is given twice; name it once")]
@@ -176,7 +175,7 @@ pub enum Error {
         path: String,
     },
     /// Two files whose modules would have one name.
-    #[error("{first} and {second} both give the module `{module}`; rename one of the robots")]
+    #[error("{first} and {second} both define the module `{module}`; rename one of the robots")]
     SameModule {
         /// The module.
         module: String,

@@ -58,10 +58,10 @@ fn one_operation_too_many_breaks_the_build_at_the_limits_place() {
         for part in [
             format!("arm.toml:{line}:18"),
             format!("takes {operations} operations; its budget is {most}"),
-            "robot-symbolic search".to_owned(),
+            "a search for a cheaper plan".to_owned(),
             format!("arm.toml:{}:13", line + 1),
             format!("takes up to {stack} bytes of stack; its budget is {bytes}"),
-            "robot-symbolic prove".to_owned(),
+            "measure the compiled code".to_owned(),
             "R0801".to_owned(),
         ] {
             assert!(error.contains(&part), "{part} is not in\n{error}");

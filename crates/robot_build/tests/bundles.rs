@@ -153,9 +153,9 @@ fn wrong_bundles_of_the_caller_are_errors() {
     let error = programs(&source(""), &Options { bundles, ..Options::default() }).unwrap_err();
     assert_eq!(error.as_slice().len(), 4, "{error}");
     for part in [
-        "the bundle `mass_matrix`: it cannot have this name: this is the name of a function",
-        "the bundle `a-b`: it cannot",
-        "the bundle `Twice`: the name is another bundle's",
+        "the bundle `mass_matrix`: the name is not allowed: it is reserved: the name of a function",
+        "the bundle `a-b`: the name is not allowed",
+        "the bundle `Twice`: the name is that of another bundle",
         "the bundle `empty`: it has no functions",
     ] {
         assert!(error.to_string().contains(part), "{part} is not in {error}");

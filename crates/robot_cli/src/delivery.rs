@@ -11,7 +11,7 @@ use crate::failure::Failure;
 /// Whether files of others are replaced.
 #[derive(Args)]
 pub(crate) struct ForceArgument {
-    /// Replace a file that is there, though this program did not write it; never an input
+    /// Replace an existing file that this program did not write; never an input
     #[arg(long)]
     force: bool,
 }
@@ -23,7 +23,7 @@ impl ForceArgument {
             Some("-") => PathBuf::from("/dev/stdin"),
             _ => input,
         });
-        let remedy = "choose another name, or have it replaced with --force";
+        let remedy = "choose another name, or replace it with --force";
         Writer::new().inputs(inputs).force(self.force).remedy(remedy)
     }
 }
@@ -31,7 +31,7 @@ impl ForceArgument {
 /// Where a command that makes one text puts it.
 #[derive(Args)]
 pub(crate) struct OutputArguments {
-    /// The file to write; standard output without this, or where it is `-`
+    /// The file to write; `-` is standard output [default: -]
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
     /// Compare the file with what would be written, and write nothing
@@ -130,8 +130,8 @@ pub(crate) fn deliver_folder(
     terminal: &mut Terminal<'_>,
 ) -> Result<(), Failure> {
     if file_of(Some(folder)).is_none() {
-        let message = "these are several files, which standard output does not take; name a folder \
-                       (`./-` for one of the name `-`)";
+        let message = "standard output cannot take several files; name a folder (`./-` if its \
+            name is `-`)";
         return Err(Failure::Usage(vec![message.to_owned()]));
     }
     if check {
@@ -160,6 +160,6 @@ fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a str)>) -> Result
     if stale.is_empty() {
         return Ok(());
     }
-    stale.push("run the same command without --check to write it".to_owned());
+    stale.push("run the same command without --check to update it".to_owned());
     Err(Failure::Input(stale))
 }

@@ -17,10 +17,10 @@ const WIDTH: f64 = 16.0;
 /// How displayed equations are laid out.
 #[derive(Args)]
 pub(crate) struct LayoutArguments {
-    /// The width of the lines of LaTeX, Typst and MathML, such as 8.5cm; 16cm without this
+    /// The line width of LaTeX, Typst and MathML, such as 8.5cm [default: 16cm]
     #[arg(long, value_name = "WIDTH", value_parser = centimeters, allow_hyphen_values = true)]
     width: Option<f64>,
-    /// Number the equations; those of LaTeX and Typst get labels such as eq:Q1
+    /// Number the equations; in LaTeX and Typst they get labels such as eq:Q1
     #[arg(long)]
     numbers: bool,
 }
@@ -84,5 +84,5 @@ pub(crate) fn centimeters(text: &str) -> Result<f64, String> {
     let width: Option<f64> = digits.parse().ok();
     let width = width.filter(|width| WIDTHS.contains(width));
     width
-        .ok_or_else(|| "a width is a number of centimetres from 3 to 100, such as 8.5cm".to_owned())
+        .ok_or_else(|| "a width is a number of centimeters from 3 to 100, such as 8.5cm".to_owned())
 }

@@ -6,6 +6,7 @@ use robot_build::{Error, Errors};
 use robot_model::diagnostic::Style;
 
 use crate::Terminal;
+use crate::options::in_flags;
 
 /// More messages than this are counted, not shown.
 const MAX_SHOWN: usize = 20;
@@ -97,7 +98,7 @@ impl Failure {
         };
         for message in messages {
             // Nobody is listening where this fails.
-            let _ = writeln!(terminal.errors, "{}", message.trim_end());
+            let _ = writeln!(terminal.errors, "{}", in_flags(message.trim_end()));
         }
         code
     }
@@ -120,9 +121,20 @@ fn robot_messages(errors: &Errors, colors: bool) -> Vec<String> {
     let style = if colors { Style::Terminal } else { Style::Plain };
     let messages = errors.as_slice().iter().map(|error| match error {
         Error::Robot(diagnostics) => diagnostics.render(style),
-        _ => format!("error: {error}"),
+        _ => format!("error: {}", in_command_words(error)),
     });
     messages.collect()
+}
+
+/// An error with the command that helps: a library does not know how it is called.
+pub(crate) fn in_command_words(error: &Error) -> String {
+    match error {
+        Error::Pin { robot, .. } => {
+            let command = format!("run `robot-symbolic search {robot}` again");
+            error.to_string().replace("search for a plan again", &command)
+        }
+        _ => error.to_string(),
+    }
 }
 
 fn shown(messages: &[String]) -> Vec<String> {

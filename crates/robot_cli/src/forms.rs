@@ -15,20 +15,20 @@ use crate::text;
 /// How equations are written.
 #[derive(Args)]
 pub(crate) struct EquationArguments {
-    /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all; the grouped, the recursive and the regrouped form have Q alone
+    /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all; the forms grouped, recursive and regrouped have only Q
     #[arg(long = "quantity", value_name = "NAMES", value_delimiter = ',', default_value = "Q")]
     quantities: Vec<String>,
-    /// Sines and cosines in LaTeX, Typst and MathML; named without this
+    /// Sines and cosines in LaTeX, Typst and MathML [default: named]
     #[arg(long, value_enum)]
     trig: Option<TrigonometryStyle>,
-    /// Sines and cosines of sums of angles, as parallel joints have them, in the driving forces of
-    /// all forms but the recursive one; expanded without this
+    /// Sines and cosines of sums of angles, as of parallel joints, in the joint torques of all forms
+    /// except recursive [default: expand]
     #[arg(long, value_enum)]
     angle_sums: Option<AngleSumStyle>,
-    /// In the grouped form, Christoffel symbols in place of the coefficients of velocities
+    /// In the grouped form, print Christoffel symbols instead of Coriolis and centrifugal coefficients
     #[arg(long)]
     christoffel: bool,
-    /// Include friction in the driving forces
+    /// Include friction in the joint torques
     #[arg(long)]
     friction: bool,
 }
@@ -36,15 +36,15 @@ pub(crate) struct EquationArguments {
 /// A form of the equations.
 #[derive(Clone, Copy, ValueEnum)]
 pub(crate) enum FormName {
-    /// Sums of products, like terms merged
+    /// Sums of products, with like terms merged
     Expanded,
-    /// Mass matrix, coefficients of velocities, gravity, each with its function
+    /// Mass matrix, Coriolis and centrifugal terms, gravity terms
     Grouped,
-    /// Link by link, each quantity by those before it
+    /// Link by link, each quantity from the previous ones
     Recursive,
-    /// What is used again under names of its own
+    /// Repeated expressions have names
     Compact,
-    /// By the base parameters, in which the driving forces are linear
+    /// Linear in the base parameters
     Regrouped,
 }
 
@@ -143,7 +143,19 @@ pub(crate) fn no_effect(option: &str) -> String {
 
 /// What is wrong with the equations of a robot file.
 pub(crate) fn failed(robot: &RobotArgument, error: &Error) -> Failure {
-    Failure::input(format!("{}: {error}", shown(robot.path())))
+    Failure::input(format!("{}: {error}{}", shown(robot.path()), hint(error)))
+}
+
+/// The option that helps: the library does not know those of the command.
+const fn hint(error: &Error) -> &'static str {
+    match error {
+        Error::TooLong { .. } => " (--form grouped, recursive or compact)",
+        Error::TooMany { .. } => " (--form recursive or compact)",
+        Error::TooManyExpressions { .. } => " (--form recursive or compact; --snap)",
+        Error::LikeSine { .. } => " (--trig named)",
+        Error::Narrow { .. } => " (--form, --width)",
+        _ => "",
+    }
 }
 
 /// The quantities of those names, each once.

@@ -19,11 +19,10 @@ pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
 /// Friction in the joints.
 #[derive(Args)]
 pub(crate) struct FrictionArguments {
-    /// With the friction that the robot file gives
+    /// Include the friction in the robot file
     #[arg(long)]
     friction: bool,
-    /// Take tanh(qd / WIDTH) for the sign of a velocity in dry friction that has no smoothing, rad/s
-    /// or m/s
+    /// Smooth Coulomb friction without a `smoothing`: replace sign(qd) with tanh(qd / WIDTH), rad/s or m/s
     #[arg(long, value_name = "WIDTH", requires = "friction", allow_hyphen_values = true)]
     smoothing: Option<f64>,
 }

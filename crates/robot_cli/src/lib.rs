@@ -40,7 +40,7 @@ const NAME: &str = "robot-symbolic";
 
 /// Symbolic equations of motion and plain Rust code from robot files.
 ///
-/// Without a command, shows the equations of the robot TRTTR1 and runs its generated code.
+/// Without a command: show the equations of the robot TRTTR1 and run its generated code.
 #[derive(Parser)]
 #[command(
     name = NAME,
@@ -53,11 +53,12 @@ const NAME: &str = "robot-symbolic";
 Exit codes, of every command:
   0  done
   1  the robot file or another input is wrong, or the answer is no: a checked file is out of date, a
-     claim does not hold, two things differ
-  2  the command line is wrong, or standard output cannot be written; of `compare` and `diff` any input
+     claim is false, two things differ
+  2  the command line is wrong, or standard output cannot be written; for `compare` and `diff`, any input
+     is wrong
 
-Results go to standard output, messages to standard error. Colours appear on a terminal only, and not where
-the variable NO_COLOR is set."
+Results go to standard output, messages to standard error. Colors appear only on a terminal, and not if the
+variable NO_COLOR is set."
 )]
 struct Cli {
     #[command(subcommand)]

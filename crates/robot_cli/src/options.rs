@@ -9,6 +9,24 @@ pub(crate) fn help(name: &str) -> &'static str {
     OptionSpec::named(name).map_or("", |option| option.help)
 }
 
+/// What messages of libraries say of options that are not in the table and of work that commands do, and how the
+/// command says it.
+const OTHERS: [(&str, &str); 4] = [
+    ("the import option `friction`", "`import --friction`"),
+    ("the option `rustc`", "`--rustc`"),
+    ("run a search for a cheaper plan", "search for a cheaper plan with `robot-symbolic search`"),
+    ("measure the compiled code", "measure it with `robot-symbolic prove`"),
+];
+
+/// A message of a library in the words of the command: "the option `allow_massless`" is `--allow-massless`.
+pub(crate) fn in_flags(message: &str) -> String {
+    let known = OPTIONS
+        .iter()
+        .map(|option| (format!("the option `{}`", option.name), format!("`{}`", option.flag())));
+    let others = OTHERS.map(|(words, flag)| (words.to_owned(), flag.to_owned()));
+    known.chain(others).fold(message.to_owned(), |text, (words, flag)| text.replace(&words, &flag))
+}
+
 /// The words that an option may have.
 pub(crate) fn choice(name: &str) -> PossibleValuesParser {
     match OptionSpec::named(name).map(|option| option.kind) {

@@ -5,7 +5,7 @@ use robot_dynamics::economical::search::{Found, Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
 
 use crate::Terminal;
-use crate::failure::Failure;
+use crate::failure::{Failure, in_command_words};
 use crate::progress::watched;
 
 /// The options with the plan that is pinned beside the robot file.
@@ -27,14 +27,17 @@ pub(crate) fn pinned_or_searched(
     let robot = robot_build::read_with(&file.source, &options)?.robot;
     let mechanism = MechanismOptions::ROUNDED.with_snap(options.snap, &robot);
     let find = || search(&robot, &mechanism, Measure::Operations);
-    let found = watched("searching a plan", terminal, find);
+    let found = watched("searching for a plan", terminal, find);
     let instead = match &found {
         Some(Found { operations, .. }) => format!(
-            "taken for this call: a plan searched now, under which inverse dynamics takes {operations} operations"
+            "using a plan searched for now, under which inverse dynamics takes {operations} \
+             operations"
         ),
-        None => "taken for this call: the default form".to_owned(),
+        None => "using the default form".to_owned(),
     };
-    writeln!(terminal.errors, "warning: {errors}\n  {instead}; builds refuse the pinned one")?;
+    let shown: Vec<String> = errors.as_slice().iter().map(in_command_words).collect();
+    let shown = shown.join("\n");
+    writeln!(terminal.errors, "warning: {shown}\n  {instead}; builds refuse the pinned plan")?;
     Ok(Options { plan: found.map(|found| found.plan), search: false, ..options })
 }
 

@@ -7,7 +7,7 @@ use robot_symbolic::Rational;
 
 use crate::Terminal;
 use crate::failure::Failure;
-use crate::options::help;
+use crate::options::{help, in_flags};
 use crate::text;
 
 /// What is taken with a warning.
@@ -36,8 +36,8 @@ impl ReadingArguments {
         let described = read_with(source, &self.options())?;
         text::warnings(&described.warnings, terminal)?;
         if !described.left_out.is_empty() {
-            let (name, parts) = (&source.name, described.left_out.join("; "));
-            writeln!(terminal.errors, "note: {name}: no part of the robot: {parts}")?;
+            let (name, parts) = (&source.name, in_flags(&described.left_out.join("; ")));
+            writeln!(terminal.errors, "note: {name}: not part of the robot: {parts}")?;
         }
         Ok(described)
     }

@@ -37,7 +37,7 @@ pub(crate) struct RobotArgument {
 fn snap(text: &str) -> Result<f64, String> {
     let angle = text.parse().ok().and_then(|angle| snap::check(angle).ok());
     let most = snap::MAX;
-    angle.ok_or_else(|| format!("it is an angle in radians between 0 and {most}"))
+    angle.ok_or_else(|| format!("a tolerance is an angle in radians between 0 and {most}"))
 }
 
 /// The names of frames of base parameters.

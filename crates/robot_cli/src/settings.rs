@@ -13,7 +13,7 @@ use crate::text;
 /// Parameters' values in place of the nominal ones.
 #[derive(Args)]
 pub(crate) struct Settings {
-    /// A parameter's value in place of the nominal one; what the reader refuses in a file it refuses here
+    /// Set a parameter to a value other than the nominal one; the checks of robot files apply
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     settings: Vec<(String, f64)>,
 }
@@ -67,7 +67,10 @@ impl Settings {
         for parameter in parameters.iter().filter(|parameter| parameter.value.is_none()) {
             let name = &parameter.name;
             if self.settings.iter().all(|(set, _)| set != name) {
-                wrong.push(format!("`{name}` has no nominal value: give one, --set {name}=…"));
+                wrong.push(format!(
+                    "`{name}` does not have a nominal value: set it with --set \
+                    {name}=…"
+                ));
             }
         }
         wrong

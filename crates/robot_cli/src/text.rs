@@ -9,6 +9,7 @@ use robot_symbolic::nearest_word;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::options::in_flags;
 
 /// `there is no function `invers`; did you mean `inverse`? There are …`
 pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
@@ -16,8 +17,8 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
         .map(|near| format!(" Did you mean `{near}`?"))
         .unwrap_or_default();
     let known = match known {
-        [] => "There is none.".to_owned(),
-        known => format!("There are {}.", known.join(", ")),
+        [] => "None is available.".to_owned(),
+        known => format!("Available: {}.", known.join(", ")),
     };
     format!("there is no {what} `{}`.{near} {known}", quote(name))
 }
@@ -26,7 +27,7 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
 pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if !warnings.is_empty() {
         let style = if terminal.colors { Style::Terminal } else { Style::Plain };
-        writeln!(terminal.errors, "{}", warnings.render(style).trim_end())?;
+        writeln!(terminal.errors, "{}", in_flags(warnings.render(style).trim_end()))?;
     }
     Ok(())
 }
@@ -117,24 +118,24 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
 pub(crate) fn snapping(snapping: &Snapping) -> String {
     let Snapping { taken, larger } = snapping;
     let mut text = format!(
-        "angles taken for the multiple of π/2 next to them, --snap {:e}: {}",
+        "angles snapped to a multiple of π/2, --snap {:e}: {}",
         taken.tolerance,
         taken.snapped.len()
     );
     // Writing to a string does not fail.
     if let Some(Snap { name, angle, change }) = taken.largest() {
         let change = change.abs();
-        let _ = write!(text, "; the largest change is {change:.1e} rad, of {angle} at {name}");
+        let _ = write!(text, "; the largest change is {change:.1e} rad, from {angle} at {name}");
     }
     for tried in larger {
         let change = tried.largest().map_or(0.0, |snap| snap.change.abs());
         let saved = match taken.operations.checked_sub(tried.operations) {
-            Some(saved) => format!("{saved} operations of inverse dynamics less"),
-            None => format!("{} operations more", tried.operations - taken.operations),
+            Some(saved) => format!("{saved} fewer operations of inverse dynamics"),
+            None => format!("{} more operations", tried.operations - taken.operations),
         };
         let _ = write!(
             text,
-            "\n--snap {:e} would take {}, the largest change {change:.1e} rad: {saved}",
+            "\n--snap {:e} would snap {}, with a largest change of {change:.1e} rad: {saved}",
             tried.tolerance,
             tried.snapped.len()
         );
@@ -149,9 +150,12 @@ mod tests {
     #[test]
     fn names_that_are_near_are_suggested() {
         let shown = unknown("quantity", "F_1", &["Q", "F_l", "M_l"]);
-        assert_eq!(shown, "there is no quantity `F_1`. Did you mean `F_l`? There are Q, F_l, M_l.");
+        assert_eq!(
+            shown,
+            "there is no quantity `F_1`. Did you mean `F_l`? Available: Q, F_l, M_l."
+        );
         assert!(!unknown("quantity", "torques", &["Q", "F_l"]).contains("mean"));
-        assert_eq!(unknown("tip", "a", &[]), "there is no tip `a`. There is none.");
+        assert_eq!(unknown("tip", "a", &[]), "there is no tip `a`. None is available.");
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub enum Error {
         symbol: String,
     },
     /// Two things of one kind have one name.
-    #[error("{place}: the {kind} `{name}` is declared twice; give one of them another name")]
+    #[error("{place}: the {kind} `{name}` is declared twice; rename one of them")]
     Duplicate {
         /// Where: the module or one of its functions.
         place: String,
@@ -45,7 +45,7 @@ pub enum Error {
         values: usize,
     },
     /// A function without outputs.
-    #[error("function `{function}` has no outputs; a function computes at least one")]
+    #[error("function `{function}` has no outputs; a function must compute at least one")]
     NoOutputs {
         /// The function.
         function: String,
@@ -63,8 +63,9 @@ pub enum Error {
     },
     /// A constant that is no finite number: a division by zero, or beyond the range of `f64`.
     #[error(
-        "output `{output}` of function `{function}` contains a constant that is no finite number \
-         (a division by zero, a root of a negative number, or a value beyond the range of f64)"
+        "output `{output}` of function `{function}` contains a constant that is not a finite \
+         number (a division by zero, the square root of a negative number, or a value outside \
+         the range of f64)"
     )]
     NotFinite {
         /// The function.
@@ -73,7 +74,7 @@ pub enum Error {
         output: String,
     },
     /// A nominal value that is no finite number.
-    #[error("the nominal value of the parameter `{parameter}` is no finite number")]
+    #[error("the nominal value of the parameter `{parameter}` is not a finite number")]
     NominalNotFinite {
         /// The parameter.
         parameter: String,
@@ -99,7 +100,7 @@ pub enum Error {
         known: String,
     },
     /// A parameter that has no nominal value and was not given.
-    #[error("the parameter `{parameter}` has no nominal value: give it one")]
+    #[error("the parameter `{parameter}` does not have a nominal value: set one")]
     MissingParameter {
         /// The parameter.
         parameter: String,
@@ -150,7 +151,8 @@ pub enum Error {
     },
     /// Inputs or outputs at different numbers of states.
     #[error(
-        "function `{function}` is given {expected} and {found} states; give all for the same states"
+        "function `{function}` got {expected} states in one input and {found} in another; pass \
+         all inputs for the same states"
     )]
     States {
         /// The function.
@@ -161,13 +163,13 @@ pub enum Error {
         found: usize,
     },
     /// An option of a backend that is no Rust path.
-    #[error("the runtime path `{path}` is no path of Rust, such as `::robot_runtime`")]
+    #[error("the runtime path `{path}` is not a Rust path such as `::robot_runtime`")]
     RuntimePath {
         /// The text given.
         path: String,
     },
     /// A constant that the scalar type cannot hold.
-    #[error("the constant {value} of {place} is beyond the range of f32; generate f64")]
+    #[error("the constant {value} of {place} is outside the range of f32; generate f64")]
     BeyondSinglePrecision {
         /// The constant.
         value: String,

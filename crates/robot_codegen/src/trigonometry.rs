@@ -17,12 +17,12 @@ impl Trigonometry {
     pub fn range_of_angles(self) -> &'static str {
         match self {
             Trigonometry::Polynomial => {
-                "Angles are below 2³⁰ = 1073741824 rad, in f32 below 2¹⁷ = 131072 rad: from there on their \
-                 sines and cosines, and what is computed with them, are NaN. Take whole turns off angles \
-                 that grow without end."
+                "Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for \
+                 larger angles the sines and cosines, and everything computed from them, are \
+                 NaN. Wrap angles that grow without bound."
             }
             Trigonometry::Standard => {
-                "Angles may be of any size: sines and cosines are the standard library's."
+                "Angles may be of any size: sines and cosines come from the standard library."
             }
         }
     }

@@ -21,13 +21,14 @@ const LIMITS: PolynomialOptions =
 
 /// What helps where formulas of base parameters are too long.
 const SHORTER: &str =
-    "angles between frames that are multiples of π/2 make them shorter (`--snap`)";
+    "snapping angles between frames that are nearly multiples of π/2 makes them shorter";
 
 /// What the names mean.
-pub(crate) const NAMES: &str = "XX to ZZ are entries of a link's tensor of inertia about the origin of \
-    its frame, in its axes and with their signs, MX, MY, MZ its first moment, M its mass; IA is a drive's \
-    reflected inertia, FV, FP, FN its friction, FO its offset, IC the coupling of its rotor. The number of \
-    the link follows; an R marks what others are regrouped under.";
+pub(crate) const NAMES: &str = "XX to ZZ are the entries of a link's inertia tensor about the \
+    origin of its frame, in its axes and with their signs, MX, MY, MZ its first moment, M its \
+    mass; IA is a drive's reflected inertia (armature), FV, FP, FN its viscous, forward and \
+    backward friction, FO its friction offset, IC the coupling of its rotor. The number of the \
+    link follows; an R marks a parameter that others are regrouped with.";
 
 /// The base parameters of a robot, written.
 #[derive(Clone, Debug)]
@@ -79,7 +80,7 @@ pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
     let set = written(robot, snap, &graph);
     if graph.is_full() {
         // What was written on the way means nothing then.
-        let reason = format!("more than {MAX_NODES} expressions are needed for them; {SHORTER}");
+        let reason = format!("they need more than {MAX_NODES} expressions; {SHORTER}");
         return Err(Error::Base { reason });
     }
     set

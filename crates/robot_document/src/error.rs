@@ -11,8 +11,8 @@ use crate::latex::ReadError;
 pub enum Error {
     /// An expanded form of more terms or products than anybody reads.
     #[error(
-        "{reason}. The expanded form of this robot is too long to read; choose another: \
-         `--form grouped`, `recursive` or `compact`"
+        "{reason}. The expanded form of this robot is too long to read; choose the form \
+         `grouped`, `recursive` or `compact`"
     )]
     TooLong {
         /// The limit that it exceeds.
@@ -20,8 +20,8 @@ pub enum Error {
     },
     /// More coefficients than anybody reads.
     #[error(
-        "the grouped form has coefficients for each pair of joints, and this robot has {coordinates} \
-         coordinates, more than {limit}; choose another form: `--form recursive` or `compact`"
+        "the grouped form has coefficients for each pair of joints, and this robot has \
+         {coordinates} coordinates, more than {limit}; choose the form `recursive` or `compact`"
     )]
     TooMany {
         /// The robot's coordinates.
@@ -31,8 +31,9 @@ pub enum Error {
     },
     /// More expressions than anybody reads, on the way to the equations.
     #[error(
-        "more than {limit} expressions are needed for this; the forms `--form recursive` and `compact` need \
-         fewest, and figures of frames that are multiples of π/2 make them shorter (`--snap`)"
+        "the equations need more than {limit} expressions; the forms `recursive` and `compact` \
+         need the fewest, and snapping angles that are nearly multiples of π/2 (the option \
+         `snap`) makes them shorter"
     )]
     TooManyExpressions {
         /// The most that are derived.
@@ -42,7 +43,7 @@ pub enum Error {
     #[error(transparent)]
     Snap(#[from] InvalidSnap),
     /// Base parameters that cannot be found or written out.
-    #[error("the base parameters are not to be had: {reason}")]
+    #[error("the base parameters cannot be computed: {reason}")]
     Base {
         /// Why.
         reason: String,
@@ -52,8 +53,8 @@ pub enum Error {
     TooLarge(#[from] TooLarge),
     /// A symbol of the robot that has the name of one that a form defines.
     #[error(
-        "this form of the equations has a symbol `{name}` of its own; give that of the robot file \
-         another name, or choose another form"
+        "this form of the equations defines a symbol `{name}` of its own; rename the symbol in \
+         the robot file, or choose another form"
     )]
     Taken {
         /// The name.
@@ -61,8 +62,8 @@ pub enum Error {
     },
     /// Two symbols that print alike.
     #[error(
-        "`{name}` and `{other}` both print as {latex}; give one of them another `latex` in the \
-         robot file"
+        "`{name}` and `{other}` are both printed as {latex}; give one of them another `latex` in \
+         the robot file"
     )]
     Alike {
         /// A symbol.
@@ -74,8 +75,8 @@ pub enum Error {
     },
     /// A symbol that prints like the short form of a sine or cosine.
     #[error(
-        "`{name}` prints as {latex}, which would read as a sine or cosine; use `--trig named`, or \
-         give the symbol another `latex` in the robot file"
+        "`{name}` is printed as {latex}, which would read as a sine or cosine; print sines and \
+         cosines by name, or give the symbol another `latex` in the robot file"
     )]
     LikeSine {
         /// The symbol.
@@ -85,9 +86,9 @@ pub enum Error {
     },
     /// A piece that is wider than a line.
     #[error(
-        "in the equation of `{name}` a piece {needed} cm wide does not fit a line of \
-         {available} cm; choose another \
-         form or wider lines, or shorter names with `latex` in the robot file"
+        "part of the equation of `{name}` is {needed} cm wide and does not fit a line of \
+         {available} cm; choose another form or wider lines, or set shorter names with `latex` \
+         in the robot file"
     )]
     Narrow {
         /// The left side in text.
@@ -98,15 +99,13 @@ pub enum Error {
         available: Centimeters,
     },
     /// Parts within parts within parts.
-    #[error(
-        "an expression has more than {limit} parentheses, fractions and indices within each other"
-    )]
+    #[error("an expression has parentheses, fractions and indices nested more than {limit} deep")]
     TooDeep {
         /// The most that are laid out.
         limit: usize,
     },
     /// LaTeX of a symbol that cannot be laid out; what a robot file may have can be.
-    #[error("LaTeX of a symbol cannot be laid out, {0}")]
+    #[error("the LaTeX for a symbol cannot be laid out: {0}")]
     Symbol(#[from] ReadError),
 }
 

@@ -116,7 +116,7 @@ impl fmt::Display for Violation {
                 write!(formatter, "{count} conditional jumps in {place}")
             }
             Violation::Indirect { count, place } => {
-                write!(formatter, "{count} jumps or calls by a value in {place}")
+                write!(formatter, "{count} indirect jumps or calls in {place}")
             }
             Violation::Traps { count, place } => {
                 write!(formatter, "{count} instructions that trap in {place}")
@@ -129,7 +129,7 @@ impl fmt::Display for Violation {
                 write!(formatter, "it takes {bytes} bytes of stack; its budget is {limit}")
             }
             Violation::Recursion => {
-                formatter.write_str("it calls itself, so that its stack has no bound")
+                formatter.write_str("it calls itself, so its stack is unbounded")
             }
         }
     }
@@ -144,7 +144,7 @@ pub(crate) fn module(object: &Object, roots: &[Root], profile: Profile) -> Resul
     let mut reached = BTreeSet::new();
     if object.table.len() != roots.len() {
         let (found, expected) = (object.table.len(), roots.len());
-        return Err(Error::Object(format!("it lists {found} functions, not {expected}")));
+        return Err(Error::Object(format!("it contains {found} functions, not {expected}")));
     }
     for (root, place) in roots.iter().zip(&object.table) {
         let (evidence, trigonometry) = reader.evidence(*place, &root.path, root.takes_slices);
@@ -377,7 +377,7 @@ mod tests {
             vec![file("src/model.rs", BROKEN), file("src/runtime/mod.rs", "//! No runtime.")];
         let probe = Probe::of_files(files, false).unwrap();
         let object = Compiler::default().compile(&probe, profile).unwrap();
-        module(&object, &probe.roots, profile).unwrap()
+        Module::read(&object, &probe.roots, profile).unwrap()
     }
 
     #[test]

@@ -154,13 +154,15 @@ impl Compiler {
         if let Some(cpu) = self.cpu.as_deref().filter(|_| messages.contains(UNKNOWN_CPU)) {
             let of = target.map(|target| format!(" --target {target}")).unwrap_or_default();
             return Some(format!(
-                "--target-cpu {cpu} is not a processor of the target: `rustc --print target-cpus{of}` lists them"
+                "the target does not have the processor `{cpu}`: `rustc --print target-cpus{of}` \
+                 lists its processors"
             ));
         }
         let target = target?;
         if messages.contains("could not find specification for target") {
             return Some(format!(
-                "--target {target} is not a target: `rustc --print target-list` lists them"
+                "the target `{target}` is unknown: `rustc --print target-list` lists the known \
+                 targets"
             ));
         }
         if messages.contains("can't find crate for `core`") {
@@ -168,8 +170,9 @@ impl Compiler {
         }
         messages.contains("can't find crate for `std`").then(|| {
             format!(
-                "{target} has no standard library, or it is not installed (`rustup target add {target}`): \
-                 `--trigonometry polynomial` needs none"
+                "{target} has no standard library, or it is not installed (`rustup target add \
+                 {target}`): the option `trigonometry` with the value `polynomial` does not need \
+                 one"
             )
         })
     }
@@ -184,7 +187,7 @@ mod tests {
         let compiler =
             Compiler { rustc: Some(PathBuf::from("/nowhere/rustc")), ..Compiler::default() };
         let message = compiler.description().unwrap_err().to_string();
-        for part in ["/nowhere/rustc", "needs `rustc`", "--rustc"] {
+        for part in ["/nowhere/rustc", "compiled with `rustc`", "the option `rustc`"] {
             assert!(message.contains(part), "{message}");
         }
     }

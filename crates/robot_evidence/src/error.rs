@@ -13,8 +13,9 @@ pub enum Error {
     Robot(#[from] robot_build::Errors),
     /// No compiler.
     #[error(
-        "cannot start the compiler {}: {reason}; prove compiles the generated code and needs `rustc`: \
-         install Rust (https://rustup.rs), or name the compiler by --rustc or the variable RUSTC",
+        "cannot start the compiler {}: {reason}; the generated code is compiled with `rustc`: \
+         install Rust (https://rustup.rs), or set the compiler's path with the option `rustc` or \
+         the variable RUSTC",
         shown(path)
     )]
     NoCompiler {
@@ -25,8 +26,8 @@ pub enum Error {
     },
     /// A program that is not a Rust compiler.
     #[error(
-        "{} is not a Rust compiler: asked for its version it {answer}; name the compiler by --rustc or the \
-         variable RUSTC",
+        "{} is not a Rust compiler: asked for its version, it {answer}; set the compiler's path \
+         with the option `rustc` or the variable RUSTC",
         shown(path)
     )]
     OtherProgram {
@@ -53,14 +54,15 @@ pub enum Error {
         messages: String,
     },
     /// A folder for temporary files that cannot be used.
-    #[error("cannot write temporary files: {0}; TMPDIR names another folder")]
+    #[error("cannot write temporary files: {0}; set the variable TMPDIR to another folder")]
     Folder(#[from] std::io::Error),
     /// What the compiler wrote is not what was expected.
     #[error("cannot read the object file: {0}")]
     Object(String),
     /// A processor whose instructions are not known here.
     #[error(
-        "cannot read instructions of {architecture}; x86-64 and Thumb (such as thumbv7em-none-eabihf) are read"
+        "cannot read instructions of {architecture}; x86-64 and Thumb (such as \
+         thumbv7em-none-eabihf) are supported"
     )]
     Architecture {
         /// The processor.

@@ -69,7 +69,7 @@ fn root_text(roots: &[Root]) -> String {
 /// The public functions of a file that are not generic.
 fn roots(text: &str) -> Result<Vec<Root>, Error> {
     let file = syn::parse_file(text)
-        .map_err(|error| Error::Object(format!("the generated code is no Rust: {error}")))?;
+        .map_err(|error| Error::Object(format!("the generated code is not valid Rust: {error}")))?;
     let mut roots = vec![];
     for item in file.items {
         match item {

@@ -92,7 +92,7 @@ impl Arguments {
         let Some(option) = OptionSpec::named(&name) else {
             let keys: Vec<&str> = OPTIONS.iter().map(|option| option.name).collect();
             let (near, keys) = (meant(&name, &keys), keys.join(", "));
-            let message = format!("there is no option `{key}`{near}; there are {keys}");
+            let message = format!("there is no option `{key}`{near}; the options are {keys}");
             return Err(syn::Error::new(key.span(), message));
         };
         if name == "allow_outside" {
@@ -119,7 +119,7 @@ impl Arguments {
                 Value::Word(&word)
             }
         };
-        let refused = || syn::Error::new_spanned(value, format!("`{key}` cannot have this value"));
+        let refused = || syn::Error::new_spanned(value, format!("invalid value for `{key}`"));
         option.set(&mut self.options, given).ok_or_else(refused)
     }
 }
@@ -132,7 +132,7 @@ impl Parse for Bundles {
         let content;
         let braces = syn::braced!(content in input);
         if content.is_empty() {
-            return Err(syn::Error::new(braces.span.join(), "no bundles are given"));
+            return Err(syn::Error::new(braces.span.join(), "the list of bundles is empty"));
         }
         let bundle = |input: ParseStream<'_>| {
             let name = input.parse()?;
@@ -175,7 +175,7 @@ fn list(value: &Expr, more: Option<&'static str>) -> syn::Result<Vec<LitStr>> {
         ));
     };
     if array.elems.is_empty() {
-        return Err(syn::Error::new_spanned(value, "no functions are chosen"));
+        return Err(syn::Error::new_spanned(value, "the list of functions is empty"));
     }
     let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
     let known: Vec<(&str, ())> = kinds.chain(more).map(|name| (name, ())).collect();

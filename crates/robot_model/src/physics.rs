@@ -47,10 +47,14 @@ impl Verdict {
     /// The fault in a line.
     pub(crate) fn message(&self) -> &'static str {
         match self {
-            Verdict::Possible => "the inertia is that of a body",
-            Verdict::Negative(_) => "no body has this inertia: a principal moment is negative",
+            Verdict::Possible => "the inertia is physically possible",
+            Verdict::Negative(_) => {
+                "the inertia is physically impossible: a principal moment is \
+                negative"
+            }
             Verdict::Triangle(..) => {
-                "no body has this inertia: one principal moment exceeds the sum of the others"
+                "the inertia is physically impossible: one principal moment exceeds the sum of \
+                 the others"
             }
         }
     }

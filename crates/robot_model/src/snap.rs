@@ -21,5 +21,5 @@ pub fn check(tolerance: f64) -> Result<f64, InvalidSnap> {
 
 /// An invalid snapping tolerance, as given.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the snapping tolerance {0} is no angle in radians between 0 and {MAX}")]
+#[error("the snapping tolerance {0} is not an angle in radians between 0 and {MAX}")]
 pub struct InvalidSnap(String);

@@ -244,7 +244,8 @@ fn factors(text: &str) -> Result<Vec<Factor<'_>>, UnitError> {
         if token.is_empty() {
             let character = rest.chars().next().unwrap_or(' ');
             if character == '/' && divided.replace(found.len()).is_some() {
-                let message = "a second `/`: write negative exponents, as in `N m rad^-1 s^-1`";
+                let message = "only one `/` is allowed: write negative exponents, as in `N m \
+                    rad^-1 s^-1`";
                 return Err(UnitError::Unknown(position..position + 1, message.to_owned()));
             }
             position += character.len_utf8();

@@ -85,7 +85,7 @@ impl JointVariable {
             Position => "Joint positions",
             Velocity => "Joint velocities",
             Acceleration => "Joint accelerations",
-            Torque => "Generalised driving forces",
+            Torque => "Joint torques",
         }
     }
 

@@ -31,7 +31,7 @@ pub enum NumericError {
     #[error("no such mechanism: {}", listed(.0))]
     Mechanism(Vec<Fault>),
     /// The mechanism cannot be at nominal values, for these parameters have none.
-    #[error("no nominal values of `{}`", .0.join("`, `"))]
+    #[error("`{}` has no nominal value", .0.join("`, `"))]
     WithoutValues(Vec<String>),
     /// Arguments of wrong length: every one of them.
     #[error("{}", listed(.0))]
@@ -50,8 +50,8 @@ pub enum NumericError {
     /// an inertia that no body can have, or a number that is not finite), so that torques do not
     /// determine accelerations.
     #[error(
-        "the mass matrix is not positive definite at this position: check that every coordinate \
-         moves mass and that inertias and arguments are finite and physical"
+        "the mass matrix is not positive definite in this posture: check that every coordinate \
+         moves mass and that inertias and arguments are finite and physically possible"
     )]
     NotPositiveDefinite,
     /// The articulated-body algorithm needs a coordinate of its own for each joint, and this
@@ -60,7 +60,7 @@ pub enum NumericError {
     /// [`Mechanism::forward_dynamics`]: super::Mechanism::forward_dynamics
     #[error(
         "coordinate {coordinate} drives several joints, which the articulated-body algorithm \
-         cannot treat: use the forward dynamics by the mass matrix"
+         does not support: use forward dynamics by the mass matrix"
     )]
     SharedCoordinate {
         /// The coordinate.

@@ -50,7 +50,7 @@ fn link_reasons(link: &Link, index: usize, count: usize) -> Vec<String> {
     }
     reasons.extend(not_finite("joint", &[link.joint.ratio, link.joint.offset]));
     reasons.extend(not_finite("mass", &[link.mass]));
-    reasons.extend(not_finite("centre of mass", link.center_of_mass.as_slice()));
+    reasons.extend(not_finite("center of mass", link.center_of_mass.as_slice()));
     reasons.extend(not_finite("inertia", link.inertia.as_slice()));
     let skewness = (link.inertia - link.inertia.transpose()).abs().max();
     if skewness > TOLERANCE * link.inertia.abs().max() {
@@ -59,7 +59,7 @@ fn link_reasons(link: &Link, index: usize, count: usize) -> Vec<String> {
     reasons.extend(not_finite("rotor inertia", &[link.rotor_inertia]));
     reasons.extend(not_finite("friction", &link.friction.numbers()));
     if matches!(link.friction.sign, Sign::Smooth(width) if width <= 0.0) {
-        reasons.push("the width of a smooth sign must be positive".into());
+        reasons.push("the smoothing width must be positive".into());
     }
     reasons
 }

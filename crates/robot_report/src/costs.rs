@@ -13,8 +13,8 @@ pub(crate) fn functions(module: &Module) -> Element {
     let mut columns = vec!["Function"];
     columns.extend(COLUMNS);
     columns.push("once for the parameters");
-    let caption = "Operations of a call of each function; subtractions count as additions, changes \
-                   of sign not at all.";
+    let caption = "Operations per call of each function. Subtractions count as additions, sign \
+        changes are not counted.";
     let mut table = Table::new(caption, columns);
     for function in &module.functions {
         let counts = module.counts(function);
@@ -48,8 +48,8 @@ pub(crate) fn options(found: &[Ablation], function: &str) -> Option<Element> {
     let (all, without) = found.split_first()?;
     let least = operations(all)?;
     let caption = format!(
-        "Operations of {function}, multiplications and additions together, where an option or a pass \
-         is left out. Options act together, so that what they save does not add up."
+        "Operations of {function}, multiplications and additions together, without one option or \
+         pass. The savings do not add up, because the options interact."
     );
     let mut table = Table::new(&caption, ["Without", "Operations", "More than with all"]);
     table.row("", "nothing: all options and passes", [least.to_string(), String::new()]);

@@ -19,8 +19,8 @@ const FORMS: [(Form, &str); 5] = [
     (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
     (Form::Expanded, "Expanded: sums of products, without friction"),
     (Form::Recursive, "Recursive: the iterations link by link"),
-    (Form::Compact, "Compact: what is used again has a name"),
-    (Form::Regrouped, "Regrouped: by the base parameters, in which Q is linear"),
+    (Form::Compact, "Compact: repeated expressions have names"),
+    (Form::Regrouped, "Regrouped: linear in the base parameters"),
 ];
 
 /// All forms, each to be opened.
@@ -42,9 +42,10 @@ pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
 }
 
 /// What the equations are.
-const WORDS: &str = "The driving forces Q, by the joints' coordinates, velocities and accelerations. Each \
-    term points at the links and parameters that it comes from, and at the definitions of the symbols in \
-    it: point at a term, or go to it by the tabulator and the arrows.";
+const WORDS: &str = "The joint torques τ (Q in the equations), as functions of the joint \
+    positions, velocities and accelerations. Hover a term, or move to it with Tab and the arrow \
+    keys, to highlight the links and parameters it depends on and the definitions of its \
+    symbols.";
 
 fn note(words: &str) -> Element {
     holding("p", words).class("note")
@@ -55,7 +56,8 @@ fn in_form(robot: &Robot, form: Form, found: &Equations) -> Vec<Element> {
     let count: usize = all.map(|equation| terms(equation.right.pieces()).count()).sum();
     if count > MAX_TERMS {
         return vec![note(&format!(
-            "This form has {count} terms and is not shown; robot-symbolic equations --form {} prints it.",
+            "This form has {count} terms and is too long for this page; print the equations in \
+             the form `{}` by themselves.",
             form.name()
         ))];
     }

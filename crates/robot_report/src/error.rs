@@ -16,8 +16,8 @@ pub enum Error {
     Robot(#[from] Errors),
     /// A robot too long for a page.
     #[error(
-        "{name} has {count} coordinates, and a page is about at most {MOST_COORDINATES}: `stats` and \
-         `equations --form recursive` take longer robots"
+        "{name} has {count} coordinates, but a page covers at most {MOST_COORDINATES}; print its \
+         equations in the form `recursive`, and count its operations, by themselves"
     )]
     TooManyCoordinates {
         /// The robot.

@@ -35,13 +35,14 @@ pub struct Accuracy {
 pub(crate) fn compiled(compiled: &Compiled) -> Vec<Node> {
     match compiled {
         Compiled::Unread { reason } => {
-            let words = format!("The machine code was not read: {reason}");
+            let words = format!("The machine code was not analyzed: {reason}");
             vec![holding("p", words).class("note").into()]
         }
         Compiled::Read { compiler, modules } => {
             let words = format!(
-                "The functions as {compiler} compiles them. A function is counted with all that it \
-                 calls, each once; stack is that of the deepest chain of calls."
+                "The functions as compiled by {compiler}. The counts of a function include \
+                 everything it calls, each once; the stack is that of the deepest chain of \
+                 calls."
             );
             let words = Node::from(holding("p", words));
             std::iter::once(words).chain(modules.iter().map(|one| profile(one).into())).collect()
@@ -91,8 +92,9 @@ pub(crate) fn accuracy(accuracy: &Result<Accuracy, String>) -> Vec<Node> {
     match accuracy {
         Ok(Accuracy { states, worst }) => {
             let caption = format!(
-                "Straight-line programs against the numeric solver at {states}: the largest difference \
-                 in a component as a share of the largest component of the result"
+                "Straight-line programs compared with the numerical solver at {states}: the \
+                 largest difference in a component, relative to the largest component of the \
+                 result"
             );
             let mut table = Table::new(&caption, ["Function", "Worst error"]);
             for (function, error) in worst {
@@ -105,7 +107,8 @@ pub(crate) fn accuracy(accuracy: &Result<Accuracy, String>) -> Vec<Node> {
             vec![table.build().into()]
         }
         Err(reason) => {
-            let words = format!("The programs were not held against the numeric solver: {reason}");
+            let words =
+                format!("The programs were not compared with the numerical solver: {reason}");
             vec![element("p").class("note").with(words).into()]
         }
     }

@@ -125,11 +125,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
         parameters(&robot, &symbols),
         Section { id: "equations", title: "Equations of motion", body: equations::forms(&robot) },
         structure(&robot),
-        Section {
-            id: "motion",
-            title: "Driving forces by cause",
-            body: motion::torques(&programs),
-        },
+        Section { id: "motion", title: "Joint torques by cause", body: motion::torques(&programs) },
         costs(input, &programs, lacking.as_ref())?,
         evidence(input, &programs),
     ];
@@ -137,9 +133,10 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
 }
 
 /// What the scheme shows.
-const CAPTION: &str = "The robot at q = 0. Cylinders turn about their axes, boxes slide in their \
-    guides; the arrow of an axis points where its coordinate grows to. Directions are the robot's own; \
-    short offsets are drawn longer, and joints that share a point are drawn apart, along a dotted line.";
+const CAPTION: &str = "The robot at q = 0. Cylinders rotate about their axes, boxes slide along \
+    their guides; the arrow on an axis points in the positive direction of its coordinate. \
+    Directions are true; short offsets are enlarged, and joints at the same point are drawn \
+    apart along a dotted line.";
 
 fn kinematics(robot: &Robot) -> Section {
     let caption = holding("figcaption", CAPTION);
@@ -153,16 +150,16 @@ fn kinematics(robot: &Robot) -> Section {
 }
 
 fn parameters(robot: &Robot, symbols: &Symbols) -> Section {
-    let none = "The robot file has no parameters: all figures are numbers.";
+    let none = "The robot file has no parameters: all values are numbers.";
     let table = tables::parameters(robot, symbols);
     let body = table.unwrap_or_else(|| holding("p", none)).into();
     Section { id: "parameters", title: "Parameters", body: vec![body] }
 }
 
 /// What the grids show.
-const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked const \
-    depend on parameters alone. An entry counts as independent of a coordinate where no other value of \
-    it changes the entry, at random values of all symbols, parameters included.";
+const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked \
+    const depend on parameters alone. An entry counts as independent of a coordinate if no other \
+    value of the coordinate changes it, at random values of all symbols, parameters included.";
 
 fn structure(robot: &Robot) -> Section {
     let grids = Structure::of(robot).build().map(Node::from);

@@ -60,11 +60,11 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
 }
 
 /// What the trajectory is.
-const WORDS: &str = "Each coordinate swings about the middle of its range, or about 0 where it has no \
-    limits: q = middle − amplitude · cos(2π k t / 4 s), with k = 1 for coordinates of odd number and \
-    k = 2 for the others. The amplitude is 0.3 of half the range; without limits 0.8 rad or 0.2 m. \
-    Inertia is M q̈, coriolis C q̇ with the centrifugal forces, gravity g; the total is their sum, with \
-    friction where there is some.";
+const WORDS: &str = "Each coordinate oscillates about the middle of its range, or about 0 if it \
+    has no limits: q = middle − amplitude · cos(2π k t / 4 s), with k = 1 for odd coordinate \
+    numbers and k = 2 for even ones. The amplitude is 0.3 of half the range; without limits it \
+    is 0.8 rad or 0.2 m. Inertia is M q̈, coriolis the Coriolis and centrifugal terms C q̇, \
+    gravity g; the total is their sum, including friction if there is any.";
 
 fn trajectory(robot: &Robot) -> Trajectory {
     let mut trajectory = Trajectory::default();

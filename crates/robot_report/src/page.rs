@@ -40,7 +40,7 @@ pub(crate) fn page(robot: &Robot, sections: Vec<Section>, stamp: Option<Stamp>) 
             .with_all(section.body)
     });
     let body = element("body")
-        .with(holding("a", "Skip to the content").class("skip").attribute("href", "#content"))
+        .with(holding("a", "Skip to content").class("skip").attribute("href", "#content"))
         .with(header(robot))
         .with(contents)
         .with(element("main").attribute("id", "content").with_all(main))

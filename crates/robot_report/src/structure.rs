@@ -71,9 +71,9 @@ impl Structure {
     /// Both matrices as colored tables.
     pub(crate) fn build(&self) -> [Element; 2] {
         [
-            grid("Mass matrix M(q): the coordinates on which each entry depends", &self.mass),
+            grid("Mass matrix M(q): the coordinates that each entry depends on", &self.mass),
             grid(
-                "Coriolis matrix C(q, q̇): the coordinates on which each entry depends besides q̇",
+                "Coriolis matrix C(q, q̇): the coordinates that each entry depends on, besides q̇",
                 &self.coriolis,
             ),
         ]

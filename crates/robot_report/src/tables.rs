@@ -14,9 +14,9 @@ use crate::text;
 
 /// Joints and frames: where each is at rest, and how it moves.
 pub(crate) fn kinematics(robot: &Robot) -> Element {
-    let columns = ["Link", "Hangs on", "Joint", "Motion", "Axis", "Place at q = 0", "Limits"];
-    let caption = "Links and joints. A place is a row of moves in the parent's frame, each in the \
-                   frame that the ones before it made; lengths in m, angles in rad.";
+    let columns = ["Link", "Parent", "Joint", "Type", "Axis", "Pose at q = 0", "Limits"];
+    let caption = "Links and joints. A pose is a sequence of displacements in the parent frame, \
+        each in the frame reached by the preceding ones; lengths in m, angles in rad.";
     let mut table = Table::new(caption, columns);
     for (index, link) in robot.links.iter().enumerate() {
         let motion = words::motion(link.joint.kind);
@@ -26,7 +26,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
         let cells: [Node; 6] = [
             words::carrier(robot, link.parent).into(),
             link.joint.name.as_str().into(),
-            format!("{motion} by {}", position(robot, link)).into(),
+            format!("{motion}, {}", position(robot, link)).into(),
             vector(&link.joint.axis).into(),
             text::moves(robot, &link.placement).into(),
             limits
@@ -42,8 +42,9 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
 
 /// The named frames; `None` if there are none.
 pub(crate) fn frames(robot: &Robot) -> Option<Element> {
-    let caption = "Frames. A tip exerts the wrench of these components on its surroundings.";
-    let mut table = Table::new(caption, ["Frame", "Fixed to", "Place", "Wrench"]);
+    let caption = "Frames. A tip exerts the wrench with these components on its surroundings; \
+        the external wrench, which acts on the tip, is its negative.";
+    let mut table = Table::new(caption, ["Frame", "Fixed to", "Pose", "Wrench"]);
     for frame in &robot.frames {
         let wrench = frame.wrench.as_ref().map_or_else(String::new, |wrench| {
             let names = wrench.force.iter().chain(&wrench.moment);
@@ -60,15 +61,15 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
 /// Masses and inertias, the paper's Table 1.
 pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     let columns =
-        ["Body", "Mass, kg", "Centre of mass and axes, m, rad", "xx", "yy", "zz", "xy", "xz", "yz"];
-    let caption = "Masses and moments of inertia, kg m². The moments are about the centre of mass, \
-                   in the axes given; products of inertia are entries of the tensor, xy = −∫xy dm.";
+        ["Body", "Mass, kg", "Center of mass and axes, m, rad", "xx", "yy", "zz", "xy", "xz", "yz"];
+    let caption = "Masses and moments of inertia, kg m². The moments are about the center of \
+        mass, in the axes given; products of inertia are entries of the tensor, xy = −∫xy dm.";
     let mut table = Table::new(caption, columns);
     for (index, link) in robot.links.iter().enumerate() {
         for Body { name, mass, placement, inertia } in &link.bodies {
             let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
             let place = match text::moves(robot, placement) {
-                none if none == "none" => "at the link's origin".to_owned(),
+                none if none == "none" => "at the link frame's origin".to_owned(),
                 moves => moves,
             };
             let cells = [value_cell(robot, symbols, mass), holding("span", place)]
@@ -82,7 +83,7 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
 
 /// The parameters with values and units; `None` if there are none.
 pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
-    let caption = "Parameters: symbols of the equations, fields of the generated code.";
+    let caption = "Parameters: symbols in the equations, fields of the generated code.";
     let mut table = Table::new(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);
     for parameter in &robot.parameters {
         let Parameter { name, value, unit, doc, .. } = parameter;

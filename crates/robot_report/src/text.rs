@@ -55,7 +55,7 @@ pub(crate) fn moves(robot: &Robot, placement: &Placement) -> String {
             format!("move ({})", parts.join(", "))
         }
         Move::Rotate(axis, angle) => {
-            format!("turn {} by {}", words::axis(*axis), with_value(robot, angle))
+            format!("rotate {} by {}", words::axis(*axis), with_value(robot, angle))
         }
     };
     let moves: Vec<String> = words::moves(placement).map(one).collect();

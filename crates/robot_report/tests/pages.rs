@@ -180,7 +180,7 @@ fn hostile_text_is_text() {
 #[test]
 fn hostile_names_are_errors() {
     let turned = hostile("").replace("plain", "\u{202e}plain");
-    for (text, reason) in [(hostile("link"), "cannot name"), (turned, "U+202E")] {
+    for (text, reason) in [(hostile("link"), "cannot be the name of"), (turned, "U+202E")] {
         let source = Source { name: "swing.toml".to_owned(), text };
         let compiled = Compiled::Unread { reason: String::new() };
         let input =

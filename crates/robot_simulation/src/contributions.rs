@@ -106,9 +106,9 @@ pub fn torque_contributions(
         }
         let angle = too_large_angle(&programs.robot, q, Trigonometry::default());
         let why = angle.unwrap_or_else(|| {
-            "look at the size of the trajectory and of the parameters".to_owned()
+            "check the magnitudes of the trajectory and of the parameters".to_owned()
         });
-        let message = format!("at t = {} s torques have no finite value; {why}", number(*t));
+        let message = format!("at t = {} s torques do not have finite values; {why}", number(*t));
         return Err(Error::input(message));
     }
     Ok(contributions)

@@ -68,46 +68,44 @@ pub enum Cause {
 
 /// The usual reasons for small steps.
 const SMALL: &str =
-    "Look for stiff springs, friction with a narrow `smoothing` and forces that jump";
+    "Look for stiff springs, friction with a small `smoothing` and discontinuous forces";
 
 impl fmt::Display for Cause {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Cause::StepSize => {
-                write!(
-                    formatter,
-                    "the steps became too small. {SMALL}, or ask for a coarser tolerance"
-                )
+                write!(formatter, "the steps became too small. {SMALL}, or increase the tolerance")
             }
             Cause::Accelerations => formatter.write_str(
-                "the accelerations have no finite value. Either the mass matrix is singular (a \
-                 coordinate moves no mass) or the motion has run away",
+                "the accelerations do not have finite values. Either the mass matrix is singular \
+                 (a coordinate moves no mass) or the motion has diverged",
             ),
             Cause::Torques => formatter.write_str(
-                "the driving forces have no finite value there; look for a division by zero or the \
-                 root of a negative number in their expressions",
+                "the joint torques do not have finite values there; look for a division by zero \
+                 or the square root of a negative number in their expressions",
             ),
             Cause::Friction => formatter.write_str(
-                "no acceleration agrees with the dry friction that it causes by its load; look at \
-                 the coefficients `coulomb` of the joints, or give their friction `smoothing`",
+                "no acceleration is consistent with its load-dependent friction; check the \
+                 coefficients `coulomb` of the joints, or set `smoothing` for their friction",
             ),
             Cause::Events => formatter.write_str(
-                "joints with dry friction come to rest and break away without end; look for forces \
-                 that jump with a velocity, or give the friction `smoothing`",
+                "joints with Coulomb friction stick and break away endlessly; look for forces \
+                 that jump with a velocity, or set `smoothing` for the friction",
             ),
             Cause::Steps(limit) => write!(
                 formatter,
-                "{limit} steps were not enough. {SMALL}; else allow more, or a coarser tolerance"
+                "{limit} steps were not enough. {SMALL}; otherwise allow more steps, or increase \
+                 the tolerance"
             ),
             Cause::Slow(steps, limit) => write!(
                 formatter,
-                "the last {steps} steps led so short a way that {limit} would not be enough. {SMALL}; \
-                 else allow more, or a coarser tolerance"
+                "the last {steps} steps advanced so little that {limit} would not be enough. \
+                 {SMALL}; otherwise allow more steps, or increase the tolerance"
             ),
             Cause::Large(what) => write!(
                 formatter,
-                "{what} is too large for a step of any length; look at the velocities at the start, the \
-                 driving forces and the masses"
+                "{what} is too large for a step of any length; check the initial velocities, the \
+                 joint torques and the masses"
             ),
             Cause::Other(words) => formatter.write_str(words),
         }

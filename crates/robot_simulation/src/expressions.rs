@@ -25,7 +25,7 @@ pub(crate) fn assignment<'t>(
 ) -> Result<(&'t str, Formula), String> {
     let shown = quote(text);
     let Some((name, formula)) = text.split_once('=') else {
-        return Err(format!("`{shown}` is no assignment; write NAME = EXPRESSION"));
+        return Err(format!("`{shown}` is not an assignment; write NAME = EXPRESSION"));
     };
     let formula = Formula::parse(formula.trim()).map_err(|error| {
         let help = error.help.map(|help| format!("; {help}")).unwrap_or_default();
@@ -34,7 +34,7 @@ pub(crate) fn assignment<'t>(
     let unknown = formula.symbols().map(|(name, _)| name).find(|name| !is_known(name));
     if let Some(unknown) = unknown {
         let unknown = quote(unknown);
-        return Err(format!("`{shown}`: `{unknown}` is not known here; there are {known}"));
+        return Err(format!("`{shown}`: `{unknown}` is not known here; known are {known}"));
     }
     Ok((name.trim(), formula))
 }

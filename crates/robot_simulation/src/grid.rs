@@ -24,7 +24,7 @@ pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
     let whole = (duration / step * (1.0 + 1e-12)).floor();
     if whole > MAX_SAMPLES {
         let message =
-            format!("{} samples are more than {MAX_SAMPLES}; take a larger step", number(whole));
+            format!("{} samples are more than {MAX_SAMPLES}; increase the step", number(whole));
         return Err(Error::input(message));
     }
     let mut times: Vec<f64> = (0..=whole as usize).map(|index| index as f64 * step).collect();

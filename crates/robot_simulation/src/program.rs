@@ -88,7 +88,7 @@ impl<'p> RobotProgram<'p> {
         let values = values(&self.interpreter, FunctionKind::Energies, &inputs)?;
         match values.as_slice() {
             &[kinetic, potential] => Ok([kinetic, potential]),
-            _ => Err(Error::input("the program gives no energies")),
+            _ => Err(Error::input("the program does not compute energies")),
         }
     }
 
@@ -129,7 +129,7 @@ impl Dynamics for RobotProgram<'_> {
             return Err(Cause::Other(angle));
         }
         match self.wrong_pivot(state) {
-            Some(pivot) => Err(Cause::Other(format!("there are no accelerations: {pivot}"))),
+            Some(pivot) => Err(Cause::Other(format!("forward dynamics has no solution: {pivot}"))),
             None => Ok(found),
         }
     }
@@ -138,7 +138,7 @@ impl Dynamics for RobotProgram<'_> {
     fn check(&self, state: &State) -> Result<(), Cause> {
         match self.wrong_pivot(state) {
             Some(pivot) if pivot.digits == 0 && self.dry_friction().is_none() => {
-                Err(Cause::Other(format!("there are no accelerations: {pivot}")))
+                Err(Cause::Other(format!("forward dynamics has no solution: {pivot}")))
             }
             _ => Ok(()),
         }
@@ -198,7 +198,7 @@ fn robot_friction(robot: &Robot, given: &[(&str, f64)]) -> Result<RobotFriction,
         if dry.iter().any(|value| *value < 0.0) {
             let joint = &link.joint.name;
             wrong.push(format!(
-                "the dry friction of joint `{joint}` is negative: it would drive it"
+                "the Coulomb friction of joint `{joint}` is negative, which would drive the joint"
             ));
         }
         // What is not a number is to show in the accelerations.

@@ -108,7 +108,7 @@ fn check(
     let tolerance = options.tolerance;
     if !(1e-14..=0.1).contains(&tolerance) {
         let tolerance = number(tolerance);
-        wrong.push(format!("the tolerance is {tolerance}; it must lie between 1e-14 and 0.1"));
+        wrong.push(format!("the tolerance is {tolerance}; it must be between 1e-14 and 0.1"));
     }
     let expected = dynamics.degrees_of_freedom();
     for (variable, values) in
@@ -117,10 +117,10 @@ fn check(
         let name = variable.name();
         if values.len() != expected {
             let count = values.len();
-            wrong.push(format!("the start has {count} entries of {name}, not {expected}"));
+            wrong.push(format!("the initial state has {count} entries of {name}, not {expected}"));
         }
         if values.iter().any(|value| !value.is_finite()) {
-            wrong.push(format!("the start has entries of {name} that are not finite"));
+            wrong.push(format!("the initial state has entries of {name} that are not finite"));
         }
     }
     Error::check(wrong, ())

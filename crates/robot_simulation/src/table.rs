@@ -81,7 +81,7 @@ impl Table {
         let (mut table, mut wrong) = (Table::default(), vec![]);
         for name in names {
             if table.column(name).is_some() {
-                wrong.push(format!("{source}: the header has `{}` twice", quote(name)));
+                wrong.push(format!("{source}: `{}` appears twice in the header", quote(name)));
             }
             table.push(name, vec![]);
         }
@@ -92,7 +92,7 @@ impl Table {
             table.read_line(&format!("{source}: line {number}"), line, &mut wrong);
         }
         if table.rows() == 0 && wrong.is_empty() {
-            wrong.push(format!("{source}: there are no lines under the header"));
+            wrong.push(format!("{source}: there are no lines below the header"));
         }
         Error::check(wrong, table)
     }
@@ -101,7 +101,7 @@ impl Table {
         let cells = cells(line);
         let (found, expected) = (cells.len(), self.columns.len());
         if found != expected {
-            wrong.push(format!("{place}: {found} entries under a header of {expected}"));
+            wrong.push(format!("{place}: {found} entries, but the header has {expected}"));
             return;
         }
         for ((name, values), cell) in self.columns.iter_mut().zip(cells) {
@@ -125,8 +125,9 @@ pub(crate) fn check_times(source: &str, table: &Table) -> Vec<String> {
         return vec![format!("{source}: there is no column `t`, the time in s")];
     };
     let falls = times.windows(2).position(|pair| pair[0] >= pair[1]);
-    let message = falls
-        .map(|row| format!("{source}: the time does not rise at row {} under the header", row + 2));
+    let message = falls.map(|row| {
+        format!("{source}: the time does not increase at row {} below the header", row + 2)
+    });
     message.into_iter().collect()
 }
 
@@ -150,10 +151,10 @@ mod tests {
     fn everything_that_is_wrong_is_named() {
         let message = |text: &str| Table::read("a.csv", text).unwrap_err().to_string();
         assert_eq!(message(" \n"), "a.csv: there is no header, such as t,q1,q2");
-        assert_eq!(message("t,q1\n"), "a.csv: there are no lines under the header");
+        assert_eq!(message("t,q1\n"), "a.csv: there are no lines below the header");
         assert_eq!(
             message("t,q1,q1\n0,1\n\n0,nan,x\n"),
-            "a.csv: the header has `q1` twice\na.csv: line 2: 2 entries under a header of 3\n\
+            "a.csv: `q1` appears twice in the header\na.csv: line 2: 2 entries, but the header has 3\n\
              a.csv: line 4: `q1` is `nan`, not a number\na.csv: line 4: `q1` is `x`, not a number"
         );
     }
@@ -162,7 +163,10 @@ mod tests {
     fn times_must_rise() {
         let wrong = |text: &str| check_times("a", &Table::read("a", text).unwrap());
         assert_eq!(wrong("t\n0\n1\n"), [""; 0]);
-        assert_eq!(wrong("t\n0\n1\n1\n"), ["a: the time does not rise at row 3 under the header"]);
+        assert_eq!(
+            wrong("t\n0\n1\n1\n"),
+            ["a: the time does not increase at row 3 below the header"]
+        );
         assert_eq!(wrong("q1\n0\n"), ["a: there is no column `t`, the time in s"]);
     }
 }

@@ -100,7 +100,7 @@ impl Torques {
             && (*first > 0.0 || *last < duration)
         {
             wrong.push(format!(
-                "{source}: the torques go from {} s to {} s; the motion from 0 s to {} s",
+                "{source}: the torques cover {} s to {} s, but the motion 0 s to {} s",
                 number(*first),
                 number(*last),
                 number(duration)
@@ -111,14 +111,15 @@ impl Torques {
             names.iter().map(String::as_str).filter(|name| table.column(name).is_none()).collect();
         if !lacks.is_empty() {
             wrong.push(format!(
-                "{source}: there is no column {}; a joint that is not driven has one of zeros",
+                "{source}: there is no column {}; add a column of zeros for a joint that is not \
+                 driven",
                 lacks.join(", ")
             ));
         }
         let known = |name: &str| names.iter().any(|known| known == name) || is_of_motion(name);
         for name in table.names().filter(|name| !known(name)) {
             let name = quote(name);
-            wrong.push(format!("{source}: there is no coordinate for the column `{name}`"));
+            wrong.push(format!("{source}: the column `{name}` does not match a coordinate"));
         }
         let columns = names.iter().filter_map(|name| Some(table.column(name)?.to_vec())).collect();
         Error::check(wrong, Torques(Law::Samples { t: t.to_vec(), columns }))
@@ -228,7 +229,7 @@ fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
     match (by_joint, of_number(name)) {
         (Some(joint), Some(number)) if joint != number => Err(format!(
             "torque `{shown}`: the joint of this name has the number {}; write tau{} for it, or \
-             tau{name} for the joint of this number",
+             tau{name} for the joint with this number",
             joint + 1,
             joint + 1
         )),
@@ -237,7 +238,10 @@ fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
             let joints: Vec<&str> =
                 robot.coordinates.iter().map(|coordinate| coordinate.joint.as_str()).collect();
             let (count, joints) = (joints.len(), joints.join(", "));
-            format!("torque `{shown}` is of no joint; there are 1 to {count}, by names {joints}")
+            format!(
+                "torque `{shown}` does not match a joint; the joints are 1 to {count}, by \
+                name {joints}"
+            )
         }),
     }
 }

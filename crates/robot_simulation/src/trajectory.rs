@@ -70,7 +70,7 @@ impl Trajectory {
         for name in table.names() {
             if name != "t" && !is_result(name) && needed.iter().all(|known| *known != name) {
                 let name = quote(name);
-                wrong.push(format!("{source}: nothing is known of the column `{name}`"));
+                wrong.push(format!("{source}: the column `{name}` is unknown"));
             }
         }
         let gather = |names: &[String]| {
@@ -152,8 +152,9 @@ fn formulas(
                 let shown = quote(name);
                 if coordinates.iter().chain(&wrenches).all(|known| known != name) {
                     let names = [&coordinates[..], &wrenches].concat().join(", ");
-                    wrong
-                        .push(format!("there is nothing to give for `{shown}`; there are {names}"));
+                    wrong.push(format!(
+                        "`{shown}` is not part of a trajectory; possible are {names}"
+                    ));
                 } else if formulas.insert(name.to_owned(), formula).is_some() {
                     wrong.push(format!("`{shown}` is given twice"));
                 }
@@ -161,8 +162,9 @@ fn formulas(
         }
     }
     for name in coordinates.iter().filter(|name| !formulas.contains_key(*name)) {
-        wrong
-            .push(format!("there is no expression for `{name}`; where it rests, write {name} = 0"));
+        wrong.push(format!(
+            "there is no expression for `{name}`; if it is at rest, write {name} = 0"
+        ));
     }
     (formulas, wrong)
 }
@@ -181,9 +183,10 @@ fn kinked<'g>(
         let Kink { coordinate, what, .. } = kink;
         let [t, left, right] = [kink.t, kink.sides[0], kink.sides[1]].map(number);
         format!(
-            "`q{}`: the {what} jumps at t = {t} s, from {left} to {right}: the acceleration there is an \
-             impulse, which no finite torque gives; write a smooth motion, such as sqrt(x^2 + w^2) for \
-             abs(x) and tanh(x/w) for sign(x) with a small w",
+            "`q{}`: the {what} jumps at t = {t} s, from {left} to {right}: the acceleration \
+             there would be infinite, and so would the torque; write a smooth motion, for \
+             example sqrt(x^2 + w^2) instead of abs(x) and tanh(x/w) instead of sign(x), with a \
+             small w",
             coordinate + 1
         )
     };
@@ -204,7 +207,7 @@ fn at(
     match values.iter().all(|value| value.is_finite()) {
         true => Ok(values),
         false => Err(Error::input(format!(
-            "the expressions or their derivatives have no finite value at t = {} s",
+            "the expressions or their derivatives do not have finite values at t = {} s",
             number(t)
         ))),
     }

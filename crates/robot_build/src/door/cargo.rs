@@ -12,14 +12,14 @@ use crate::error::{Error, Errors};
 pub(crate) fn package_dir() -> Result<PathBuf, Error> {
     variable(
         "CARGO_MANIFEST_DIR",
-        "paths of robot files are relative to it; call this from a build script, or give the folder \
-         with `package_dir`",
+        "paths of robot files are relative to it; call this from a build script, or set the \
+         folder with `package_dir`",
     )
 }
 
 /// The folder for generated files.
 pub(crate) fn out_dir() -> Result<PathBuf, Error> {
-    variable("OUT_DIR", "call this from a build script, or choose a folder with `out_dir`")
+    variable("OUT_DIR", "call this from a build script, or set a folder with `out_dir`")
 }
 
 /// Variables are read when the build script runs, not when it is compiled.
@@ -39,7 +39,8 @@ impl Directives {
         let name = path.to_str().ok_or_else(|| Error::File {
             action: "watch",
             path: path.to_owned(),
-            reason: "its path is not UTF-8, which Cargo's build scripts need; rename it".to_owned(),
+            reason: "its path is not UTF-8, but Cargo's build scripts require it; rename it"
+                .to_owned(),
         })?;
         self.line("cargo:rerun-if-changed", name);
         Ok(())

@@ -56,12 +56,12 @@ impl RobotFile {
             return Err(Errors::from(cannot_read(given, "it is a folder; name a robot file")));
         }
         if !found.is_file() {
-            return Err(Errors::from(cannot_read(given, "it is no file")));
+            return Err(Errors::from(cannot_read(given, "it is not a regular file")));
         }
         let name = given.to_string_lossy().into_owned();
         if name.chars().any(char::is_control) {
             // Cargo reads a build script's output line by line.
-            let reason = "its path has control characters; rename it";
+            let reason = "its path contains control characters; rename it";
             return Err(Errors::from(cannot_read(given, reason)));
         }
         let mut bytes = vec![];

@@ -68,19 +68,21 @@ impl RobotFile {
         let pin = read_pin(&path).map_err(failed)?;
         if pin.digest != digest(&pin.content()) {
             return Err(failed(
-                "the pinned plan was edited: it is not what a search wrote".to_owned(),
+                "the pinned plan was edited and is no longer what the search wrote".to_owned(),
             ));
         }
         let robot = crate::read_with(&self.source, options)?.robot;
         if pin.fingerprint != fingerprint(&robot) {
             return Err(failed(format!(
-                "the pinned plan is stale: it was searched for other mechanics than the file's now, where inverse \
-                 dynamics took {} operations",
+                "the pinned plan is stale: the robot's mechanics have changed since the search, \
+                 when inverse dynamics took {} operations",
                 pin.operations
             )));
         }
         if !pin.plan.fits(robot.links.len()) {
-            return Err(failed("the pinned plan is not one for this robot's links".to_owned()));
+            return Err(failed(
+                "the pinned plan does not match the links of this robot".to_owned(),
+            ));
         }
         Ok(Options { plan: Some(pin.plan), ..options.clone() })
     }
@@ -90,11 +92,11 @@ impl RobotFile {
 fn read_pin(path: &Path) -> Result<Pin, String> {
     let found = std::fs::metadata(path).map_err(|error| error.to_string())?;
     if !found.is_file() {
-        return Err("a plan is read from a regular file, which this is not".to_owned());
+        return Err("a pinned plan must be a regular file, and this is not".to_owned());
     }
     let size = found.len();
     if size > MAX_BYTES {
-        return Err(format!("the file has {size} bytes, which no pinned plan has"));
+        return Err(format!("the file has {size} bytes, too many for a pinned plan"));
     }
     let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
     Pin::from_text(&text).map_err(|error| error.to_string())
@@ -158,12 +160,12 @@ mod tests {
         let longer = Found { plan: Plan { links: vec![], unit_length: None }, ..found.clone() };
         std::fs::write(pin_path(&path), pin_text(&robot, &longer)).unwrap();
         let error = file.with_pin(&options).unwrap_err().to_string();
-        assert!(error.contains("not one for this robot's links"), "{error}");
+        assert!(error.contains("does not match the links of this robot"), "{error}");
         // A folder where the plan would lie is a plan that cannot be read.
         std::fs::remove_file(pin_path(&path)).unwrap();
         std::fs::create_dir(pin_path(&path)).unwrap();
         let error = file.with_pin(&options).unwrap_err().to_string();
-        assert!(error.contains("a plan is read from a regular file"), "{error}");
+        assert!(error.contains("a pinned plan must be a regular file"), "{error}");
         std::fs::remove_dir(pin_path(&path)).unwrap();
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
 
@@ -176,8 +178,8 @@ mod tests {
         std::fs::write(&path, ROBOT.replace("mass = 2", "mass = 3")).unwrap();
         let changed = RobotFile::read(&path).unwrap();
         let error = changed.with_pin(&options).unwrap_err().to_string();
-        let remedy = format!("run `robot-symbolic search {}` again", path.display());
-        for part in ["stale", "took 7 operations", &remedy] {
+        let remedy = "search for a plan again";
+        for part in ["stale", "took 7 operations", remedy] {
             assert!(error.contains(part), "{part} is not in {error}");
         }
         for format in [1, 2] {
@@ -186,7 +188,7 @@ mod tests {
             std::fs::write(pin_path(&path), earlier).unwrap();
             let error = changed.with_pin(&options).unwrap_err().to_string();
             assert!(
-                error.contains(&format!("format {format}")) && error.contains(&remedy),
+                error.contains(&format!("format {format}")) && error.contains(remedy),
                 "{error}"
             );
         }

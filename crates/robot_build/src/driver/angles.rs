@@ -15,7 +15,7 @@ pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> 
     if trigonometry == Trigonometry::Standard {
         return None;
     }
-    let beyond = "beyond the angles that the sines of the program take, below 2^30 rad";
+    let beyond = "outside the range of the program's sines and cosines, which is below 2^30 rad";
     let mut sum = 0.0;
     for joint in robot.links.iter().map(|link| &link.joint) {
         let Some(position) = q.get(joint.coordinate).filter(|_| joint.kind == JointKind::Revolute)
@@ -31,12 +31,12 @@ pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> 
             let turned = match angle == *position {
                 true => {
                     format!(
-                        "{symbol} = {q} rad (joint `{joint}`) is {beyond}; give it within a turn"
+                        "{symbol} = {q} rad (joint `{joint}`) is {beyond}; give it within one turn"
                     )
                 }
                 false => {
                     let angle = number(angle);
-                    format!("at {symbol} = {q} joint `{joint}` is turned by {angle} rad, {beyond}")
+                    format!("{symbol} = {q} turns joint `{joint}` by {angle} rad, {beyond}")
                 }
             };
             return Some(turned);
@@ -45,7 +45,7 @@ pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> 
     }
     (sum >= LIMIT).then(|| {
         format!(
-            "the angles of the joints add up to {} rad, {beyond}; give each within a turn",
+            "the joint angles add up to {} rad, {beyond}; give each within one turn",
             number(sum)
         )
     })
@@ -84,11 +84,7 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
         let why = |q: [f64; 2]| too_large_angle(&arm(), &q, Polynomial);
         assert_eq!(why([1e9, 1.0]), None);
         assert!(why([1.0, -2e9]).unwrap().starts_with("q2 = -2000000000 rad (joint "));
-        assert!(
-            why([1e9, -1e9])
-                .unwrap()
-                .starts_with("the angles of the joints add up to 2000000000 rad")
-        );
+        assert!(why([1e9, -1e9]).unwrap().starts_with("the joint angles add up to 2000000000 rad"));
         assert_eq!(too_large_angle(&arm(), &[1e9, 2e9], Standard), None);
     }
 
@@ -99,7 +95,7 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
         joint.coordinate = 0;
         joint.ratio = Formula::parse("8").unwrap();
         let why = too_large_angle(&robot, &[3e8, 0.0], Polynomial).unwrap();
-        assert!(why.starts_with("at q1 = 300000000 joint `"), "{why}");
-        assert!(why.contains("is turned by 2400000000 rad"), "{why}");
+        assert!(why.starts_with("q1 = 300000000 turns joint `"), "{why}");
+        assert!(why.contains("by 2400000000 rad"), "{why}");
     }
 }

@@ -45,12 +45,12 @@ impl Over {
     pub fn remedy(&self) -> &'static str {
         match self.resource {
             Resource::Operations => {
-                "search a cheaper form with `robot-symbolic search`, look for figures that are nearly \
-                 but not quite 0 or right angles, generate fewer outputs, or raise `max_operations`"
+                "run a search for a cheaper plan, check for values that are nearly, but not exactly, 0 or \
+                 right angles, generate fewer outputs, or raise `max_operations`"
             }
             Resource::Stack => {
-                "this is what a build without optimisation takes at most; `robot-symbolic prove` \
-                 measures; generate `f32`, or fewer outputs, or raise `max_stack`"
+                "this is an upper bound for builds without optimization: measure the compiled code; \
+                 generate `f32` or fewer outputs, or raise `max_stack`"
             }
         }
     }
@@ -132,7 +132,7 @@ fn excess(cost: Cost<'_>, limit: &Limit) -> Option<Diagnostic> {
     let over = cost.over(limit.value)?;
     Some(
         Diagnostic::error(code::BUDGET, over.to_string())
-            .at(&limit.place, format!("{} more than this", over.found - over.limit))
+            .at(&limit.place, format!("exceeded by {}", over.found - over.limit))
             .help(over.remedy()),
     )
 }

@@ -146,15 +146,16 @@ fn with_payload(payload: &Payload) -> Setter {
         unit: unit.to_owned(),
         parameters: parameters.to_vec(),
     };
-    let center = "centre of mass in the carrying frame, as the robot file has it";
-    let tensor =
-        "xx, yy, zz, xy, xz, yz of its tensor about the centre of mass, axes of that frame";
+    let center = "center of mass in the frame of the link that carries it, as the robot file \
+        gives it";
+    let tensor = "xx, yy, zz, xy, xz, yz of its inertia tensor about the center of mass, in the axes of \
+         that frame";
     Setter {
         name: "with_payload".to_owned(),
         doc: vec![
-            "With a rigid body carried, in place of any other.".to_owned(),
+            "Replaces the payload with the given rigid body.".to_owned(),
             String::new(),
-            "The constructor takes it into the link's own inertia: calls cost the same.".to_owned(),
+            "The constructor adds it to the link's own inertia: calls cost the same.".to_owned(),
         ],
         arguments: vec![
             argument("mass", "mass of the body", "kg", std::slice::from_ref(mass)),
@@ -176,12 +177,12 @@ fn constants(robot: &Robot) -> Vec<ConstantItem> {
         item("ROBOT", "The robot's name.", ConstantValue::Text(robot.name.clone())),
         item(
             "DOF",
-            "The number of generalised coordinates.",
+            "The number of generalized coordinates.",
             ConstantValue::Size(coordinates.len()),
         ),
         item(
             "JOINT_NAMES",
-            "The names of the joints, in the order of the generalised coordinates.",
+            "The names of the joints, in the order of the generalized coordinates.",
             ConstantValue::Texts(names.collect()),
         ),
     ];

@@ -115,30 +115,32 @@ impl fmt::Display for Pivot {
         if *digits == 0 && part.is_finite() && *part != 0.0 {
             return write!(
                 formatter,
-                "the mass matrix is singular to within rounding: what the joint `{joint}` shows of inertia \
-                 where the joints farther out are free is rounding alone, and so are the accelerations; look \
-                 at the masses and moments of inertia, and at the posture"
+                "the mass matrix is singular to within rounding: with the joints farther out \
+                 free, the inertia of joint `{joint}` is only rounding error, and so are the \
+                 accelerations; check the masses, the moments of inertia and the posture"
             );
         }
         if self.is_wrong() && *part <= -SMALL {
             return write!(
                 formatter,
-                "the mass matrix is not positive definite: the joint `{joint}` shows an inertia below 0 \
-                 where the joints farther out are free; look at the masses and moments of inertia"
+                "the mass matrix is not positive definite: with the joints farther out free, the \
+                 inertia of joint `{joint}` is negative; check the masses and the moments of \
+                 inertia"
             );
         }
         if self.is_wrong() {
             return write!(
                 formatter,
-                "the mass matrix is singular in this posture: the joint `{joint}` shows no inertia where \
-                 the joints farther out are free; it is the state, not the parameters, unless it is so in \
-                 every posture"
+                "the mass matrix is singular in this posture: with the joints farther out free, \
+                 joint `{joint}` has no inertia; the cause is the posture, not the parameters, \
+                 unless this happens in every posture"
             );
         }
         write!(
             formatter,
-            "the mass matrix is nearly singular: where the joints farther out are free, the joint \
-             `{joint}` shows {part:.1e} of its inertia; the accelerations have about {digits} digits"
+            "the mass matrix is nearly singular: with the joints farther out free, joint \
+             `{joint}` has only {part:.1e} of its inertia; the accelerations have about {digits} \
+             correct digits"
         )
     }
 }

@@ -27,8 +27,8 @@ impl fmt::Display for Unsolvable {
         let names: Vec<&str> = self.functions.iter().map(|kind| kind.name()).collect();
         write!(
             formatter,
-            "the robot has no {}: the mass matrix is singular in every posture, and no driving forces \
-             determine the accelerations of {}",
+            "the robot has no {}: the mass matrix is singular in every posture, and the joint \
+             torques do not determine the accelerations of {}",
             names.join(", "),
             quoted(&self.joints)
         )

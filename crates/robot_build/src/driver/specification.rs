@@ -52,9 +52,10 @@ fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
         let names: Vec<String> = more.iter().map(|kind| format!("`{}`", kind.name())).collect();
         lines.extend([
             blank(),
-            "More functions are generated where they are chosen, with `functions = [\"…\"]` in `[code]` of the \
-             robot file or in the macro, `.functions([\"…\"])` of the builder, `--function` of the command; \
-             `\"all\"` chooses all. This robot has besides:"
+            "Other functions can be generated too: list them with `functions = [\"…\"]` in \
+             `[code]` of the robot file or in the macro, `.functions([\"…\"])` in the builder, \
+             or the command's option for functions; `\"all\"` selects all. Also available for \
+             this robot:"
                 .to_owned(),
             format!("{}.", names.join(", ")),
         ]);

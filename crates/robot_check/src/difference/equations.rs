@@ -25,7 +25,7 @@ const LIMITS: PolynomialOptions = PolynomialOptions {
 const MAX_REFUSED: usize = 3;
 /// Why it is not.
 const FARTHER_OUT: &str =
-    "it is not expanded, for three driving forces farther out are too long already";
+    "not expanded, because three joint torques farther out are already too long";
 
 /// A joint torque whose terms differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,10 +84,10 @@ fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g
 fn reason(error: &PolynomialError) -> Refusal {
     match error {
         PolynomialError::TooManyTerms { limit } => {
-            format!("it is too long: expanded it has more than {limit} terms")
+            format!("too long: expanded, it has more than {limit} terms")
         }
         PolynomialError::TooManyProducts { limit } => {
-            format!("it is too long: to expand it takes more than {limit} products of terms")
+            format!("too long: expanding it takes more than {limit} products of terms")
         }
         other => other.to_string(),
     }

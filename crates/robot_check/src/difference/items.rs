@@ -221,7 +221,7 @@ fn placement(placement: &Placement) -> String {
     let one = |step: &Move| match step {
         Move::Translate(by) => format!("to {}", vector(by)),
         Move::Rotate(axis, angle) => {
-            format!("turned about {} by {}", words::axis(*axis), formula(angle))
+            format!("rotated about {} by {}", words::axis(*axis), formula(angle))
         }
     };
     let moves: Vec<String> = words::moves(placement).map(one).collect();

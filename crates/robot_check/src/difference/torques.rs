@@ -111,7 +111,8 @@ fn positions(a: &Robot, b: &Robot) -> Result<Vec<[f64; 2]>, Refusal> {
     let kinds = |robot: &Robot| robot.coordinates.iter().map(|one| one.kind).collect::<Vec<_>>();
     if kinds(a) != kinds(b) {
         return Err(
-            "the coordinates of the robots are not alike, so that they share no states".to_owned()
+            "the robots have different coordinates, so they cannot be compared at the same states"
+                .to_owned(),
         );
     }
     a.coordinates.iter().zip(&b.coordinates).map(|(one, other)| shared(one, other)).collect()
@@ -136,7 +137,8 @@ fn shared(one: &Coordinate, other: &Coordinate) -> Result<[f64; 2], Refusal> {
         return Ok([low, high]);
     }
     Err(format!(
-        "the limits of joint `{}` have no position in common, so that the robots share no states",
+        "the limits of joint `{}` do not overlap, so the robots cannot be compared at the same \
+         states",
         one.joint
     ))
 }

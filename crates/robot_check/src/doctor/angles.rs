@@ -56,7 +56,7 @@ fn placed(angle: &AngleLocation, snap: f64) -> Option<Diagnostic> {
     let multiple = multiple(quarters);
     if miss.abs() <= snap {
         return Some(
-            Diagnostic::note(code::TAKEN_ANGLE, format!("an angle is taken for {multiple}"))
+            Diagnostic::note(code::TAKEN_ANGLE, format!("an angle is snapped to {multiple}"))
                 .at(&angle.place, format!("off by {} rad", significant(miss)))
                 .because(format!("angles within {snap:e} rad are snapped")),
         );
@@ -66,14 +66,14 @@ fn placed(angle: &AngleLocation, snap: f64) -> Option<Diagnostic> {
         Diagnostic::warning(code::ANGLE_NEAR, message)
             .at(&angle.place, format!("off by {} rad", significant(miss)))
             .because(format!(
-                "a rounded right angle leaves a {} of {} in the equations and in the code, where there \
-                 is nothing",
+                "a rounded right angle leaves a {} of {} in the equations and in the code \
+                 instead of 0",
                 if quarters.rem_euclid(2.0) == 0.0 { "sine" } else { "cosine" },
                 significant(miss.sin().abs())
             ))
             .help(format!(
-                "write all its digits, {}, or in a robot file \"{}\"; where the figure cannot be \
-                 changed, `--snap {}` or `snap` in `[robot]` takes it for that",
+                "write all its digits, {}, or in a robot file \"{}\"; if the value cannot be \
+                 changed, set `snap = {}` in `[robot]` or the option `snap`",
                 quarters * FRAC_PI_2,
                 multiple.replace('π', "pi"),
                 tolerance(miss)

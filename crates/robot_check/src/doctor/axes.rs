@@ -19,15 +19,17 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
         let small = |one: &&f64| **one != 0.0 && one.abs() <= NOISE * length;
         let Some(least) = components.iter().find(small) else { continue };
         let place = link.place.axis.as_ref().unwrap_or(&link.place.joint);
-        let message =
-            format!("the axis of `{}` is nearly along an axis of its frame", link.link.joint.name);
+        let message = format!(
+            "the axis of `{}` is nearly aligned with an axis of its frame",
+            link.link.joint.name
+        );
         found.push(
             Diagnostic::warning(code::AXIS_NEAR, message)
                 .at(place, format!("{} is noise?", significant(*least)))
                 .because(
-                    "noise makes an axis in general direction, with many more terms and operations",
+                    "noise gives the axis a general direction, with many more terms and operations",
                 )
-                .help("write 0 for what is 0"),
+                .help("replace the noise with 0"),
         );
     }
 }

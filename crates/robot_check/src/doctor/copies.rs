@@ -48,7 +48,7 @@ fn copied(group: &[&BodyFacts<'_>]) -> Diagnostic {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    let message = format!("the same inertia on several links: {}{more}", names.join(", "));
+    let message = format!("several links have the same inertia: {}{more}", names.join(", "));
     let mut diagnostic = Diagnostic::warning(code::COPIED, message);
     for (index, body) in group.iter().take(MAX_SHOWN).enumerate() {
         diagnostic = match index {
@@ -56,10 +56,8 @@ fn copied(group: &[&BodyFacts<'_>]) -> Diagnostic {
             _ => diagnostic.and_at(body.of_tensor(), "and here"),
         };
     }
-    diagnostic
-        .because("links that are alike to the last digit are rare; figures copied from one are not")
-        .help(
-            "give each link its own figures; where they are alike indeed, a robot file can make them \
-             parameters, which stand on all of them",
-        )
+    diagnostic.because("identical links are rare; copied values are not").help(
+        "give each link its own values; if the links are identical, make the values \
+             parameters in a robot file, shared by all of them",
+    )
 }

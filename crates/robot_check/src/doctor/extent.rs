@@ -50,32 +50,32 @@ fn too_far(link: &LinkFacts<'_>, body: &BodyFacts<'_>, reach: f64) -> Option<(f6
 fn wide(body: &BodyFacts<'_>, size: f64) -> Diagnostic {
     let name = &body.body.name;
     let message = format!(
-        "the radius of gyration of `{name}` is {} m, and the link is {} m long",
+        "the radius of gyration of `{name}` is {} m, but the link is {} m long",
         significant(body.gyration()),
         significant(size)
     );
     Diagnostic::warning(code::TOO_WIDE, message)
-        .at(body.of_tensor(), "the tensor of a far larger body")
+        .at(body.of_tensor(), "fits a far larger body")
         .and_at(body.of_mass(), format!("{} kg", significant(body.mass)))
         .because(format!(
-            "the mass would lie, on the average, more than {TIMES} times as far out as the link reaches"
+            "on average, the mass would lie more than {TIMES} times as far out as the link extends"
         ))
         .help(
-            "see whether mass and tensor are of the same body, the tensor about its centre of mass and in kg m^2",
+            "check that mass and tensor are those of the same body, and that the tensor is about \
+             the center of mass, in kg m^2",
         )
 }
 
 fn far(body: &BodyFacts<'_>, distance: f64, size: f64) -> Diagnostic {
     let name = &body.body.name;
-    let message = format!(
-        "the centre of mass of `{name}` lies {} m outside of the link",
-        significant(distance)
-    );
+    let message =
+        format!("the center of mass of `{name}` lies {} m outside the link", significant(distance));
     Diagnostic::warning(code::CENTER_FAR, message)
-        .at(body.of_center(), "in the frame of the link?")
+        .at(body.of_center(), "in the link frame?")
         .because(format!(
-            "frames and inertia tell of a link of {} m, and a body is at its joint",
+            "by its frames and inertia the link is about {} m in size, and a link is normally \
+             near its joint",
             significant(size)
         ))
-        .help("give it in m and in the link's own frame, not in that of the base or of a drawing")
+        .help("give it in m and in the link frame, not in that of the base or of a drawing")
 }

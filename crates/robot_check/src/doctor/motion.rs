@@ -33,11 +33,11 @@ fn gravity(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     let message = format!("gravity points up: {} m/s^2 along z", significant(gravity.z));
     found.push(
         Diagnostic::warning(code::GRAVITY_UP, message)
-            .at(place, "the acceleration of gravity, not its opposite")
-            .because("with the sign turned, every torque that holds a link would push it down")
+            .at(place, "the acceleration of gravity, or its opposite?")
+            .because("with the wrong sign, every torque that should hold up a link pushes it down")
             .help(
-                "write the vector that points down, [0, 0, -9.81] for a base that stands on the \
-                 floor; it is right as it is where the z axis of the base points down, as on the ceiling",
+                "write the vector that points down, [0, 0, -9.81] for a base on the floor; if \
+                 the base's z axis points down, as on a ceiling, the value is correct",
             ),
     );
 }
@@ -52,13 +52,13 @@ fn points(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
         if !rotates(facts, index) {
             continue;
         }
-        let message = format!("`{}` has mass and no moments of inertia", body.body.name);
+        let message = format!("`{}` has mass but no moments of inertia", body.body.name);
         found.push(
             Diagnostic::warning(code::POINT_MASS, message)
-                .at(body.of_tensor(), "that of a point")
+                .at(body.of_tensor(), "a point mass?")
                 .and_at(body.of_mass(), format!("{} kg", significant(body.mass)))
-                .because("zeros are often stand-ins for figures that were not at hand")
-                .help("give the moments of inertia about the centre of mass"),
+                .because("zeros are often placeholders for missing values")
+                .help("give the moments of inertia about the center of mass"),
         );
     }
 }
@@ -96,12 +96,14 @@ fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
             continue;
         }
         let place = place(facts, index);
-        let message = format!("the joint `{}` moves nothing that has mass", coordinate.joint);
+        let message = format!("the joint `{}` moves no mass", coordinate.joint);
         found.push(
             Diagnostic::warning(code::MOVES_NOTHING, message)
                 .at(&place, "no inertia about or along its axis")
-                .because("the mass matrix is singular, and forward dynamics has no solution")
-                .help("give mass or inertia to what it moves, or `armature` to its drive"),
+                .because("the mass matrix is singular, so forward dynamics has no solution")
+                .help(
+                    "give mass or inertia to the links that it moves, or `armature` to its drive",
+                ),
         );
     }
 }

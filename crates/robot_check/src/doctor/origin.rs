@@ -64,15 +64,18 @@ fn is_possible(tensor: &Matrix3<f64>) -> bool {
 
 fn suspicion(body: &BodyFacts<'_>, [spread, most]: [f64; 2]) -> Diagnostic {
     let name = &body.body.name;
-    let message = format!("the inertia of `{name}` looks as if it were about the frame's origin");
+    let message = format!("the inertia of `{name}` appears to be about the frame's origin");
     Diagnostic::warning(code::ABOUT_ORIGIN, message)
-        .at(body.of_tensor(), "taken about the centre of mass")
+        .at(body.of_tensor(), "about the center of mass?")
         .and_at(body.of_center(), format!("{} m away", significant(body.center.norm())))
         .because(format!(
-            "along the link the mass would be spread by {} m, and between its ends it cannot be by \
-             more than {} m; about the origin it would fit",
+            "along the link, the standard deviation of the mass would be {} m, but between the \
+             ends it can be at most {} m; about the origin it would fit",
             significant(spread),
             significant(most)
         ))
-        .help("give the tensor about the centre of mass; a robot file may say `about = \"origin\"`")
+        .help(
+            "give the tensor about the center of mass; in a robot file, `about = \"origin\"` \
+            is possible",
+        )
 }

@@ -29,7 +29,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
         for body in &link.bodies {
             let (name, distance) = (&body.body.name, body.center.norm());
             if distance > LONGEST {
-                found.push(long("the centre of mass of", name, distance, body.of_center()));
+                found.push(long("the center of mass of", name, distance, body.of_center()));
             }
             if !body.has_tensor() {
                 continue;
@@ -48,7 +48,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
         found.push(
             Diagnostic::warning(code::UNITS, message)
                 .at(place, "in mm/s^2 or cm/s^2?")
-                .because("on the Earth it is 9.81 m/s^2, on Jupiter 24.8")
+                .because("on Earth it is 9.81 m/s^2, on Jupiter 24.8")
                 .help("give it in m/s^2"),
         );
     }
@@ -72,7 +72,7 @@ fn long(what: &str, name: &str, distance: f64, place: &Span) -> Diagnostic {
     let message = format!("{what} `{name}` is {} m away", significant(distance));
     Diagnostic::warning(code::UNITS, message)
         .at(place, "in mm?")
-        .because(format!("no arm has a link of more than {LONGEST} m"))
+        .because(format!("no arm has a link longer than {LONGEST} m"))
         .help("give lengths in m")
 }
 
@@ -89,9 +89,10 @@ fn wide(body: &BodyFacts<'_>, size: f64) -> Diagnostic {
         .at(body.of_tensor(), format!("in {unit}?"))
         .and_at(body.of_mass(), format!("{} kg", significant(body.mass)))
         .because(format!(
-            "such is the distance at which the mass lies on the average; a rod of 10 m has {WIDEST} m"
+            "this is the root-mean-square distance of the mass from the axis; for a rod of 10 m \
+             it is {WIDEST} m"
         ))
-        .help(format!("give moments of inertia in kg m^2: those in {unit} times {factor:e}"))
+        .help(format!("give moments of inertia in kg m^2: multiply values in {unit} by {factor:e}"))
 }
 
 fn dense(body: &BodyFacts<'_>) -> Diagnostic {
@@ -103,10 +104,10 @@ fn dense(body: &BodyFacts<'_>) -> Diagnostic {
     );
     Diagnostic::warning(code::UNITS, message)
         .at(body.of_mass(), "in g?")
-        .and_at(body.of_tensor(), "in other units than kg m^2, or a stand-in?")
+        .and_at(body.of_tensor(), "in other units than kg m^2, or a placeholder?")
         .because(format!(
-            "some of it would be denser than {} kg/m^3; osmium, the densest matter, has {DENSEST}",
+            "parts of it would be denser than {} kg/m^3; osmium, the densest element, has {DENSEST}",
             significant(density(body))
         ))
-        .help("give the mass in kg and the tensor, about the centre of mass, in kg m^2")
+        .help("give the mass in kg, and the tensor about the center of mass in kg m^2")
 }

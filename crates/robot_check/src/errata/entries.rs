@@ -91,9 +91,9 @@ impl<'e> Part<'e> {
             let rest = around.text.replace(r"\left", "").replace(r"\right", "").replace(r"\,", "");
             if !rest.chars().all(bracket) {
                 let error =
-                    Diagnostic::error(code::EXPRESSION, "a column with something beside it");
+                    Diagnostic::error(code::EXPRESSION, "a column vector next to other terms");
                 let error = error.at(&around.trimmed().span, "");
-                return Err(error.help("write it into the rows").into());
+                return Err(error.help("move them into the rows").into());
             }
         }
         let columns = self.sub(inside..inside + end);

@@ -32,7 +32,7 @@ pub enum Evidence {
     UnknownSymbol(String),
 }
 
-/// `not a force but kg m s^-1, for kg m s^-2: a dot is missing`
+/// `has units kg m s^-1; a force has kg m s^-2: a time derivative is missing`
 impl fmt::Display for Evidence {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -41,28 +41,33 @@ impl fmt::Display for Evidence {
                     Dimension::ACCELERATION => "an acceleration",
                     Dimension::FORCE => "a force",
                     Dimension::MOMENT => "a torque",
-                    _ => "of this dimension",
+                    _ => "its equation",
                 };
-                write!(formatter, "not {what} but {printed}, for {expected}")?;
+                write!(formatter, "has units {printed}; {what} has {expected}")?;
                 let same = (printed.mass, printed.length) == (expected.mass, expected.length);
                 match i16::from(expected.time) - i16::from(printed.time) {
-                    -1 if same => write!(formatter, ": a dot is missing"),
-                    1 if same => write!(formatter, ": a dot too many"),
-                    time if same && time < 0 => write!(formatter, ": {} dots are missing", -time),
-                    time if same => write!(formatter, ": {time} dots too many"),
+                    -1 if same => write!(formatter, ": a time derivative is missing"),
+                    1 if same => write!(formatter, ": one time derivative too many"),
+                    time if same && time < 0 => write!(
+                        formatter,
+                        ": {} time derivatives are \
+                        missing",
+                        -time
+                    ),
+                    time if same => write!(formatter, ": {time} time derivatives too many"),
                     _ => Ok(()),
                 }
             }
             Evidence::SameTerm(equations) => {
-                write!(formatter, "the derived term stands in {}", equations.join(", "))
+                write!(formatter, "the derived term appears in {}", equations.join(", "))
             }
             Evidence::RelatedTerm { factor, equations } => write!(
                 formatter,
-                "the derived term stands, but for the factor {factor}, in {}",
+                "the derived term appears, except for the factor {factor}, in {}",
                 equations.join(", ")
             ),
             Evidence::UnknownSymbol(symbol) => {
-                write!(formatter, "the robot has no symbol {symbol}")
+                write!(formatter, "the robot does not have the symbol {symbol}")
             }
         }
     }

@@ -163,11 +163,12 @@ fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
 }
 
 fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
-    let message = format!("the robot has no quantity `{}`", quote(&equation.quantity));
+    let message = format!("the robot does not have the quantity `{}`", quote(&equation.quantity));
     let (links, last) = (robot.links.len(), robot.degrees_of_freedom());
     Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(format!(
-        "there are a_c1.x to a_c{links}.z, and F, M_c, F_l and M_l likewise, and Q1 to Q{last}; in \
-         LaTeX a_{{c_x}}^{{1}}, F_{{x}}^{{1}}, M_{{c_x}}^{{1}}, F_{{l_x}}^{{1}}, M_{{l_x}}^{{1}} and Q_{{1}}"
+        "the quantities are a_c1.x to a_c{links}.z, F, M_c, F_l and M_l likewise, and Q1 to \
+         Q{last}; in LaTeX a_{{c_x}}^{{1}}, F_{{x}}^{{1}}, M_{{c_x}}^{{1}}, F_{{l_x}}^{{1}}, \
+         M_{{l_x}}^{{1}} and Q_{{1}}"
     ))
 }
 
@@ -193,8 +194,12 @@ fn expand<'p, 'g>(
         wanted.into_iter().filter_map(|name| quantities.get(name)).collect();
     let values: Vec<Expr<'g>> = wanted.iter().map(|quantity| quantity.value).collect();
     let derived = term::terms_of(&values, &LIMITS).map_err(|_| {
-        Diagnostic::error(code::LIMIT, "the derived equations are too long to be compared by terms")
-            .help("compare fewer: those of the last joints are the shortest")
+        Diagnostic::error(
+            code::LIMIT,
+            "the derived equations are too long to be compared term \
+            by term",
+        )
+        .help("compare fewer: those of the last joints are the shortest")
     })?;
     let derived: BTreeMap<String, Vec<Term<'g>>> =
         wanted.iter().map(|quantity| quantity.symbol.to_string()).zip(derived).collect();
@@ -220,7 +225,7 @@ fn expand<'p, 'g>(
     }
     let mut terms = term::terms_of(&values, &LIMITS).map_err(|_| {
         Diagnostic::error(code::LIMIT, "the printed equations are too long to be expanded")
-            .help("compare them in several files")
+            .help("split them into several files")
     })?;
     Ok(compared
         .into_iter()
@@ -247,13 +252,13 @@ fn find(
         let (wrong, missing) = term::leftover(&one.print, &one.derived);
         if wrong.len().saturating_mul(one.derived.len()) > MAX_PAIRS {
             let message = format!(
-                "{} of {} printed terms are none of the {} that are derived",
+                "{} of {} printed terms are not among the {} derived terms",
                 wrong.len(),
                 one.print.len(),
                 one.derived.len()
             );
             let error = Diagnostic::error(code::LIMIT, message).at(&one.equation.span, "");
-            errors.push(error.help("is it an equation of this robot?"));
+            errors.push(error.help("is this an equation of this robot?"));
             continue;
         }
         for (printed, derived) in term::pair(wrong, missing) {

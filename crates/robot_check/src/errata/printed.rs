@@ -67,7 +67,7 @@ pub(super) fn read_printed(
         }
     }
     if equations.is_empty() && errors.is_empty() {
-        let error = Diagnostic::error(code::EXPRESSION, "there are no equations here");
+        let error = Diagnostic::error(code::EXPRESSION, "no equations found");
         errors.push(error.help("write `Q1 = …`, or LaTeX in `equation` or `align`"));
     }
     if errors.is_empty() { Ok(equations) } else { Err(errors) }
@@ -102,7 +102,7 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
     if rows.len() != axes.len() {
         let message = format!("this vector has {} rows, not 3", rows.len());
         let error = Diagnostic::error(code::WRONG_COUNT, message).at(&left.span, "");
-        return Err(error.help("write line breaks between components only").into());
+        return Err(error.help("write line breaks only between components").into());
     }
     let mut equations = vec![];
     for (row, axis) in rows.iter().zip(axes) {
@@ -146,8 +146,9 @@ fn terms(right: &str, place: impl Fn(Span) -> Span) -> Result<Vec<Formula>, Box<
             .map_err(|error| fault(&error, place(shifted(&error.span, start))))?;
         if !is_finite(&formula) {
             let span = place(start..start + unsigned.trim_end().len());
-            let error = Diagnostic::error(code::NUMBER, "the term has no finite value");
-            let help = "look for a division by zero, a root of a negative number, or an overflow";
+            let error = Diagnostic::error(code::NUMBER, "the term does not have a finite value");
+            let help = "look for a division by zero, the square root of a negative number, or an \
+                overflow";
             return Err(error.at(&span, "this is not a number").help(help).into());
         }
         terms.push(formula);
@@ -168,9 +169,9 @@ fn complete(equations: Vec<PrintedEquation>) -> Result<Vec<PrintedEquation>, Box
         None => Ok(equations),
         Some(empty) => {
             let quantity = quote(&empty.quantity);
-            let message = format!("`{quantity}` has no right side");
+            let message = format!("`{quantity}` has no right-hand side");
             let error = Diagnostic::error(code::EXPRESSION, message).at(&empty.span, "");
-            Err(error.help("write what it is behind `=`; `0` for nothing").into())
+            Err(error.help("write the right-hand side after `=`; write `0` if it vanishes").into())
         }
     }
 }

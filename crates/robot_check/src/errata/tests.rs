@@ -53,7 +53,7 @@ fn terms_without_a_value_are_errors_at_their_place() {
     }
     let latex = r"$ Q_1 = I_2 \ddot q_2 + \frac{m_1}{0} \ddot q_1 $".replace('$', "");
     let errors = compared(&robot, latex.trim()).unwrap_err();
-    assert!(errors.to_string().contains("the term has no finite value"), "{errors}");
+    assert!(errors.to_string().contains("the term does not have a finite value"), "{errors}");
 }
 
 #[test]
@@ -162,13 +162,13 @@ fn terms_that_are_no_torque_are_told() {
     let evidence = |wrong: &str| -> Vec<String> {
         spoilt(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
     };
-    let dot = "not a torque but kg m^2 s^-1, for kg m^2 s^-2: a dot is missing";
+    let dot = "has units kg m^2 s^-1; a torque has kg m^2 s^-2: a time derivative is missing";
     assert_eq!(evidence("+ m2*l1*r2*cos(q2)*qd1"), [dot]);
-    assert_eq!(evidence("+ m2*l1*cos(q2)*qdd1"), ["not a torque but kg m s^-2, for kg m^2 s^-2"]);
-    assert_eq!(evidence("+ k*l1*r2*cos(q2)*qdd1"), ["the robot has no symbol k"]);
+    assert_eq!(evidence("+ m2*l1*cos(q2)*qdd1"), ["has units kg m s^-2; a torque has kg m^2 s^-2"]);
+    assert_eq!(evidence("+ k*l1*r2*cos(q2)*qdd1"), ["the robot does not have the symbol k"]);
     // Where more than the time is wrong it is not a matter of dots.
     for (wrong, dimension) in [("qd1", "kg^2 m^2 s^-1"), ("qd1*qdd1", "kg^2 m^2 s^-3")] {
-        let expected = format!("not a torque but {dimension}, for kg m^2 s^-2");
+        let expected = format!("has units {dimension}; a torque has kg m^2 s^-2");
         assert_eq!(evidence(&format!("+ m1*m2*l1*r2*cos(q2)*{wrong}")), [expected]);
     }
     let mut nameless = robot("planar_2r");
@@ -222,14 +222,14 @@ fn errors_show_the_place() {
         assert!(shown.contains(part), "{shown}");
     }
     let shown = message("(4) Q7 = 0\nF_l1.w = 0");
-    for part in ["printed:1:1", "no quantity `Q7`", "a_c1.x to a_c2.z", "F_l1.w"] {
+    for part in ["printed:1:1", "not have the quantity `Q7`", "a_c1.x to a_c2.z", "F_l1.w"] {
         assert!(shown.contains(part), "{shown}");
     }
     assert!(message("\\[ Q_1 = \\frac{m_1}{ \\]").contains("printed:1:"));
     let column = "\\begin{bmatrix} 0 \\\\ 0 \\\\ 0 \\end{bmatrix}";
     for beside in [format!("{column} + m_1"), format!("m_1 {column}")] {
         let shown = message(&format!("\\[ F_{{1}}^{{1}} = {beside} \\]"));
-        assert!(shown.contains("something beside it"), "{shown}");
+        assert!(shown.contains("next to other terms"), "{shown}");
     }
     assert!(message("").contains("no equations"));
 }
@@ -245,7 +245,7 @@ fn equations_without_end_are_refused() {
     assert_eq!(compared(&planar, &many).map(|found| found.terms), Ok(20_000));
     let strange: String = (0..200_000).map(|index| format!("+ x{index}")).collect();
     let shown = compared(&planar, &format!("Q1 = {strange}")).unwrap_err().to_string();
-    assert!(shown.contains("is it an equation of this robot"), "{shown}");
+    assert!(shown.contains("is this an equation of this robot"), "{shown}");
     for part in [
         "\\begin{split}",
         "\\tag{",

@@ -19,20 +19,20 @@ use crate::text;
   robot-symbolic base robots/puma560.toml --format latex --width 8.5cm
   robot-symbolic base robots/puma560.toml --format json
 
-The base parameters are the fewest combinations of the parameters of links and drives that determine the
-driving forces. Each is shown by its formula in these, which are named as by Khalil and Dombre, and by its
-value: XX to ZZ are entries of a link's inertia tensor about the origin of its frame, MX, MY, MZ its first
-moment, M its mass; IA is a drive's reflected inertia, FV, FP, FN its friction, FO its offset, IC the
-coupling of its rotor. The number of the link follows. In JSON `column` is the column of the full regressor
-that is the parameter's own; the function regressor_base has these columns alone.
+The base parameters are the smallest set of combinations of link and drive parameters that determines the
+joint torques. Each is shown with its formula and its value, and named as by Khalil and Dombre: XX to ZZ are
+the entries of a link's inertia tensor about the origin of its frame, MX, MY, MZ its first moment, M its mass;
+IA is a drive's reflected inertia (armature), FV, FP, FN its viscous, forward and backward friction, FO its
+friction offset, IC the coupling of its rotor. The number of the link follows. In JSON, `column` is the
+parameter's column in the full regressor; the function regressor_base has only these columns.
 
-With --base-frames denavit_hartenberg they are first and second moments, SXX for the integral of x^2 dm, in
-frames of Denavit and Hartenberg; the formulas are in the parameters in the file's frames all the same, and
-no column of the full regressor is one's own.")]
+With --base-frames denavit_hartenberg they are first and second moments (SXX is the integral of x^2 dm) in
+Denavit-Hartenberg frames; the formulas still use the parameters in the file's frames, and the parameters do
+not have a column of their own in the full regressor.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// How to print them; LaTeX is for amsmath
+    /// Output format; LaTeX needs amsmath
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
@@ -44,7 +44,7 @@ enum Format {
     Text,
     Latex,
     Typst,
-    /// A page of HTML with formulas in MathML, as browsers set them
+    /// An HTML page with formulas in MathML
     Mathml,
     Json,
 }
@@ -73,9 +73,9 @@ fn plain(robot: &Robot, set: &BaseSet) -> String {
     let (count, all) = (set.list.len(), set.standard.len());
     let mut shown = format!("{}: {count} base parameters of {all}", robot.name);
     if robot.base_frames == BaseFrames::DenavitHartenberg {
-        shown.push_str(", moments in frames of Denavit and Hartenberg");
+        shown.push_str(", moments in Denavit-Hartenberg frames");
     }
-    shown.push_str(if set.rounded { ", with rounded figures\n" } else { "\n" });
+    shown.push_str(if set.rounded { ", with rounded coefficients\n" } else { "\n" });
     for entry in &set.list {
         shown.push_str(&text::sum(&format!("{} = {}", entry.name, entry.formula.text)));
         shown.push_str(&text::sum(&format!("  = {}", entry.value.text)));

@@ -14,8 +14,8 @@ use crate::{Cli, NAME, Terminal};
   robot-symbolic completions zsh -o _robot-symbolic
   robot-symbolic completions fish -o robot-symbolic.fish
 
-Where shells look: bash in ~/.local/share/bash-completion/completions/ for a file of the command's name; zsh
-in the folders of $fpath; fish in ~/.config/fish/completions/.")]
+Where to put the file: for bash, ~/.local/share/bash-completion/completions/, under the command's name; for zsh,
+a folder of $fpath; for fish, ~/.config/fish/completions/.")]
 pub(crate) struct Arguments {
     /// The shell
     #[arg(value_enum)]

@@ -32,7 +32,7 @@ impl Arguments {
         let equations = equations(&robot, &EquationOptions::default())
             .map_err(|error| Failure::input(error.to_string()))?;
         let mut shown = String::from(
-            "The equations of motion of TRTTR1, driving forces without friction, expanded:\n\n",
+            "The equations of motion of TRTTR1, joint torques without friction, expanded:\n\n",
         );
         shown.push_str(&plain(&equations));
         let function = "inverse_dynamics";
@@ -51,9 +51,9 @@ impl Arguments {
             state.inputs.iter().map(|(_, entries)| entries.as_slice().try_into().ok()).collect();
         if let [Some(q), Some(qd), Some(qdd)] = inputs.as_slice() {
             let tau = trttr1::Model::NOMINAL.inverse_dynamics(q, qd, qdd);
-            let _ = writeln!(shown, "  tau = {tau:?}, by the generated code");
+            let _ = writeln!(shown, "  tau = {tau:?}, from the generated code");
         }
-        shown.push_str("\n`robot-symbolic --help` shows what else there is.\n");
+        shown.push_str("\n`robot-symbolic --help` lists all commands.\n");
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 }

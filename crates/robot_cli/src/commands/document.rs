@@ -20,28 +20,29 @@ use crate::robot::RobotArgument;
   robot-symbolic document robots/trttr1.toml --form grouped,recursive --columns 2 -o trttr1.tex
   robot-symbolic document robots/trttr1.toml -o trttr1.typ
 
-The document has tables of links and masses, the frames, the equations in the forms chosen, numbered,
-the symbols with their values, and a state with its driving forces to try one's own copy. A file
-NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the packages amsmath and geometry, and two runs for its references.")]
+The document contains tables of links and masses, the frames, the numbered equations in the chosen forms, the
+symbols with their values, and the joint torques at one state to check an implementation against. A file
+NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the packages amsmath and
+geometry, and two runs for references.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     #[command(flatten)]
     equations: EquationArguments,
-    /// The forms of the equations, several with commas between
+    /// Forms of the equations, separated by commas
     #[arg(long, value_enum, value_delimiter = ',', action = ArgAction::Append,
           default_value = "grouped")]
     form: Vec<FormName>,
-    /// The notation; without this Typst for a file NAME.typ, else LaTeX
+    /// Notation [default: typst for a file NAME.typ, else latex]
     #[arg(long, value_enum)]
     format: Option<Format>,
-    /// Columns on a page
+    /// Number of columns on a page
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
     columns: u8,
-    /// The width of a column, such as 8.5cm; without this what fits A4
+    /// Width of a column, such as 8.5cm [default: what fits on A4]
     #[arg(long, value_name = "WIDTH", value_parser = centimeters, allow_hyphen_values = true)]
     width: Option<f64>,
-    /// The file to write; standard output without this, or where it is `-`
+    /// The file to write; `-` is standard output [default: -]
     #[arg(short, long, value_name = "FILE", value_parser = source_path)]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -52,7 +53,7 @@ pub(crate) struct Arguments {
 fn source_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_typeset = path.extension().is_some_and(|extension| extension == "pdf");
-    let refusal = "what is written is typeset by LaTeX or Typst; name it NAME.tex or NAME.typ";
+    let refusal = "only LaTeX or Typst sources are written; name the file NAME.tex or NAME.typ";
     if is_typeset { Err(refusal.to_owned()) } else { Ok(path) }
 }
 

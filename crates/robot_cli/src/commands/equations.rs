@@ -19,21 +19,21 @@ use crate::text;
   robot-symbolic equations robots/trttr1.toml --form grouped --format latex --trig short
   robot-symbolic equations robots/panda.toml --form compact --format latex --width 8.5cm
 
-Quantities: a_c accelerations of the mass centres, F and M_c inertia forces and moments of the links,
-F_l and M_l forces and moments in the joints, Q driving forces; vectors in link frames. The expanded
-form has products multiplied out, sines of even powers replaced by cosines, and like terms merged.
-Factors stand in the order: wrenches, masses and inertias, other parameters, sines and cosines, what
-a form defines, coordinates, velocities, accelerations, each by number; terms in the order of their
-factors. Symbols are q1, qd1, qdd1, … and the names of the robot file.")]
+Quantities: a_c accelerations of the centers of mass, F and M_c inertia forces and moments of the links,
+F_l and M_l contact forces and moments in the joints, Q joint torques; vectors are in link frames. In the
+expanded form, products are multiplied out, even powers of sines are replaced by cosines, and like terms are
+merged. The order of factors is: wrenches, masses and inertias, other parameters, sines and cosines, symbols
+that a form defines, coordinates, velocities, accelerations, each by number; terms are in the order of their
+factors. Symbols are q1, qd1, qdd1, … and the names in the robot file.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     #[command(flatten)]
     equations: EquationArguments,
-    /// The form of the equations
+    /// Form of the equations
     #[arg(long, value_enum, default_value_t = FormName::Expanded)]
     form: FormName,
-    /// How to print them
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     #[command(flatten)]
@@ -45,7 +45,7 @@ enum Format {
     Text,
     Latex,
     Typst,
-    /// A page of HTML with formulas in MathML, as browsers set them
+    /// An HTML page with formulas in MathML
     Mathml,
     Json,
 }

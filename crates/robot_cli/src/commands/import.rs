@@ -16,9 +16,9 @@ use crate::text;
 #[command(after_help = "Example:
   robot-symbolic import arm.urdf -o robots/arm.toml
 
-The robot file has the source's names and figures; every choice that was made is told. What is waived
-here is written down in the robot file, so that the commands take it from there. A robot file is made to
-be edited: one that is there already and differs is replaced with --force only.")]
+The robot file keeps the names and values of the source; every choice that was made is reported. Checks that
+are waived here are waived in the robot file too, so that the other commands accept it. A robot file is meant
+to be edited: an existing file with other content is replaced only with --force.")]
 pub(crate) struct Arguments {
     /// The URDF file
     file: PathBuf,
@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     output: OutputArguments,
     #[command(flatten)]
     reading: ReadingArguments,
-    /// Write the damping and friction of `<dynamics>` as friction of the joints
+    /// Import the damping and friction of `<dynamics>` as joint friction
     #[arg(long)]
     friction: bool,
 }
@@ -39,7 +39,7 @@ impl Arguments {
         let import =
             description::import(&source.name, &source.text, &options).map_err(Errors::from)?;
         if import.described.format == Format::Toml {
-            return Err(Failure::input(format!("{}: this is a robot file already", source.name)));
+            return Err(Failure::input(format!("{}: this is already a robot file", source.name)));
         }
         text::warnings(&import.described.warnings, terminal)?;
         for choice in import.described.choices.iter() {

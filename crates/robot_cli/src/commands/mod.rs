@@ -33,7 +33,7 @@ use crate::failure::Failure;
 pub(crate) enum Command {
     /// Print the equations of motion of a robot
     Equations(equations::Arguments),
-    /// Write a document of a robot: its tables, equations, symbols and a check value
+    /// Write a document about a robot: tables, equations, symbols and a check value
     Document(document::Arguments),
     /// Print the base inertial parameters of a robot
     Base(base::Arguments),
@@ -43,33 +43,33 @@ pub(crate) enum Command {
     Crate(package::Arguments),
     /// Compute a function of a robot at given states
     Eval(eval::Arguments),
-    /// Simulate the motion of a robot: the motion law q(t), its torques and energies
+    /// Simulate the motion of a robot: the trajectory q(t), torques and energies
     Simulate(simulate::Arguments),
     /// Compute the torques along a trajectory, split by cause
     Torques(torques::Arguments),
     /// Count the operations of a robot's functions
     Stats(stats::Arguments),
-    /// Compile a robot's code and read what the compiler made of it
+    /// Compile a robot's code and check the machine code
     Prove(prove::Arguments),
     /// Write a page about a robot: scheme, tables, equations, structure, operations, evidence
     Report(report::Arguments),
-    /// Search the form of the recursion with the fewest operations
+    /// Search for the form of the recursion with the fewest operations
     Search(search::Arguments),
     /// Write a URDF file as a robot file
     Import(import::Arguments),
-    /// Check robot files for errors and likely slips
+    /// Check robot files for errors and likely mistakes
     Check(check::Arguments),
     /// Compare published equations with the derived ones, term by term
     Compare(compare::Arguments),
-    /// Tell in what two robots differ: parameters, terms, operations, torques
+    /// Show how two robots differ: parameters, terms, operations, torques
     Diff(diff::Arguments),
-    /// Derive a robot at each save of its file, and show what changes
+    /// Derive a robot again at each save of its file, and show what has changed
     Watch(watch::Arguments),
     /// Print the JSON schema of robot files, for editors
     Schema(schema::Arguments),
-    /// Show what a robot file says
+    /// Show the contents of a robot file
     Show(show::Arguments),
-    /// Print what a shell needs to complete the command line
+    /// Print a completion script for a shell
     Completions(completions::Arguments),
     /// Write the manual pages
     Man(man::Arguments),

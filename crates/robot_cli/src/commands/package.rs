@@ -17,9 +17,9 @@ use crate::robot::{CodeArguments, RobotArgument};
   cargo test --manifest-path trttr1/Cargo.toml
   robot-symbolic crate robots/trttr1.toml -o trttr1 --check
 
-The crate has no dependencies and needs no standard library; its README has the conventions, the
-operation counts and a check value of each function, which its test asserts. With --check nothing is
-written: the exit code is 1 where a file is out of date.")]
+The crate has no dependencies and does not need the standard library; its README contains the conventions, the
+operation counts and a check value for each function, which the crate's test asserts. With --check nothing is
+written, and the exit code is 1 if a file is out of date.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

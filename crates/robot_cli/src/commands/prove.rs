@@ -20,35 +20,34 @@ use crate::text;
   robot-symbolic prove robots/ur5.toml --function inverse_dynamics --scalar f32 \\
       --target thumbv7em-none-eabihf
 
-Compiles the generated code and reads the object file. It and `report` start another program:
-rustc, which must be installed. Nothing is linked, so that a target needs no more than
-`rustup target add`.
+Compiles the generated code and analyzes the object file. This command and `report` start another program:
+rustc, which must be installed. Nothing is linked, so a target needs only `rustup target add`.
 
-The claim: no conditional jump, no panic, and no call but those of sines and cosines. The exit code is
-1 where it does not hold. In dev builds the runtime's sines and cosines loop over the angles, and are
-shown but not part of the claim; arrays may be copied by memcpy. Functions that take slices loop over
-the states; nothing is claimed of them in dev.
+The claim: no conditional jump, no panic, and no call except those of sines and cosines. The exit code is 1
+if the claim is false. In dev builds the runtime's sines and cosines loop over the angles, and are shown but
+not part of the claim; arrays may be copied by memcpy. Functions that take slices loop over the states;
+nothing is claimed of them in dev builds.
 
-A function is counted with all that it calls, each once. `frame` is the function's own stack, `stack`
-that of the deepest chain of calls, in bytes; what sin and cos take comes on top.")]
+The counts of a function include everything it calls, each once. `frame` is the function's own stack, `stack`
+that of the deepest chain of calls, in bytes; the stack of sin and cos is not included.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     #[command(flatten)]
     code: CodeArguments,
-    /// Compile as Cargo does in these profiles
+    /// Cargo profiles to compile with
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [ProfileName::Dev, ProfileName::Release])]
     profile: Vec<ProfileName>,
-    /// The target; this machine without it
+    /// Target triple [default: this machine]
     #[arg(long, value_name = "TRIPLE")]
     target: Option<String>,
-    /// The processor of the target, such as `native`; the plainest without it
+    /// Processor of the target, such as `native` [default: the target's baseline]
     #[arg(long, value_name = "CPU")]
     target_cpu: Option<String>,
-    /// The compiler; the variable RUSTC, or `rustc`, without it
+    /// The compiler [default: the variable RUSTC, else rustc]
     #[arg(long, value_name = "PATH")]
     rustc: Option<PathBuf>,
-    /// How to print it
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }

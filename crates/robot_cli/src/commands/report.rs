@@ -17,19 +17,19 @@ use crate::text;
   robot-symbolic report robots/trttr1.toml -o trttr1.html
   robot-symbolic report robots/panda.toml -o panda.html --without-compiler
 
-The page is one file that needs no other and no network: the kinematic scheme, tables of joints, masses
-and parameters, the equations of motion, the structure of the matrices, operations by function, stage and
-option, and evidence. It is made for screens, dark and light, for print and for screen readers; pointing
-at a link, a parameter or a term marks what belongs to it.
+The page is a single file that needs no other file and no network: the kinematic scheme, tables of joints,
+masses and parameters, the equations of motion, the structure of the matrices, operations by function, stage
+and option, and evidence. It works on screens, dark and light, in print and with screen readers; hover a link,
+a parameter or a term to highlight everything related to it.
 
-For the evidence the code is compiled by rustc (the variable RUSTC, or `rustc`); where there is none the
-page says so.")]
+For the evidence, the code is compiled by rustc (the variable RUSTC, or `rustc`); without a compiler the page
+says that there is none.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     #[command(flatten)]
     output: OutputArguments,
-    /// Start no compiler: the page then tells nothing of machine code
+    /// Do not start a compiler: the page then has no evidence about machine code
     #[arg(long)]
     without_compiler: bool,
 }
@@ -49,7 +49,7 @@ impl Arguments {
 
     fn page(&self, source: &Source, options: &Options) -> Result<String, Failure> {
         let compiled = if self.without_compiler {
-            Compiled::Unread { reason: "no compiler was to be started.".to_owned() }
+            Compiled::Unread { reason: "the page was made without a compiler.".to_owned() }
         } else {
             compiled(source, options)?
         };

@@ -15,10 +15,10 @@ use crate::failure::Failure;
 #[command(after_help = "Example:
   robot-symbolic schema -o robot-file.schema.json
 
-An editor with a TOML language server then completes keys, shows what they are for, and underlines what is
-misspelt, in files that begin with the line
+With the schema, an editor with a TOML language server completes keys, explains them, and underlines misspelled
+ones, in files that begin with the line
   #:schema ./robot-file.schema.json
-The schema knows keys and kinds of values; what they mean together, `check` tells.")]
+The schema covers keys and types of values; `check` finds everything else.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     output: OutputArguments,

@@ -19,22 +19,21 @@ use crate::text;
 #[command(after_help = "Example:
   robot-symbolic search robots/ur5.toml
 
-Tries the options of the economical recursion for inverse dynamics link by link and counts what each
-costs. All forms give the same torques. What is found is pinned beside the robot file, as ur5.plan,
-where builds find it: they do not search. After a change of the robot's mechanics, search again: then the
-plan is stale, which builds refuse and other commands warn of. Remarks, names and values of parameters
-are no such change.
+Tries the options of the economical recursion for inverse dynamics, link by link, and counts the operations of
+each. All forms give the same torques. The best plan is pinned beside the robot file, as ur5.plan, and used by
+builds, which do not search themselves. After a change of the robot's mechanics the plan is stale: builds
+refuse it and other commands warn, until you search again. Remarks, names and values of parameters may change.
 
-The time of the robot file is set to now, its text is not touched: builds that made code before there
-was a plan look again.")]
+The modification time of the robot file is set to now, so that builds that ran before there was a plan run
+again; its text does not change.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Minimise instructions, a product and the sum that alone uses it as one: for code generated with
-    /// --fused, on targets that multiply and add in one instruction
+    /// Minimize instructions, with a multiply-add counted as one: for code generated with --fused, on
+    /// targets that multiply and add in one instruction
     #[arg(long)]
     fused: bool,
-    /// Show what is found and pin nothing
+    /// Show the result without pinning it
     #[arg(long)]
     dry_run: bool,
     #[command(flatten)]
@@ -44,12 +43,12 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let path = pin_path(self.robot.path());
-        let remedy = "move it away, or have it replaced with --force";
+        let remedy = "move it away, or replace it with --force";
         let writer = self.force.writer([self.robot.path().to_owned()]).remedy(remedy);
         if !self.dry_run {
             if path.exists() && !path.is_file() {
                 return Err(Failure::input(format!(
-                    "{}: a plan is pinned in a regular file, which this is not; move it away",
+                    "{}: a pinned plan must be a regular file, and this is not; move it away",
                     shown(&path)
                 )));
             }
@@ -61,7 +60,8 @@ impl Arguments {
         let find = || search(&robot, &options, measure);
         let Some(found) = watched("searching", terminal, find) else {
             return Err(Failure::input(format!(
-                "{}: a joint axis depends on parameters; the economical recursion has no forms for it",
+                "{}: a joint axis depends on parameters, which the economical recursion does not \
+                 support",
                 robot.name
             )));
         };
@@ -80,14 +80,18 @@ impl Arguments {
             found.operations,
             found.instructions,
             found.tried,
-            if found.cut_short { ", and the robot is too long to try more" } else { "" }
+            if found.cut_short { ", the limit for a robot of this size" } else { "" }
         )?;
         let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
         write!(terminal.output, "{}", text::table(&rows(&found.plan, &names)))?;
         if let Some((link, component)) = found.plan.unit_length {
             let name = names.get(link).copied().unwrap_or_default();
             let axis = ["x", "y", "z"][component.min(2)];
-            writeln!(terminal.output, "\nunit of length: {axis} of the position of link {name}")?;
+            writeln!(
+                terminal.output,
+                "\nunit of length: the {axis} component of the position of \
+                link {name}"
+            )?;
         }
         writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
@@ -104,8 +108,8 @@ impl Arguments {
         if let Err(error) = file.and_then(|file| file.set_modified(SystemTime::now())) {
             writeln!(
                 terminal.errors,
-                "warning: the time of {} cannot be set: {error}\n  a build that made code before there was a plan \
-                 sees the plan at the next change of the file",
+                "warning: the modification time of {} cannot be set: {error}\n  a build that ran \
+                 before there was a plan will use it after the next change of the file",
                 shown(path)
             )?;
         }

@@ -47,7 +47,7 @@ fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
 }
 
 fn joints(robot: &Robot) -> Vec<Vec<String>> {
-    let mut rows = vec![row(["link", "parent", "joint", "motion", "coordinate", "bodies"])];
+    let mut rows = vec![row(["link", "parent", "joint", "type", "coordinate", "bodies"])];
     for link in &robot.links {
         let axis: Vec<&str> = link.joint.axis.iter().map(robot_symbolic::Formula::text).collect();
         let direction = match link.joint.kind {
@@ -97,7 +97,7 @@ fn functions(robot: &Robot) -> Vec<Vec<String>> {
         let what = match kind.frame() {
             None => continue,
             Some(FrameRef::Named(_)) => "of a frame",
-            Some(FrameRef::Link(_)) => "of a moving link, where it is named",
+            Some(FrameRef::Link(_)) => "of a moving link; must be named",
         };
         rows.push(row([&name, what]));
     }

@@ -28,34 +28,32 @@ use crate::settings::Settings;
   robot-symbolic simulate robots/puma560.toml --torque \"2 = -40*(q2 - 0.5) - 8*qd2\" --time 3
   robot-symbolic simulate robots/planar_2r.toml --torques motion.csv --time 10
 
-The output is CSV: t, q, qd, qdd, tau and the energies, in s, rad or m, N m or N, and J; numbers read
-back to the last bit. Expressions know t, q1 …, qd1 … and the robot's parameters. A file of torques
-has the columns t and tau1 …, one for each joint; between its lines torques are linear in t. With
---friction, dry friction holds joints at rest unless it has a smoothing. The method, and what its
-tolerance means: docs/simulation.md.")]
+The output is CSV: t, q, qd, qdd, tau and the energies, in s, rad or m, N m or N, and J; numbers round-trip
+exactly. Expressions may use t, q1 …, qd1 … and the robot's parameters. A file of torques has the columns t and
+tau1 …, one for each joint; torques are interpolated linearly in t. With --friction, Coulomb friction can hold
+joints at rest (stiction) unless it has a smoothing. docs/simulation.md describes the method and the tolerance.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// How long to simulate, s
+    /// Duration of the simulation, s
     #[arg(long, value_name = "S", default_value_t = 10.0, allow_hyphen_values = true)]
     time: f64,
-    /// The time between lines of the output, s
+    /// Time between lines of the output, s
     #[arg(long, value_name = "S", default_value_t = 0.01, allow_hyphen_values = true)]
     step: f64,
-    /// The error that a step may make in a component y of q and qd: TOLERANCE (1 + |y|)
+    /// Error tolerance of a step in a component y of q and qd: TOLERANCE (1 + |y|)
     #[arg(long, default_value_t = 1e-9, allow_hyphen_values = true)]
     tolerance: f64,
-    /// The most steps of the integrator; without this a million, or ten for each line of the output
-    /// where that is more
+    /// Maximum number of integrator steps [default: a million, or ten per line of output if that is more]
     #[arg(long, value_name = "STEPS")]
     max_steps: Option<usize>,
-    /// The positions at the start, with commas between, rad or m; without this 0
+    /// Initial joint positions, separated by commas, rad or m [default: 0]
     #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', allow_hyphen_values = true)]
     q0: Option<Vec<f64>>,
-    /// The velocities at the start, rad/s or m/s; without this 0
+    /// Initial joint velocities, rad/s or m/s [default: 0]
     #[arg(long, value_name = "QD1,QD2,…", value_delimiter = ',', allow_hyphen_values = true)]
     qd0: Option<Vec<f64>>,
-    /// The torque or force of a joint, by number or name; joints without one are not driven
+    /// Torque or force of a joint, by number or name; the other joints are not driven
     #[arg(long = "torque", value_name = "JOINT=EXPRESSION")]
     torque: Vec<String>,
     /// A CSV file of torques; `-` for standard input
@@ -65,7 +63,7 @@ pub(crate) struct Arguments {
     friction: FrictionArguments,
     #[command(flatten)]
     settings: Settings,
-    /// The CSV file to write; standard output without this, or where it is `-`
+    /// The CSV file to write; `-` is standard output [default: -]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// A plot to write, .svg or .png: q, qd, torques and energies over time

@@ -24,30 +24,30 @@ use crate::text;
   robot-symbolic stats robots/puma560.toml --function inverse_dynamics --options
   robot-symbolic stats robots/puma560.toml --function mass_matrix,bias --bundle both=mass_matrix,bias
 
-Subtractions count as additions, changes of sign not at all, a fused multiply-add as both of its
-operations. `other` are absolute values, signs and hyperbolic tangents. What the constructor computes,
-once for each set of parameters, is counted apart.
+Subtractions count as additions, sign changes are not counted, and a fused multiply-add counts as both of its
+operations. `other` are absolute values, signs and hyperbolic tangents. The operations of the constructor, once
+per set of parameters, are counted separately.
 
-With --passes, what is left of each function after each pass; `as built` is what the recursion gives,
-`constructor` what is left for calls. With --options, what each function costs without each option of
-the recursion and without each pass; options act together, so that what they save does not add up.")]
+With --passes, the operations of each function after each pass; `as built` is the result of the recursion,
+`constructor` what remains for calls. With --options, the operations of each function without one option of
+the recursion or one pass; the savings do not add up, because the options interact.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Functions to count; without this and --bundle all that the robot has, and the bundles of the
-    /// robot file's [code]
+    /// Functions to count [default without --bundle: every function of the robot, and the bundles of
+    /// the robot file's [code]]
     #[arg(long = "function", value_name = "NAME", value_delimiter = ',',
           value_parser = FunctionName { all: true })]
     functions: Vec<String>,
     #[command(flatten)]
     bundles: BundleArguments,
-    /// Show what each pass gave
+    /// Show the operations after each pass
     #[arg(long)]
     passes: bool,
-    /// Show what each option of the recursion and each pass is worth
+    /// Show the savings by each option of the recursion and each pass
     #[arg(long, conflicts_with = "passes")]
     options: bool,
-    /// How to print them
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
 }

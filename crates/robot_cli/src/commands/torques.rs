@@ -23,19 +23,19 @@ use crate::settings::Settings;
   robot-symbolic simulate robots/planar_2r.toml --q0 1.5,0.5 -o motion.csv
   robot-symbolic torques robots/planar_2r.toml --trajectory motion.csv -o torques.csv --plot torques.svg
 
-A trajectory has the columns t, q1 …, qd1 …, qdd1 …, and fx, fy, fz, mx, my, mz where the tip exerts a
-wrench (fx_NAME … for each of several tips); what `simulate` writes is one. Expressions know t and the
-robot's parameters; velocities and accelerations are their exact derivatives, and a position or velocity that
-jumps is refused. The output is CSV: t, the
-torques tau, and their shares: inertia (M qdd), coriolis (C qd, with the centrifugal ones), gravity,
-friction and wrench, in N m or N.")]
+A trajectory has the columns t, q1 …, qd1 …, qdd1 …, and fx, fy, fz, mx, my, mz for the wrench that the tip
+exerts on its surroundings, if any (fx_NAME … for each of several tips); the output of `simulate` is a
+trajectory. Expressions may use t and the robot's parameters; velocities and accelerations are their exact
+derivatives, and a position or velocity that jumps is refused. The output is CSV: t, the torques tau, and
+their contributions: inertia (M qdd), coriolis (C qd, Coriolis and centrifugal terms), gravity, friction and
+wrench, in N m or N.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     /// A CSV file with the motion; `-` for standard input
     #[arg(long, value_name = "FILE", required_unless_present = "expressions")]
     trajectory: Option<PathBuf>,
-    /// The motion as expressions in t, one for each coordinate, with `;` between
+    /// The motion as expressions in t, one for each coordinate, separated by `;`
     #[arg(
         long,
         value_name = "Q1=EXPRESSION;…",
@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
         conflicts_with = "trajectory"
     )]
     expressions: Vec<String>,
-    /// How long the expressions are followed, s
+    /// Duration of the motion given by --expressions, s
     // A requirement alone is dropped where it conflicts with what is given.
     #[arg(
         long,
@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
         allow_hyphen_values = true
     )]
     time: Option<f64>,
-    /// The time between lines of the output where the motion is expressions, s
+    /// Time between lines of the output with --expressions, s
     #[arg(
         long,
         value_name = "S",
@@ -67,10 +67,10 @@ pub(crate) struct Arguments {
     friction: FrictionArguments,
     #[command(flatten)]
     settings: Settings,
-    /// The CSV file to write; standard output without this, or where it is `-`
+    /// The CSV file to write; `-` is standard output [default: -]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// A plot to write, .svg or .png: the shares of each torque over time
+    /// A plot to write, .svg or .png: the contributions to each torque over time
     #[arg(long, value_name = "FILE", value_parser = plot_path)]
     plot: Option<PathBuf>,
     #[command(flatten)]

@@ -22,7 +22,7 @@ pub(super) fn read(text: &str, layout: &Layout) -> (Vec<State>, Vec<String>) {
         if entries == expected {
             states.push(state(place, &header, &cells, layout, &mut errors));
         } else {
-            errors.push(format!("{place}: {entries} entries under a header of {expected}"));
+            errors.push(format!("{place}: {entries} entries, but the header has {expected}"));
         }
     }
     (states, errors)
@@ -39,7 +39,7 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
         if !columns.contains(name) {
             errors.push(format!("the header: {}", text::unknown("column", name, &columns)));
         } else if header[..index].contains(name) {
-            errors.push(format!("the header has `{name}` twice"));
+            errors.push(format!("`{name}` appears twice in the header"));
         }
     }
     for array in &layout.arrays {

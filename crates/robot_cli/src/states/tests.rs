@@ -66,7 +66,7 @@ fn everything_that_is_wrong_with_csv_is_named() {
     let found = errors("q1,q2\n1,nan\n1\n2,\n");
     let expected = [
         "line 2: `q2` is `nan`, not a number",
-        "line 3: 1 entries under a header of 2",
+        "line 3: 1 entries, but the header has 2",
         "line 4: `q2` is ``, not a number",
     ];
     assert_eq!(found, expected);

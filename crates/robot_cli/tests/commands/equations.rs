@@ -200,7 +200,7 @@ fn a_symbol_with_the_name_of_a_base_parameter_is_refused() {
     let path = crate::folder("taken").join("arm.toml");
     std::fs::write(&path, text).unwrap();
     let told = complaint(1, &["equations", path.to_str().unwrap(), "--form", "regrouped"], "");
-    assert!(told.contains("has a symbol `ZZR_1` of its own"), "{told}");
+    assert!(told.contains("defines a symbol `ZZR_1` of its own"), "{told}");
 }
 
 #[test]

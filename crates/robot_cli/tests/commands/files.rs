@@ -32,7 +32,7 @@ fn exit_codes_tell_wrong_files_from_wrong_usage() {
         assert!(!output.stderr.is_empty());
     }
     let shown = complaint(2, &["generate", &robot("planar_2r"), "--runtime", "a b"], "");
-    assert!(shown.contains("the runtime path `a b` is no path of Rust"), "{shown}");
+    assert!(shown.contains("the runtime path `a b` is not a Rust path"), "{shown}");
 }
 
 #[test]

@@ -167,9 +167,9 @@ fn what_is_no_file_is_no_plan() {
     let made = std::process::Command::new("mkfifo").arg(&plan).status().unwrap();
     assert!(made.success());
     let shown = complaint(1, &["search", &arm], "");
-    assert!(shown.contains("a plan is pinned in a regular file"), "{shown}");
+    assert!(shown.contains("a pinned plan must be a regular file"), "{shown}");
     let shown = complaint(1, &["generate", &arm], "");
-    assert!(shown.contains("a plan is read from a regular file"), "{shown}");
+    assert!(shown.contains("a pinned plan must be a regular file"), "{shown}");
     let shown = run(&["stats", &arm]);
     assert!(shown.code == 0 && shown.errors.contains("warning: "), "{}", shown.errors);
     std::fs::remove_file(&plan).unwrap();

@@ -123,7 +123,7 @@ fn what_bears_on_the_dynamics_and_is_not_read_is_told_in_a_line() {
     }
     let shown = run(&["check", &file]).errors;
     for part in
-        ["1 joint: `effort` of `<limit>` is not read", "1 transmission: gear ratio", "1 Gazebo"]
+        ["1 joint: `effort` of `<limit>` is ignored", "1 transmission: gear ratio", "1 Gazebo"]
     {
         assert!(shown.contains(part), "{shown}");
     }
@@ -133,7 +133,7 @@ fn what_bears_on_the_dynamics_and_is_not_read_is_told_in_a_line() {
     let negative = URDF.replace("effort=\"10\"", "effort=\"-10\"");
     let file = written("reading-effort", "arm.urdf", &negative);
     let shown = run(&["check", &file]).errors;
-    assert!(shown.contains("warning[R0618]: the limit of effort is -10"), "{shown}");
+    assert!(shown.contains("warning[R0618]: the effort limit is -10"), "{shown}");
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn options_without_effect_are_refused() {
     }
     let trajectory = ["torques", &file, "--trajectory", "a.csv", "--step", "0.1"];
     assert!(complaint(2, &trajectory, "").contains("--step"));
-    assert!(complaint(1, &["import", &file, "--friction"], "").contains("a robot file already"));
+    assert!(complaint(1, &["import", &file, "--friction"], "").contains("already a robot file"));
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn torques_of_a_file_are_those_of_all_joints() {
     let shown = complaint(1, &arguments, "t,tau1\n0,1\n1,1\n");
     assert_eq!(
         shown,
-        "error: standard input: there is no column tau2; a joint that is not driven has one of zeros\n"
+        "error: standard input: there is no column tau2; add a column of zeros for a joint that is not driven\n"
     );
     output(&arguments, "t,tau1,tau2\n0,1,0\n1,1,0\n");
 }
@@ -227,7 +227,7 @@ fn torques_without_a_finite_value_are_an_error() {
     let file = robot("planar_2r");
     let arguments = ["torques", &file, "--expressions", "q1=1e300*t;q2=0", "--time", "1"];
     let shown = complaint(1, &arguments, "");
-    assert!(shown.contains("torques have no finite value"), "{shown}");
+    assert!(shown.contains("torques do not have finite values"), "{shown}");
 }
 
 #[test]

@@ -16,7 +16,7 @@ fn a_page_is_written_and_says_what_the_compiler_made() {
 #[test]
 fn without_a_compiler_the_page_says_so() {
     let page = output(&["report", &robot("planar_2r"), "--without-compiler"], "");
-    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("machine code was not read"));
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("machine code was not analyzed"));
     assert!(!page.contains("Profile release"));
 }
 

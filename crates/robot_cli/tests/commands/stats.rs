@@ -79,8 +79,8 @@ fn what_snapping_changes_is_told() {
     let path = path.to_str().unwrap();
     let shown = output(&["show", path], "");
     for part in [
-        "angles taken for the multiple of π/2 next to them, --snap 1e-9: 1; the largest change is 3.0e-10 rad",
-        "--snap 1e-4 would take 2, the largest change 3.7e-6 rad: 0 operations",
+        "angles snapped to a multiple of π/2, --snap 1e-9: 1; the largest change is 3.0e-10 rad",
+        "--snap 1e-4 would snap 2, with a largest change of 3.7e-6 rad: 0 fewer operations",
     ] {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }

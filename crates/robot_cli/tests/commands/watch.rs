@@ -96,10 +96,10 @@ fn the_page_follows_the_file_and_stays_when_the_watch_ends() {
     let second = watch.picture(Some(&first));
     assert!(second.contains("\n<svg ") && second.ends_with("/>\n"), "{second}");
     watch.save("mass = \"m2\"", "mass = \"m3\"");
-    watch.wait_for("there is no robot; that of save 1 stands");
+    watch.wait_for("the file has errors; keeping the robot from save 1");
     watch.save("mass = \"m3\"", "mass = \"m2\"");
     watch.wait_for("gone: error[R0303]");
-    watch.wait_for("nothing changes in the robot");
+    watch.wait_for("no changes in the robot");
     assert_eq!(watch.end(), Some(0));
     let last = read(&watch.page).unwrap();
     assert!(!last.contains("data-page=") && !last.contains("img-src"));

@@ -37,7 +37,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let terms: usize = polynomials.iter().map(Polynomial::len).sum();
     if terms > MAX_TERMS {
         let reason = format!(
-            "the expanded form has {terms} terms, more than the {MAX_TERMS} that are printed"
+            "the expanded form has {terms} terms, more than the {MAX_TERMS} that can be printed"
         );
         return Err(Error::TooLong { reason });
     }
@@ -57,7 +57,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let title = "Equations of motion, expanded".to_owned();
     Ok(vec![
         Group { title, introduction, definitions: false, equations },
-        Group::of_definitions("Forces in the joints", forces),
+        Group::of_definitions("Joint wrenches", forces),
     ])
 }
 

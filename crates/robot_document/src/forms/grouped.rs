@@ -39,12 +39,12 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
 fn introduction(writer: &Writer<'_, '_>) -> String {
     let rates = match writer.options.christoffel {
         true => "Christoffel symbols of the first kind",
-        false => "coefficients of products of velocities",
+        false => "coefficients of the products of joint velocities",
     };
     format!(
-        "Coefficients of accelerations, which are the entries of the symmetric mass matrix, {rates}, \
-         and the share of gravity, each a function of the coordinates alone. Those that are 0 are \
-         left out."
+        "The coefficients of the accelerations (the entries of the symmetric mass matrix), \
+         {rates}, and the gravity terms. Each depends on the coordinates alone; zeros are \
+         omitted."
     )
 }
 
@@ -81,7 +81,7 @@ fn velocities<'g>(
     let christoffel = writer.options.christoffel;
     let (letters, title) = match christoffel {
         true => (&CHRISTOFFEL, "Christoffel symbols"),
-        false => (&VELOCITY, "Coefficients of velocities"),
+        false => (&VELOCITY, "Coriolis and centrifugal coefficients"),
     };
     let letter = writer.symbols.free_letter(letters);
     let graph = writer.graph;

@@ -103,8 +103,7 @@ pub(super) fn friction_contributions<'g>(
 ) -> (Section<'g>, Vec<Expr<'g>>) {
     let mechanism = writer.derivation().mechanism;
     let iterations = writer.iterations(Effects { wrench: true, friction: false });
-    let mut joints =
-        Section { title: "Forces in the joints", by_symbols: false, coefficients: vec![] };
+    let mut joints = Section { title: "Joint wrenches", by_symbols: false, coefficients: vec![] };
     let mut values = vec![writer.graph.zero(); mechanism.degrees_of_freedom];
     for (index, (link, LinkWrench { force, .. })) in
         mechanism.links.iter().zip(&iterations.wrenches).enumerate()

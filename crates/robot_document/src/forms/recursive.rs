@@ -75,7 +75,7 @@ fn link_values<'h>(
     link_values.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value));
     let values: Vec<Expr<'_>> = link_values.iter().map(|(_, _, value)| *value).collect();
     let (mut groups, mut named) = definitions(writer, &values, target)?;
-    let mut group = Group::of_definitions("Figures of the links", vec![]);
+    let mut group = Group::of_definitions("Parameters of the links", vec![]);
     for (name, shape, expr) in link_values {
         let value = named.rewritten(expr);
         writer.define(&name, shape)?;
@@ -141,7 +141,7 @@ fn generalized_forces(
         equations.push(sum(writer, symbol.to_string(), Math::quantity(symbol), value)?);
     }
     Ok(Group {
-        title: "Driving forces".to_owned(),
+        title: "Joint torques".to_owned(),
         introduction: String::new(),
         definitions: false,
         equations,

@@ -31,7 +31,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         wrenches(writer, &forces, &mut sums),
     ];
     if writer.options.friction {
-        sections.extend(frictions(writer, "Dry friction", dry, &mut sums));
+        sections.extend(frictions(writer, "Coulomb friction", dry, &mut sums));
     }
     let introduction = introduction(&found);
     match expanded(writer, &sections) {
@@ -47,18 +47,19 @@ const TITLE: &str = "Equations of motion, regrouped";
 
 fn introduction(found: &BaseParameters<'_>) -> String {
     format!(
-        "The driving forces are linear in the base parameters, the fewest combinations of the \
-         parameters of links and drives that determine them: {} of {}. Those that are 0 are left out.",
+        "The joint torques are linear in the base parameters, the smallest set of combinations \
+         of link and drive parameters that determines them: {} of {}. Zeros are omitted.",
         found.base.len(),
         found.standard.len()
     )
 }
 
 /// What the names of base parameters mean where they are moments in other frames.
-const MOMENTS: &str = "In the names of base parameters SXX is the second moment ∫ x² dm of a link, SXY ∫ x y dm \
-    and so on, MX, MY, MZ the first moment, in frames of Denavit and Hartenberg: z is the joint axis, and \
-    the origin lies on it where the common normal with the axis of the parent's joint meets it; a D marks one \
-    that differs from the file's of the same name beside it.";
+const MOMENTS: &str = "In the names of base parameters, SXX is the second moment ∫ x² dm of a \
+    link, SXY is ∫ x y dm and so on, and MX, MY, MZ are the first moments, in Denavit-Hartenberg \
+    frames: z is the joint axis, and the origin is the point where the common normal with the \
+    parent's joint axis meets it; a D marks a parameter that differs from the file's parameter \
+    of the same name.";
 
 /// The definitions of the standard parameters that are regrouped and of the base parameters, and the
 /// symbols of the base parameters by their columns.
@@ -93,7 +94,7 @@ fn definitions<'g>(
             BaseFrames::DenavitHartenberg => format!(" {MOMENTS}"),
         };
         first.introduction = format!(
-            "{}{moments} Parameters that the robot file has as they are keep their symbols.",
+            "{}{moments} Parameters that appear in the robot file unchanged keep their symbols.",
             base::NAMES
         );
     }

@@ -151,7 +151,7 @@ impl<'g> Reader<'g, '_> {
         match piece {
             Math::Number(digits) => match Rational::from_decimal(digits) {
                 Some(value) => Ok(self.graph.number(value)),
-                None => fault("no number"),
+                None => fault("not a number"),
             },
             Math::Letter('π') => Ok(self.graph.pi()),
             Math::Row(pieces) => self.sum(pieces),
@@ -216,5 +216,5 @@ fn integer(exponent: &Math) -> Result<i32, MeaningError> {
         [Math::Sign('-'), Math::Number(digits)] => digits.parse().ok().map(|value: i32| -value),
         _ => None,
     };
-    parsed.map_or_else(|| fault("an exponent that is no integer"), Ok)
+    parsed.map_or_else(|| fault("an exponent that is not an integer"), Ok)
 }

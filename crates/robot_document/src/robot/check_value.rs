@@ -44,8 +44,8 @@ pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -
     let mut blocks = vec![
         heading("A check value"),
         paragraph(
-            "With the parameters at their values, this state asks for these driving forces. They were \
-             computed by a numeric solver, not from the equations.",
+            "At the nominal parameters, this state requires the following joint torques and \
+             forces. They were computed by a numerical solver, not from the equations.",
         ),
     ];
     if has_tip {
@@ -55,7 +55,7 @@ pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -
             wrench[3..].join(", ")
         )));
     }
-    let caption = "State and driving forces, SI units.".to_owned();
+    let caption = "State and joint torques, SI units.".to_owned();
     blocks.push(Block::Table(Table { caption, head, rows }));
     blocks
 }

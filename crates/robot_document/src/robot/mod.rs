@@ -60,8 +60,8 @@ fn heading(text: &str) -> Block {
 fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
     let indexed = |letter: char| Math::Letter(letter).with_lower(Math::Letter('i'));
     let friction = match options.friction {
-        true => "Friction in the joints is included.",
-        false => "Friction in the joints is not included.",
+        true => "Joint friction is included.",
+        false => "Joint friction is not included.",
     };
     Ok(vec![
         heading("Frames and signs"),
@@ -69,20 +69,21 @@ fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
             Inline::text("The frame of link "),
             Inline::Math(Math::Letter('i')),
             Inline::text(
-                " is fixed to the link and right-handed; its origin lies on the axis of the joint that \
-                 moves the link. It is the frame of the parent link (of the base for a link without \
-                 parent), first displaced as the table of the links says, then moved by the joint: \
-                 turned about the axis by ",
+                " is fixed to the link and right-handed, with its origin on the axis of the \
+                 link's joint. It is the frame of the parent link (or of the base, if there is \
+                 no parent), first displaced as given in the table of links and then moved by \
+                 the joint: rotated about the axis by ",
             ),
             Inline::Math(indexed('q')),
-            Inline::text(", or displaced along it by "),
+            Inline::text(", or translated along it by "),
             Inline::Math(indexed('q')),
-            Inline::text(". All vectors are in the axes of their own link. "),
+            Inline::text(". All vectors are given in the axes of their own link. "),
             Inline::Math(indexed('Q')),
             Inline::text(
-                " is the generalised driving force of the joint: a moment for a rotation, a force for a \
-                 translation, positive along the axis. Wrenches of tips are what the tip exerts on its \
-                 surroundings. Units are SI and radians. ",
+                " is the joint torque of a revolute joint or the joint force of a prismatic \
+                 joint, positive along the axis. The wrench of a tip is the wrench that the tip \
+                 exerts on its surroundings; the external wrench, which acts on the tip, is its \
+                 negative. Units are SI and radians. ",
             ),
             Inline::text(friction),
         ]),

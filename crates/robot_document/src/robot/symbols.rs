@@ -36,8 +36,11 @@ pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
                     item.push(Inline::text(if place == 0 { "" } else { ", " }));
                     item.push(Inline::Math(symbols.look(name)));
                 }
-                let text =
-                    format!(" \u{2014} {what} that {} exerts, in its axes, {unit}", frame.name);
+                let text = format!(
+                    " \u{2014} {what} that {} exerts on its surroundings, in its axes, \
+                        {unit}",
+                    frame.name
+                );
                 item.push(Inline::Text(text));
                 item
             });

@@ -20,8 +20,7 @@ pub(super) fn blocks(robot: &Robot, symbols: &SymbolTable) -> Result<Vec<Block>,
     let mut blocks = vec![heading("The robot"), gravity(robot, &formulas)?];
     blocks.push(Block::Table(links(robot, &formulas)?));
     blocks.push(paragraph(
-        "T is a displacement along the axes of the frame that is reached so far, R a rotation about one \
-         of its axes.",
+        "T denotes a translation and R a rotation, each in the frame reached by the preceding ones.",
     ));
     blocks.push(Block::Table(masses(robot, symbols)?));
     if !robot.frames.is_empty() {
@@ -106,15 +105,8 @@ fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
             formulas.placement(&link.placement)?,
         ]);
     }
-    let head = heads(&[
-        "",
-        "Link",
-        "Parent",
-        "Joint",
-        "Axis",
-        "Coordinate",
-        "Frame in the parent's frame",
-    ]);
+    let head =
+        heads(&["", "Link", "Parent", "Joint", "Axis", "Coordinate", "Pose in the parent frame"]);
     Ok(Table { caption: "Links and joints.".to_owned(), head, rows })
 }
 
@@ -127,7 +119,7 @@ fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
             formulas.placement(&frame.placement)?,
         ]);
     }
-    let head = heads(&["Frame", "Link", "Place in the link's frame"]);
+    let head = heads(&["Frame", "Link", "Pose in the link frame"]);
     Ok(Table { caption: "Named frames.".to_owned(), head, rows })
 }
 
@@ -185,8 +177,8 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
             _ => Inline::Math(Math::Letter('J').with_lower(letters(name))),
         }]);
     }
-    let caption = "Masses, kg; centres of mass, m; moments of inertia about the centre of mass in the \
-                   axes of the link's frame, kg m²; columns of zeros are left out, long figures rounded."
+    let caption = "Masses, kg; centers of mass, m; moments of inertia about the center of mass \
+        in the axes of the link frame, kg m²; columns of zeros are omitted, values are rounded."
         .to_owned();
     Ok(Table { caption, head, rows })
 }

@@ -9,12 +9,12 @@ pub fn carrier(robot: &Robot, link: Option<usize>) -> &str {
     link.and_then(|index| robot.links.get(index)).map_or("base", |link| &link.name)
 }
 
-/// How a joint moves: `rotation` or `translation`.
+/// The kind of a joint: `revolute` or `prismatic`.
 #[must_use]
 pub const fn motion(kind: JointKind) -> &'static str {
     match kind {
-        JointKind::Revolute => "rotation",
-        JointKind::Prismatic => "translation",
+        JointKind::Revolute => "revolute",
+        JointKind::Prismatic => "prismatic",
     }
 }
 

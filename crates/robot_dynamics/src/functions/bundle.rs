@@ -19,7 +19,8 @@ impl<'g> Derivation<'_, 'g> {
         let names: Vec<String> =
             functions.iter().map(|function| format!("`{}`", function.name)).collect();
         let mut doc = vec![format!(
-            "In one call that shares their work: {}. Each is as the function of its name.",
+            "Computes several functions in one call that shares their work: {}. Each output is \
+             that of the function of its name.",
             names.join(", ")
         )];
         let mut inputs: Vec<Input> = vec![];

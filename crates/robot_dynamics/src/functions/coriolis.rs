@@ -20,8 +20,8 @@ pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'
     );
     derivation.of_kind(
         FunctionKind::CoriolisMatrix,
-        &["The Coriolis matrix C(q, q̇) by the Christoffel symbols of the mass matrix: C q̇ is what \
-           Coriolis and centrifugal effects ask for, Ṁ = C + Cᵀ, and Ṁ − 2 C is skew."],
+        &["The Coriolis matrix C(q, q̇), from the Christoffel symbols of the mass matrix: C q̇ \
+            are the Coriolis and centrifugal terms, Ṁ = C + Cᵀ, and Ṁ − 2 C is skew-symmetric."],
         vec![output],
     )
 }

@@ -15,9 +15,9 @@ pub(super) fn inverse_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
     };
     derivation.of_kind(
         FunctionKind::InverseDynamicsDerivatives,
-        &["The derivatives of inverse dynamics without friction and wrenches: the entry in row i \
-             and column j is that of the driving force i by the position or velocity j, exact. The \
-             derivative by the accelerations is the mass matrix."],
+        &["The exact partial derivatives of inverse dynamics without friction and wrenches: row \
+            i, column j is the derivative of joint torque i with respect to position or velocity \
+            j. The derivative with respect to the accelerations is the mass matrix."],
         vec![
             output("dtau_dq", "∂τ/∂q, row by row", "rad or m", positions),
             output("dtau_dqd", "∂τ/∂q̇, row by row", "rad/s or m/s", velocities),
@@ -96,10 +96,10 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
     };
     let mut function = derivation.of_kind(
         FunctionKind::ForwardDynamicsDerivatives,
-        &["The derivatives of forward dynamics without friction and wrenches: the entry in row i \
-             and column j is that of the acceleration i by the position, velocity or driving force \
-             j, exact: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that the driving forces give, and \
-             ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018)."],
+        &["The exact partial derivatives of forward dynamics without friction and wrenches: row \
+            i, column j is the derivative of acceleration i with respect to position, velocity \
+            or joint torque j: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that the joint torques \
+            cause, and ∂q̈/∂τ = M⁻¹ (J. Carpentier, N. Mansard, RSS 2018)."],
         vec![
             output("dqdd_dq", "∂q̈/∂q, row by row", "rad or m", part(0)),
             output("dqdd_dqd", "∂q̈/∂q̇, row by row", "rad/s or m/s", part(order)),

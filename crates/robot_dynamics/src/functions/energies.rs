@@ -15,9 +15,9 @@ pub(super) fn energies<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let output = |name, doc, value| Output::new(name, doc, "J", vec![], vec![value]);
     derivation.of_kind(
         FunctionKind::Energies,
-        &["Kinetic energy ½ q̇ᵀ M q̇, the drives' reflected inertias included, and potential energy \
-           of the weight, −Σ m g · c with the mass centres c in the base frame: zero where all mass \
-           is in the base frame's origin. Its gradient is g(q)."],
+        &["Kinetic energy ½ q̇ᵀ M q̇, including the drives' reflected inertias, and potential \
+            energy of gravity, −Σ m g · c with the centers of mass c in the base frame: zero if \
+            all mass is at the origin of the base frame. Its gradient is g(q)."],
         vec![
             output("kinetic", "Kinetic energy", kinetic),
             output("potential", "Potential energy", potential),

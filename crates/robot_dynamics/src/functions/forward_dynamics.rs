@@ -39,8 +39,8 @@ pub(super) fn forward_dynamics<'g>(
     let what = match friction {
         true => FRICTION_DOC,
         false => {
-            "Forward dynamics: the accelerations that the driving forces `tau` bring about, the \
-             solution of M q̈ = τ − C q̇ − g. Friction is not part of it: take it from `tau`."
+            "Forward dynamics: the accelerations that the joint torques `tau` cause, the \
+             solution of M q̈ = τ − C q̇ − g. Friction is not included: subtract it from `tau`."
         }
     };
     let mut function = derivation.of_kind(kind, &[what], vec![output]);
@@ -52,32 +52,36 @@ pub(super) fn forward_dynamics<'g>(
 /// wrong pivot does.
 pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     let solution = if derivation.recursion_for_small_pivots().is_some() {
-        "By articulated bodies: at the nominal parameters there are postures in which the mass matrix is \
-         nearly singular, and there these keep digits that a decomposition of it loses."
+        "Uses the articulated-body algorithm: at the nominal parameters the mass matrix is \
+         nearly singular in some postures, where its decomposition would lose digits that this \
+         algorithm keeps."
     } else {
-        "Digits are lost where a pivot of the mass matrix, the inertia that a joint shows where the joints \
-         farther out are free, is much smaller than the joint's entry on the diagonal: as many as their \
-         quotient has zeros."
+        "Digits are lost if a pivot of the mass matrix (the inertia of a joint with the joints \
+         farther out free) is much smaller than the diagonal entry of the joint: as many digits \
+         as their ratio has zeros."
     };
     let wrong = match derivation.pivots_known() {
         Pivots::Checked => {
-            "No branch: where a pivot is not above 0 and finite (a coordinate that moves no mass in that \
-             posture, an inertia below 0), the accelerations that depend on it are NaN."
+            "There is no branch: if a pivot is not positive and finite (a coordinate that moves \
+             no mass in that posture, a negative inertia), the accelerations that depend on it \
+             are NaN."
         }
         Pivots::Positive => {
-            "No posture of this robot was found in which a pivot is small, and none is checked."
+            "No posture with a small pivot was found for this robot, and the code does not check \
+             for one."
         }
     };
     vec![solution.to_owned(), wrong.to_owned()]
 }
 
 /// The documentation of the function's friction.
-const FRICTION_DOC: &str = "Forward dynamics with the friction of the joints, viscous and dry: the \
-     accelerations that the driving forces `tau` bring about, the solution of M q̈ = τ − C q̇ − g − Q_f. \
-     Dry friction takes the sign of the velocity, or its smooth sign where the robot gives `smoothing`; \
-     the sign of 0 is 0, so that a sharp one holds nothing at rest. Friction by load depends on q̈ \
-     itself: from q̈ without it, eight rounds take the friction of the round before, and each leaves of \
-     the error about the part that the coefficient of friction is. Without friction by load it is exact.";
+const FRICTION_DOC: &str = "Forward dynamics with joint friction, viscous and Coulomb: the \
+    accelerations that the joint torques `tau` cause, the solution of M q̈ = τ − C q̇ − g − Q_f. \
+    Coulomb friction uses the sign of the velocity, or its smooth version if the robot file sets \
+    `smoothing`; the sign of 0 is 0, so the discontinuous sign does not model stiction. \
+    Load-dependent friction depends on q̈ itself: starting from q̈ without it, eight iterations \
+    use the friction of the previous one, and each reduces the error by about a factor of the \
+    friction coefficient. Without load-dependent friction the result is exact.";
 
 /// q̈ with friction, for the symbols τ.
 fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {

@@ -14,8 +14,8 @@ pub(super) fn gravity<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     };
     derivation.of_kind(
         FunctionKind::Gravity,
-        &["The driving forces that hold the robot at rest against its weight, g(q): the gradient of \
-           the potential energy."],
+        &["The gravity terms g(q): the joint torques that hold the robot at rest against \
+            gravity, the gradient of the potential energy."],
         vec![derivation.torque_output(torques)],
     )
 }

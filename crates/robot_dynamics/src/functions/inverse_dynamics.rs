@@ -15,17 +15,18 @@ pub(super) fn inverse_dynamics<'g>(
 ) -> Function<'g> {
     let Effects { wrench, friction } = kind.effects();
     let friction_doc = match friction {
-        true => "Includes the friction of the joints, viscous and dry.",
+        true => "Includes joint friction, viscous and Coulomb.",
         false => "Without friction.",
     };
     let sum_doc = match wrench {
         true => {
-            "Inverse dynamics: the generalised driving forces Q that bring about the accelerations `qdd`, \
-             M q̈ + C q̇ + g and what holds the wrenches of the tips."
+            "Inverse dynamics: the joint torques τ (generalized forces Q) that produce the \
+             accelerations `qdd`: M q̈ + C q̇ + g, plus the torques for the wrenches that the \
+             tips exert."
         }
         false => {
-            "Inverse dynamics: the generalised driving forces Q that bring about the accelerations `qdd`, \
-             M q̈ + C q̇ + g."
+            "Inverse dynamics: the joint torques τ (generalized forces Q) that produce the \
+             accelerations `qdd`: M q̈ + C q̇ + g."
         }
     };
     let doc = [sum_doc, friction_doc];
@@ -46,8 +47,8 @@ pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let torques = bias_torques(derivation);
     derivation.of_kind(
         FunctionKind::Bias,
-        &["The driving forces at zero accelerations, C(q, q̇) q̇ + g(q): what gravity, Coriolis and \
-           centrifugal effects ask for. Without wrenches and friction."],
+        &["The bias torques C(q, q̇) q̇ + g(q): the joint torques at zero acceleration, for \
+            Coriolis, centrifugal and gravity terms. Without wrenches and friction."],
         vec![derivation.torque_output(torques)],
     )
 }
@@ -103,13 +104,13 @@ pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g>
     };
     derivation.of_kind(
         FunctionKind::LinkWrenches,
-        &["The wrench in every joint: the contact force F_l and the contact moment M_l that each link \
-           receives through its joint, a row per link, in the link's own frame."],
+        &["The wrench in every joint: the contact force F_l and the contact moment M_l that each \
+            link receives through its joint, one row per link, in the link's own frame."],
         vec![
             output("force", "Contact forces F_l", "N", rows(|wrench| wrench.force)),
             output(
                 "moment",
-                "Contact moments M_l about the origins of the links' frames",
+                "Contact moments M_l about the origins of the link frames",
                 "N m",
                 rows(|wrench| wrench.moment),
             ),

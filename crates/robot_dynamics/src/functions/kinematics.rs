@@ -14,12 +14,12 @@ use crate::vector::{Matrix, Vector};
 pub(super) fn forward_kinematics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let poses = link_poses(derivation);
     let names = derivation.robot.links.iter().map(|link| link.name.as_str());
-    let rows = format!("A row per link: {}.", quoted(names));
+    let rows = format!("One row per link: {}.", quoted(names));
     derivation.of_kind(
         FunctionKind::ForwardKinematics,
         &[
-            "The poses of the links' frames in the base frame: rotation matrices, which take \
-             components in the link's frame to components in the base frame, and origins.",
+            "The poses of the link frames in the base frame: rotation matrices, which transform \
+             components in the link frame to components in the base frame, and origins.",
             &rows,
         ],
         pose_outputs(&poses),
@@ -33,11 +33,11 @@ pub(super) fn frame_poses<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
         None => plain::frame_poses(derivation),
     };
     let names = derivation.robot.frames.iter().map(|frame| frame.name.as_str());
-    let rows = format!("A row per frame: {}.", quoted(names));
+    let rows = format!("One row per frame: {}.", quoted(names));
     derivation.of_kind(
         FunctionKind::FramePoses,
         &[
-            "The poses of the named frames in the base frame: rotation matrices, which take \
+            "The poses of the named frames in the base frame: rotation matrices, which transform \
              components in the frame to components in the base frame, and origins.",
             &rows,
         ],
@@ -143,7 +143,7 @@ fn jacobian<'g>(
          (rows 0 to 2, m/s) and the angular velocity of the frame (rows 3 to 5, rad/s), both in \
          base axes."
     );
-    let unit = "m and 1 for a rotation, 1 and 0 for a translation";
+    let unit = "m and 1 for a revolute joint, 1 and 0 for a prismatic joint";
     let shape = vec![6, derivation.mechanism.degrees_of_freedom];
     let values = rows.into_iter().flatten().collect();
     derivation.of_kind(
@@ -163,9 +163,9 @@ fn jacobian_dot_qd<'g>(
         None => plain::jacobian_dot_qd(derivation, frame),
     };
     let doc = format!(
-        "J̇ q̇ of {what}: what velocities alone contribute to the acceleration of the \
-         frame's origin (0 to 2, m/s²) and to its angular acceleration (3 to 5, rad/s²), in base \
-         axes; with J q̈ they make the whole."
+        "J̇ q̇ of {what}: the part of the acceleration of the frame's origin (0 to 2, m/s²) and \
+         of its angular acceleration (3 to 5, rad/s²) that depends only on velocities, in base \
+         axes; J q̈ is the other part."
     );
     derivation.of_kind(
         FunctionKind::JacobianDotQd,

@@ -19,9 +19,9 @@ pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     );
     derivation.of_kind(
         FunctionKind::MassMatrix,
-        &["The mass matrix M(q), the drives' reflected inertias included: symmetric, positive \
-           definite; the driving forces for the accelerations `qdd` are M q̈ + C q̇ + g and the \
-           kinetic energy is ½ q̇ᵀ M q̇."],
+        &["The mass matrix M(q), including the drives' reflected inertias: symmetric, positive \
+            definite; the joint torques for the accelerations `qdd` are M q̈ + C q̇ + g and the \
+            kinetic energy is ½ q̇ᵀ M q̇."],
         vec![output],
     )
 }

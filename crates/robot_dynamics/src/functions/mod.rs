@@ -162,7 +162,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
             0 => rotation.to_owned(),
             count if count == kinds.len() => translation.to_owned(),
             _ => format!(
-                "{rotation}; {translation} for the translations at {}",
+                "{rotation}; {translation} for the prismatic joints at {}",
                 translations.join(", ")
             ),
         }
@@ -176,8 +176,8 @@ impl<'r, 'g> Derivation<'r, 'g> {
             (_, 0) => rotation.to_owned(),
             (0, _) => translation.to_owned(),
             _ => format!(
-                "{rotation} between rotations, {translation} between translations, {mixed} between a \
-                 rotation and a translation"
+                "{rotation} between revolute joints, {translation} between prismatic joints, \
+                 {mixed} between a revolute and a prismatic joint"
             ),
         }
     }
@@ -187,8 +187,9 @@ impl<'r, 'g> Derivation<'r, 'g> {
         let inputs = self.robot.tips().map(|(frame, wrench)| Input {
             name: format!("{WRENCH}{}", self.robot.wrench_suffix(frame)),
             doc: format!(
-                "Wrench that the frame `{}` exerts on its surroundings, in its axes, the moment about \
-                 its origin: force x y z, moment x y z",
+                "Wrench that the frame `{}` exerts on its surroundings (the negative of the \
+                 external wrench), in its axes, the moment about its origin: force x y z, moment \
+                 x y z",
                 frame.name
             ),
             unit: "N and N m".to_owned(),

@@ -40,9 +40,9 @@ pub(super) fn regressor_over<'g>(
     let kept: Vec<&Column<'g>> =
         base.base.iter().filter_map(|parameter| columns.get(parameter.column)).collect();
     let doc = [
-        "The regressor over the base parameters β, the fewest combinations of inertial and drive \
-         parameters that determine the driving forces: they are Y β. Without wrenches, and without the \
-         dry friction that grows with the contact force."
+        "The regressor Y over the base parameters β, the smallest set of combinations of \
+         inertial and drive parameters that determines the joint torques: they are Y β. Without \
+         wrenches, and without load-dependent friction."
             .to_owned(),
         match base.frames {
             BaseFrames::File => format!(
@@ -65,11 +65,12 @@ pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Functio
         order = format!("{order} {OF_DENAVIT_HARTENBERG}");
     }
     let doc = [
-        "The base parameters β, which times the regressor over them are the driving forces: each an \
-         inertial or drive parameter, with R where others are regrouped under it. XX to ZZ are entries \
-         of a link's inertia tensor about the origin of its frame, MX to MZ its first moment, M its mass; \
-         IA is a drive's reflected inertia, FV, FP and FN its friction, FO its offset, IC the coupling of \
-         its rotor.",
+        "The base parameters β; the regressor over them times β is the joint torques. Each is \
+         named after an inertial or drive parameter, with R if others are regrouped with it. XX \
+         to ZZ are entries of a link's inertia tensor about the origin of its frame, MX to MZ \
+         its first moment, M its mass; IA is a drive's reflected inertia (armature), FV, FP and \
+         FN its viscous, forward and backward friction, FO its friction offset, IC the coupling \
+         of its rotor.",
         &order,
     ];
     let values = base.nominal();
@@ -87,11 +88,12 @@ pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Functio
 }
 
 /// Describes the link parameters of a base set that is not in the file's frames.
-const OF_DENAVIT_HARTENBERG: &str = "They are over frames of Denavit and Hartenberg: of each link z is the \
-    joint axis, and the origin lies on it where the common normal with the axis of the parent's joint \
-    meets it, through the parent's origin where the axes are parallel, at the file's where there is no \
-    parent or no rotation; x is the file's as near as that allows. There SXX, SXY, SYY, SXZ, SYZ, SZZ \
-    are the second moments ∫ x² dm, ∫ x y dm and so on, MX, MY, MZ the first.";
+const OF_DENAVIT_HARTENBERG: &str = "They refer to Denavit-Hartenberg frames: z of each link is \
+    the joint axis, and the origin is the point where the common normal with the parent's joint \
+    axis meets it (through the parent's origin if the axes are parallel, at the file's origin if \
+    there is no parent or no revolute joint); x is as close to the file's as that allows. In \
+    these frames SXX, SXY, SYY, SXZ, SYZ, SZZ are the second moments ∫ x² dm, ∫ x y dm and so \
+    on, MX, MY, MZ the first moments.";
 
 /// The names of the base parameters, in their order.
 fn names(base: &BaseParameters<'_>) -> String {
@@ -119,7 +121,7 @@ fn function<'g>(
         &doc,
         vec![Output::new(
             kind.name(),
-            "The regressor, row by row: a row per driving force, a column per parameter",
+            "The regressor, row by row: one row per joint torque, one column per parameter",
             "the unit of tau per unit of the parameter",
             vec![rows, columns.len()],
             values,
@@ -131,22 +133,23 @@ fn paragraphs(derivation: &Derivation<'_, '_>, drives: &[String]) -> Vec<String>
     let names: Vec<String> =
         derivation.robot.links.iter().map(|link| format!("`{}`", link.name)).collect();
     let mut paragraphs = vec![
-        "The regressor Y: the driving forces are Y π, linear in the parameters π. Without wrenches, \
-         and without the dry friction that grows with the contact force."
+        "The regressor Y: the joint torques are Y π, linear in the parameters π. Without \
+         wrenches, and without load-dependent friction."
             .to_owned(),
         format!(
-            "{LINK_PARAMETERS} columns per link, in the order {}: mass m (kg), first moment m c_x, \
-             m c_y, m c_z (kg m), and the inertia tensor I_xx, I_xy, I_yy, I_xz, I_yz, I_zz (kg m²), \
-             entries of the tensor with their signs. First moment and tensor are about the origin \
-             of the link's frame, in its axes.",
+            "{LINK_PARAMETERS} columns per link, in the order {}: mass m (kg), first moment m \
+             c_x, m c_y, m c_z (kg m), and the entries I_xx, I_xy, I_yy, I_xz, I_yz, I_zz of the \
+             inertia tensor (kg m²), with their signs. First moment and tensor are about the \
+             origin of the link frame, in its axes.",
             names.join(", ")
         ),
     ];
     if !drives.is_empty() {
         paragraphs.push(format!(
-            "Columns of the drives, reflected inertia in kg m² or kg, viscous friction in N m s/rad \
-             or N s/m, constant friction and offset in N m or N, and the coupling of a gyroscopic \
-             rotor with the link that carries it, its inertia times the gear ratio: {}.",
+            "Columns of the drives, reflected inertia (armature) in kg m² or kg, viscous \
+             friction in N m s/rad or N s/m, constant Coulomb friction and friction offset in N \
+             m or N, and the coupling of a gyroscopic rotor with the link that carries it, its \
+             inertia times the gear ratio: {}.",
             drives.join(", ")
         ));
     }

@@ -88,7 +88,7 @@ fn what_is_wrong_with_a_file_is_shown_and_the_file_watched() {
     assert!(shown.contains("include_bytes"), "{shown}");
     assert!(expanded(quote!("robots/none.toml")).contains("there is no such file"));
     assert!(expanded(quote!("../none.toml")).contains("there is no such file"));
-    assert!(expanded(quote!("robots/trttr1.toml", snap = -1)).contains("is no angle"));
+    assert!(expanded(quote!("robots/trttr1.toml", snap = -1)).contains("is not an angle"));
 }
 
 #[test]
@@ -150,10 +150,10 @@ fn functions_of_a_link_are_asked_for_by_name() {
 #[test]
 fn wrong_bundles_are_named() {
     let of = |bundles| expanded(quote!("robots/trttr1.toml", bundles = #bundles));
-    assert!(of(quote!({ load = [] })).contains("no functions are chosen"));
-    assert!(of(quote!({})).contains("no bundles are given"));
+    assert!(of(quote!({ load = [] })).contains("the list of functions is empty"));
+    assert!(of(quote!({})).contains("the list of bundles is empty"));
     assert!(of(quote!({ load = ["biass"] })).contains("expected one of \\\"inverse_dynamics\\\""));
-    assert!(of(quote!({ bias = ["bias"] })).contains("it cannot have this name"));
+    assert!(of(quote!({ bias = ["bias"] })).contains("the name is not allowed"));
     assert!(of(quote!(["bias"])).contains("expected curly braces"));
 }
 

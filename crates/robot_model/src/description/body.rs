@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, code};
 use crate::robot::{Body, Move, Placement};
 
 const MASS: Quantity = quantity("the mass", 1, 0, 0);
-const CENTER: Quantity = quantity("the centre of mass", 0, 1, 0);
+const CENTER: Quantity = quantity("the center of mass", 0, 1, 0);
 
 /// Reads the body of a link; `None` if the link has no mass, which a moving link must say.
 pub(super) fn read(
@@ -48,7 +48,7 @@ pub(super) fn read(
     let present = mass.is_some();
     let others = ["center_of_mass", "inertia"].map(|key| table.has(key));
     if !present && !is_massless && (moving || others.contains(&true)) {
-        let missing = mass_missing(&name.name).at(&table.span, "`mass` is missing here");
+        let missing = mass_missing(&name.name).at(&table.span, "`mass` is missing");
         reader.report(missing.graded(reader.options.massless()));
     }
     let center = match required(reader, table, "center_of_mass", present, "[0, 0, 0]") {
@@ -80,8 +80,8 @@ pub(super) fn read(
 
 fn mass_missing(link: &str) -> Diagnostic {
     Diagnostic::error(code::MISSING_KEY, format!("the link `{link}` has no mass"))
-        .because("a link without mass falls out of the equations in silence")
-        .help("add `mass`, or `massless = true` where it is meant")
+        .because("a massless link silently drops out of the equations")
+        .help("add `mass`, or write `massless = true` if the link is meant to be massless")
 }
 
 fn required<'a>(
@@ -96,11 +96,11 @@ fn required<'a>(
 
 fn not_positive(value: f64, moving: bool) -> Diagnostic {
     let help = match (value == 0.0, moving) {
-        (true, true) => "where the link has no mass indeed, write `massless = true` for `mass`",
-        (true, false) => "leave `mass` out: a fixed link needs none",
-        (false, _) => "correct the figure",
+        (true, true) => "if the link is massless, write `massless = true` instead of `mass`",
+        (true, false) => "leave out `mass`: a fixed link does not need it",
+        (false, _) => "correct the value",
     };
     Diagnostic::error(code::MASS, format!("the mass is {value} kg"))
-        .because("no body has such a mass, and the equations become singular or unstable")
+        .because("a body cannot have such a mass: the equations become singular or unstable")
         .help(help)
 }

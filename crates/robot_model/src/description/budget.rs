@@ -52,9 +52,9 @@ fn budget(
     // A misspelt key is told by itself.
     if table.len() == usize::from(table.has("function")) {
         reader.report(
-            Diagnostic::error(code::MISSING_KEY, "the budget limits nothing")
-                .at(&table.span, "neither `max_operations` nor `max_stack` is here")
-                .help("give it `max_operations` or `max_stack`, or remove it"),
+            Diagnostic::error(code::MISSING_KEY, "the budget sets no limit")
+                .at(&table.span, "neither `max_operations` nor `max_stack` is present")
+                .help("add `max_operations` or `max_stack`, or remove the budget"),
         );
     }
     table.finish(reader);
@@ -88,9 +88,12 @@ fn limit(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Limit> {
     let is_whole = (0.0..=9e15).contains(&number) && number.fract() == 0.0;
     if !is_whole {
         reader.report(
-            Diagnostic::error(code::NUMBER, "a limit is a whole number that is not negative")
+            Diagnostic::error(code::NUMBER, "a limit is a non-negative whole number")
                 .at(&place, "")
-                .help("count operations in `max_operations`, bytes in `max_stack`"),
+                .help(
+                    "give `max_operations` as a number of operations and `max_stack` as a \
+                    number of bytes",
+                ),
         );
         return None;
     }

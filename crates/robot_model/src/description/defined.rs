@@ -47,7 +47,7 @@ impl Rounded {
 
     fn quotient(self, divisor: Rounded) -> Result<Rounded, &'static str> {
         if divisor.is_zero() {
-            return Err("divided by 0, or by what rounding cannot tell from 0");
+            return Err("division by 0, or by a value that rounding cannot distinguish from 0");
         }
         let value = self.value / divisor.value;
         Ok(Rounded::new(value, (self.error + value.abs() * divisor.error) / divisor.value.abs()))
@@ -64,10 +64,10 @@ impl Rounded {
         let result = function.apply(value);
         Ok(match function {
             Function::Sin | Function::Cos if error > ANGLE => {
-                return Err("the angle is too large to have a sine");
+                return Err("the angle is too large for its sine to be computed");
             }
             Function::Sqrt if value < -DIGITS * error => {
-                return Err("the root of a negative number");
+                return Err("the square root of a negative number");
             }
             // What rounding has made negative is 0.
             Function::Sqrt if value <= 0.0 => Rounded { value: 0.0, error: error.sqrt() },
@@ -174,12 +174,12 @@ mod tests {
             "1/(sqrt(2)*sqrt(3) - sqrt(6))",
             "x + 1/cos(pi/2)",
         ] {
-            assert!(reason(text).starts_with("divided by 0"), "{text}: {}", reason(text));
+            assert!(reason(text).starts_with("division by 0"), "{text}: {}", reason(text));
         }
         for text in ["tan(pi/2)", "tan(-3*pi/2)*0", "x*tan(pi/2)", "tan(1.5707963267948966)"] {
             assert!(reason(text).starts_with("the tangent"), "{text}: {}", reason(text));
         }
-        assert!(reason("x*sqrt(-pi)").starts_with("the root"));
+        assert!(reason("x*sqrt(-pi)").starts_with("the square root"));
         assert!(reason("sin(1e300)").starts_with("the angle"));
     }
 }

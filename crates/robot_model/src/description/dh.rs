@@ -90,12 +90,13 @@ impl Table {
         }
         let (rows, links) = (self.count, self.taken);
         let message = format!(
-            "the DH table has {rows} rows, and the links without a frame of their own are {links}"
+            "the DH table has {rows} rows, but the number of links without a frame of their own \
+             is {links}"
         );
         reader.report(
             Diagnostic::error(code::WRONG_COUNT, message)
                 .at(&self.place, "this table")
-                .help("give one row for each `[[link]]` that has neither `origin` nor `dh`"),
+                .help("give one row for each `[[link]]` without `origin` and `dh`"),
         );
     }
 }

@@ -116,12 +116,12 @@ pub(super) struct Clash {
 
 impl Clash {
     fn diagnostic(self, formula: &Formula) -> Diagnostic {
-        let (here, there) = (in_units(self.here), in_units(self.there));
+        let (here, there) = (value_in(self.here), value_in(self.there));
         let (text, pure) = (quote(formula.text()), where_pure(self.factors));
         let message = if self.summed {
-            format!("`{text}` adds what is {here} to what is {there}{pure}")
+            format!("`{text}` adds {here} to {there}{pure}")
         } else {
-            format!("`{text}` has a function of what is {here}{pure}, not of a pure number")
+            format!("`{text}` applies a function to {here}{pure}, not to a pure number")
         };
         reported(self.factors, message)
     }
@@ -133,7 +133,7 @@ fn reported(factors: Factors, message: String) -> Diagnostic {
         Factors::Certain => Diagnostic::error(code::DIMENSION, message)
             .help("correct the expression, or the units of its parameters"),
         Factors::Counts | Factors::Numbers => Diagnostic::warning(code::UNIT_OF_NUMBER, message)
-            .help("correct the expression; where a number in it has a unit, make it a parameter"),
+            .help("correct the expression; if a number in it has a unit, make it a parameter"),
     }
 }
 
@@ -147,7 +147,14 @@ fn where_pure(factors: Factors) -> &'static str {
 fn needed(quantity: Quantity, expected: Dimension) -> String {
     match expected {
         Dimension::NONE => format!("but a pure number is needed for {}", quantity.what),
-        _ => format!("but {} is in {expected}", quantity.what),
+        _ => format!("but {} must be in {expected}", quantity.what),
+    }
+}
+
+fn value_in(dimension: Dimension) -> String {
+    match dimension {
+        Dimension::NONE => "a pure number".to_owned(),
+        _ => format!("a value in {dimension}"),
     }
 }
 
@@ -165,7 +172,7 @@ impl Reader<'_> {
             Ok(found) => found,
             Err(clash) => {
                 let diagnostic = clash.diagnostic(formula);
-                self.report(diagnostic.at(span, "units do not fit within"));
+                self.report(diagnostic.at(span, "inconsistent units in this expression"));
                 return clash.factors != Factors::Certain;
             }
         };
@@ -204,7 +211,7 @@ impl Reader<'_> {
         let message = format!("`{name}` is in {unit}, {}", needed(quantity, expected));
         let diagnostic = Diagnostic::error(code::DIMENSION, message);
         let diagnostic = diagnostic.and_at(&known.span, format!("in {unit}"));
-        Some(diagnostic.help("name another parameter, or correct the unit"))
+        Some(diagnostic.help("use another parameter, or correct the unit"))
     }
 
     /// The dimension of an expression, or what does not go together in it.
@@ -261,7 +268,7 @@ impl Reader<'_> {
             self.report(
                 Diagnostic::error(code::DIMENSION, message)
                     .at(span, "")
-                    .help("give all components in one unit, or as pure numbers"),
+                    .help("give all components in the same unit, or all as pure numbers"),
             );
         }
     }

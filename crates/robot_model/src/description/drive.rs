@@ -41,16 +41,16 @@ impl Entries<'_, '_, '_> {
         };
         let (wrong, must) = match sign {
             Sign::Any => (false, ""),
-            Sign::NotNegative => (value < 0.0, "is not negative"),
-            Sign::Positive => (value <= 0.0, "is positive"),
-            Sign::NotZero => (value == 0.0, "is not 0"),
+            Sign::NotNegative => (value < 0.0, "must not be negative"),
+            Sign::Positive => (value <= 0.0, "must be positive"),
+            Sign::NotZero => (value == 0.0, "must not be 0"),
         };
         if wrong {
             let message = format!("{} is {value}", what.what);
             self.reader.report(
                 Diagnostic::error(code::FRICTION, message)
-                    .at(&entry.value.span(), format!("this figure {must}"))
-                    .help("correct the figure, or leave the key out"),
+                    .at(&entry.value.span(), must)
+                    .help("correct the value, or leave out the key"),
             );
         }
         Some(entry.key)
@@ -71,42 +71,42 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     };
     let mut entries = Entries { reader, table };
     let force = |what| by_kind(what, kind, (1, 2, -2), (1, 1, -2));
-    let viscous = by_kind("the viscous friction", kind, (1, 2, -1), (1, 0, -1));
+    let viscous = by_kind("the viscous friction coefficient", kind, (1, 2, -1), (1, 0, -1));
     entries.read("viscous", &mut friction.viscous, viscous, NotNegative);
-    let coulomb = quantity("the coefficient of dry friction", 0, 0, 0);
+    let coulomb = quantity("the Coulomb friction coefficient", 0, 0, 0);
     let coulomb = entries.read("coulomb", &mut friction.coulomb, coulomb, NotNegative);
-    let diameter = quantity("the spindle diameter", 0, 1, 0);
+    let diameter = quantity("the journal diameter", 0, 1, 0);
     let diameter =
         entries.read("spindle_diameter", &mut friction.spindle_diameter, diameter, Positive);
     spindle(&mut entries, kind, coulomb, diameter);
-    let what = force("the dry friction");
+    let what = force("the Coulomb friction");
     let positive =
         entries.read("coulomb_positive", &mut friction.coulomb_positive, what, NotNegative);
     let negative =
         entries.read("coulomb_negative", &mut friction.coulomb_negative, what, NotNegative);
-    let (symmetric, other) = match kind {
-        JointKind::Revolute => ("coulomb_torque", "coulomb_force"),
-        JointKind::Prismatic => ("coulomb_force", "coulomb_torque"),
+    let (symmetric, other, joint) = match kind {
+        JointKind::Revolute => ("coulomb_torque", "coulomb_force", "revolute"),
+        JointKind::Prismatic => ("coulomb_force", "coulomb_torque", "prismatic"),
     };
     let mut both = Friction::none().coulomb_positive;
     if let Some(span) = entries.read(symmetric, &mut both, what, NotNegative) {
         if positive.or(negative).is_some() {
-            let message = format!("`{symmetric}` stands for both directions already");
+            let message = format!("`{symmetric}` already sets both directions");
             entries.conflict(&span, &message, "keep it, or the two directions");
         }
         friction.coulomb_positive = both.clone();
         friction.coulomb_negative = both;
     } else if positive.is_some() != negative.is_some() {
-        let message = "dry friction is given for one direction alone";
-        let help = format!("give the other direction too, or `{symmetric}` for both");
+        let message = "Coulomb friction is given for one direction only";
+        let help = format!("give the other direction too, or use `{symmetric}` for both");
         entries.conflict(&positive.or(negative).unwrap_or_default(), message, &help);
     }
     if let Some(entry) = entries.table.get(other) {
-        let message = format!("`{other}` does not fit this joint");
+        let message = format!("`{other}` does not apply to a {joint} joint");
         entries.conflict(&entry.key, &message, &format!("write `{symmetric}`"));
     }
-    entries.read("offset", &mut friction.offset, force("the offset"), Any);
-    let width = by_kind("the width of the smooth sign", kind, (0, 0, -1), (0, 1, -1));
+    entries.read("offset", &mut friction.offset, force("the friction offset"), Any);
+    let width = by_kind("the smoothing width", kind, (0, 0, -1), (0, 1, -1));
     let mut smoothing = Friction::none().offset;
     let smooth = entries.read("smoothing", &mut smoothing, width, Positive);
     friction.smoothing = smooth.map(|_| smoothing);
@@ -125,18 +125,18 @@ fn spindle(
         (JointKind::Revolute, Some(span), None) => entries.conflict(
             &span,
             "`coulomb` of a revolute joint needs `spindle_diameter`",
-            "add `spindle_diameter`, in m; for a friction torque that does not depend on the \
-             load write `coulomb_torque`",
+            "add `spindle_diameter`, the journal diameter in m; for a friction torque that does \
+             not depend on the load, use `coulomb_torque`",
         ),
         (JointKind::Revolute, None, Some(span)) => entries.conflict(
             &span,
             "`spindle_diameter` has no effect without `coulomb`",
-            "add `coulomb`, or take it away",
+            "add `coulomb`, or remove `spindle_diameter`",
         ),
         (JointKind::Prismatic, _, Some(span)) => entries.conflict(
             &span,
             "`spindle_diameter` has no effect on a prismatic joint",
-            "take it away",
+            "remove it",
         ),
         _ => {}
     }
@@ -151,7 +151,7 @@ pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind)
     let mut entries = Entries { reader, table };
     let armature = by_kind("the armature", kind, (1, 2, 0), (1, 0, 0));
     entries.read("armature", &mut drive.armature, armature, Sign::NotNegative);
-    let inertia = quantity("the rotor's inertia", 1, 2, 0);
+    let inertia = quantity("the rotor inertia", 1, 2, 0);
     let inertia =
         entries.read("rotor_inertia", &mut drive.rotor_inertia, inertia, Sign::NotNegative);
     let ratio = by_kind("the gear ratio", kind, (0, 0, 0), (0, -1, 0));
@@ -166,7 +166,7 @@ pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind)
             entries.conflict(
                 &span,
                 "this has no effect without `rotor_inertia`",
-                "add `rotor_inertia`, in kg m^2 about the rotor's axis, or take it away",
+                "add `rotor_inertia`, in kg m^2 about the rotor's axis, or remove this key",
             );
         }
     }

@@ -80,7 +80,9 @@ fn push_link(
         let coefficients = friction(left_out, link.joint.kind);
         line(
             text,
-            &format!("# friction = {coefficients}   # in the source, but not part of its torques"),
+            &format!(
+                "# friction = {coefficients}   # in the source, but not included in the torques"
+            ),
         );
     }
 }

@@ -75,7 +75,7 @@ fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
     let number = match entry.value.get_ref() {
         DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok(),
         _ => {
-            reader.wrong_type(entry.value, "the number of the format, `format = 1`");
+            reader.wrong_type(entry.value, "the format number, `format = 1`");
             return true;
         }
     };
@@ -83,7 +83,7 @@ fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
         return true;
     }
     reader.report(
-        Diagnostic::error(code::FORMAT, "the file is of a format that is not known")
+        Diagnostic::error(code::FORMAT, "unknown file format")
             .at(&entry.value.span(), format!("only format {FORMAT} is known"))
             .help("write `format = 1`, or use a version of this program that knows the format"),
     );
@@ -126,7 +126,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
     }
     head.snap = table.get("snap").and_then(|entry| tolerance(reader, entry.value));
     if let Some(entry) = table.get("base_frames") {
-        let word = reader.word(entry.value, "frames of base parameters", BASE_FRAMES);
+        let word = reader.word(entry.value, "frames for the base parameters", BASE_FRAMES);
         head.base_frames = word.and_then(BaseFrames::from_name).unwrap_or_default();
     }
     table.finish(reader);
@@ -141,10 +141,13 @@ fn tolerance(reader: &mut Reader<'_>, value: Value<'_>) -> Option<f64> {
     }
     let most = snap::MAX;
     reader.report(
-        Diagnostic::error(code::NUMBER, format!("{tolerance} rad is no tolerance of angles"))
-            .at(&value.span(), format!("not between 0 and {most}"))
-            .because("angles this near to a multiple of π/2 are taken for that multiple")
-            .help("give a small angle in radians, such as 1e-6, or 0 to change none"),
+        Diagnostic::error(
+            code::NUMBER,
+            format!("{tolerance} rad is not a valid snapping tolerance"),
+        )
+        .at(&value.span(), format!("not between 0 and {most}"))
+        .because("angles this close to a multiple of π/2 are snapped to it")
+        .help("give a small angle in radians, such as 1e-6, or 0 to snap none"),
     );
     None
 }

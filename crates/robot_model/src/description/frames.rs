@@ -45,7 +45,7 @@ pub(super) fn tables<'a>(
     if values.len() > MAX_LINKS {
         let message = format!("{} entries; at most {MAX_LINKS}", values.len());
         let diagnostic = Diagnostic::error(code::LIMIT, message).at(&entry.key, "this list");
-        reader.report(diagnostic.help("describe one robot in a file"));
+        reader.report(diagnostic.help("describe one robot per file"));
         return Vec::new();
     }
     let tables = values.into_iter().filter_map(|value| reader.table(value, shape));
@@ -92,8 +92,8 @@ fn frame(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<DraftFrame> {
     let (placement, origin) = origin(reader, &mut table);
     if let Some(entry) = table.misplaced("wrench") {
         reader.report(
-            Diagnostic::error(code::CONFLICT, "a frame has no wrench")
-                .at(&entry.key, "wrenches act at tips")
+            Diagnostic::error(code::CONFLICT, "a frame cannot have a wrench")
+                .at(&entry.key, "only tips have wrenches")
                 .help("write `[[tip]]` for `[[frame]]`"),
         );
     }
@@ -141,12 +141,12 @@ fn named_wrench(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Wrench> {
     let force = names(
         "force",
         "force = [\"Fx\", \"Fy\", \"Fz\"]",
-        "the names of the force's components as `[\"Fx\", \"Fy\", \"Fz\"]`",
+        "the names of the force components as `[\"Fx\", \"Fy\", \"Fz\"]`",
     );
     let moment = names(
         "moment",
         "moment = [\"Mx\", \"My\", \"Mz\"]",
-        "the names of the moment's components as `[\"Mx\", \"My\", \"Mz\"]`",
+        "the names of the moment components as `[\"Mx\", \"My\", \"Mz\"]`",
     );
     table.finish(reader);
     Some(wrench(force?, moment?))
@@ -195,7 +195,7 @@ fn plain_wrench(reader: &mut Reader<'_>, tip: &Named, alone: bool) -> Option<Wre
             reader.check_name(&name, &tip.span, "a component of a wrench", Kind::Identifier)?;
         match reader.symbols.add(&named) {
             Some(diagnostic) => {
-                reader.report(diagnostic.help("name the wrench's components with `wrench`"));
+                reader.report(diagnostic.help("name the components of the wrench with `wrench`"));
                 None
             }
             None => Some((name, None)),

@@ -24,18 +24,19 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
     let mass = known.map_or_else(String::new, |mass| format!(" of {} kg", significant(mass)));
     let BodyLocation { name, mass: of_mass, inertia, .. } = &first.place;
     let place = of_mass.as_ref().or(inertia.as_ref()).unwrap_or(name).clone();
-    let message =
-        format!("the base{mass} stands still, and {} branches move on it", branches.len());
+    let message = format!("the base{mass} is fixed, and {} branches move on it", branches.len());
     reader.report(
         Diagnostic::warning(code::FREE_BASE, message)
             .at(&place, "has no effect")
             .because(
-                "the base is fixed here: where it is free, as the trunk of a legged robot, torques and \
-                 accelerations are those of the robot with its trunk held",
+                "the base is fixed in this model; if it is free, like the trunk of a legged \
+                 robot, the torques and accelerations are those of the robot with its trunk held \
+                 still",
             )
             .help(
-                "nothing, where the base is bolted down; a free one needs joints of its own to the ground: \
-                 three prismatic and three revolute ones, with massless links between",
+                "ignore this if the base is bolted down; give a free base its own joints to the \
+                 ground: three prismatic and three revolute ones, with massless links between \
+                 them",
             ),
     );
     true

@@ -71,9 +71,13 @@ pub(super) fn read(
                 finite(reader, &tensor.inertia, &span);
             }
             None => reader.report(
-                Diagnostic::error(code::LIMIT, "the expressions are too large to be shifted")
-                    .at(&span, "about the origin of the link's frame")
-                    .help("give the tensor about the centre of mass"),
+                Diagnostic::error(
+                    code::LIMIT,
+                    "the expressions are too large for the tensor to \
+                    be shifted",
+                )
+                .at(&span, "about the origin of the link frame")
+                .help("give the tensor about the center of mass"),
             ),
         }
     }
@@ -87,7 +91,7 @@ pub(super) fn read(
 fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, unchecked: bool) -> Inertia {
     let mut entry = |key: &'static str, needed: bool| {
         let entry = if needed && !unchecked {
-            let help = format!("add `{key} = …`, or `unchecked = true` where it never acts");
+            let help = format!("add `{key} = …`, or `unchecked = true` if it has no effect");
             table.require_with(reader, key, &help)
         } else {
             table.get(key)
@@ -116,9 +120,9 @@ fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
     let origin = reader.word(entry.value, "a point of the link", POINTS) == Some("origin");
     if origin && turned {
         reader.report(
-            Diagnostic::error(code::CONFLICT, "an inertia about the origin is in link axes")
-                .at(&entry.value.span(), "about the origin of the link's frame")
-                .help("leave out `rpy`, or give the tensor about the centre of mass"),
+            Diagnostic::error(code::CONFLICT, "an inertia about the origin must be in link axes")
+                .at(&entry.value.span(), "about the origin of the link frame")
+                .help("leave out `rpy`, or give the tensor about the center of mass"),
         );
     }
     origin && !turned
@@ -150,9 +154,12 @@ fn finite(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span) {
         return;
     }
     reader.report(
-        Diagnostic::error(code::NUMBER, "the tensor about the centre of mass is not finite")
-            .at(span, "about the origin of the link's frame")
-            .help("see whether mass, centre of mass and inertia are in kg, m and kg m^2"),
+        Diagnostic::error(
+            code::NUMBER,
+            "the inertia tensor about the center of mass is not finite",
+        )
+        .at(span, "about the origin of the link frame")
+        .help("check that mass, center of mass and inertia are in kg, m and kg m^2"),
     );
 }
 
@@ -166,22 +173,23 @@ fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool)
     let diagnostic = match &verdict {
         Verdict::Possible => return,
         Verdict::Negative(_) => Diagnostic::error(verdict.code(), verdict.message())
-            .because("a moment of inertia is a sum of masses times squares")
+            .because("a moment of inertia is a sum of mass times distance squared")
             .help(if shifted {
-                "about the centre of mass the tensor is negative: see whether the figures are \
-                 about the centre of mass already"
+                "shifted to the center of mass, the tensor is negative: check whether it is \
+                 already about the center of mass"
             } else {
-                "see that products of inertia have the tensor's sign and that all are in kg m^2"
+                "check the signs of the products of inertia (entries of the tensor, xy = -∫xy \
+                 dm) and that all values are in kg m^2"
             }),
         Verdict::Triangle(..) => Diagnostic::error(verdict.code(), verdict.message())
             .because(format!(
-                "x² + y² ≤ (y² + z²) + (z² + x²) for every part of a body; {} % of the largest \
+                "x² + y² ≤ (y² + z²) + (z² + x²) for every point of a body; {} % of the largest \
                  moment is allowed for rounding",
                 TOLERANCE * 100.0
             ))
             .help(
-                "correct the figures; where they are published so, or entries that never act are \
-                 left out, add `unchecked = true`",
+                "correct the values; if they are published this way, or if entries without \
+                 effect are left out, add `unchecked = true`",
             ),
     };
     reader.report(diagnostic.graded(reader.options.unphysical()).at(span, verdict.label()));

@@ -43,11 +43,14 @@ fn elsewhere(word: &str) -> Option<&'static str> {
         "translation" | "translational" | "linear" | "slide" | "slider" | "P" => {
             Some("write \"prismatic\"")
         }
-        "floating" | "free" => Some("only robots on a fixed base are described here"),
-        "planar" => Some("use two prismatic joints and a revolute one, with massless links"),
-        "spherical" | "ball" => Some("use three revolute joints, with massless links"),
+        "floating" | "free" => Some("only robots with a fixed base can be described"),
+        "planar" => Some(
+            "use two prismatic joints and a revolute one, with massless links \
+            between them",
+        ),
+        "spherical" | "ball" => Some("use three revolute joints, with massless links between them"),
         "cylindrical" | "screw" | "universal" => {
-            Some("use revolute and prismatic joints, with massless links between")
+            Some("use revolute and prismatic joints, with massless links between them")
         }
         _ => None,
     }
@@ -124,10 +127,13 @@ fn moving(
         joint.mimic = mimic(reader, entry.value, joint.kind);
         if let Some(limits) = &places.limits {
             reader.report(
-                Diagnostic::error(code::CONFLICT, "a joint that follows another has no limits")
-                    .at(limits, "these limits have no effect")
-                    .and_at(&entry.key, "the joint follows another")
-                    .help("put the limits on the joint that leads"),
+                Diagnostic::error(
+                    code::CONFLICT,
+                    "a joint that follows another cannot have limits",
+                )
+                .at(limits, "these limits have no effect")
+                .and_at(&entry.key, "the joint follows another")
+                .help("put the limits on the leading joint"),
             );
         }
     }
@@ -137,7 +143,7 @@ fn moving(
 fn finish(reader: &mut Reader<'_>, mut table: Table<'_>, kind: Option<JointKind>, dh: bool) {
     let reason = match (kind, dh) {
         (None, _) => "the joint is fixed",
-        _ => "a DH row has the joint axis z",
+        _ => "the joint axis of a DH row is z",
     };
     let keys: &[&'static str] = match (kind, dh) {
         (None, _) => &["axis", "limits", "mimic"],
@@ -147,9 +153,12 @@ fn finish(reader: &mut Reader<'_>, mut table: Table<'_>, kind: Option<JointKind>
     for key in keys {
         if let Some(entry) = table.get(key) {
             reader.report(
-                Diagnostic::error(code::CONFLICT, format!("`{key}` has no place here: {reason}"))
-                    .at(&entry.key, "no effect")
-                    .help("take it away"),
+                Diagnostic::error(
+                    code::CONFLICT,
+                    format!("`{key}` does not belong here: {reason}"),
+                )
+                .at(&entry.key, "no effect")
+                .help("remove it"),
             );
         }
     }
@@ -186,7 +195,10 @@ fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
         reader.report(
             Diagnostic::error(code::ZERO_AXIS, "the joint axis is zero")
                 .at(&value.span(), "this vector has no direction")
-                .because("a joint moves about or along a line, and 0 0 0 is none")
+                .because(
+                    "a joint rotates about an axis or slides along it, and 0 0 0 is not a \
+                    direction",
+                )
                 .help("write a direction such as \"z\" or [0, 0, 1]; its length does not matter"),
         );
     }
@@ -202,9 +214,9 @@ fn limits(reader: &mut Reader<'_>, value: Value<'_>) -> Option<[Rational; 2]> {
         return Some(limits);
     }
     reader.report(
-        Diagnostic::error(code::LIMITS, "the lower limit is not below the upper one")
+        Diagnostic::error(code::LIMITS, "the lower limit is not below the upper limit")
             .at(&value.span(), "expected `[lower, upper]`")
-            .help("swap them, or leave `limits` out for a joint without limits"),
+            .help("swap them, or leave out `limits` if the joint has none"),
     );
     None
 }
@@ -216,7 +228,7 @@ fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> 
     let offset_of_joint = by_kind("the offset", kind, (0, 0, 0), (0, 1, 0));
     let mut table = reader.table(value, &MIMIC)?;
     let joint = table
-        .require(reader, "joint", "joint = \"name of the joint that leads\"")
+        .require(reader, "joint", "joint = \"name of the leading joint\"")
         .and_then(|entry| reader.name(entry.value, "a joint", Kind::Label));
     let mut of_ratio = None;
     let ratio = match table.get("ratio") {
@@ -225,9 +237,13 @@ fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> 
             let ratio = reader.formula(entry.value, RATIO);
             if reader.known(&ratio) == Some(0.0) {
                 reader.report(
-                    Diagnostic::error(code::MIMIC, "a joint that follows with ratio 0 is fixed")
-                        .at(&entry.value.span(), "the ratio is 0")
-                        .help("write `type = \"fixed\"`, or the ratio"),
+                    Diagnostic::error(
+                        code::MIMIC,
+                        "a joint that follows another with ratio 0 is \
+                        fixed",
+                    )
+                    .at(&entry.value.span(), "the ratio is 0")
+                    .help("write `type = \"fixed\"`, or correct the ratio"),
                 );
             }
             ratio

@@ -9,18 +9,19 @@ use crate::signs::check_latex;
 impl Reader<'_> {
     /// The LaTeX of a symbol.
     pub(super) fn latex(&mut self, value: Value<'_>) -> Option<String> {
-        let text = self.string(value, "the LaTeX of a symbol in quotes")?;
+        let text = self.string(value, "the LaTeX for a symbol, in quotes")?;
         let Err(error) = check_latex(text) else {
             return Some(text.to_string());
         };
         let span = strings::place(self.text, &value.span(), text, error.span);
         self.report(
-            Diagnostic::error(code::LATEX, "this is not LaTeX of a symbol")
+            Diagnostic::error(code::LATEX, "not valid LaTeX for a symbol")
                 .at(&span, error.message)
-                .because("it is printed as it is, and LaTeX is a programming language")
+                .because("it is printed verbatim, so only symbols are allowed")
                 .help(
-                    "use letters, digits, `_`, `^`, `{…}`, Greek letters such as `\\theta`, and \
-                     accents such as `\\bar{x}`; in a basic string each backslash is written `\\\\`",
+                    "use letters, digits, `_`, `^`, `{…}`, Greek letters such as `\\theta` and \
+                     accents such as `\\bar{x}`; in a basic string, write each backslash as \
+                     `\\\\`",
                 ),
         );
         None

@@ -94,9 +94,9 @@ fn on_joint(
     let Some(kind) = kind else {
         for entry in entries.iter().flatten() {
             reader.report(
-                Diagnostic::error(code::CONFLICT, "a fixed joint has no friction and no drive")
+                Diagnostic::error(code::CONFLICT, "a fixed joint cannot have friction or a drive")
                     .at(&entry.key, "no effect")
-                    .help("take it away"),
+                    .help("remove it"),
             );
         }
         return (friction, drive);

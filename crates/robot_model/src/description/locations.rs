@@ -53,7 +53,7 @@ impl DroppedBody {
         let message = format!("the mass of `{}` has no effect", self.link);
         Diagnostic::warning(code::NO_EFFECT, message)
             .at(place, "fixed to the base")
-            .help("leave it out, or let the link move")
+            .help("remove it, or give the link a joint that moves")
     }
 }
 

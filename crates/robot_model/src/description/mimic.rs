@@ -97,11 +97,16 @@ fn leader<'l>(
             .zip(product(&ratio, &mimic.ratio));
         let Some((folded_offset, folded_ratio)) = folded else {
             reader.report(
-                Diagnostic::error(code::LIMIT, "the expressions of this chain are too large")
-                    .at(&wanted.span, "one of a chain of joints that follow each other")
-                    .help(
-                        "let the joint follow the one that leads, with the product of the ratios",
-                    ),
+                Diagnostic::error(
+                    code::LIMIT,
+                    "the expressions of this chain of mimic joints \
+                    are too large",
+                )
+                .at(&wanted.span, "part of a chain of joints that follow each other")
+                .help(
+                    "let the joint follow the leading joint directly, with the product of \
+                         the ratios",
+                ),
             );
             return None;
         };
@@ -115,11 +120,11 @@ fn circle(way: &[&DraftLink], wanted: &Named) -> Diagnostic {
     let [_] = way else {
         let names: Vec<String> =
             way.iter().map(|link| format!("`{}`", quote(&link.joint.name.name))).collect();
-        let message = format!("joints follow each other in a circle: {}", names.join(", "));
+        let message = format!("joints follow each other in a cycle: {}", names.join(", "));
         let mut diagnostic = Diagnostic::error(code::MIMIC, message)
             .at(&wanted.span, "leads back to the first")
-            .because("one of them must move by itself")
-            .help("take `mimic` away from the joint that leads");
+            .because("at least one of them must move independently")
+            .help("remove `mimic` from one of these joints");
         for link in way.iter().take(8) {
             if let Some(mimic) = link.joint.mimic.as_ref().filter(|mimic| mimic.joint != *wanted) {
                 diagnostic = diagnostic.and_at(&mimic.joint.span, "");
@@ -130,7 +135,7 @@ fn circle(way: &[&DraftLink], wanted: &Named) -> Diagnostic {
     let name = quote(&wanted.name);
     Diagnostic::error(code::MIMIC, format!("the joint `{name}` follows itself"))
         .at(&wanted.span, "its own name")
-        .help("name the joint that leads, or take `mimic` away")
+        .help("name the leading joint, or remove `mimic`")
 }
 
 /// No joint of that name moves.
@@ -139,16 +144,16 @@ fn no_leader(reader: &Reader<'_>, wanted: &Named, links: &[&DraftLink]) -> Diagn
     if links.iter().any(|link| link.joint.name.name == wanted.name) {
         return Diagnostic::error(
             code::MIMIC,
-            format!("the joint `{name}` is fixed and cannot lead"),
+            format!("the joint `{name}` is fixed and cannot lead another"),
         )
         .at(&wanted.span, "a fixed joint")
-        .help("let the joint that follows be fixed, too");
+        .help("make this joint fixed too, or name a joint that moves");
     }
     let moving = links.iter().filter(|link| link.joint.kind.is_some());
     let names = moving.map(|link| link.joint.name.name.as_str());
     let label = match reader.nearest(&wanted.name, names) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "no joint of that name".to_owned(),
+        None => "no joint has this name".to_owned(),
     };
     Diagnostic::error(code::MIMIC, format!("`{name}` is not a joint of this robot"))
         .at(&wanted.span, label)

@@ -166,7 +166,7 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
         let diagnostic = Diagnostic::error(code::NOT_TEXT, "the file is not UTF-8 text")
-            .at(&(valid..valid), "no UTF-8 from here on")
+            .at(&(valid..valid), "not UTF-8 from here on")
             .help("save the file as UTF-8");
         let source = Source { name: name.to_owned(), text };
         Diagnostics::new(source, vec![diagnostic])
@@ -244,7 +244,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Bu
     let Lowered { draft, order, parameters, wanted, budgets } = lowered;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {
         let last = draft.links.last().map(|link| link.places.joint.clone());
-        let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no joint that moves")
+        let diagnostic = Diagnostic::error(code::NO_JOINT, "the robot has no moving joint")
             .at(&last.unwrap_or_default(), "");
         reader.report(diagnostic.help(match format {
             Format::Toml => "add a `[[link]]` with a revolute or prismatic joint",
@@ -282,7 +282,7 @@ fn unused(reader: &mut Reader<'_>) {
         reader.report(
             Diagnostic::warning(code::UNUSED, format!("the parameter `{name}` is not used"))
                 .at(&span, "")
-                .help("take it away, or see whether a figure should be this parameter"),
+                .help("remove it, or use it in place of a value"),
         );
     }
 }
@@ -296,10 +296,13 @@ fn no_effect(reader: &mut Reader<'_>, locations: &Locations) {
 
 /// The source is left out: nobody wants it in a message.
 fn too_large(name: &str, bytes: usize) -> Diagnostics {
-    let message = format!("the file has {bytes} bytes; a robot file has at most {MAX_BYTES}");
+    let message = format!("the file has {bytes} bytes; a robot file may have at most {MAX_BYTES}");
     let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
-        .because("a robot of 64 joints with every figure and a comment takes a tenth of that")
-        .help("leave out what does not describe the robot: meshes, logs, trajectories");
+        .because("a robot of 64 joints, fully commented, needs a tenth of that")
+        .help(
+            "remove everything that does not describe the robot, such as meshes, logs and \
+            trajectories",
+        );
     let source = Source { name: name.to_owned(), text: String::new() };
     Diagnostics::new(source, vec![diagnostic])
 }

@@ -52,12 +52,12 @@ impl Reader<'_> {
         }
         let owner = match kind {
             Kind::Identifier => reserved(text),
-            Kind::Label => (text == "base").then(|| "the frame that everything stands on".into()),
+            Kind::Label => (text == "base").then(|| "the base frame".into()),
         };
         if let Some(owner) = owner {
             self.report(
-                Diagnostic::error(code::RESERVED, format!("`{text}` cannot name {what}"))
-                    .at(span, format!("this is {owner}"))
+                Diagnostic::error(code::RESERVED, format!("`{text}` cannot be the name of {what}"))
+                    .at(span, format!("reserved: {owner}"))
                     .help(format!("choose another name, such as `{text}_1`")),
             );
             return None;
@@ -89,28 +89,28 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
     } else if text.len() > MAX_NAME {
         format!("{} bytes long; at most {MAX_NAME}", text.len())
     } else {
-        "not a name".to_owned()
+        "not a valid name".to_owned()
     };
     let rule = match kind {
         Kind::Identifier => {
-            "letters, digits and `_`, the first not a digit, as in `l_5`; a symbol may have any \
-             print name with `latex`"
+            "use letters, digits and `_`, not starting with a digit, as in `l_5`; `latex` sets \
+             how a symbol is printed"
         }
-        Kind::Label => "letters, digits, `_`, `-` and `.`, the first not `-` or `.`",
+        Kind::Label => "use letters, digits, `_`, `-` and `.`, not starting with `-` or `.`",
     };
-    Diagnostic::error(code::NAME, format!("`{}` cannot name {what}", quote(text)))
+    Diagnostic::error(code::NAME, format!("`{}` cannot be the name of {what}", quote(text)))
         .at(span, label)
-        .because("names go into equations, code and file names")
-        .help(format!("names are {rule}"))
+        .because("names are used in equations, code and file names")
+        .help(rule)
 }
 
 /// Why a name is reserved, if it is. Words of the languages that code is generated in are not: a printer of code
 /// adapts them.
 pub(super) fn reserved(name: &str) -> Option<String> {
     if OWN.contains(&name) || JointVariable::from_name(name).is_some() {
-        return Some("a name of equations".to_owned());
+        return Some("a symbol of the equations".to_owned());
     }
-    is_coordinate(name).then(|| "a joint's position, velocity, acceleration or force".to_owned())
+    is_coordinate(name).then(|| "a joint's position, velocity, acceleration or torque".to_owned())
 }
 
 /// `q1`, `qd1`, `qdd1`, `Q1`, `tau1` and so on: what equations call the motion of a joint.
@@ -158,15 +158,16 @@ impl Registry {
         };
         let (what, name, other) = (self.what, &named.name, &first.name);
         let diagnostic = if name == other {
-            Diagnostic::error(code::DUPLICATE, format!("the {what} `{name}` is given twice"))
-                .at(&named.span, "again here")
+            Diagnostic::error(code::DUPLICATE, format!("the {what} `{name}` is defined twice"))
+                .at(&named.span, "defined again here")
         } else {
-            let message = format!("the {what}s `{other}` and `{name}` are too alike");
+            let message =
+                format!("the names of the {what}s `{other}` and `{name}` are too similar");
             Diagnostic::error(code::ALIKE, message)
-                .at(&named.span, "differs in case or underscores alone")
-                .because("people, print and some file systems cannot tell them apart")
+                .at(&named.span, "differs only in case or underscores")
+                .because("readers, printed equations and some file systems cannot tell them apart")
         };
-        Some(diagnostic.and_at(&first.span, "first here").help("give one of them another name"))
+        Some(diagnostic.and_at(&first.span, "first defined here").help("rename one of them"))
     }
 }
 

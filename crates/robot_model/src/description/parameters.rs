@@ -32,7 +32,7 @@ pub(super) fn read(
         reader.report(
             Diagnostic::error(code::LIMIT, message)
                 .at(&entry.key, "this table")
-                .help("write figures that never change as numbers"),
+                .help("write values that never change as numbers"),
         );
         return (parameters, places);
     }
@@ -100,8 +100,8 @@ fn nominal(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Rational> {
             Diagnostic::error(code::WRONG_TYPE, "expected a number, found a string")
                 .at(&value.span(), "the nominal value is a number")
                 .help(
-                    "a parameter is a symbol of its own; write an expression over parameters \
-                     where it is used",
+                    "a parameter is a symbol of its own; write the expression over parameters \
+                     where the value is used",
                 ),
         );
         return None;
@@ -134,7 +134,7 @@ fn unit(reader: &mut Reader<'_>, value: Value<'_>, nominal: Option<&Rational>) -
             };
             Diagnostic::error(code::UNIT_NOT_SI, "this unit is not an SI unit")
                 .at(&place(span), "not SI")
-                .because("values are never converted in silence")
+                .because("values are never converted silently")
                 .help(remedy)
         }
     };

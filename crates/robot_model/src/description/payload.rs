@@ -44,10 +44,11 @@ pub(super) fn read(
             parameter.value = Some(value.clone());
         }
         let name = &parameter.name;
-        let named = reader.check_name(name, &span, "a parameter of a payload", Kind::Identifier)?;
+        let named =
+            reader.check_name(name, &span, "a parameter of the payload", Kind::Identifier)?;
         if let Some(diagnostic) = reader.symbols.add(&named) {
             reader.report(diagnostic.help(format!(
-                "`[payload]` makes parameters `payload_…`: rename your own `{name}`"
+                "`[payload]` defines the parameters `payload_…`; rename your own `{name}`"
             )));
         }
         parameters.0.push(parameter);
@@ -74,13 +75,13 @@ fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
     let carried = value(&mass);
     if carried < 0.0 {
         let diagnostic = Diagnostic::error(code::MASS, format!("the mass is {carried} kg"));
-        let diagnostic = diagnostic.at(span, format!("`{mass}`")).help("correct the figure");
+        let diagnostic = diagnostic.at(span, format!("`{mass}`")).help("correct the value");
         reader.report(diagnostic.graded(severity));
     }
     let verdict = judge(inertia.each_ref().map(value));
     if verdict != Verdict::Possible {
         let diagnostic = Diagnostic::error(verdict.code(), verdict.message());
-        let diagnostic = diagnostic.at(span, verdict.label()).help("correct the figures");
+        let diagnostic = diagnostic.at(span, verdict.label()).help("correct the values");
         reader.report(diagnostic.graded(severity));
     }
 }
@@ -107,10 +108,10 @@ fn payload_parameters() -> Vec<Parameter> {
     };
     let mut payload_parameters = vec![parameter(mass, "kg", "mass of the payload")];
     for name in center_of_mass {
-        payload_parameters.push(parameter(name, "m", "coordinate of the payload's centre of mass"));
+        payload_parameters.push(parameter(name, "m", "coordinate of the payload's center of mass"));
     }
     for name in inertia {
-        let doc = "entry of the payload's inertia tensor about its centre of mass";
+        let doc = "entry of the payload's inertia tensor about its center of mass";
         payload_parameters.push(parameter(name, "kg m^2", doc));
     }
     payload_parameters
@@ -126,18 +127,18 @@ pub(super) fn attach(
     let Some((link, places)) = carrier else {
         reader.report(
             Diagnostic::error(code::NO_EFFECT, "the payload is fixed to the base")
-                .at(&place.span, "it would not move")
-                .help("name a link that moves, or a frame on one, as `parent`"),
+                .at(&place.span, "it does not move")
+                .help("name as `parent` a link that moves, or a frame on one"),
         );
         return None;
     };
     // Shares of a mass that may be 0 have no meaning.
     if link.bodies.iter().all(|body| Reader::is_zero(&body.mass)) {
-        let message = format!("the link `{}` carries a payload and has no mass", link.name);
+        let message = format!("the link `{}` carries the payload and is massless", link.name);
         reader.report(
             Diagnostic::error(code::MASS, message)
-                .at(&place.span, "without the payload nothing is there")
-                .help("give the link its mass, or let a link with mass carry the payload"),
+                .at(&place.span, "without the payload this link has no mass")
+                .help("give the link its mass, or attach the payload to a link with mass"),
         );
         return None;
     }

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::{Axis, JointKind, Move, Placement};
 
 /// Angles about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll).
-pub(super) const RPY: Quantity = quantity("the angles roll, pitch and yaw", 0, 0, 0);
+pub(super) const RPY: Quantity = quantity("the roll, pitch and yaw angles", 0, 0, 0);
 
 /// The frames of a joint: before its motion and after it.
 #[derive(Default)]
@@ -57,8 +57,8 @@ pub(super) fn of_link(
         (Some(origin), Some(dh)) => {
             reader.report(
                 Diagnostic::error(code::CONFLICT, "the link has both `origin` and `dh`")
-                    .at(&dh.key, "the frame is placed a second time")
-                    .and_at(&origin.key, "placed here already")
+                    .at(&dh.key, "the frame is given twice")
+                    .and_at(&origin.key, "already given here")
                     .help("keep one of them"),
             );
             Frames::default()

@@ -28,7 +28,7 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
     }
     for (frame, place) in robot.frames.iter().zip(&locations.frames) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
-        range.placement(&frame.placement, &format!("the place of `{}`", frame.name), at);
+        range.placement(&frame.placement, &format!("the pose of `{}`", frame.name), at);
     }
 }
 
@@ -39,7 +39,7 @@ struct Range<'r, 'a> {
 impl Range<'_, '_> {
     fn link(&mut self, link: &Link, place: &LinkLocation) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
-        self.placement(&link.placement, &format!("the place of `{}`", link.name), at);
+        self.placement(&link.placement, &format!("the pose of `{}`", link.name), at);
         self.joint(&link.joint, place);
         let of_friction = place.friction.as_ref().unwrap_or(&place.joint);
         self.friction(&link.friction, &link.joint.name, of_friction);
@@ -78,8 +78,8 @@ impl Range<'_, '_> {
                 format!("the axis of `{joint}` has a component of {}", significant(largest));
             self.reader.report(
                 Diagnostic::error(code::NUMBER, message)
-                    .at(at, "its square is beyond the range of numbers")
-                    .help("give the direction with a length near 1"),
+                    .at(at, "its square is outside the range of floating-point numbers")
+                    .help("give a direction with a length near 1"),
             );
         }
         let hidden = [x, y, z].into_iter().find(|one| *one != 0.0 && one / largest < LEAST);
@@ -91,8 +91,8 @@ impl Range<'_, '_> {
             );
             self.reader.report(
                 Diagnostic::error(code::NUMBER, message)
-                    .at(at, "nothing that is computed shows the smaller one")
-                    .help("write 0 for what is 0"),
+                    .at(at, "the smaller one is lost to rounding")
+                    .help("replace the negligible component with 0"),
             );
         }
     }
@@ -113,7 +113,7 @@ impl Range<'_, '_> {
         let what = format!("the mass of `{}`", body.name);
         self.all([&body.mass], &what, of_mass);
         self.divisor([&body.mass], &what, of_mass);
-        let what = format!("the centre of mass of `{}`", body.name);
+        let what = format!("the center of mass of `{}`", body.name);
         self.placement(&body.placement, &what, center_of_mass.as_ref().unwrap_or(name));
         let what = format!("the inertia of `{}`", body.name);
         let of_inertia = inertia.as_ref().unwrap_or(name);
@@ -134,12 +134,12 @@ impl Range<'_, '_> {
     fn angle(&mut self, angle: &Formula, what: &str, at: &Span) {
         let known = self.reader.known(angle).filter(|angle| angle.abs() > ANGLE);
         if let Some(angle) = known {
-            let message = format!("{what} has an angle of {} rad", significant(angle));
+            let message = format!("{what} contains an angle of {} rad", significant(angle));
             self.reader.report(
                 Diagnostic::error(code::NUMBER, message)
-                    .at(at, format!("angles up to {ANGLE:e} rad are taken"))
-                    .because("rounding leaves too little of a larger one within a turn")
-                    .help("give the angle within a turn"),
+                    .at(at, format!("angles may be at most {ANGLE:e} rad"))
+                    .because("for larger angles, rounding leaves too few digits within a turn")
+                    .help("give the angle within one turn"),
             );
         }
     }
@@ -164,14 +164,15 @@ impl Range<'_, '_> {
             formulas.into_iter().map(|formula| self.reader.known(formula)).collect();
         let largest = known.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
         if largest != 0.0 && largest < LEAST {
-            let message = format!("{what} has a figure of {}", significant(largest));
+            let message = format!("{what} contains a value of {}", significant(largest));
             self.reader.report(
                 Diagnostic::error(code::NUMBER, message)
-                    .at(at, format!("magnitudes from {LEAST:e} are taken"))
+                    .at(at, format!("magnitudes must be 0 or at least {LEAST:e}"))
                     .because(
-                        "products and quotients of smaller figures are beyond the range of numbers",
+                        "products and quotients of smaller values are outside the range of \
+                         floating-point numbers",
                     )
-                    .help("give the figure in SI units, or 0"),
+                    .help("give the value in SI units, or write 0"),
             );
         }
     }
@@ -179,11 +180,11 @@ impl Range<'_, '_> {
 
 /// What is said of a number that is too large; `None` if it is not.
 pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
-    let message = || format!("{what} has a figure of {}", significant(value));
+    let message = || format!("{what} contains a value of {}", significant(value));
     (value.abs() > LARGEST).then(|| {
         Diagnostic::error(code::NUMBER, message())
-            .at(at, format!("magnitudes up to {LARGEST:e} are taken"))
-            .because("products of larger figures are beyond the range of numbers")
-            .help("give the figure in SI units")
+            .at(at, format!("magnitudes may be at most {LARGEST:e}"))
+            .because("products of larger values are outside the range of floating-point numbers")
+            .help("give the value in SI units")
     })
 }

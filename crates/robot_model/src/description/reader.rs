@@ -143,9 +143,9 @@ impl<'a> Reader<'a> {
         );
         if is_coordinate(name) {
             return diagnostic
-                .at(span, "a name of a joint's motion")
-                .because("the figures of a robot do not depend on its motion")
-                .help("put what moves into a joint");
+                .at(span, "a joint variable")
+                .because("the values in a robot file do not depend on its motion")
+                .help("describe anything that moves as a joint");
         }
         let names = self.parameters.iter().map(|known| known.name.as_str());
         match self.nearest(name, names) {
@@ -160,8 +160,8 @@ impl<'a> Reader<'a> {
             None => diagnostic.at(span, "not in [parameters]"),
         }
         .help(format!(
-            "a name in an expression is a parameter: add `{}` to [parameters], or write `pi` or a \
-             function as `sin(…)`",
+            "names in an expression are parameters: add `{}` to [parameters], or write `pi` or a \
+             function such as `sin(…)`",
             quote(name)
         ))
     }
@@ -182,9 +182,18 @@ impl<'a> Reader<'a> {
             _ => "this is not a number".to_owned(),
         };
         self.report(
-            Diagnostic::error(code::NUMBER, format!("the expression has no finite value{nominal}"))
-                .at(span, label)
-                .help("look for a division by zero, a root of a negative number, or an overflow"),
+            Diagnostic::error(
+                code::NUMBER,
+                format!(
+                    "the expression does not have a finite \
+                value{nominal}"
+                ),
+            )
+            .at(span, label)
+            .help(
+                "look for a division by zero, the square root of a negative number, or an \
+                    overflow",
+            ),
         );
         false
     }

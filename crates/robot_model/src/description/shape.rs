@@ -132,20 +132,20 @@ pub static ROBOT_FILE: Shape = Shape {
     what: "a robot file",
     doc: "A robot with a fixed base. Units are SI and radians.",
     keys: &[
-        needed("format", Format, "The format of the file: 1."),
+        needed("format", Format, "The file format: 1."),
         key(
             "parameters",
             Parameters(&PARAMETER),
-            "Symbols of the equations, fields of `Parameters` in code.",
+            "Symbols in the equations, fields of `Parameters` in code.",
         ),
         needed("robot", Table(&ROBOT), "The robot as a whole."),
-        key("dh", Table(&DH_TABLE), "Denavit-Hartenberg rows of a whole arm."),
-        needed("link", List(&LINK), "The links, each moved by a joint."),
+        key("dh", Table(&DH_TABLE), "Denavit-Hartenberg rows for the whole arm."),
+        needed("link", List(&LINK), "The links, each with the joint that moves it."),
         key("tip", OneOrMany(&TIP), "Frames that exert a wrench on their surroundings."),
         key("frame", OneOrMany(&FRAME), "Named frames."),
         key("payload", Table(&PAYLOAD), "A body that the robot may carry, set at run time."),
-        key("code", Table(&CODE), "Which functions are generated where the caller names none."),
-        key("budget", OneOrMany(&BUDGET), "What generated code may cost."),
+        key("code", Table(&CODE), "Which functions to generate if the caller names none."),
+        key("budget", OneOrMany(&BUDGET), "Limits on the cost of generated code."),
     ],
 };
 
@@ -155,21 +155,25 @@ pub static ROBOT: Shape = Shape {
     doc: "The robot as a whole.",
     keys: &[
         needed("name", Identifier, "An identifier."),
-        key("description", Text, "Source of the figures, remarks."),
+        key("description", Text, "Source of the values, remarks."),
         key(
             "gravity",
             Vector,
-            "Acceleration of gravity in the base frame, m/s^2; it points down. [0, 0, -9.81] where it is left out.",
+            "Acceleration of gravity in the base frame, m/s^2; it points down. Default: [0, 0, \
+             -9.81].",
         ),
         key(
             "snap",
             Number,
-            "Constant angles within this many radians of a multiple of pi/2 become that multiple; 1e-9 where it is left out.",
+            "Constant angles within this many radians of a multiple of pi/2 are snapped to it. \
+             Default: 1e-9.",
         ),
         key(
             "base_frames",
             Word(BASE_FRAMES),
-            "Over which parameters of links the base parameters are: first moments and inertia tensors in the file's frames, which is so where it is left out, or first and second moments in frames of Denavit and Hartenberg.",
+            "Which link parameters the base parameters combine: first moments and inertia \
+             tensors in the file's frames (the default), or first and second moments in \
+             Denavit-Hartenberg frames.",
         ),
     ],
 };
@@ -177,7 +181,7 @@ pub static ROBOT: Shape = Shape {
 /// A parameter with more than its value.
 pub static PARAMETER: Shape = Shape {
     what: "a parameter",
-    doc: "A symbol that stays a parameter of equations and code.",
+    doc: "A symbol that remains a parameter in equations and code.",
     keys: &[
         key("value", Number, "The nominal value."),
         key(
@@ -185,15 +189,15 @@ pub static PARAMETER: Shape = Shape {
             Unit,
             "Products of powers of 1 rad kg m s Hz N Pa J W, such as \"kg m^2\" or \"N s/m\".",
         ),
-        key("latex", Latex, "How LaTeX prints the symbol."),
-        key("doc", Text, "What it is."),
+        key("latex", Latex, "How the symbol is printed in LaTeX."),
+        key("doc", Text, "What the parameter means."),
     ],
 };
 
 /// `[dh]`.
 pub static DH_TABLE: Shape = Shape {
     what: "a DH table",
-    doc: "A row for each link that has neither `origin` nor `dh`.",
+    doc: "One row for each link without `origin` and `dh`.",
     keys: &[
         needed("convention", Word(CONVENTIONS), CONVENTION_DOC),
         needed("rows", List(&DH_TABLE_ROW), "The rows, in the order of the links."),
@@ -209,14 +213,14 @@ const THETA: Key = key("theta", Formula, "Angle about z, rad; a revolute joint a
 /// A row of `[dh]`.
 pub static DH_TABLE_ROW: Shape = Shape {
     what: "a DH row",
-    doc: "A joint; figures are 0 where they are left out.",
-    keys: &[key("type", Word(JOINT_TYPES), "Revolute where it is left out."), A, ALPHA, D, THETA],
+    doc: "A joint; values that are left out are 0.",
+    keys: &[key("type", Word(JOINT_TYPES), "Default: revolute."), A, ALPHA, D, THETA],
 };
 
 /// `dh` of a link.
 pub static DH_ROW: Shape = Shape {
     what: "a DH row",
-    doc: "The frame of a link; figures are 0 where they are left out.",
+    doc: "The frame of a link; values that are left out are 0.",
     keys: &[needed("convention", Word(CONVENTIONS), CONVENTION_DOC), A, ALPHA, D, THETA],
 };
 
@@ -226,13 +230,13 @@ pub static LINK: Shape = Shape {
     doc: "A link and the joint that moves it.",
     keys: &[
         needed("name", Label, "Letters, digits, `_`, `-`, `.`; not `base`."),
-        key("parent", Parent, "The link before where it is left out, the base for the first."),
+        key("parent", Parent, "Default: the previous link, or the base for the first link."),
         depends("joint", Table(&JOINT), "The joint between the link and its parent."),
-        key("origin", Table(&ORIGIN), "The frame at joint position 0 in the parent's frame."),
+        key("origin", Table(&ORIGIN), "The link frame at joint position 0, in the parent's frame."),
         key("dh", Table(&DH_ROW), "A Denavit-Hartenberg row in place of `origin`."),
-        key("massless", Boolean, "Lets a moving link have no mass."),
-        key("mass", Formula, "Above 0, kg."),
-        depends("center_of_mass", Vector, "In the link's frame, m."),
+        key("massless", Boolean, "Allows a moving link to be massless."),
+        key("mass", Formula, "Positive, kg."),
+        depends("center_of_mass", Vector, "In the link frame, m."),
         depends("inertia", Table(&INERTIA), "The inertia tensor."),
         key("friction", Table(&FRICTION), "Friction in the joint."),
         key("drive", Table(&DRIVE), "Inertia of the drive."),
@@ -244,14 +248,10 @@ pub static JOINT: Shape = Shape {
     what: "a joint",
     doc: "The joint between a link and its parent.",
     keys: &[
-        depends(
-            "type",
-            Word(JOINT_TYPES),
-            "What motion it allows; the row's where a DH table has one.",
-        ),
-        key("name", Label, "The link's where it is left out."),
-        depends("axis", Axis, "Its direction in the link's frame, of any length but 0."),
-        key("limits", Limits, "Lower and upper, rad or m; they bound test states."),
+        depends("type", Word(JOINT_TYPES), "The type of motion; in a DH table, that of the row."),
+        key("name", Label, "Default: the name of the link."),
+        depends("axis", Axis, "Its direction in the link frame, of any nonzero length."),
+        key("limits", Limits, "Lower and upper, rad or m; test states stay within them."),
         key("mimic", Table(&MIMIC), "The joint follows another."),
     ],
 };
@@ -259,18 +259,18 @@ pub static JOINT: Shape = Shape {
 /// `mimic`.
 pub static MIMIC: Shape = Shape {
     what: "a mimic",
-    doc: "Position = ratio * that of the joint + offset.",
+    doc: "Position = ratio * position of the leading joint + offset.",
     keys: &[
-        needed("joint", Label, "The joint that leads."),
-        key("ratio", Formula, "1 where it is left out."),
-        key("offset", Formula, "0 where it is left out, rad or m."),
+        needed("joint", Label, "The leading joint."),
+        key("ratio", Formula, "Default: 1."),
+        key("offset", Formula, "Default: 0; rad or m."),
     ],
 };
 
 /// `origin`.
 pub static ORIGIN: Shape = Shape {
     what: "an origin",
-    doc: "A frame in another.",
+    doc: "A frame relative to another.",
     keys: &[
         key("xyz", Vector, "Its origin, m."),
         key(
@@ -284,20 +284,20 @@ pub static ORIGIN: Shape = Shape {
 /// `inertia`.
 pub static INERTIA: Shape = Shape {
     what: "an inertia",
-    doc: "Entries of the tensor, kg m^2; products are entries, xy = -int xy dm.",
+    doc: "Entries of the tensor, kg m^2; products are entries of the tensor, xy = -int xy dm.",
     keys: &[
-        key("unchecked", Boolean, "Takes a tensor that no body has."),
+        key("unchecked", Boolean, "Accepts a physically impossible tensor."),
         depends("xx", Formula, "Moment about x."),
         depends("yy", Formula, "Moment about y."),
         depends("zz", Formula, "Moment about z."),
         key("xy", Formula, "Entry (1, 2)."),
         key("xz", Formula, "Entry (1, 3)."),
         key("yz", Formula, "Entry (2, 3)."),
-        key("rpy", Vector, "The axes of the tensor, turned from the link's, rad."),
+        key("rpy", Vector, "Orientation of the tensor's axes relative to the link's, rad."),
         key(
             "about",
             Word(POINTS),
-            "The point that the tensor is about; the centre of mass where it is left out.",
+            "The reference point of the tensor. Default: the center of mass.",
         ),
     ],
 };
@@ -307,19 +307,29 @@ pub static FRICTION: Shape = Shape {
     what: "a friction",
     doc: "Friction in a joint.",
     keys: &[
-        key("viscous", Formula, "b, N m s/rad or N s/m."),
-        key("coulomb", Formula, "c: friction force per contact force across the axis."),
-        key("spindle_diameter", Formula, "Of a revolute joint with `coulomb`, m."),
+        key("viscous", Formula, "Viscous friction b, N m s/rad or N s/m."),
+        key(
+            "coulomb",
+            Formula,
+            "Coulomb friction coefficient c: friction force per contact force \
+            across the axis.",
+        ),
+        key("spindle_diameter", Formula, "Journal diameter of a revolute joint with `coulomb`, m."),
         key(
             "coulomb_positive",
             Formula,
-            "Constant dry friction for positive velocities, N m or N.",
+            "Constant Coulomb friction for positive velocities, N m \
+            or N.",
         ),
-        key("coulomb_negative", Formula, "The same for negative velocities, a positive figure."),
-        key("coulomb_torque", Formula, "Constant dry friction of a revolute joint, N m."),
-        key("coulomb_force", Formula, "Constant dry friction of a prismatic joint, N."),
-        key("offset", Formula, "A constant, N m or N."),
-        key("smoothing", Formula, "Width v of the smooth sign tanh(qd / v), rad/s or m/s."),
+        key("coulomb_negative", Formula, "The same for negative velocities, as a positive value."),
+        key("coulomb_torque", Formula, "Constant Coulomb friction of a revolute joint, N m."),
+        key("coulomb_force", Formula, "Constant Coulomb friction of a prismatic joint, N."),
+        key("offset", Formula, "Constant friction offset, N m or N."),
+        key(
+            "smoothing",
+            Formula,
+            "Smoothing width v: sign(qd) becomes tanh(qd / v); rad/s or m/s.",
+        ),
     ],
 };
 
@@ -328,14 +338,14 @@ pub static DRIVE: Shape = Shape {
     what: "a drive",
     doc: "Inertia of a drive.",
     keys: &[
-        key("armature", Formula, "Inertia already reflected to the joint, kg m^2 or kg."),
+        key("armature", Formula, "Armature: inertia already reflected to the joint, kg m^2 or kg."),
         key("rotor_inertia", Formula, "Of the rotor about its own axis, kg m^2."),
         key(
             "gear_ratio",
             Formula,
-            "Rotor turns per joint turn N; the reflected inertia is N^2 times the rotor's.",
+            "Rotor turns per joint turn N; the reflected inertia is N^2 times the rotor inertia.",
         ),
-        key("gyroscopic", Boolean, "Adds the gyroscopic moments of the rotor."),
+        key("gyroscopic", Boolean, "Includes the gyroscopic moments of the rotor."),
     ],
 };
 
@@ -344,9 +354,9 @@ pub static TIP: Shape = Shape {
     what: "a tip",
     doc: "A named frame that exerts a wrench on its surroundings.",
     keys: &[
-        depends("name", Label, "A single tip may do without."),
-        key("parent", Parent, "The last link where it is left out."),
-        key("origin", Table(&ORIGIN), "The frame in the parent's."),
+        depends("name", Label, "Optional for a single tip."),
+        key("parent", Parent, "Default: the last link."),
+        key("origin", Table(&ORIGIN), "The frame relative to its parent."),
         key("wrench", Table(&WRENCH), "Names of the components."),
     ],
 };
@@ -358,46 +368,51 @@ pub static FRAME: Shape = Shape {
     keys: &[
         needed("name", Label, "Its name."),
         needed("parent", Parent, "The link that carries it."),
-        key("origin", Table(&ORIGIN), "The frame in the parent's."),
+        key("origin", Table(&ORIGIN), "The frame relative to its parent."),
     ],
 };
 
 /// `[payload]`.
 pub static PAYLOAD: Shape = Shape {
     what: "a payload",
-    doc: "A body that the robot may carry, whose figures are set at run time.",
-    keys: &[key("parent", Parent, "A link, tip or frame; the last link where it is left out.")],
+    doc: "A body that the robot may carry, with values set at run time.",
+    keys: &[key("parent", Parent, "A link, tip or frame. Default: the last link.")],
 };
 
 /// `[code]`.
 pub static CODE: Shape = Shape {
     what: "[code]",
-    doc: "Which functions are generated where the caller names none.",
+    doc: "Which functions to generate if the caller names none.",
     keys: &[
         key(
             "functions",
             Functions(Some(ALL_FUNCTIONS)),
-            "Functions, each by itself; \"all\" for all that the robot has.",
+            "Functions, each by itself; \"all\" for every function of the robot.",
         ),
-        key("bundles", Bundles, "Functions in one call that shares their work, by its name."),
+        key(
+            "bundles",
+            Bundles,
+            "Functions computed in one call that shares their work, by the \
+            name of the call.",
+        ),
     ],
 };
 
 /// `[[budget]]`.
 pub static BUDGET: Shape = Shape {
     what: "a budget",
-    doc: "What generated code may cost; a function that costs more breaks the build.",
+    doc: "Limits on the cost of generated code; a function that exceeds them fails the build.",
     keys: &[
-        key("function", Function, "Every one that is generated where it is left out."),
-        key("max_operations", Whole, "Multiplications, additions and divisions of a call."),
-        key("max_stack", Whole, "Bytes of stack of a call."),
+        key("function", Function, "Default: every generated function."),
+        key("max_operations", Whole, "Multiplications, additions and divisions per call."),
+        key("max_stack", Whole, "Bytes of stack per call."),
     ],
 };
 
 /// `wrench`.
 pub static WRENCH: Shape = Shape {
     what: "a wrench",
-    doc: "Names of the components, in the tip's axes, the moment about its origin.",
+    doc: "Names of the components, in the tip's axes; the moment is about the tip's origin.",
     keys: &[
         needed("force", Components(&COMPONENT), "Force, N."),
         needed("moment", Components(&COMPONENT), "Moment, N m."),
@@ -408,7 +423,15 @@ pub static WRENCH: Shape = Shape {
 pub static COMPONENT: Shape = Shape {
     what: "a component of a wrench",
     doc: "A component of a wrench.",
-    keys: &[needed("name", Identifier, "Its name."), key("latex", Latex, "How LaTeX prints it.")],
+    keys: &[
+        needed("name", Identifier, "Its name."),
+        key(
+            "latex",
+            Latex,
+            "How the component is \
+        printed in LaTeX.",
+        ),
+    ],
 };
 
 impl Shape {

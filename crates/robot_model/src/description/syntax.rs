@@ -46,30 +46,36 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
     let rest = text.get(span.start..).unwrap_or_default();
     let starts = |start: &str| message.starts_with(start);
     let help = if starts("unexpected key or value") && rest.starts_with(',') {
-        Some("a decimal number has a point: write `0.5` for `0,5`")
+        Some("use a decimal point: write `0.5` instead of `0,5`")
     } else if starts("unexpected key or value") {
-        Some("write one `key = value` in a line")
+        Some("write one `key = value` per line")
     } else if starts("duplicate key") && line_of(text, span.start).starts_with('[') {
-        Some("several links are `[[link]]`, each with two brackets; other tables stand once")
+        Some(
+            "write each link as `[[link]]`, with double brackets; other tables may appear only \
+            once",
+        )
     } else if starts("duplicate key") {
-        Some("the key stands in this table already: keep one of them")
+        Some("the table already contains this key: keep one of them")
     } else if starts("string values must be quoted") {
         Some("put names and expressions in quotes: \"l1/2\"")
     } else if starts("missing escaped value") {
-        Some("write a backslash as `\\\\`, or the text in single quotes, which take it as it is")
+        Some(
+            "write a backslash as `\\\\`, or put the text in single quotes, which take it \
+            literally",
+        )
     } else if starts("invalid basic string") || starts("invalid literal string") {
-        Some("close the string with the quote that opens it, in the same line")
+        Some("close the string with the quote that opens it, on the same line")
     } else if starts("invalid float") || starts("invalid integer") {
-        Some("a number is written like `12`, `-0.35` or `1.5e-3`")
+        Some("write a number as `12`, `-0.35` or `1.5e-3`")
     } else if message.contains("recurs") {
-        Some("a robot file needs no more than four levels")
+        Some("use at most four levels, which is enough for every robot file")
     } else {
         None
     };
     let message = message.strip_suffix(", expected nothing").unwrap_or(message);
     let message = match message {
-        "recursion limit" => "the file is nested too deep".to_owned(),
-        _ => format!("this is not TOML: {message}"),
+        "recursion limit" => "the file is nested too deeply".to_owned(),
+        _ => format!("invalid TOML: {message}"),
     };
     (message, help)
 }

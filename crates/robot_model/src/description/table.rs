@@ -80,7 +80,7 @@ impl<'a> Table<'a> {
         if entry.is_none() {
             reader.report(
                 Diagnostic::error(code::MISSING_KEY, format!("{} has no `{key}`", self.shape.what))
-                    .at(&self.span, format!("`{key}` is missing here"))
+                    .at(&self.span, format!("`{key}` is missing"))
                     .help(help),
             );
         }
@@ -98,7 +98,7 @@ impl<'a> Table<'a> {
             let near = reader.nearest(name, self.known.iter().copied().filter(absent));
             let label = match near {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => "not a key that is known here".to_owned(),
+                None => "unknown key".to_owned(),
             };
             let message = format!("`{}` is not a key of {}", quote(name), self.shape.what);
             reader.report(

@@ -39,8 +39,8 @@ pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<us
         let message = format!("the robot has {moving} joints; at most {MAX_JOINTS}");
         let span = order.last().and_then(|last| links.get(*last)).map(|link| &link.name.span);
         let diagnostic = Diagnostic::error(code::LIMIT, message);
-        let diagnostic = diagnostic.at(span.unwrap_or(&(0..0)), "the last of them");
-        reader.report(diagnostic.help("describe one arm in a file"));
+        let diagnostic = diagnostic.at(span.unwrap_or(&(0..0)), "the last one");
+        reader.report(diagnostic.help("describe one arm per file"));
         return None;
     }
     Some(order)
@@ -81,7 +81,7 @@ fn resolve(reader: &mut Reader<'_>, parent: &mut Parent, known: &[Named]) -> boo
     let names = known.iter().map(|known| known.name.as_str());
     let label = match reader.nearest(&name.name, names.chain(["base"])) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => "no link of that name".to_owned(),
+        None => "no link has this name".to_owned(),
     };
     reader.report(
         Diagnostic::error(code::UNKNOWN_LINK, message)
@@ -140,11 +140,11 @@ fn report_cycles(
         let names: Vec<String> =
             on_cycle.iter().chain([first]).map(|link| format!("`{}`", link.name.name)).collect();
         let place = |link: &DraftLink| link.places.parent.clone().unwrap_or(link.name.span.clone());
-        let message = format!("links stand on each other in a circle: {}", names.join(" on "));
+        let message = format!("the parents of the links form a cycle: {}", names.join(" on "));
         let mut diagnostic = Diagnostic::error(code::CYCLE, message)
             .at(&place(first), "this parent")
-            .because("every link must stand on the base in the end; closed loops are no trees")
-            .help("let one of them stand on \"base\" or on a link outside the circle");
+            .because("every link must lead back to the base; closed loops are not supported")
+            .help("make \"base\" or a link outside the cycle the parent of one of them");
         for link in others.iter().take(8) {
             diagnostic = diagnostic.and_at(&place(link), "and this one");
         }

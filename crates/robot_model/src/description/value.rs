@@ -131,10 +131,10 @@ impl Reader<'_> {
             let range = at..at + character.len_utf8();
             let span = strings::place(self.text, &value.span(), text, range);
             self.report(
-                Diagnostic::error(code::TEXT, "the text has a character that cannot be seen")
+                Diagnostic::error(code::TEXT, "the text contains an invisible character")
                     .at(&span, format!("U+{:04X}", u32::from(character)))
-                    .because("such characters can make a text read differently from what it is")
-                    .help("take it away"),
+                    .because("with such characters, a text can look different from what it is")
+                    .help("remove it"),
             );
             return None;
         }
@@ -144,7 +144,7 @@ impl Reader<'_> {
             self.report(
                 Diagnostic::error(code::LIMIT, message)
                     .at(&(start..start), "this text")
-                    .help("keep long remarks in a document beside the file"),
+                    .help("move long remarks to a document beside the file"),
             );
             return None;
         }
@@ -197,11 +197,11 @@ impl Reader<'_> {
         if usable.is_none() {
             let text = self.text.get(value.span()).unwrap_or_default();
             let (message, help) = match text.trim_start_matches(['+', '-']) {
-                "nan" => ("not a number", "give the figure"),
-                "inf" => ("infinite", "give a finite figure"),
+                "nan" => ("not a number", "give a number"),
+                "inf" => ("infinite", "give a finite value"),
                 _ => (
-                    "beyond the range of numbers",
-                    "magnitudes lie between 5e-324 and 1.7e308, with at most 400 digits",
+                    "outside the range of floating-point numbers",
+                    "magnitudes must be between 5e-324 and 1.7e308, with at most 400 digits",
                 ),
             };
             self.report(

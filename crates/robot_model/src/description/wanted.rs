@@ -37,10 +37,12 @@ pub(super) struct Wanted {
 /// Why it may not, as the end of a sentence.
 pub fn check_bundle_name(name: &str) -> Result<(), String> {
     if !is_identifier(name) {
-        return Err("names are letters, digits and `_`, the first not a digit".to_owned());
+        return Err(
+            "names consist of letters, digits and `_`, and do not start with a digit".to_owned()
+        );
     }
     let owner = reserved(name).or_else(|| Bundle::owner_of(name).map(str::to_owned));
-    owner.map_or(Ok(()), |owner| Err(format!("this is {owner}")))
+    owner.map_or(Ok(()), |owner| Err(format!("it is reserved: {owner}")))
 }
 
 /// Reads the table.
@@ -64,9 +66,9 @@ fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Ve
     let Some(entries) = reader.list(value, expected) else { return Vec::new() };
     if entries.is_empty() {
         reader.report(
-            Diagnostic::error(code::WRONG_COUNT, "0 functions are named here")
-                .at(&value.span(), "at least one is needed")
-                .help("name each function once, or leave the key out"),
+            Diagnostic::error(code::WRONG_COUNT, "no functions are named")
+                .at(&value.span(), "name at least one")
+                .help("name each function once, or leave out the key"),
         );
     }
     let (mut names, mut seen) = (Vec::new(), BTreeSet::new());
@@ -107,7 +109,9 @@ pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Op
         Ok(kind) => {
             let Some(why) = kind.missing_in(robot) else { return Some(kind) };
             let message = format!("{} has no function `{}`", robot.name, kind.name());
-            Diagnostic::error(code::LACKING, message).because(why).help("or take it from the list")
+            Diagnostic::error(code::LACKING, message)
+                .because(why)
+                .help("otherwise remove the function from the list")
         }
         Err(wrong) => {
             let near = wrong.near.as_ref().map(|near| format!(" Did you mean `{near}`?"));
@@ -115,8 +119,8 @@ pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Op
             let help = match wrong.several {
                 true => wrong.to_string(),
                 false => format!(
-                    "functions of frames are `jacobian_` and `jacobian_dot_qd_` with the name of a \
-                     frame or a moving link behind.{}",
+                    "functions of frames are `jacobian_` and `jacobian_dot_qd_` followed by the \
+                     name of a frame or a moving link.{}",
                     near.unwrap_or_default()
                 ),
             };
@@ -137,7 +141,7 @@ impl Wanted {
         if keys.len() > MAX_BUNDLES {
             let message = format!("{} bundles; at most {MAX_BUNDLES}", keys.len());
             let diagnostic = Diagnostic::error(code::LIMIT, message).at(&entry.key, "this table");
-            return reader.report(diagnostic.help("put more functions into one bundle"));
+            return reader.report(diagnostic.help("combine more functions in one bundle"));
         }
         let mut names = Registry::new("bundle");
         for (key, value) in keys {
@@ -184,11 +188,11 @@ fn bundle_name(
 ) -> Option<Named> {
     let named = reader.check_name(name, span, "a bundle", Kind::Identifier)?;
     if let Some(owner) = Bundle::owner_of(name) {
-        let message = format!("`{name}` cannot name a bundle");
+        let message = format!("`{name}` cannot be the name of a bundle");
         let diagnostic = Diagnostic::error(code::RESERVED, message);
         reader.report(
             diagnostic
-                .at(span, format!("this is {owner}"))
+                .at(span, format!("reserved: {owner}"))
                 .help("choose another name, such as `dynamics`"),
         );
         return None;

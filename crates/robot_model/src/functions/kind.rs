@@ -251,17 +251,18 @@ impl FunctionKind {
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let Effects { wrench, friction } = self.effects();
         if self.frame().is_some_and(|frame| frame.name(robot).is_none()) {
-            return Some("the robot has no such frame");
+            return Some("the robot does not have this frame");
         }
         if self == FunctionKind::FramePoses && robot.frames.is_empty() {
-            return Some("the robot has no named frame; add [tip] or [[frame]] to its file");
+            return Some("the robot has no named frame; add [tip] or [[frame]] to the robot file");
         }
         if wrench && robot.tips().next().is_none() {
-            return Some("the robot has no tip with a wrench; add [tip] to its file");
+            return Some("the robot has no tip with a wrench; add [tip] to the robot file");
         }
         if friction && !robot.has_friction() {
             return Some(
-                "no joint has friction; add `friction` to a link of the file, which `robot-symbolic import --friction` does for the `<dynamics>` of URDF",
+                "no joint has friction; add `friction` to a link of the robot file (the import \
+                 option `friction` does so for the `<dynamics>` of URDF)",
             );
         }
         if self.declaration().base { out_of_reach(robot) } else { None }

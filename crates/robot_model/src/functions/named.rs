@@ -175,7 +175,7 @@ fn shown(known: &[(String, FunctionKind)]) -> Vec<String> {
     let mut shown: Vec<String> = kinds.into_iter().map(name).collect();
     shown.extend(frames.iter().take(MOST).copied().map(name));
     if frames.len() > MOST {
-        shown.push("… (`robot-symbolic show` lists all)".to_owned());
+        shown.push(format!("and {} more", frames.len() - MOST));
     }
     shown
 }
@@ -201,10 +201,10 @@ impl fmt::Display for WrongName {
             return write!(formatter, "`{name}` may be several functions: choose one of `{names}`");
         }
         if self.name == ALL_FUNCTIONS {
-            let why = "stands for all functions where they are listed one by one, and is none of a bundle's";
+            let why = "selects all functions in a list of functions and cannot be part of a bundle";
             return write!(
                 formatter,
-                "`{name}` {why}: name those. There are {}.",
+                "`{name}` {why}: name the functions. Available: {}.",
                 self.known.join(", ")
             );
         }
@@ -212,7 +212,7 @@ impl fmt::Display for WrongName {
         if let Some(near) = &self.near {
             write!(formatter, " Did you mean `{near}`?")?;
         }
-        write!(formatter, " There are {}.", self.known.join(", "))
+        write!(formatter, " Available: {}.", self.known.join(", "))
     }
 }
 
@@ -226,8 +226,11 @@ mod tests {
     fn the_word_for_all_is_not_offered_for_itself() {
         let known = [("bias".to_owned(), FunctionKind::Bias)];
         let [all, other] = [ALL_FUNCTIONS, "bais"].map(|name| unknown(name, &known).to_string());
-        assert!(all.contains("is none of a bundle's") && all.ends_with("There are bias."), "{all}");
+        assert!(
+            all.contains("cannot be part of a bundle") && all.ends_with("Available: bias."),
+            "{all}"
+        );
         assert!(!all.contains("mean"), "{all}");
-        assert_eq!(other, "there is no function `bais`. Did you mean `bias`? There are bias.");
+        assert_eq!(other, "there is no function `bais`. Did you mean `bias`? Available: bias.");
     }
 }

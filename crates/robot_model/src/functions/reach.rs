@@ -10,13 +10,13 @@ pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
     let is_free = |link: &Link| link.joint.axis.iter().any(|axis| axis.symbols().next().is_some());
     if robot.base_frames == BaseFrames::DenavitHartenberg && robot.links.iter().any(is_free) {
         return Some(
-            "a joint axis depends on parameters, and frames of Denavit and Hartenberg are along it; take \
-             base_frames = \"file\", or give the axis figures",
+            "a joint axis depends on parameters, and the axes of Denavit-Hartenberg frames must \
+             be known; set base_frames = \"file\", or write the axis with numbers",
         );
     }
     (has_shared_coordinates(robot) && has_free_geometry(robot)).then_some(
-        "joints share a coordinate, and lengths, axes, gravity or ratios are parameters; give them \
-         figures",
+        "joints share a coordinate, and lengths, axes, gravity or ratios are parameters; write \
+         them with numbers",
     )
 }
 

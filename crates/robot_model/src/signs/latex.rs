@@ -58,8 +58,8 @@ pub fn check_latex(latex: &str) -> Result<(), LatexError> {
     match (walk.waiting, walk.groups.as_slice()) {
         (Some((span, message)), _) => fault(span, message),
         (None, [whole]) if whole.base => Ok(()),
-        (None, [_]) => fault(0..latex.len(), "nothing to print"),
-        (None, [.., open]) => fault(open.start..open.start + 1, "never closed"),
+        (None, [_]) => fault(0..latex.len(), "empty"),
+        (None, [.., open]) => fault(open.start..open.start + 1, "is never closed"),
         (None, []) => Ok(()),
     }
 }
@@ -87,7 +87,7 @@ impl Walk<'_> {
             [b'{'] => {
                 item(group, self.waiting.take().is_some());
                 if depth > MAX_DEPTH {
-                    return Err("too many groups within groups");
+                    return Err("groups are nested too deeply");
                 }
                 self.groups.push(Group { start: here.start, ..Group::default() });
             }
@@ -100,25 +100,25 @@ impl Walk<'_> {
             [index @ (b'_' | b'^')] => {
                 let taken = if *index == b'_' { &mut group.lower } else { &mut group.upper };
                 if self.waiting.is_some() || *taken || !group.base {
-                    return Err("a second index, or one that belongs to nothing");
+                    return Err("a second subscript, or one without a base");
                 }
                 *taken = true;
-                self.waiting = Some((here, "an index without content"));
+                self.waiting = Some((here, "a subscript or superscript without content"));
             }
             // A prime is an upper index, and so are several together.
             [b'\''] => {
                 let again = before == Some(b'\'');
                 if self.waiting.is_some() || !group.base || (group.upper && !again) {
-                    return Err("a second upper index, or a prime that belongs to nothing");
+                    return Err("a second superscript, or a prime without a base");
                 }
                 group.upper = true;
             }
             [b'\\', ..] if takes_group(command) => {
                 item(group, self.waiting.take().is_some());
                 if next != Some(b'{') {
-                    return Err("takes a group `{…}`");
+                    return Err("needs a group `{…}`");
                 }
-                self.waiting = Some((here, "takes a group `{…}`"));
+                self.waiting = Some((here, "needs a group `{…}`"));
             }
             [b'\\', ..] => {
                 if !Letter::of_latex(command).is_some_and(Letter::is_in_symbols) {

@@ -230,7 +230,7 @@ fn puma_in_standard_dh_has_the_torques_of_the_robot_file() {
 fn rows_and_links_must_match() {
     let more = format!("{STANDARD}\n[[link]]\nname = \"7\"\nmassless = true\n");
     let found = errors(&arm(&more)).to_string();
-    assert!(found.contains("6 rows") && found.contains("are 7"), "{found}");
+    assert!(found.contains("6 rows") && found.contains("is 7"), "{found}");
     // A link with a frame of its own takes no row.
     let own = format!(
         "{STANDARD}\n[[link]]\nname = \"7\"\njoint = {{ type = \"fixed\" }}\norigin = {{}}\n"

@@ -37,7 +37,7 @@ origin = { rpy = ["pi/2", 0, 0] }
 mass = 2
 center_of_mass = [0, 0, 0.1]
 inertia = { xx = 0.02, yy = 0.03, zz = 0.04 }
-# friction = { viscous = 0.5, coulomb_torque = 0.25 }   # in the source, but not part of its torques
+# friction = { viscous = 0.5, coulomb_torque = 0.25 }   # in the source, but not included in the torques
 
 [[link]]
 name = "tool"

@@ -65,7 +65,7 @@ fn joints_have_their_kinds() {
         robot.links[2].joint.axis.each_ref().map(|one| one.text().to_owned()),
         ["1", "0", "0"]
     );
-    assert!(has(&described.choices, code::TAKEN_DEFAULT, "axis x"));
+    assert!(has(&described.choices, code::TAKEN_DEFAULT, "default is x"));
     assert!(has(&described.choices, code::TAKEN_COORDINATE, "without limits"));
     assert!(described.warnings.is_empty(), "{}", described.warnings);
 }
@@ -98,7 +98,7 @@ fn chains_of_joints_that_follow_are_folded() {
     // All about one axis: velocities 1, 1 − 3 and 1 − 3 − 6, torque 1 + 2² + 8².
     let found = torques(robot, &[0.3], &[0.2], &[1.0]);
     assert!((found[0] - 69.0).abs() < 1e-12, "{found:?}");
-    assert!(has(&described.choices, code::TAKEN_COORDINATE, "no coordinate of its own"));
+    assert!(has(&described.choices, code::TAKEN_COORDINATE, "not have a coordinate of its own"));
 }
 
 #[test]

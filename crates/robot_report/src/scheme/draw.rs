@@ -282,7 +282,7 @@ impl<'r> Drawing<'r> {
             let carrier = link.parent.and_then(|parent| self.robot.links.get(parent));
             let carrier = carrier.map_or("the base", |carrier| carrier.name.as_str());
             words.push_str(&format!(
-                "Link {} hangs on {carrier} by a {}. ",
+                "The parent of link {} is {carrier}, connected by a {} joint. ",
                 link.name,
                 words::motion(link.joint.kind)
             ));

@@ -13,8 +13,9 @@ pub struct StdTrig;
     message = "sines and cosines of the standard library need the feature `std` of `robot_runtime`",
     label = "there is no sine of `{Self}` without the feature",
     note = "either enable it: robot_runtime = {{ …, features = [\"std\"] }} (in a generated crate: its own feature `std`)",
-    note = "or generate the code with the polynomials of the runtime: `.trigonometry(Trigonometry::Polynomial)` of \
-            the builder, `trigonometry = \"polynomial\"` of the macro, `--trigonometry polynomial` of the command"
+    note = "or generate the code with the runtime's polynomials: \
+        `.trigonometry(Trigonometry::Polynomial)` in the builder, `trigonometry = \
+        \"polynomial\"` in the macro, the option `trigonometry` of the command"
 )]
 pub trait FeatureStd: Scalar {
     /// Sine and cosine.

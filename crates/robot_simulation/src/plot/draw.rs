@@ -176,5 +176,5 @@ fn register() -> Result<(), String> {
     let regular = dejavu::sans::regular();
     let known =
         REGISTERED.get_or_init(|| register_font("sans-serif", FontStyle::Normal, regular).is_ok());
-    if *known { Ok(()) } else { Err("the letters cannot be read".to_owned()) }
+    if *known { Ok(()) } else { Err("the font cannot be read".to_owned()) }
 }

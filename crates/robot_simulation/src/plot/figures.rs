@@ -63,7 +63,7 @@ pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) 
         }
     };
     let kinds = robot.coordinates.iter().map(|coordinate| coordinate.kind).enumerate();
-    let title = format!("Driving forces of {}", robot.name);
+    let title = format!("Joint torques of {}", robot.name);
     Figure { title, t: contributions.t.clone(), panels: kinds.map(panel).collect() }
 }
 

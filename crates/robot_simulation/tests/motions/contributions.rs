@@ -109,7 +109,7 @@ inertia = { zz = 1, unchecked = true }
     let programs = compiled(text, false, false);
     let parse = |text: &str| Torques::from_expressions(&programs.robot, &[], &[text]);
     let shown = parse("2 = 1").unwrap_err().to_string();
-    assert!(shown.contains("write tau1 for it, or tau2 for the joint of this number"), "{shown}");
+    assert!(shown.contains("write tau1 for it, or tau2 for the joint with this number"), "{shown}");
     let state = State { q: vec![0.0; 2], qd: vec![0.0; 2] };
     for (text, expected) in [("tau1=1", [1.0, 0.0]), ("b = 1", [0.0, 1.0]), ("1=1", [1.0, 0.0])] {
         assert_eq!(parse(text).unwrap().torques(0.0, &state), expected);
@@ -183,18 +183,21 @@ fn what_is_wrong_with_a_trajectory_is_named() {
         Table::read("a.csv", "t,q1,q2,qd1,qdd1,qdd2,tau1,energy,fx,x\n0,0,0,0,0,0,0,0,0,0\n");
     let error = Trajectory::from_table(robot, "a.csv", &table.unwrap()).unwrap_err().to_string();
     assert!(error.contains("a.csv: there is no column `qd2`"), "{error}");
-    assert!(error.contains("a.csv: nothing is known of the column `x`"), "{error}");
+    assert!(error.contains("a.csv: the column `x` is unknown"), "{error}");
     let texts = ["q1 = sin(q2)", "q3 = t", "q2 = t", "q2 = 1"];
     let error = Trajectory::from_expressions(robot, &[], &texts, 1.0, 0.1).unwrap_err();
     let shown = error.to_string();
     let lines: Vec<&str> = shown.lines().collect();
     assert!(lines[0].starts_with("`q1 = sin(q2)`: `q2` is not known here"), "{shown}");
-    assert!(lines[1].starts_with("there is nothing to give for `q3`; there are q1, q2"), "{shown}");
+    assert!(
+        lines[1].starts_with("`q3` is not part of a trajectory; possible are q1, q2"),
+        "{shown}"
+    );
     assert_eq!(lines[2], "`q2` is given twice");
     assert!(lines[3].starts_with("there is no expression for `q1`"), "{shown}");
     let root = ["q1 = sqrt(t)", "q2 = 0"];
     let error = Trajectory::from_expressions(robot, &[], &root, 1.0, 0.1).unwrap_err();
-    assert!(error.to_string().contains("no finite value at t = 0 s"), "{error}");
+    assert!(error.to_string().contains("do not have finite values at t = 0 s"), "{error}");
 }
 
 #[test]

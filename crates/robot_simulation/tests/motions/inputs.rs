@@ -32,12 +32,12 @@ fn expressions_know_time_state_and_parameters() {
     assert_eq!(
         lines[1..],
         [
-            "torque `3` is of no joint; there are 1 to 2, by names 1, 2",
+            "torque `3` does not match a joint; the joints are 1 to 2, by name 1, 2",
             "torque `1` is given twice",
-            "torque `2 = tau1`: `tau1` is not known here; there are t, q1 …, qd1 … and the robot's \
+            "torque `2 = tau1`: `tau1` is not known here; known are t, q1 …, qd1 … and the robot's \
              parameters",
-            "torque `7` is no assignment; write NAME = EXPRESSION",
-            "torque `elbow` is of no joint; there are 1 to 2, by names 1, 2",
+            "torque `7` is not an assignment; write NAME = EXPRESSION",
+            "torque `elbow` does not match a joint; the joints are 1 to 2, by name 1, 2",
         ]
     );
 }
@@ -56,10 +56,10 @@ fn tables_are_linear_between_samples() {
     let table = Table::read("a.csv", "t,tau3,q1\n0,1,0\n2,1,0\n1,2,0\n").unwrap();
     let shown = Torques::from_table(robot, "a.csv", &table, 3.0).unwrap_err().to_string();
     let expected = [
-        "a.csv: the time does not rise at row 3 under the header",
-        "a.csv: the torques go from 0 s to 1 s; the motion from 0 s to 3 s",
-        "a.csv: there is no column tau1, tau2; a joint that is not driven has one of zeros",
-        "a.csv: there is no coordinate for the column `tau3`",
+        "a.csv: the time does not increase at row 3 below the header",
+        "a.csv: the torques cover 0 s to 1 s, but the motion 0 s to 3 s",
+        "a.csv: there is no column tau1, tau2; add a column of zeros for a joint that is not driven",
+        "a.csv: the column `tau3` does not match a coordinate",
     ];
     assert_eq!(shown.lines().collect::<Vec<_>>(), expected);
 }
@@ -113,9 +113,9 @@ fn options_and_states_are_checked_at_once() {
     let start = State { q: vec![0.0], qd: vec![f64::NAN, 0.0] };
     let options = SimulationOptions { tolerance: 0.0, ..SimulationOptions::default() };
     let expected = [
-        "the tolerance is 0; it must lie between 1e-14 and 0.1",
-        "the start has 1 entries of q, not 2",
-        "the start has entries of qd that are not finite",
+        "the tolerance is 0; it must be between 1e-14 and 0.1",
+        "the initial state has 1 entries of q, not 2",
+        "the initial state has entries of qd that are not finite",
     ];
     assert_eq!(run(&start, options).lines().collect::<Vec<_>>(), expected);
     let options = SimulationOptions { duration: 0.0, ..SimulationOptions::default() };

@@ -385,5 +385,5 @@ fn friction_of_any_size_ends_soon() {
         }
     }
     let error = run(&programs, &[("c1", -1.0)], &[], &start, &options).unwrap_err().to_string();
-    assert_eq!(error, "the dry friction of joint `1` is negative: it would drive it");
+    assert_eq!(error, "the Coulomb friction of joint `1` is negative, which would drive the joint");
 }

@@ -49,7 +49,7 @@ impl<'t> Lexer<'t> {
         let token = match self.byte(start) {
             None => Token::End,
             Some(b'*') if self.byte(start + 1) == Some(b'*') => {
-                return Err(ParseError::new(start..start + 2, "`**` is no operator")
+                return Err(ParseError::new(start..start + 2, "`**` is not an operator")
                     .help("write a power as `x^2`"));
             }
             Some(byte @ (b'+' | b'-' | b'*' | b'/' | b'^' | b'(' | b')')) => {
@@ -79,7 +79,7 @@ impl<'t> Lexer<'t> {
             let part = self.byte(self.position + 1).is_some_and(starts_name);
             if self.names == Names::Plain || !part {
                 let span = start..self.position + 1;
-                return Err(ParseError::new(span, "a name has no dot here")
+                return Err(ParseError::new(span, "names cannot contain a dot")
                     .help("names are letters, digits and `_`, such as `l_5`"));
             }
             self.position += 1;
@@ -98,14 +98,18 @@ impl<'t> Lexer<'t> {
         match value {
             // Without an exponent the digits themselves are the bound: long integers are exact.
             Some(value) if !exponent || in_range(&value) => Ok(Token::Number(value)),
-            None if separated => Err(ParseError::new(span, "a number has no `_`")
+            None if separated => Err(ParseError::new(span, "numbers cannot contain `_`")
                 .help(format!("write `{}`", text.replace('_', "")))),
             None if text.matches('.').count() > 1 || text == "." => {
-                Err(ParseError::new(span, format!("`{text}` is no number"))
+                Err(ParseError::new(span, format!("`{text}` is not a number"))
                     .help("write a decimal number with one point, such as `0.35`"))
             }
-            _ => Err(ParseError::new(span, "the number is beyond every range")
-                .help("magnitudes lie between 5e-324 and 1.7e308, with at most 2600 digits")),
+            _ => Err(ParseError::new(
+                span,
+                "the number is outside the range of floating-point \
+                numbers",
+            )
+            .help("magnitudes must be between 5e-324 and 1.7e308, with at most 2600 digits")),
         }
     }
 
@@ -139,13 +143,19 @@ impl<'t> Lexer<'t> {
         };
         let around = digit(start.checked_sub(1)) && digit(Some(start + 1));
         let (message, help) = match character {
-            ',' if around => ("a decimal number has a point".to_owned(), "write `1.5` for `1,5`"),
+            ',' if around => (
+                "use a decimal point".to_owned(),
+                "write `1.5` instead of \
+                `1,5`",
+            ),
             ',' => {
                 ("`,` has no meaning in a formula".to_owned(), "every function takes one argument")
             }
             '·' | '×' | '∗' | '⋅' => (unknown(character), "write a product as `a*b`"),
             '÷' | '∕' => (unknown(character), "write a quotient as `a/b`"),
-            '−' | '–' | '—' => (unknown(character), "write the sign on the keyboard, `-`"),
+            '−' | '–' | '—' => {
+                (unknown(character), "use the minus sign of the keyboard, `-`")
+            }
             'π' => (unknown(character), "write `pi`"),
             '²' | '³' => (unknown(character), "write a power as `x^2`"),
             '√' => (unknown(character), "write a root as `sqrt(x)`"),
@@ -153,7 +163,7 @@ impl<'t> Lexer<'t> {
             '=' | '<' | '>' | '!' => (unknown(character), "a formula is one expression"),
             _ => (
                 unknown(character),
-                "names are ASCII letters, digits and `_`; the signs are + - * / ^ ( )",
+                "names are ASCII letters, digits and `_`; the operators are + - * / ^ ( )",
             ),
         };
         ParseError::new(span, message).help(help)

@@ -98,7 +98,7 @@ impl Parser<'_> {
             self.last.clone(),
             format!("the formula is longer than {MAX_TOKENS} numbers, names and signs"),
         )
-        .help("give parts of it names of their own"))
+        .help("introduce names for parts of it"))
     }
 
     /// Takes a token where an operand is due; whether one is still due after it.
@@ -124,18 +124,18 @@ impl Parser<'_> {
                     self.last.start..span.end,
                     "expected an expression between the parentheses",
                 )
-                .help("write what belongs there, or take the parentheses away"))
+                .help("write an expression there, or remove the parentheses"))
             }
             Token::Sign(_) => Err(self
                 .expected("a number, a name or `(`", span)
-                .help("every operator stands between two operands")),
+                .help("every operator needs an operand on both sides")),
             Token::End => {
                 let operator = self.quote(&self.last);
                 Err(ParseError::new(
                     self.last.clone(),
                     format!("expected a number, a name or `(` after `{operator}`, found the end"),
                 )
-                .help("complete the formula or take the last sign away"))
+                .help("complete the formula, or remove the last operator"))
             }
         }
     }
@@ -217,7 +217,7 @@ impl Parser<'_> {
                     span,
                     format!("the formula is nested deeper than {MAX_DEPTH} levels"),
                 )
-                .help("give inner parts names of their own"));
+                .help("introduce names for the inner parts"));
             }
         }
         self.pending.push((pending, span));
@@ -228,7 +228,7 @@ impl Parser<'_> {
         self.reduce(1)?;
         let Some((pending, open)) = self.pending.pop() else {
             return Err(ParseError::new(span, "this `)` closes nothing")
-                .help("take it away, or add the `(` that it should close"));
+                .help("remove it, or add the matching `(`"));
         };
         self.depth -= 1;
         if let Some(operand) = self.operands.last_mut() {
@@ -343,7 +343,7 @@ fn unknown_function(name: &str, span: Range<usize>) -> ParseError {
     let name = &shorten(name);
     let known = Function::ALL.iter().map(|function| function.name());
     let near = nearest_word(name, known.chain(["tan"]));
-    let error = ParseError::new(span, format!("`{name}` is no function"));
+    let error = ParseError::new(span, format!("`{name}` is not a function"));
     match near {
         Some(near) => {
             error.help(format!("did you mean `{near}(…)`? For a product write `{name}*(…)`"))

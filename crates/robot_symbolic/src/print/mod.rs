@@ -29,8 +29,8 @@ pub const MAX_OPERATIONS: u64 = 1_000_000;
 /// An expression that is too long to be written out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "written out, the expression has {operations} operations, more than {limit}; print parts of \
-     it under names of their own"
+    "written out, the expression has {operations} operations, more than {limit}; introduce names \
+     for parts of it"
 )]
 pub struct TooLarge {
     /// The operations of the expression, or the largest `u64` if there are more.

@@ -36,8 +36,8 @@ impl Module {
         let (path, name) = (&self.path, self.name());
         is_device(name).then(|| {
             format!(
-                "{path}: Windows keeps the name `{name}` for a device, so that `{name}.rs` cannot be written \
-                 there; rename the robot if its package is to be built on Windows"
+                "{path}: Windows reserves the name `{name}` for a device, so `{name}.rs` cannot \
+                 be written there; rename the robot if its package must build on Windows"
             )
         })
     }

@@ -221,7 +221,7 @@ fn a_robot_called_as_a_device_of_windows_is_warned_of() {
         let (result, directives) = run(&builder(&package), &["robots/a.toml"]);
         result.unwrap();
         let warning = format!(
-            "cargo:warning=robots/a.toml: Windows keeps the name `{}`",
+            "cargo:warning=robots/a.toml: Windows reserves the name `{}`",
             name.to_lowercase()
         );
         assert_eq!(directives.contains(&warning), is_device, "{name}: {directives}");
@@ -318,7 +318,9 @@ fn wrong_options_are_errors() {
     let with = |names: &[&str]| builder(&package).functions(names.iter().copied());
     let shown = message(&with(&["inverse_dynamic", "forward"]), &["robots/a.toml"]);
     assert!(
-        shown.contains("no function `inverse_dynamic`. Did you mean `inverse_dynamics`? There are"),
+        shown.contains(
+            "no function `inverse_dynamic`. Did you mean `inverse_dynamics`? Available: "
+        ),
         "{shown}"
     );
     assert!(shown.contains("no function `forward`"), "{shown}");
@@ -326,11 +328,11 @@ fn wrong_options_are_errors() {
     assert!(
         shown.contains("Pendulum has no function `inverse_dynamics_wrench`: the robot has no tip")
     );
-    assert!(message(&with(&[]), &["robots/a.toml"]).contains("no functions are chosen"));
+    assert!(message(&with(&[]), &["robots/a.toml"]).contains("the list of functions is empty"));
     let shown = message(&builder(&package).bundle("both", ["bia"]), &["robots/a.toml"]);
-    assert!(shown.contains("no function `bia`. Did you mean `bias`? There are"), "{shown}");
+    assert!(shown.contains("no function `bia`. Did you mean `bias`? Available: "), "{shown}");
     let shown = message(&builder(&package).bundle("bias", ["bias"]), &["robots/a.toml"]);
-    assert!(shown.contains("the bundle `bias`: it cannot have this name"), "{shown}");
+    assert!(shown.contains("the bundle `bias`: the name is not allowed"), "{shown}");
     let shown = message(&builder(&package).parallel(true), &["robots/a.toml"]);
     assert!(shown.contains("`batch`"), "{shown}");
     for states in [0, 65] {
@@ -338,7 +340,9 @@ fn wrong_options_are_errors() {
         assert!(shown.contains("choose 1 to 64"), "{shown}");
     }
     for snap in [f64::NAN, -1.0, 2.0] {
-        assert!(message(&builder(&package).snap(snap), &["robots/a.toml"]).contains("is no angle"));
+        assert!(
+            message(&builder(&package).snap(snap), &["robots/a.toml"]).contains("is not an angle")
+        );
     }
     let shown = message(&builder(&package).runtime("no path"), &["robots/a.toml"]);
     assert!(shown.contains("`no path`"), "{shown}");
@@ -354,7 +358,7 @@ fn two_robots_of_one_name_are_refused() {
     }
     let shown = message(&builder(&package), &["robots/a.toml", "robots/b.toml"]);
     assert!(
-        shown.contains("robots/a.toml and robots/b.toml both give the module `pendulum`"),
+        shown.contains("robots/a.toml and robots/b.toml both define the module `pendulum`"),
         "{shown}"
     );
     let shown = message(&builder(&package), &["robots/a.toml", "robots/c.toml"]);
@@ -378,7 +382,7 @@ fn files_outside_of_the_package_are_refused() {
     }
     for path in &paths {
         let shown = message(&builder(&package), &[path]);
-        assert!(shown.contains("lies outside of the package"), "{shown}");
+        assert!(shown.contains("is outside the package"), "{shown}");
         run(&builder(&package).allow_outside(true), &[path]).0.unwrap();
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn place(path: &Path) -> Result<Place> {
             Err(error) => Err(error),
         };
     }
-    Err(Error::other("its symbolic links lead in a circle"))
+    Err(Error::other("its symbolic links form a cycle"))
 }
 
 /// Whether the path names an open stream of a process, as `/dev/stdout` does: what is behind it may be a

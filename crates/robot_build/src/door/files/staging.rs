@@ -72,7 +72,7 @@ impl Staged {
                 return Ok(Staged { temporary, target: target.to_owned(), lock, is_placed: false });
             }
         }
-        Err(std::io::Error::other("no temporary file could be made beside it"))
+        Err(std::io::Error::other("no temporary file could be created beside it"))
     }
 
     /// Gives it the permissions and, where the system lets us, the owner of the file that is there.

@@ -173,10 +173,11 @@ const PLAIN: OptionSpec = OptionSpec {
 pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "functions",
-        title: "functions; `all` for all that the robot has",
-        help: "Functions to generate, several with commas between; `all` for all that the robot has, \
-               `jacobian_NAME` and `jacobian_dot_qd_NAME` for those of one frame or moving link [default: those of \
-               the robot file's [code], else inverse dynamics in its forms and the wrenches in the joints]",
+        title: "functions to generate; `all` for every function of the robot",
+        help: "Functions to generate, separated by commas; `all` for every function of the \
+            robot, `jacobian_NAME` and `jacobian_dot_qd_NAME` for those of one frame or moving \
+            link [default: those of the robot file's [code], else the forms of inverse dynamics \
+            and the joint wrenches]",
         group: Group::Derive,
         kind: Kind::Functions,
         example: "[\"mass_matrix\"]",
@@ -186,8 +187,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "bundles",
         title: "several functions in one call",
-        help: "A function that computes several in one call, and their common work once; may be given several \
-               times",
+        help: "A function that computes several functions in one call and shares their work; can \
+            be repeated",
         group: Group::Derive,
         kind: Kind::Bundles,
         example: "{ dynamics = [\"mass_matrix\", \"bias\"] }",
@@ -210,9 +211,9 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "base_frames",
         title: "[frames of the base parameters](base-parameters.md#in-other-frames)",
-        help: "Frames of the base parameters and of the regressor over them: the file's, or those of Denavit and \
-               Hartenberg, with which the regressor needs fewer operations [default: the robot file's \
-               `base_frames`, else file]",
+        help: "Frames of the base parameters and their regressor: the file's, or \
+            Denavit-Hartenberg frames, in which the regressor needs fewer operations [default: \
+            the robot file's `base_frames`, else file]",
         group: Group::Derive,
         kind: Kind::Choice(&[("file", ""), ("denavit_hartenberg", "")]),
         example: "\"denavit_hartenberg\"",
@@ -226,7 +227,7 @@ pub const OPTIONS: &[OptionSpec] = &[
     },
     OptionSpec {
         name: "scalar",
-        title: "`f32` in place of `f64`",
+        title: "`f32` instead of `f64`",
         help: "Number type of the functions",
         kind: Kind::Choice(&[("f64", ""), ("f32", "")]),
         example: "\"f32\"",
@@ -243,14 +244,16 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "generic",
         title: "forms over any scalar",
-        help: "Add to each function a form `…_generic` over any scalar of the runtime: f64, f32 and lanes",
+        help: "Add a generic form `…_generic` to each function, for any scalar of the runtime: \
+            f64, f32 and lanes",
         set: |options, value| value.flag().map(|flag| options.generic = flag),
         ..PLAIN
     },
     OptionSpec {
         name: "batch",
         title: "forms over slices of states",
-        help: "Add to each function a form `…_batch` over slices of states, computed in blocks of so many",
+        help: "Add a batch form `…_batch` to each function, for slices of states, computed in \
+            blocks of this many states",
         kind: Kind::Count { default: Some(DEFAULT_BATCH) },
         example: "16",
         set: |options, value| value.size().map(|states| options.batch = Some(states)),
@@ -259,14 +262,16 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "parallel",
         title: "batches over threads",
-        help: "Add to each batch a form `…_batch_parallel` over the threads of the crate rayon; needs batches",
+        help: "Add a parallel form `…_batch_parallel` to each batch, on the threads of the crate \
+            rayon; needs batches",
         set: |options, value| value.flag().map(|flag| options.parallel = flag),
         ..PLAIN
     },
     OptionSpec {
         name: "fused",
         title: "multiply-adds",
-        help: "Multiply and add in one instruction, which rounds once, if the target has it",
+        help: "Multiply and add in one instruction with a single rounding, if the target \
+            supports it",
         group: Group::Optimize,
         set: |options, value| value.flag().map(|flag| options.fused = flag),
         ..PLAIN
@@ -274,13 +279,18 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "trigonometry",
         title: "source of sine and cosine",
-        help: "Where sines and cosines come from",
+        help: "Source of sines and cosines",
         kind: Kind::Choice(&[
             (
                 "polynomial",
-                "The runtime's branch-free polynomials, for angles below 2³⁰ rad (2¹⁷ in f32): NaN from there on",
+                "The runtime's branch-free polynomials, for angles below 2³⁰ rad (2¹⁷ in f32); \
+                 NaN for larger angles",
             ),
-            ("standard", "The standard library, for angles of any size; the code then needs it"),
+            (
+                "standard",
+                "The standard library, for angles of any size; the generated code then \
+                requires it",
+            ),
         ]),
         example: "\"standard\"",
         set: |options, value| {
@@ -295,8 +305,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     },
     OptionSpec {
         name: "max_operations",
-        title: "the most operations of a function",
-        help: "Most operations that a call of any function may take",
+        title: "maximum number of operations of a function",
+        help: "Maximum number of operations of a function call",
         group: Group::Limit,
         kind: Kind::Count { default: None },
         example: "300",
@@ -307,8 +317,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     },
     OptionSpec {
         name: "max_stack",
-        title: "the most bytes of stack of a function",
-        help: "Most bytes of stack that a call of any function may take",
+        title: "maximum bytes of stack of a function",
+        help: "Maximum number of bytes of stack of a function call",
         group: Group::Limit,
         kind: Kind::Count { default: None },
         example: "2048",
@@ -320,7 +330,7 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "runtime",
         title: "path of the runtime",
-        help: "Path of the runtime in the code",
+        help: "Path of the runtime in the generated code",
         kind: Kind::Path,
         example: "\"::robot_runtime\"",
         commands: Commands::Module,
@@ -329,8 +339,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     },
     OptionSpec {
         name: "allow_outside",
-        title: "robot files outside of the package",
-        help: "Take a robot file that is not in the package",
+        title: "robot files outside the package",
+        help: "Accept a robot file outside the package",
         group: Group::Read,
         commands: Commands::None,
         set: |_, value| value.flag().map(drop),
@@ -338,8 +348,9 @@ pub const OPTIONS: &[OptionSpec] = &[
     },
     OptionSpec {
         name: "allow_unphysical",
-        title: "inertias that no body has",
-        help: "Take inertias that no body has, and such masses of a robot file, with a warning",
+        title: "physically impossible inertias",
+        help: "Accept physically impossible inertias, and such masses in a robot file, with a \
+            warning",
         group: Group::Read,
         commands: Commands::Robot,
         set: |options, value| value.flag().map(|allow| options.allow_unphysical = allow),
@@ -347,8 +358,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     },
     OptionSpec {
         name: "allow_massless",
-        title: "moving links without mass",
-        help: "Take moving links without mass, with a warning",
+        title: "massless moving links",
+        help: "Accept massless moving links, with a warning",
         group: Group::Read,
         commands: Commands::Robot,
         set: |options, value| value.flag().map(|allow| options.allow_massless = allow),

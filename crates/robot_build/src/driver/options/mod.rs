@@ -166,11 +166,12 @@ impl Options {
                 errors.push(Error::Bundle { bundle: bundle.name.clone(), reason });
             };
             if let Err(reason) = check_bundle_name(&bundle.name) {
-                report(format!("it cannot have this name: {reason}"));
+                report(format!("the name is not allowed: {reason}"));
             }
             if self.bundles.iter().take(index).any(|earlier| earlier.is_alike(bundle)) {
                 report(
-                    "the name is another bundle's, or differs in case or underscores alone"
+                    "the name is that of another bundle, or differs from it only in case or \
+                     underscores"
                         .to_owned(),
                 );
             }
@@ -179,7 +180,10 @@ impl Options {
             }
         }
         if let Some(last) = self.bundles.get(MAX_BUNDLES) {
-            let reason = format!("there are at most {MAX_BUNDLES}; put more functions into one");
+            let reason = format!(
+                "at most {MAX_BUNDLES} bundles are allowed; combine more \
+                functions in one bundle"
+            );
             errors.push(Error::Bundle { bundle: last.name.clone(), reason });
         }
         errors

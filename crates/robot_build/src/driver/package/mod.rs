@@ -125,7 +125,7 @@ impl Parts<'_> {
         let default = if self.needs_std() { "default = [\"std\"]\n" } else { "" };
         let (feature, dependency) = match self.options.parallel {
             true => (
-                "# Batches over threads.\nrayon = [\"dep:rayon\"]\n",
+                "# Parallel batches.\nrayon = [\"dep:rayon\"]\n",
                 "\n[dependencies]\nrayon = { version = \"1.11\", optional = true }\n",
             ),
             false => ("", ""),
@@ -150,8 +150,8 @@ impl Parts<'_> {
 
     fn root(&self) -> String {
         let guard = if self.needs_std() {
-            "\n#[cfg(not(feature = \"std\"))]\n\
-             compile_error!(\"sine and cosine are the standard library's: enable the feature `std`\");\n"
+            "\n#[cfg(not(feature = \"std\"))]\ncompile_error!(\"sine and cosine come from the \
+             standard library: enable the feature `std`\");\n"
         } else {
             ""
         };

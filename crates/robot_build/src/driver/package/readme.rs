@@ -14,8 +14,8 @@ use crate::driver::generate::{counts, file_name, unnamed_header};
 pub(super) fn readme(parts: &Parts<'_>) -> String {
     let robot = &parts.programs.robot;
     let mut text = format!(
-        "<!-- {} -->\n\n# {}\n\nThe dynamics of the robot {} as plain Rust: flat code without branches, allocation or \
-         panics, generated from `{}`. Nothing else is needed.\n",
+        "<!-- {} -->\n\n# {}\n\nThe dynamics of the robot {} in plain Rust: straight-line code \
+         without branches, allocation or panics, generated from `{}`. It has no dependencies.\n",
         unnamed_header(),
         robot.name,
         robot.name,
@@ -65,11 +65,11 @@ fn usage(text: &mut String, parts: &Parts<'_>, check: &CheckValue) {
 
 fn joints(text: &mut String, parts: &Parts<'_>) {
     section(text, "Joints");
-    line_of(text, format_args!("| coordinate | joint | motion | unit |\n|---|---|---|---|"));
+    line_of(text, format_args!("| coordinate | joint | type | unit |\n|---|---|---|---|"));
     for (index, coordinate) in parts.programs.robot.coordinates.iter().enumerate() {
         let (motion, unit) = match coordinate.kind {
-            JointKind::Revolute => ("rotation", "rad"),
-            JointKind::Prismatic => ("translation", "m"),
+            JointKind::Revolute => ("revolute", "rad"),
+            JointKind::Prismatic => ("prismatic", "m"),
         };
         let (number, joint) = (index + 1, plain(&coordinate.joint));
         line_of(text, format_args!("| q{number} | {joint} | {motion} | {unit} |"));
@@ -115,10 +115,10 @@ fn paragraph_of_counts(text: &mut String) {
     line_of(
         text,
         format_args!(
-            "Operations of one call, subtractions counted as additions, changes of sign not at all; \
-             then what `Model::new` does of it, once for each set of parameters.\n\n\
-             | function | mul | add | div | sqrt | abs, sign, tanh | sin | cos | once: mul | add | div |\n\
-             |---|---|---|---|---|---|---|---|---|---|---|"
+            "Operations per call. Subtractions count as additions, sign changes are not counted; \
+             the last columns are the operations of `Model::new`, once per set of \
+             parameters.\n\n| function | mul | add | div | sqrt | abs, sign, tanh | sin | cos | \
+             once: mul | add | div |\n|---|---|---|---|---|---|---|---|---|---|---|"
         ),
     );
 }
@@ -137,7 +137,7 @@ fn check_values(text: &mut String, parts: &Parts<'_>) {
             line_of(
                 text,
                 format_args!(
-                    "At the nominal parameters, and {} where there is no nominal value:\n",
+                    "At the nominal parameters, and {} for parameters without a nominal value:\n",
                     plain(&stated.join(", "))
                 ),
             );

@@ -82,7 +82,7 @@ impl Translator<'_, '_> {
                 _ => return Ok(indices),
             };
             if indices.get(side).is_some_and(Option::is_some) {
-                return self.fault("a second index at one symbol", "put the first in brackets");
+                return self.fault("a second subscript on one symbol", "put the first in braces");
             }
             self.place += 1;
             let place = self.place;

@@ -71,16 +71,16 @@ fn keys_tell_symbols_apart() {
 #[test]
 fn errors_name_their_place() {
     for (latex, place, part) in [
-        (r"q_1 + \foo q_2", r"\foo", "is not read here"),
+        (r"q_1 + \foo q_2", r"\foo", "is not supported here"),
         (r"q_1 (q_2 + q_3", "q_2 + q_3".split(' ').next().unwrap(), "not closed"),
         (r"l_6 q_10", "10", "without braces"),
         (r"\sin q_2^2", "q_2^2", "a power of the function"),
-        (r"q_1^{a}^2", "^", "second index"),
+        (r"q_1^{a}^2", "^", "second subscript"),
         (r"(q_1)^{x}", "^{x}", "integer"),
-        (r"q_1 é", "é", "is not read here"),
-        (r"\frac{1}", "", "missing"),
+        (r"q_1 é", "é", "is not supported here"),
+        (r"\frac{1}", "", "incomplete"),
         (r"a_{b", "{", "not closed"),
-        (r"q_1 = 2", "=", "is not read here"),
+        (r"q_1 = 2", "=", "is not supported here"),
     ] {
         let error = to_infix(latex, &names).unwrap_err();
         assert!(error.message.contains(part), "{latex}: {error:?}");

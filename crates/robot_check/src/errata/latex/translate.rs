@@ -22,7 +22,7 @@ const BRACKETS: [(&str, &str); 4] =
 pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseError> {
     let tokens = lexer::tokens(latex);
     if tokens.len() > MAX_TOKENS {
-        let message = format!("the formula has more than {MAX_TOKENS} signs");
+        let message = format!("the formula has more than {MAX_TOKENS} tokens");
         return Err(ParseError::new(0..latex.len(), message).help("split it into several"));
     }
     let infix = Infix { text: String::new(), pieces: vec![], end: latex.len() };
@@ -71,7 +71,7 @@ impl<'t> Translator<'t, '_> {
         match self.depth > MAX_DEPTH {
             true => self.fault(
                 format!("the formula is nested deeper than {MAX_DEPTH} levels"),
-                "give inner parts names of their own",
+                "introduce names for the inner parts",
             ),
             false => Ok(()),
         }
@@ -91,8 +91,9 @@ impl<'t> Translator<'t, '_> {
             }
             match text {
                 "" => {
-                    return Err(ParseError::new(open, "a bracket or group is not closed")
-                        .help("add what closes it"));
+                    return Err(
+                        ParseError::new(open, "a bracket or group is not closed").help("close it")
+                    );
                 }
                 r"\\" => {
                     let last = self.infix.text.chars().next_back();
@@ -306,7 +307,7 @@ impl<'t> Translator<'t, '_> {
             }
             "" | "}" | "_" | "^" | r"\\" => self.fault(
                 "expected a group or a sign",
-                "an index, a power, an accent and a font have something after them",
+                "an index, a power, an accent or a font needs an argument",
             ),
             text if is_font(text) || is_accent(text) => {
                 self.place += 1;
@@ -318,7 +319,7 @@ impl<'t> Translator<'t, '_> {
             // Without braces one digit is an argument: more are a slip that print shows.
             text => match first_digit(text) {
                 Some(_) if text.len() > 1 => self.fault(
-                    format!("`{text}` without braces: only its first digit is meant by LaTeX"),
+                    format!("`{text}` without braces: LaTeX takes only its first digit"),
                     &format!("write `{{{text}}}`"),
                 ),
                 _ => {
@@ -356,7 +357,7 @@ impl<'t> Translator<'t, '_> {
         self.depth -= 1;
         let last = self.infix.pieces.last().and_then(|(place, _)| self.infix.text.get(*place..));
         if last.is_some_and(|piece| piece.starts_with('^')) {
-            let message = "a power of the function, or of what it is of?";
+            let message = "a power of the function or of its argument?";
             let help = format!(r"write `\{name}^{{2}} x` or `\{name}({{x^{{2}}}})`");
             return Err(ParseError::new(here.start..self.before(), message).help(help));
         }
@@ -375,11 +376,11 @@ fn first_digit(text: &str) -> Option<&str> {
 pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
     let shown: String = text.chars().take(24).flat_map(char::escape_debug).collect();
     let message = match text {
-        "" => "the formula ends where something is missing".to_owned(),
-        _ => format!("`{shown}` is not read here"),
+        "" => "the formula is incomplete".to_owned(),
+        _ => format!("`{shown}` is not supported here"),
     };
     ParseError::new(span, message).help(
-        "read are symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, brackets, indices \
-         and powers",
+        "supported are symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, \
+         brackets, indices and powers",
     )
 }

@@ -11,8 +11,9 @@ use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
 
 use crate::Terminal;
 use crate::delivery::answered;
-use crate::failure::Failure;
+use crate::failure::{Failure, in_command_words};
 use crate::format::Format;
+use crate::options::in_flags;
 use crate::plan::is_of_pin;
 use crate::reading::ReadingArguments;
 use crate::text;
@@ -23,9 +24,9 @@ use crate::text;
   robot-symbolic check arm.urdf --deny warnings --allow R0607 --format json
   robot-symbolic check --explain R0608
 
-Errors are what no mechanism can be: no other command takes such a file. Warnings are likely slips; they
-change nothing, and but for a few that the reader knows no other command shows them. Notes tell how the
-file was taken. Every diagnostic has a stable code with a page (docs/diagnostics).
+Errors are violations that no robot can have: every other command refuses such a file. Warnings are likely
+mistakes; most are shown only by this command, and they change nothing. Notes say how the file was
+interpreted. Every diagnostic has a stable code with a page (docs/diagnostics).
 
 Exit codes: 0 no errors; 1 errors in some file, or warnings with --deny warnings; 2 the command line is
 wrong. Text goes to standard error, JSON to standard output.")]
@@ -33,13 +34,13 @@ pub(crate) struct Arguments {
     /// Robot files, TOML or URDF
     #[arg(required_unless_present = "explain", value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// How to show what is found
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Let warnings fail, too
+    /// Fail on warnings too
     #[arg(long, value_enum)]
     deny: Option<Deny>,
-    /// Leave out warnings and notes with these codes
+    /// Hide warnings and notes with these codes
     #[arg(long, value_name = "CODE", value_delimiter = ',')]
     allow: Vec<String>,
     /// Show the page of a code
@@ -131,8 +132,9 @@ fn with_pin(examination: Examination, file: &RobotFile) -> Examination {
     }
     let Examination { found, choices } = examination;
     let pins = errors.as_slice().iter().map(|error| {
-        Diagnostic::warning(code::PIN, error.to_string()).help(
-            "no code is made of the file until then; other commands search a plan at each call",
+        Diagnostic::warning(code::PIN, in_command_words(error)).help(
+            "until then, no code is generated from the file, and other commands search for a \
+             plan at each call",
         )
     });
     let list = found.iter().cloned().chain(pins).collect();
@@ -170,7 +172,7 @@ fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         answered(&format!("{name}: no errors, no warnings\n"), terminal)?;
     } else {
         let style = if terminal.colors { Style::Terminal } else { Style::Plain };
-        writeln!(terminal.errors, "{}", found.render(style).trim_end())?;
+        writeln!(terminal.errors, "{}", in_flags(found.render(style).trim_end()))?;
     }
     Ok(())
 }

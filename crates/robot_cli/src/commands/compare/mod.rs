@@ -19,22 +19,22 @@ use crate::robot::RobotArgument;
   robot-symbolic compare robots/trttr1.toml docs/trttr1.printed --format markdown
   robot-symbolic compare robots/trttr1.toml docs/trttr1.printed --notation text --format json
 
-PRINTED has equations `(number) quantity = terms`: a_c1.x, F1.x, M_c1.x, F_l1.x, M_l1.x and Q1 are what
-`equations` prints. In text each stands on a line, continued by indented lines; `#` begins a comment. In
-LaTeX each stands on a line or in a display (equation, align, \\[ \\] …), all else being prose; a vector
-may be a column. Sines and cosines are \\sin q_2, s_2 or sq_2. Terms may stand in any order and in
-brackets. Friction is left out, and so are the wrenches of tips that no equation has.
+PRINTED contains equations `(number) quantity = terms`; the quantities a_c1.x, F1.x, M_c1.x, F_l1.x, M_l1.x and
+Q1 are those that `equations` prints. In text, each equation starts on a new line and continues on indented
+lines; `#` begins a comment. In LaTeX, each is on a line or in a display (equation, align, \\[ \\] …), and
+everything else is prose; a vector may be a column. Write sines and cosines as \\sin q_2, s_2 or sq_2. Terms may
+be in any order and in brackets. Friction is left out, and so are tip wrenches that no equation contains.
 
-Exit codes: 0 nothing differs; 1 terms differ; 2 a file or the command line is wrong.")]
+Exit codes: 0 no differences; 1 terms differ; 2 a file or the command line is wrong.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     /// The published equations
     printed: PathBuf,
-    /// How they are written; without this LaTeX where there is a backslash
+    /// Notation of the equations [default: latex if they contain a backslash, else text]
     #[arg(long, value_enum)]
     notation: Option<NotationName>,
-    /// How to show what differs
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }

@@ -68,7 +68,7 @@ fn summary(comparison: &Comparison) -> String {
         shown.push_str(", no wrench");
     }
     match differences.len() {
-        0 => shown + ": nothing differs",
+        0 => shown + ": no differences",
         1 => shown + &format!(": 1 term differs ({})", kinds.join(", ")),
         count => shown + &format!(": {count} terms differ ({})", kinds.join(", ")),
     }
@@ -116,7 +116,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
 pub(super) fn markdown(comparison: &Comparison) -> String {
     let mut shown = String::new();
     if !comparison.differences.is_empty() {
-        shown.push_str("| equation | slip | printed term | derived term | evidence |\n");
+        shown.push_str("| equation | mistake | printed term | derived term | evidence |\n");
         shown.push_str("|---|---|---|---|---|\n");
     }
     let term = |term: &Option<String>| match term {

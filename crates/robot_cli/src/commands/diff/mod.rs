@@ -24,12 +24,12 @@ const MOST_STATES: i64 = 100_000;
   robot-symbolic diff robots/planar_2r.toml robots/scara.toml
   robot-symbolic diff robots/planar_2r.toml robots/scara.toml --format json
 
-Links, joints, frames and parameters are matched by their names, driving forces by the numbers of their
-coordinates, terms by their symbols. The robots' names and remarks do not count. Terms are those of the
-driving forces without friction; torques are those at the nominal parameters, friction included, no wrench
-at the tips. A part that cannot be compared says why.
+Links, joints, frames and parameters are matched by name, joint torques by the number of the coordinate, terms
+by their symbols. Robot names and remarks are ignored. Terms are those of the joint torques without friction;
+torques are compared at the nominal parameters, with friction and without wrenches at the tips. If a part
+cannot be compared, the reason is shown.
 
-Exit codes: 0 nothing differs; 1 something differs; 2 a file or the command line is wrong.")]
+Exit codes: 0 no differences; 1 something differs; 2 a file or the command line is wrong.")]
 pub(crate) struct Arguments {
     /// The first robot file
     a: PathBuf,
@@ -37,16 +37,16 @@ pub(crate) struct Arguments {
     b: PathBuf,
     #[command(flatten)]
     reading: ReadingArguments,
-    /// The seed of the states at which torques are compared
+    /// Seed of the random states at which torques are compared
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// How many states are drawn, at most 100000
+    /// Number of random states, at most 100000
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=MOST_STATES))]
     states: u32,
-    /// How many terms of each equation text shows at most
+    /// Maximum number of terms shown per equation in text
     #[arg(long, default_value_t = 20)]
     terms: usize,
-    /// How to show what differs
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }

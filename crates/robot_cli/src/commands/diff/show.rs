@@ -18,14 +18,14 @@ pub(super) fn text(found: &Difference, most: usize) -> String {
         Err(reason) => refused(reason),
     };
     for (title, lines) in parts(found, most).into_iter().chain([(TORQUES, torques)]) {
-        let lines = if lines.is_empty() { "  nothing differs\n".to_owned() } else { lines };
+        let lines = if lines.is_empty() { "  no differences\n".to_owned() } else { lines };
         // Writing to a string does not fail.
         let _ = write!(shown, "\n{title}\n{lines}");
     }
     shown
 }
 
-const TORQUES: &str = "largest change of the torques";
+const TORQUES: &str = "largest differences of the joint torques";
 
 /// The parts but for the torques, each with its title; empty where nothing differs.
 pub(crate) fn parts(found: &Difference, most: usize) -> [(&'static str, String); 3] {
@@ -37,12 +37,12 @@ pub(crate) fn parts(found: &Difference, most: usize) -> [(&'static str, String);
         Err(reason) => refused(reason),
     };
     [
-        ("what the files say", found.changes.iter().map(change).collect()),
+        ("robot files", found.changes.iter().map(change).collect()),
         (
-            "terms of the driving forces",
+            "terms of the joint torques",
             found.equations.iter().map(|one| equation(one, most)).collect(),
         ),
-        ("operations of a call", operations),
+        ("operations per call", operations),
     ]
 }
 
@@ -59,19 +59,34 @@ fn arrow<T: ToString>(sides: &[Option<T>; 2]) -> String {
 
 fn change(change: &Change) -> String {
     let whole = |sign: char, item: &Item| {
-        let said: Vec<String> =
-            item.properties.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        let said: Vec<String> = item
+            .properties
+            .iter()
+            .map(|(name, value)| format!("{} {value}", words(name)))
+            .collect();
         format!("{sign} {} {}: {}\n", item.kind.name(), item.name, said.join("; "))
     };
     match change {
         Change::Added(item) => whole('+', item),
         Change::Removed(item) => whole('-', item),
         Change::Changed { kind, name, properties } => {
-            let one = |one: &Property| format!("{} {}", one.name, arrow(&one.values));
+            let one = |one: &Property| format!("{} {}", words(&one.name), arrow(&one.values));
             let properties: Vec<String> = properties.iter().map(one).collect();
             let name = if name.is_empty() { String::new() } else { format!(" {name}") };
             format!("~ {}{name}: {}\n", kind.name(), properties.join("; "))
         }
+    }
+}
+
+/// The name of a property in text; in JSON the names themselves are keys.
+fn words(property: &str) -> &str {
+    match property {
+        "angles snapped within" => "snapping tolerance",
+        "centre of mass" => "center of mass",
+        "spindle diameter" => "journal diameter",
+        "dry friction forward" => "forward Coulomb friction",
+        "dry friction backward" => "backward Coulomb friction",
+        other => other,
     }
 }
 

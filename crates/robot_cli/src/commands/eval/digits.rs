@@ -47,7 +47,7 @@ impl Digits {
     /// Why a state has no accelerations, where the mass matrix is the reason.
     pub(super) fn singular(&self, state: &State) -> Option<String> {
         let pivot = self.smallest(state).filter(Pivot::is_wrong)?;
-        Some(format!("there are no accelerations: {pivot}"))
+        Some(format!("forward dynamics has no solution: {pivot}"))
     }
 
     fn smallest(&self, state: &State) -> Option<Pivot> {

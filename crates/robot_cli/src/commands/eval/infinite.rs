@@ -31,13 +31,13 @@ pub(super) fn messages(
     let angle = state
         .array(JointVariable::Position.name())
         .and_then(|q| too_large_angle(robot, q, trigonometry));
-    let angle = angle.map(|why| format!("{why}, or --trigonometry standard"));
+    let angle = angle.map(|why| format!("{why}, or use --trigonometry standard"));
     let why = angle.or_else(of_matrix).or_else(|| digits.singular(state));
     let why =
-        why.unwrap_or_else(|| "look at the size of the parameters and of the state".to_owned());
+        why.unwrap_or_else(|| "check the magnitudes of the parameters and of the state".to_owned());
     let message = |output: &&OutputValues| {
         let entries = entries(robot, output);
-        format!("{}: `{}` has no finite value{entries}; {why}", state.place, output.name)
+        format!("{}: `{}` does not have a finite value{entries}; {why}", state.place, output.name)
     };
     wrong.iter().map(message).collect()
 }
@@ -85,8 +85,8 @@ fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<St
                 })
                 .collect();
             Some(format!(
-                "the mass matrix is singular at this state: no driving forces determine the accelerations of \
-                 {}",
+                "the mass matrix is singular at this state: the joint torques do not determine \
+                 the accelerations of {}",
                 at.join(", ")
             ))
         }

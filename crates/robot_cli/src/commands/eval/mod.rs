@@ -36,14 +36,15 @@ use crate::states::{Layout, State};
 
 States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz;
 wrench_NAME for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz.
-A function needs all its inputs but the wrench, which is 0 where it is not given. Where a state has a
-wrench other than 0, inverse_dynamics means inverse_dynamics_wrench, inverse_dynamics_friction means
-inverse_dynamics_wrench_friction, and so for forward_dynamics. Numbers come from the straight-line program that the generated code prints.")]
+A function needs all its inputs except the wrench, whose default is 0. The wrench is the one that the tip
+exerts on its surroundings. If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench,
+inverse_dynamics_friction means inverse_dynamics_wrench_friction, and likewise for forward_dynamics. Values
+are computed by the straight-line program that the generated code is printed from.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// The function, or a bundle of the robot file's [code]; `jacobian_NAME` and `jacobian_dot_qd_NAME` are
-    /// those of one frame or moving link
+    /// The function, or a bundle of the robot file's [code]; `jacobian_NAME` and `jacobian_dot_qd_NAME` for
+    /// one frame or moving link
     #[arg(long, value_name = "NAME", value_parser = FunctionName { all: false })]
     function: String,
     /// The file with the states; `-` for standard input
@@ -53,7 +54,7 @@ pub(crate) struct Arguments {
     settings: Settings,
     #[arg(long, help = help("trigonometry"), default_value = "polynomial", value_parser = trigonometry())]
     trigonometry: Trigonometry,
-    /// How to print the outputs
+    /// Output format
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
 }
@@ -103,7 +104,7 @@ impl Arguments {
         let names: Vec<String> = parts.iter().map(|part| part.full_name(robot)).collect();
         let (kind, names) = (kind.name(), names.join("`, `"));
         Err(Failure::Usage(vec![format!(
-            "`{kind}` is a function of each of several frames; choose one of `{names}`"
+            "`{kind}` exists for each of several frames; choose one of `{names}`"
         )]))
     }
 
@@ -129,7 +130,10 @@ impl Arguments {
         digits: &Digits,
     ) -> Result<Vec<Vec<OutputValues>>, Failure> {
         let Some(function) = programs.module.functions.first() else {
-            return Err(Failure::input(format!("the robot has no function `{}`", self.function)));
+            return Err(Failure::input(format!(
+                "the robot does not have the function `{}`",
+                self.function
+            )));
         };
         wrong.extend(states.iter().flat_map(|state| missing_inputs(function, state)));
         if !wrong.is_empty() {
@@ -177,7 +181,8 @@ fn with_wrench(
         return kind;
     }
     if let Some(why) = FunctionKind::InverseDynamics(Effects::WRENCH).missing_in(robot) {
-        wrong.extend(loaded.iter().map(|state| format!("{}: a wrench, but {why}", state.place)));
+        wrong
+            .extend(loaded.iter().map(|state| format!("{}: has a wrench, but {why}", state.place)));
         return kind;
     }
     kind.with_effects(Effects { wrench: true, ..kind.effects() }).unwrap_or(kind)
@@ -191,7 +196,7 @@ fn missing_inputs(function: &Function, state: &State) -> Vec<String> {
         .filter(|input| !input.name.starts_with(WRENCH) && state.array(&input.name).is_none());
     missing
         .map(|input| {
-            format!("{}: `{}` is missing; {} takes it", state.place, input.name, function.name)
+            format!("{}: `{}` is missing; {} needs it", state.place, input.name, function.name)
         })
         .collect()
 }

@@ -24,27 +24,27 @@ use state::{Look, Settings, Shown, State};
   robot-symbolic watch robots/trttr1.toml
   robot-symbolic watch robots/trttr1.toml --report trttr1.html
 
-Derives the robot again whenever its file or its pinned plan is saved, and shows what has changed since
-the last save that gave a robot: parameters, links, joints and frames, terms of the driving forces,
-operations, errors and warnings that came or went. A file that is wrong or away for a while is waited for.
-The page of --report is written anew at each save that gives a robot, and a browser that shows it reloads it
-and keeps its place. Where no page can be made of a robot, the last one stands. Operations are those under the pinned plans, or under the default plan where either
-save has no plan of its own: nothing is searched.
+Derives the robot again whenever its file or its pinned plan is saved, and shows what has changed since the
+last save without errors: parameters, links, joints and frames, terms of the joint torques, operations, new
+and resolved errors and warnings. If the file has errors or is missing, the command waits for the next save.
+With --report, the page is rewritten at each save without errors; a browser that shows it reloads it and keeps
+its scroll position. If a robot cannot have a page, the last page is kept. Operations are counted under the
+pinned plans, or under the default plan if either save has no plan; the command never searches.
 
-Changes go to standard output, errors and warnings to standard error. Exit codes: Ctrl-C ends with 0 where
-the file last gave a robot and its page, and with 1 where it did not; 2 the command line is wrong.")]
+Changes go to standard output, errors and warnings to standard error. Ctrl-C ends the command. Exit codes: 0 if
+the last save had no errors and its page was written; 1 if not; 2 the command line is wrong.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// A page about the robot to write, as the command `report` does without a compiler
+    /// A page about the robot to write, like that of `report --without-compiler`
     #[arg(long, value_name = "PATH")]
     report: Option<PathBuf>,
     #[command(flatten)]
     force: ForceArgument,
-    /// How many terms of each equation are shown at most
+    /// Maximum number of terms shown per equation
     #[arg(long, default_value_t = 20)]
     terms: usize,
-    /// End after so many saves; without this Ctrl-C ends
+    /// End after this many saves [default: run until Ctrl-C]
     #[arg(long, value_name = "COUNT")]
     saves: Option<usize>,
 }
@@ -57,7 +57,7 @@ impl Arguments {
         // A name that is wrong from the start is not waited for.
         self.robot.source()?;
         if self.report.is_some() && file_of(self.report.as_deref()).is_none() {
-            let message = "--report is a file that is written anew at each save; name one";
+            let message = "--report needs a file, which is rewritten at each save; name one";
             return Err(Failure::Usage(vec![message.to_owned()]));
         }
         let writer = self.force.writer(self.robot.inputs());

@@ -47,7 +47,7 @@ impl Page {
     ///
     /// A robot that no page can be made of.
     pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Error> {
-        let reason = "no compiler was started while the file was watched.".to_owned();
+        let reason = "the page was made without a compiler, while the file was watched.".to_owned();
         let compiled = Compiled::Unread { reason };
         reloading(&Input { source, options, compiled: &compiled, judge })
     }
@@ -56,8 +56,8 @@ impl Page {
     pub(super) fn standing(&self) -> String {
         let path = shown(&self.path);
         match self.last {
-            None => format!("there is no page {path} yet"),
-            Some(_) => format!("there is no page of this robot; in {path} stands the last one"),
+            None => format!("the page {path} is not written yet"),
+            Some(_) => format!("this robot does not have a page; {path} still shows the last one"),
         }
     }
 

@@ -9,6 +9,8 @@ use robot_model::diagnostic::{Severity, Style, render};
 use robot_model::robot::Robot;
 
 use crate::commands::diff::show;
+use crate::failure::in_command_words;
+use crate::options::in_flags;
 use crate::reading::ReadingArguments;
 
 /// What the files say at a moment.
@@ -117,7 +119,7 @@ impl State {
         };
         let found = difference(&valid.robot, &now.robot, &compared(valid, now, settings));
         let differences = differences(&found, settings.terms);
-        let none = if differences.is_empty() { "nothing changes in the robot\n" } else { "" };
+        let none = if differences.is_empty() { "no changes in the robot\n" } else { "" };
         let title = title(self.number, Some(valid.number));
         Shown { title, problems, changes: format!("{gone}{differences}{none}") }
     }
@@ -126,8 +128,10 @@ impl State {
     fn after_errors(&self, wrong: &[Problem]) -> Shown {
         let gone = gone(self.wrong.iter().flatten().collect(), wrong);
         let stands = match &self.valid {
-            None => "there is no robot yet; watching".to_owned(),
-            Some(valid) => format!("there is no robot; that of {} stands", name(valid.number)),
+            None => "the file has errors; watching".to_owned(),
+            Some(valid) => {
+                format!("the file has errors; keeping the robot from {}", name(valid.number))
+            }
         };
         Shown {
             title: title(self.number, None),
@@ -154,7 +158,7 @@ fn valid(
         .iter()
         .map(|one| Problem {
             line: line(one.severity, one.code, &one.message),
-            text: render(source, one, style),
+            text: in_flags(&render(source, one, style)),
         })
         .collect();
     let (plan, stale) = match plan {
@@ -162,7 +166,7 @@ fn valid(
         Err(errors) => (None, errors.as_slice().to_vec()),
     };
     problems.extend(stale.iter().map(|error| {
-        let line = format!("warning: {error}");
+        let line = format!("warning: {}", in_command_words(error));
         Problem { text: line.clone(), line }
     }));
     Ok(ValidRobot { number, source: source.clone(), robot: described.robot, plan, problems })
@@ -174,10 +178,10 @@ fn of_errors(errors: &Errors, style: Style) -> Vec<Problem> {
         match error {
             Error::Robot(diagnostics) => found.extend(diagnostics.iter().map(|one| Problem {
                 line: line(one.severity, one.code, &one.message),
-                text: render(diagnostics.source(), one, style),
+                text: in_flags(&render(diagnostics.source(), one, style)),
             })),
             other => {
-                let line = format!("error: {other}");
+                let line = format!("error: {}", in_command_words(other));
                 found.push(Problem { text: line.clone(), line });
             }
         }

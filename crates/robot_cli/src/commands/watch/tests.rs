@@ -66,19 +66,19 @@ fn values_terms_and_operations_are_told() {
     assert!(is_good);
     let mut parts = output.split("\nsave ");
     assert_eq!(parts.next(), Some("planar_2r: 2 coordinates, 9 parameters; watching\n"));
-    let value = "1, from the start:\nwhat the files say\n~ parameter m2: value 3 -> 3.5\n";
+    let value = "1, from the start:\nrobot files\n~ parameter m2: value 3 -> 3.5\n";
     assert_eq!(parts.next(), Some(value));
     let gravity = parts.next().unwrap();
     for part in [
-        "2, from save 1:\nwhat the files say\n~ robot: gravity (0, -g, 0) -> (0, 0, 0)\n",
+        "2, from save 1:\nrobot files\n~ robot: gravity (0, -g, 0) -> (0, 0, 0)\n",
         "~ parameter m2: value 3.5 -> 3\n",
-        "terms of the driving forces\n  Q1\n  - g*l1*m2*cos(q1)\n",
-        "operations of a call\n",
+        "terms of the joint torques\n  Q1\n  - g*l1*m2*cos(q1)\n",
+        "operations per call\n",
         "  inverse_dynamics: ",
     ] {
         assert!(gravity.contains(part), "{part} is not in\n{gravity}");
     }
-    assert!(!gravity.contains("torques"), "{gravity}");
+    assert!(!gravity.contains("differences of the joint torques"), "{gravity}");
     // The parameter g is used no longer.
     assert!(errors.contains("R0601") && !errors.contains("error"), "{errors}");
 }
@@ -88,7 +88,10 @@ fn a_broken_file_keeps_the_last_robot() {
     let moved = format!("# a remark\n\n{}", broken());
     let (is_good, output, errors) = followed([ARM, &broken(), &moved].map(look));
     assert!(!is_good);
-    assert_eq!(output.matches("there is no robot; that of the start stands\n").count(), 2);
+    assert_eq!(
+        output.matches("the file has errors; keeping the robot from the start\n").count(),
+        2
+    );
     // As long as the file is broken all errors are shown; a line that moves is no other error.
     assert_eq!(errors.matches("error[R0303]").count(), 2, "{errors}");
     assert!(errors.contains("arm.toml:") && !output.contains("gone"), "{output}");
@@ -104,7 +107,7 @@ fn a_broken_file_keeps_the_last_robot() {
 fn a_file_that_is_broken_from_the_start_is_waited_for() {
     let (is_good, output, errors) = followed([&broken(), ARM].map(look));
     assert!(is_good && errors.contains("error[R0303]"));
-    assert!(output.starts_with("there is no robot yet; watching\n\nsave 1:\ngone: error"));
+    assert!(output.starts_with("the file has errors; watching\n\nsave 1:\ngone: error"));
     assert!(output.ends_with("planar_2r: 2 coordinates, 9 parameters; watching\n"), "{output}");
     assert!(!followed([look(&broken())]).0);
 }
@@ -122,7 +125,7 @@ fn warnings_come_and_go() {
 #[test]
 fn remarks_change_nothing() {
     let (_, output, errors) = followed([ARM, &format!("{ARM}# a remark\n")].map(look));
-    assert!(output.ends_with("\nsave 1, from the start:\nnothing changes in the robot\n"));
+    assert!(output.ends_with("\nsave 1, from the start:\nno changes in the robot\n"));
     assert_eq!(errors, "");
 }
 
@@ -144,7 +147,7 @@ fn a_stale_plan_is_no_change_of_the_robot() {
     let stale = look();
     assert!(stale.plan.is_err());
     let (is_good, output, errors) = followed([pinned.clone(), stale, pinned]);
-    assert!(is_good && !output.contains("operations of a call"), "{output}");
+    assert!(is_good && !output.contains("operations per call"), "{output}");
     assert!(errors.starts_with("warning: ") && errors.contains("plan is stale"), "{errors}");
     assert!(output.contains("\ngone: warning: "), "{output}");
 }
@@ -280,10 +283,13 @@ fn a_robot_without_a_page_does_not_end_the_watch() {
     let page = || Some(Page::open(path.clone(), Writer::new()).unwrap());
     let (is_good, _, errors) = followed_with([look(&long)], page());
     assert!(!is_good && !path.exists(), "{errors}");
-    assert!(errors.contains("coordinates, and a page") && errors.contains("no page"), "{errors}");
+    assert!(
+        errors.contains("coordinates, but a page") && errors.contains("is not written yet"),
+        "{errors}"
+    );
 
     let (is_good, _, errors) = followed_with([look(ARM), look(&long)], page());
-    assert!(!is_good && errors.contains("stands the last one"), "{errors}");
+    assert!(!is_good && errors.contains("still shows the last one"), "{errors}");
     let last = std::fs::read_to_string(&path).unwrap();
     assert!(!picture.exists());
     let (is_good, output, _) = followed_with([ARM, &long, &heavier()].map(look), page());
@@ -324,5 +330,5 @@ fn a_problem_that_is_gone_is_a_line() {
     let (_, output, errors) = followed([bad, look()]);
     assert!(errors.lines().count() > 2, "{errors}");
     let end = output.split("gone: ").nth(1).unwrap();
-    assert_eq!(end.lines().nth(1), Some("nothing changes in the robot"), "{end}");
+    assert_eq!(end.lines().nth(1), Some("no changes in the robot"), "{end}");
 }

@@ -117,11 +117,12 @@ impl Methods<'_, '_> {
         let (pattern, blocks) = zipped(used.iter().chain(&outputs).map(|name| plain_item(name)));
         let docs = doc::attributes(&[
             format!(
-                "`{}` of many states, {lanes} at a time: entry i of each slice is of state i.",
+                "`{}` for many states, {lanes} at a time: entry i of each slice belongs to state i.",
                 self.names.plain
             ),
             String::new(),
-            "Computes, and returns, as many states as the shortest slice has.".to_owned(),
+            "Computes as many states as the shortest slice has, and returns their number."
+                .to_owned(),
         ]);
         parse_quote! {
             #(#docs)*
@@ -170,9 +171,12 @@ impl Methods<'_, '_> {
         let feature = self.scope.options.parallel == Parallel::WithFeature;
         let condition = feature.then(|| quote!(#[cfg(feature = "rayon")]));
         let docs = doc::attributes(&[
-            format!("[`Model::{batch}`] over the threads of rayon's pool: the same bits."),
+            format!(
+                "[`Model::{batch}`] on the threads of rayon's pool, with the same results \
+                bit for bit."
+            ),
             String::new(),
-            format!("Short slices, of up to {grain} states, stay with the caller's thread."),
+            format!("Short slices, of up to {grain} states, are computed on the caller's thread."),
         ]);
         parse_quote! {
             #(#docs)*

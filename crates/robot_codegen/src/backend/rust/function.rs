@@ -186,7 +186,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let mut statements = variables.take_entries(function, &function.angles);
         let printed = self.print(&function.angles, &mut variables, &name);
         statements.extend(printed.statements);
-        let text = format!("The angles whose sines and cosines `{}` takes, in rad.", self.names.sc);
+        let text = format!("The angles whose sines and cosines `{}` uses, in rad.", self.names.sc);
         let docs = doc::attributes(&[text]);
         let parameters = self.input_parameters(&variables, &used);
         let returned = syntax::array_type(&self.number.ty(), printed.results.len());
@@ -339,7 +339,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let angles = self.angle_texts().join(", ");
         let name = &self.names.plain;
         vec![
-            format!("`{name}` with the sines `s` and cosines `c` of its angles given."),
+            format!("`{name}`, given the sines `s` and cosines `c` of its angles."),
             String::new(),
             format!("The angles: {angles}."),
         ]
@@ -376,7 +376,7 @@ fn free_function(scope: &Scope<'_>, function: &Function, name: &Ident) -> Item {
     let lengths = function.inputs.iter().map(|input| input.symbols.len());
     let types = lengths.map(|length| syntax::array_type(&ty, length));
     let returned = outputs::returned(scope, function, &scope.number);
-    let docs = doc::attributes(&[format!("[`Model::{name}`] of the one model there is.")]);
+    let docs = doc::attributes(&[format!("[`Model::{name}`] of the only model.")]);
     parse_quote! {
         #(#docs)*
         #[inline]

@@ -85,7 +85,10 @@ pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
 pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
     let title = common::markdown_line(&scope.module.name);
     if !scope.has_parameters() {
-        let docs = doc::attributes(&[format!("The model {title}: its figures are in the code.")]);
+        let docs = doc::attributes(&[format!(
+            "The model {title}: its parameters are constants in \
+            the code."
+        )]);
         return vec![
             parse_quote!(#(#docs)* #[derive(Clone, Copy, Debug, Default, PartialEq)] pub struct Model;),
             parse_quote!(impl Model {
@@ -95,7 +98,7 @@ pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
         ];
     }
     let docs = doc::attributes(&[format!(
-        "The model {title}: what depends on its parameters alone, computed once."
+        "The model {title}: everything that depends only on its parameters, computed once."
     )]);
     let (fields, ty) = (&scope.fields, scalar_type(scope.options.scalar));
     vec![
@@ -195,7 +198,7 @@ pub(super) fn is_const(program: &Program) -> bool {
 fn constructor_doc(scope: &Scope<'_>) -> Vec<String> {
     let counts = Counts::of(&scope.module.constructor);
     vec![
-        "Computes what depends on the parameters alone.".to_owned(),
+        "Computes everything that depends only on the parameters.".to_owned(),
         String::new(),
         format!("{}.", common::operations(&counts)),
     ]

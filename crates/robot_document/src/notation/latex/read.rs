@@ -83,7 +83,7 @@ impl<'t> Reader<'t> {
     fn row(&mut self, end: End) -> Result<Math, ReadError> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
-            return self.fault("too many groups within groups");
+            return self.fault("groups are nested too deeply");
         }
         let mut pieces = vec![];
         loop {
@@ -142,7 +142,7 @@ impl<'t> Reader<'t> {
             }
             _ => {
                 self.place -= first.len_utf8();
-                self.fault("no sign of a formula")
+                self.fault("not a sign of a formula")
             }
         }
     }
@@ -170,7 +170,7 @@ impl<'t> Reader<'t> {
                     self.place += 1;
                     Ok(Math::Word(sign.to_string()))
                 }
-                _ => self.fault("no sign of a formula"),
+                _ => self.fault("not a sign of a formula"),
             },
             _ => self.named(command),
         }

@@ -85,12 +85,12 @@ fn index<'n>(
             continue;
         };
         unique = false;
-        let message = format!("the {what} `{}` is given twice", quote(written));
+        let message = format!("the {what} `{}` is defined twice", quote(written));
         reader.report(
             Diagnostic::error(code::DUPLICATE, message)
-                .at(&named.span, "again here")
-                .and_at(&first.span, "first here")
-                .help("give one of them another name"),
+                .at(&named.span, "defined again here")
+                .and_at(&first.span, "first defined here")
+                .help("rename one of them"),
         );
     }
     unique.then(|| found.into_iter().map(|(name, (index, _))| (name, index)).collect())
@@ -118,9 +118,12 @@ fn ends(
                 format!("the link `{}` is the child of two joints", quote(joint.child.text));
             reader.report(
                 Diagnostic::error(code::TWO_PARENTS, message)
-                    .at(&joint.child.span, "a child again here")
-                    .and_at(&first.child.span, "a child already here")
-                    .because("a closed loop is no tree, and its torques are not determined")
+                    .at(&joint.child.span, "again a child here")
+                    .and_at(&first.child.span, "already a child here")
+                    .because(
+                        "a closed loop is not a tree, and its torques are not uniquely \
+                        determined",
+                    )
                     .help("cut the loop at one of the joints"),
             );
         }
@@ -140,7 +143,7 @@ fn link(
         let message = format!("`{}` is not a link of this robot", quote(name.text));
         let label = match reader.nearest(name.text, links.keys().copied()) {
             Some(near) => format!("did you mean `{}`?", quote(near)),
-            None => "no link of that name".to_owned(),
+            None => "no link has this name".to_owned(),
         };
         reader.report(
             Diagnostic::error(code::UNKNOWN_LINK, message)
@@ -182,13 +185,13 @@ fn root<'l, 'a>(
         if index == &base.0 {
             continue;
         }
-        let message = format!("the link `{}` hangs on nothing", quote(link.name.written));
+        let message = format!("the link `{}` has no parent", quote(link.name.written));
         reader.report(
             Diagnostic::error(code::UNREACHABLE, message)
-                .at(&link.name.named.span, "no joint has it as its child")
-                .and_at(&base.1.name.named.span, "taken for the base")
-                .because("every link but the base moves with a joint")
-                .help("connect it by a joint, or take it away"),
+                .at(&link.name.named.span, "not the child of any joint")
+                .and_at(&base.1.name.named.span, "the base")
+                .because("every link except the base must be the child of a joint")
+                .help("connect it with a joint, or remove it"),
         );
     }
     others.is_empty().then_some(Some(*root))
@@ -288,7 +291,7 @@ fn mimic(
         let message = format!("`{}` is not a joint of this robot", quote(mimic.joint.text));
         let label = match reader.nearest(mimic.joint.text, by_name.keys().copied()) {
             Some(near) => format!("did you mean `{}`?", quote(near)),
-            None => "no joint of that name".to_owned(),
+            None => "no joint has this name".to_owned(),
         };
         reader.report(
             Diagnostic::error(code::MIMIC, message)

@@ -119,7 +119,7 @@ impl<'a, 'i> Element<'a, 'i> {
             let message = format!("`<{}>` has no `{name}`", self.kind.name);
             reader.report(
                 Diagnostic::error(code::MISSING_KEY, message)
-                    .at(&self.tag(), format!("`{name}` is missing here"))
+                    .at(&self.tag(), format!("`{name}` is missing"))
                     .help(format!("add `{name}=\"{example}\"`")),
             );
         }
@@ -145,7 +145,7 @@ impl<'a, 'i> Element<'a, 'i> {
             let message = format!("`<{}>` has no `<{name}>`", self.kind.name);
             reader.report(
                 Diagnostic::error(code::MISSING_KEY, message)
-                    .at(&self.tag(), format!("`<{name}>` is missing here"))
+                    .at(&self.tag(), format!("`<{name}>` is missing"))
                     .help(format!("add `{example}`")),
             );
         }
@@ -193,8 +193,7 @@ impl<'a, 'i> Element<'a, 'i> {
             let name = node.tag_name().name();
             let place = tag(node);
             if let Some(prefix) = prefix(node) {
-                let message =
-                    format!("`{prefix}:{}` is an element of another program", quote(name));
+                let message = format!("`{prefix}:{}` belongs to another program", quote(name));
                 match prefix {
                     "xacro" if reader.found.iter().any(|one| one.code == code::XACRO) => {}
                     "xacro" => reader.report(template(&place)),
@@ -207,7 +206,7 @@ impl<'a, 'i> Element<'a, 'i> {
                 match first {
                     // A robot has many links and joints.
                     Some((_, first)) if !kind.is_repeated() => {
-                        let message = format!("`<{name}>` stands twice in `<{}>`", self.kind.name);
+                        let message = format!("`<{name}>` appears twice in `<{}>`", self.kind.name);
                         reader.report(
                             Diagnostic::error(code::CONFLICT, message)
                                 .at(&place, "again here")
@@ -230,8 +229,8 @@ impl<'a, 'i> Element<'a, 'i> {
             let message =
                 format!("`<{}>` is not an element of `<{}>`", quote(name), self.kind.name);
             let help = match names.as_slice() {
-                [] => format!("`<{}>` holds no elements", self.kind.name),
-                names => format!("the elements that are read are {}", list(names)),
+                [] => format!("`<{}>` has no child elements", self.kind.name),
+                names => format!("the known elements are {}", list(names)),
             };
             reader.report(unknown(&place, message, near, self.kind.strict).help(help));
         }
@@ -249,11 +248,11 @@ fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> D
     match near {
         Some(near) => Diagnostic::error(code::UNKNOWN_KEY, message)
             .at(place, format!("did you mean `{near}`?"))
-            .because("what is misspelt would be left out of the robot in silence"),
+            .because("a misspelled name would silently be left out of the robot"),
         None if strict => {
-            Diagnostic::error(code::UNKNOWN_KEY, message).at(place, "means nothing here")
+            Diagnostic::error(code::UNKNOWN_KEY, message).at(place, "has no meaning here")
         }
-        None => Diagnostic::warning(code::NOT_READ, message).at(place, "not read"),
+        None => Diagnostic::warning(code::NOT_READ, message).at(place, "ignored"),
     }
 }
 

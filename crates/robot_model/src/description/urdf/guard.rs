@@ -36,7 +36,7 @@ pub(super) fn check(text: &str) -> Option<Diagnostic> {
             (false, false) => depth += 1,
         }
         if depth > MAX_DEPTH {
-            return Some(refused(&place, "elements within elements", MAX_DEPTH));
+            return Some(refused(&place, "levels of nested elements", MAX_DEPTH));
         }
     }
     None
@@ -92,8 +92,8 @@ impl Tag {
 fn refused(place: &Span, what: &str, limit: usize) -> Diagnostic {
     Diagnostic::error(code::LIMIT, format!("more than {limit} {what}"))
         .at(place, "here")
-        .because("no robot needs them, and they make reading slow")
-        .help("leave out what does not describe the robot")
+        .because("a robot never needs that many, and they make reading slow")
+        .help("remove everything that does not describe the robot")
 }
 
 #[cfg(test)]

@@ -105,7 +105,7 @@ fn kind_of(
 ) -> Option<Option<(JointKind, bool)>> {
     const TYPES: &[&str] = &["revolute", "continuous", "prismatic", "fixed"];
     let word = attribute.text;
-    let message = format!("`{}` is not a type of joint that is read", quote(word));
+    let message = format!("`{}` is not a supported joint type", quote(word));
     let diagnostic = Diagnostic::error(code::UNKNOWN_WORD, message);
     let diagnostic = match word {
         "revolute" => return Some(Some((JointKind::Revolute, true))),
@@ -114,19 +114,19 @@ fn kind_of(
         "fixed" => return Some(None),
         "floating" => diagnostic
             .at(&attribute.span, "six degrees of freedom")
-            .because("only robots on a fixed base are described here")
-            .help("write \"fixed\" for a base that stands still"),
+            .because("only robots with a fixed base can be described")
+            .help("write \"fixed\" if the base does not move"),
         "planar" => diagnostic.at(&attribute.span, "three degrees of freedom").help(
-            "write two prismatic joints and a continuous one, with links of no mass between \
-                 (and allow massless links)",
+            "use two prismatic joints and a continuous one, with massless links between them \
+             (and allow massless links)",
         ),
         "spherical" | "ball" => diagnostic.at(&attribute.span, "three degrees of freedom").help(
-            "write three revolute joints, with links of no mass between (and allow massless links)",
+            "use three revolute joints, with massless links between them (and allow massless links)",
         ),
         _ => {
             let label = match reader.nearest(word, TYPES.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => "not a type of joint".to_owned(),
+                None => "not a joint type".to_owned(),
             };
             diagnostic
                 .at(&attribute.span, label)
@@ -187,9 +187,9 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
             }
         }
         None => reader.report(
-            Diagnostic::note(code::TAKEN_DEFAULT, "a joint without axis has the axis x")
-                .at(&element.tag(), "`<axis>` is missing here")
-                .because("URDF says so"),
+            Diagnostic::note(code::TAKEN_DEFAULT, "the joint has no axis; URDF's default is x")
+                .at(&element.tag(), "`<axis>` is missing")
+                .because("the URDF default"),
         ),
     }
     if let Some(limit) = element.child(reader, "limit") {
@@ -212,12 +212,12 @@ fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
         let Some(attribute) = element.attribute(name) else { continue };
         let value = attribute.text.trim().parse::<f64>().ok();
         if let Some(value) = value.filter(|value| *value < 0.0) {
-            let message = format!("the limit of {name} is {value}");
+            let message = format!("the {name} limit is {value}");
             reader.report(
                 Diagnostic::warning(code::LIMIT_SIGN, message)
                     .at(&attribute.span, "below 0")
-                    .because("the limit is one of the magnitude, in both directions")
-                    .help("correct the figure; nothing here depends on it"),
+                    .because("the limit bounds the magnitude, in both directions")
+                    .help("correct the value; it is not used here"),
             );
         }
         unread.push(Unread { name, span: attribute.span });
@@ -234,7 +234,10 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
         reader.report(
             Diagnostic::error(code::ZERO_AXIS, "the joint axis is zero")
                 .at(&attribute.span, "this vector has no direction")
-                .because("a joint moves about or along a line, and 0 0 0 is none")
+                .because(
+                    "a joint rotates about an axis or slides along it, and 0 0 0 is not a \
+                    direction",
+                )
                 .help("write a direction such as \"0 0 1\""),
         );
         return None;
@@ -242,11 +245,11 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     let length =
         numbers.each_ref().map(Rational::to_f64).iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
     if (length - 1.0).abs() > ROUNDED {
-        let message = format!("the joint axis has the length {}", significant(length));
+        let message = format!("the joint axis has length {}", significant(length));
         reader.report(
             Diagnostic::warning(code::AXIS_LENGTH, message)
-                .at(&attribute.span, "its direction is taken")
-                .because("URDF asks for a unit vector; programs differ in what they make of others")
+                .at(&attribute.span, "only its direction is used")
+                .because("URDF requires a unit vector; programs treat other vectors differently")
                 .help("write the vector with length 1"),
         );
     }
@@ -287,10 +290,10 @@ fn limits(
     }
     let equal = lower == upper;
     reader.report(if equal {
-        Diagnostic::note(code::LEFT_OUT, "limits that leave no room are taken for none")
-            .at(&span, "lower and upper limit are the same")
+        Diagnostic::note(code::LEFT_OUT, "the limits leave no room to move and are ignored")
+            .at(&span, "lower and upper limit are equal")
     } else {
-        Diagnostic::error(code::LIMITS, "the lower limit is not below the upper one")
+        Diagnostic::error(code::LIMITS, "the lower limit is not below the upper limit")
             .at(&span, "")
             .help("swap them, or write \"continuous\" for a joint without limits")
     });
@@ -298,7 +301,7 @@ fn limits(
 }
 
 fn follows<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>) -> Option<UrdfMimic<'a>> {
-    let joint = element.require(reader, "joint", "name of the joint that leads");
+    let joint = element.require(reader, "joint", "name of the leading joint");
     let mut figure = |name: &str, what: &str, missing: Rational| match element.attribute(name) {
         Some(attribute) => {
             let [number] = numbers::<1>(reader, &attribute, what, "1")?;
@@ -311,9 +314,12 @@ fn follows<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>) -> Option<Urd
     let ((multiplier, span), (offset, _)) = (multiplier?, offset?);
     if multiplier.is_zero() {
         reader.report(
-            Diagnostic::error(code::MIMIC, "a joint that follows with multiplier 0 is fixed")
-                .at(&span.unwrap_or(element.tag()), "the multiplier is 0")
-                .help("write the type \"fixed\", or the multiplier"),
+            Diagnostic::error(
+                code::MIMIC,
+                "a joint that follows another with multiplier 0 is fixed",
+            )
+            .at(&span.unwrap_or(element.tag()), "the multiplier is 0")
+            .help("write the type \"fixed\", or correct the multiplier"),
         );
     }
     Some(UrdfMimic {
@@ -334,8 +340,8 @@ fn friction(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Dynami
             let message = format!("the {name} is {value}");
             reader.report(
                 Diagnostic::error(code::FRICTION, message)
-                    .at(&attribute.span, "this figure is not negative")
-                    .help("correct the figure, or leave it out"),
+                    .at(&attribute.span, "must not be negative")
+                    .help("correct the value, or leave it out"),
             );
         }
         Some(figure)

@@ -80,12 +80,15 @@ fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
         Some(Inertial { place, .. }) => {
             (place.mass.as_ref().unwrap_or(&place.name), "the mass is 0")
         }
-        None => (&link.tag, "`<inertial>` is missing here"),
+        None => (&link.tag, "`<inertial>` is missing"),
     };
     let mut diagnostic = Diagnostic::error(code::MASS, format!("the link `{name}` has no mass"))
         .at(place, label)
-        .because("a link without mass falls out of the equations in silence")
-        .help("add its `<inertial>`; where it has no mass indeed, read it with `--allow-massless`");
+        .because("a massless link silently drops out of the equations")
+        .help(
+            "add its `<inertial>`; if the link is massless, read it with the option \
+            `allow_massless`",
+        );
     if options.allow_massless {
         diagnostic.severity = Severity::Warning;
         diagnostic.help = None;
@@ -108,8 +111,10 @@ fn judge_body(
         reader.report(
             Diagnostic::error(code::MASS, format!("the mass is {} kg", inertial.mass))
                 .at(&of_mass, "below 0")
-                .because("no body has such a mass, and the equations become singular or unstable")
-                .help("correct the figure"),
+                .because(
+                    "a body cannot have such a mass: the equations become singular or unstable",
+                )
+                .help("correct the value"),
         );
     }
     if inertial.mass == 0.0 && !inertial.is_empty() {
@@ -118,13 +123,14 @@ fn judge_body(
             reader.report(alone_acts(&of_mass, moment));
             return;
         }
-        let mut diagnostic = Diagnostic::error(
-            code::MASS,
-            "a body of mass 0 has moments of inertia",
-        )
-        .at(&of_mass, "the mass is 0")
-        .because("a moment of inertia is a sum of masses times squares")
-        .help("give the mass; where the figures are meant so, read it with `--allow-massless`");
+        let mut diagnostic =
+            Diagnostic::error(code::MASS, "a body of mass 0 has moments of inertia")
+                .at(&of_mass, "the mass is 0")
+                .because("a moment of inertia is a sum of mass times distance squared")
+                .help(
+                    "correct the mass; if the values are intended, read it with the option \
+                     `allow_massless`",
+                );
         if options.allow_massless || !own {
             diagnostic.severity = Severity::Warning;
         }
@@ -136,19 +142,24 @@ fn judge_body(
         Verdict::Possible => return,
         Verdict::Negative(_) => {
             diagnostic = diagnostic
-                .because("a moment of inertia is a sum of masses times squares")
-                .help("see that products of inertia have the tensor's sign and that all are in kg m^2");
+                .because("a moment of inertia is a sum of mass times distance squared")
+                .help(
+                    "check the signs of the products of inertia (entries of the tensor) and \
+                    that all values are in kg m^2",
+                );
             f64::INFINITY
         }
         Verdict::Triangle(_, excess) => {
             diagnostic = diagnostic.because(format!(
-                "x² + y² ≤ (y² + z²) + (z² + x²) for every part of a body; here it is broken by {} % of \
-                 the largest moment, and figures as they are measured and rounded break it by less than {} %",
+                "x² + y² ≤ (y² + z²) + (z² + x²) for every point of a body; here the inequality \
+                 is violated by {} % of the largest moment, while measured and rounded values \
+                 violate it by less than {} %",
                 significant((excess * 1000.0).round() / 10.0),
                 PUBLISHED * 100.0
             ));
             diagnostic = diagnostic.help(
-                "correct the figures; where they are published so, read it with `--allow-unphysical`",
+                "correct the values; if they are published this way, read it with the option \
+                 `allow_unphysical`",
             );
             excess
         }
@@ -163,11 +174,14 @@ fn alone_acts(of_mass: &Span, moment: f64) -> Diagnostic {
     Diagnostic::warning(code::MASS, "a moving link has mass 0")
         .at(of_mass, "the mass is 0")
         .because(format!(
-            "the joint stands on the base and turns about a vertical axis, so that of its link nothing \
-             acts but the moment of inertia about the axis, which is {} kg m^2",
+            "the joint is on the base and its axis is vertical, so only the link's moment of \
+             inertia about the axis has an effect; it is {} kg m^2",
             significant(moment)
         ))
-        .help("give the mass and the other moments, if they are known: forces in the joint need them")
+        .help(
+            "add the mass and the other moments if they are known: the forces in the joint \
+            depend on them",
+        )
 }
 
 /// The joint axis of a link, in its frame, where it stands on the base and is along gravity.

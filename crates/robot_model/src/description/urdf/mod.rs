@@ -76,16 +76,16 @@ fn root<'a, 'i>(reader: &mut Reader<'_>, node: Node<'a, 'i>) -> Option<Element<'
     }
     let diagnostic = match name {
         "sdf" | "mujoco" | "mujocoinclude" | "model" | "COLLADA" | "launch" => {
-            let message = format!("the file is not URDF: its first element is `<{name}>`");
+            let message = format!("the file is not URDF: its root element is `<{name}>`");
             Diagnostic::error(code::FORMAT, message).at(&place, "").help("convert it to URDF")
         }
         _ => {
-            let message = format!("the first element is `<{}>`", quote(name));
+            let message = format!("the root element is `<{}>`", quote(name));
             let near = reader.nearest(name, [ROBOT.name].into_iter());
             let label = if near.is_some() { "did you mean `robot`?" } else { "not a robot" };
             Diagnostic::error(code::UNKNOWN_KEY, message)
                 .at(&place, label)
-                .help("a robot is described in `<robot name=\"arm\"> … </robot>`")
+                .help("describe the robot in `<robot name=\"arm\"> … </robot>`")
         }
     };
     reader.report(diagnostic);
@@ -103,13 +103,13 @@ fn parts<'a>(
     if most > MAX_LINKS {
         let message = format!("{most} links or joints; at most {MAX_LINKS}");
         let diagnostic = Diagnostic::error(code::LIMIT, message).at(&root.tag(), "");
-        reader.report(diagnostic.help("describe one robot in a file"));
+        reader.report(diagnostic.help("describe one robot per file"));
         return None;
     }
     if links.is_empty() {
         reader.report(
             Diagnostic::error(code::MISSING_KEY, "the robot has no links")
-                .at(&root.tag(), "`<link>` is missing here")
+                .at(&root.tag(), "`<link>` is missing")
                 .help("add the links and joints of the robot"),
         );
     }

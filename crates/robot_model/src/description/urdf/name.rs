@@ -62,10 +62,10 @@ fn tell(reader: &mut Reader<'_>, written: &str, named: &Named) {
     if written == named.name {
         return;
     }
-    let message = format!("`{}` is called `{}` here", quote(written), named.name);
+    let message = format!("`{}` is renamed `{}`", quote(written), named.name);
     reader.report(
         Diagnostic::note(code::TAKEN_NAME, message)
-            .at(&named.span, "not a name in equations, code and files"),
+            .at(&named.span, "not a valid name in equations, code and files"),
     );
 }
 

@@ -38,7 +38,7 @@ pub(super) fn numbers<const N: usize>(
         return Some(numbers);
     }
     let expected = if N == 1 { "one number".to_owned() } else { format!("{N} numbers") };
-    let message = format!("{what} is {expected}; here are {count}");
+    let message = format!("{what} is {expected}; found {count}");
     reader.report(
         Diagnostic::error(code::WRONG_COUNT, message)
             .at(&attribute.span, "")
@@ -113,22 +113,22 @@ fn wrong(word: &str, place: &Span) -> Diagnostic {
         || lower.contains("#qnan")
         || lower.contains("#ind")
     {
-        (format!("`{shown}` is not a number"), "give the figure")
+        (format!("`{shown}` is not a number"), "give a number")
     } else if lower.starts_with("inf") || lower.contains("#inf") {
-        (format!("`{shown}` is infinite"), "give a finite figure")
+        (format!("`{shown}` is infinite"), "give a finite value")
     } else if word.contains(',') && is_number(&word.replacen(',', ".", 1)) && !word.ends_with(',') {
-        (format!("`{shown}` has a decimal comma"), "write the decimal point: `0.5` for `0,5`")
+        (format!("`{shown}` has a decimal comma"), "use a decimal point: `0.5` instead of `0,5`")
     } else if word.contains(',') {
-        (format!("`{shown}` is not a number"), "numbers stand between spaces, without commas")
+        (format!("`{shown}` is not a number"), "separate numbers by spaces, not commas")
     } else if is_number(without_exponent(word)) {
         (
-            format!("`{shown}` is beyond the range of numbers"),
-            "magnitudes lie between 5e-324 and 1.7e308, with at most 400 digits",
+            format!("`{shown}` is outside the range of floating-point numbers"),
+            "magnitudes must be between 5e-324 and 1.7e308, with at most 400 digits",
         )
     } else {
         (
             format!("`{shown}` is not a number"),
-            "a number is written like `12`, `-0.35` or `1.5e-3`, in SI units, without the unit",
+            "write a number as `12`, `-0.35` or `1.5e-3`, in SI units, without the unit",
         )
     };
     Diagnostic::error(code::NUMBER, message).at(place, "").help(help)
@@ -144,9 +144,9 @@ mod tests {
             ("1_500", "is not a number"),
             ("1e", "is not a number"),
             ("1e5.5", "is not a number"),
-            ("1e309", "is beyond the range of numbers"),
-            ("1e-999999999", "is beyond the range of numbers"),
-            ("-2E+99999999999999999999", "is beyond the range of numbers"),
+            ("1e309", "is outside the range of floating-point numbers"),
+            ("1e-999999999", "is outside the range of floating-point numbers"),
+            ("-2E+99999999999999999999", "is outside the range of floating-point numbers"),
             ("0,5", "has a decimal comma"),
         ] {
             assert!(number(word).is_none(), "{word}");

@@ -28,7 +28,7 @@ pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Orig
     };
     let attributes = [element.attribute("xyz"), element.attribute("rpy")];
     let mut vectors = [Some(zeros()), Some(zeros())];
-    let examples = [("the origin", "0 0 0.1"), ("the angles roll, pitch and yaw", "0 0 1.57")];
+    let examples = [("the origin", "0 0 0.1"), ("the roll, pitch and yaw angles", "0 0 1.57")];
     for ((vector, attribute), (what, example)) in vectors.iter_mut().zip(&attributes).zip(examples)
     {
         if let Some(attribute) = attribute {

@@ -50,8 +50,8 @@ fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: 
     let gravity = draft.gravity.each_ref().map(|entry| entry.text().to_owned()).join(", ");
     reader.report(
         Diagnostic::note(code::TAKEN_DEFAULT, format!("gravity is [{gravity}] m/s^2"))
-            .at(&root.tag(), "in the frame of the base")
-            .because("URDF says nothing of gravity"),
+            .at(&root.tag(), "in the base frame")
+            .because("URDF does not specify gravity"),
     );
     let links = order.iter().filter_map(|index| draft.links.get(*index));
     let leading = links.filter(|link| link.joint.kind.is_some() && link.joint.mimic.is_none());
@@ -67,7 +67,7 @@ fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: 
             format!("the coordinates are {}", names.join(", ")),
         )
         .at(&root.tag(), "")
-        .because("joints are counted in the order of the file, parents before children"),
+        .because("joints are numbered in the order of the file, parents before children"),
     );
     let counts: Vec<String> = IGNORED
         .iter()
@@ -79,9 +79,9 @@ fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: 
         .collect();
     if !counts.is_empty() {
         reader.report(
-            Diagnostic::note(code::LEFT_OUT, format!("not read: {}", counts.join(", ")))
+            Diagnostic::note(code::LEFT_OUT, format!("ignored: {}", counts.join(", ")))
                 .at(&root.tag(), "")
-                .because("they say nothing of the motion; no other file is looked for"),
+                .because("they do not affect the motion; other files are not read"),
         );
     }
 }
@@ -95,7 +95,7 @@ fn fixed(draft: &Draft, link: &DraftLink) -> Diagnostic {
         carrier = next;
         if carrier.joint.kind.is_some() {
             let by = &carrier.name.name;
-            let message = format!("`{name}` is part of `{by}`; its frame keeps the name");
+            let message = format!("`{name}` is merged into `{by}`; its frame keeps its name");
             return Diagnostic::note(code::TAKEN_TOGETHER, message).at(&link.places.joint, "fixed");
         }
     }
@@ -103,32 +103,32 @@ fn fixed(draft: &Draft, link: &DraftLink) -> Diagnostic {
         Some(_) => format!("`{name}` is the base or fixed to it; its mass has no effect"),
         None => format!("`{name}` is the base or fixed to it"),
     };
-    Diagnostic::note(code::TAKEN_AS_BASE, message).at(&link.places.name, "stands still")
+    Diagnostic::note(code::TAKEN_AS_BASE, message).at(&link.places.name, "does not move")
 }
 
 fn moving(reader: &mut Reader<'_>, joint: &UrdfJoint<'_>, options: &Options) {
     let name = &joint.name.named.name;
     if joint.is_continuous && joint.mimic.is_none() {
-        let message = format!("`{name}` is one angle without limits");
+        let message = format!("`{name}` is a single angle without limits");
         reader
             .report(Diagnostic::note(code::TAKEN_COORDINATE, message).at(&joint.tag, "continuous"));
     }
     if let Some(mimic) = &joint.mimic {
-        let message = format!("`{name}` has no coordinate of its own");
+        let message = format!("`{name}` does not have a coordinate of its own");
         let motion =
-            format!("{} times that joint's position, plus {}", mimic.multiplier, mimic.offset);
+            format!("{} times the position of that joint, plus {}", mimic.multiplier, mimic.offset);
         reader.report(
             Diagnostic::note(code::TAKEN_COORDINATE, message)
                 .at(&mimic.joint.span, motion)
-                .because("the torque of the joint that leads drives both"),
+                .because("the torque of the leading joint drives both"),
         );
     }
     if let Some(dynamics) = joint.dynamics.as_ref().filter(|_| options.friction) {
-        let message = format!("the friction of `{name}` is part of the robot");
+        let message = format!("the friction of `{name}` is included");
         reader.report(
             Diagnostic::note(code::TAKEN_DEFAULT, message)
                 .at(&dynamics.span, dynamics.figures())
-                .because("damping is viscous friction, friction is constant dry friction"),
+                .because("damping is viscous friction, friction is constant Coulomb friction"),
         );
     }
 }

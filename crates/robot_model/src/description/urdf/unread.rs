@@ -48,12 +48,12 @@ fn limits(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     }
     for (name, spans) in kinds {
         let count = counted(spans.len(), "joint");
-        let message = format!("{count}: `{name}` of `<limit>` is not read");
+        let message = format!("{count}: `{name}` of `<limit>` is ignored");
         let diagnostic = Diagnostic::note(code::LEFT_OUT, message);
         reader.report(
             diagnostic
                 .at(spans.first().copied().unwrap_or(&(0..0)), "")
-                .because("nothing here bounds forces and rates"),
+                .because("limits on forces and rates are not used here"),
         );
     }
 }
@@ -67,10 +67,13 @@ fn friction(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     reader.report(
         Diagnostic::note(code::LEFT_OUT, message)
             .at(&first.span, first.figures())
-            .because("torques are those of the bodies alone")
-            .help("`robot-symbolic import --friction` takes it into the robot file"),
+            .because("the torques do not include it")
+            .help("the import option `friction` takes it into the robot file"),
     );
-    reader.left_out.push(format!("the friction of {count} (`import --friction` takes it)"));
+    reader.left_out.push(format!(
+        "the friction of {count} (the import option `friction` includes \
+        it)"
+    ));
 }
 
 /// Gears and motors.
@@ -81,8 +84,8 @@ fn drives(reader: &mut Reader<'_>, places: &[Span]) {
     reader.report(
         Diagnostic::note(code::LEFT_OUT, message)
             .at(first, "")
-            .because("torques are those at the joints, of drives without inertia")
-            .help("give a link of the imported robot file a `drive`"),
+            .because("the torques are joint torques without drive inertia")
+            .help("add a `drive` to the link in the imported robot file"),
     );
     reader.left_out.push(format!("the drives of {count}"));
 }
@@ -91,12 +94,11 @@ fn drives(reader: &mut Reader<'_>, places: &[Span]) {
 fn simulated(reader: &mut Reader<'_>, places: &[Span]) {
     let Some(first) = places.first() else { return };
     let count = counted(places.len(), "Gazebo element");
-    let message = format!("{count}: gravity, springs and damping there are not part of the robot");
-    reader.report(
-        Diagnostic::note(code::LEFT_OUT, message)
-            .at(first, "")
-            .because("they are for a simulator; here gravity acts on every body, and no spring"),
-    );
+    let message = format!("{count}: gravity, springs and damping in it are not part of the robot");
+    reader.report(Diagnostic::note(code::LEFT_OUT, message).at(first, "").because(
+        "they are meant for a simulator; here gravity acts on every body, and there \
+                are no springs",
+    ));
     reader.left_out.push(format!("gravity, springs or damping of {count}"));
 }
 

@@ -35,7 +35,7 @@ fn words(text: &str, error: &Error) -> Diagnostic {
         Error::UnknownNamespace(prefix, _) if prefix == "xacro" => template(&place),
         Error::UnknownNamespace(prefix, _) => {
             syntax(format!("the prefix `{}` is not declared", quote(prefix)))
-                .help("declare it in the first element: xmlns:prefix=\"…\", or take it away")
+                .help("declare it in the root element: xmlns:prefix=\"…\", or remove it")
         }
         Error::UnexpectedCloseTag(expected, found, _) => {
             syntax(format!("`</{}>` closes `<{}>`", quote(found), quote(expected)))
@@ -45,28 +45,30 @@ fn words(text: &str, error: &Error) -> Diagnostic {
             syntax(format!("the attribute `{}` is given twice", quote(name)))
                 .help("keep one of them")
         }
-        Error::DtdDetected => syntax("the file has a document type: `<!DOCTYPE …>`".to_owned())
-            .because("such definitions can load files and blow up small texts")
-            .help("take it away"),
+        Error::DtdDetected => {
+            syntax("the file has a document type declaration: `<!DOCTYPE …>`".to_owned())
+                .because("document types can load files and expand to enormous texts")
+                .help("remove it")
+        }
         Error::UnclosedRootNode | Error::UnexpectedEndOfStream => {
-            syntax("the file ends within an element".to_owned())
+            syntax("the file ends inside an element".to_owned())
                 .help("close every element: `</robot>` at the end")
         }
         Error::NoRootNode => syntax("the file has no elements".to_owned())
-            .help("a robot is described in `<robot name=\"arm\"> … </robot>`"),
+            .help("describe the robot in `<robot name=\"arm\"> … </robot>`"),
         Error::UnknownEntityReference(name, _) => {
-            syntax(format!("`&{};` means nothing here", quote(name)))
+            syntax(format!("`&{};` is not a known entity", quote(name)))
                 .help("write the character, or `&amp;`, `&lt;`, `&gt;`, `&quot;`, `&apos;`")
         }
         Error::MalformedEntityReference(_) => {
-            syntax("`&` stands alone".to_owned()).help("write the character `&` as `&amp;`")
+            syntax("`&` is not escaped".to_owned()).help("write the character `&` as `&amp;`")
         }
         Error::DuplicatedNamespace(name, _) => {
             syntax(format!("the prefix `{}` is declared twice", quote(name)))
                 .help("keep one of the declarations")
         }
-        other => syntax(format!("this is not XML: {}", without_place(other)))
-            .help("an element is written `<name attribute=\"value\"/>`"),
+        other => syntax(format!("invalid XML: {}", without_place(other)))
+            .help("write an element as `<name attribute=\"value\"/>`"),
     }
 }
 
@@ -78,11 +80,14 @@ fn without_place(error: &Error) -> String {
 /// The file is a template.
 pub(super) fn template(place: &Span) -> Diagnostic {
     Diagnostic::error(code::XACRO, "the file is a xacro template, not a robot")
-        .at(place, "to be expanded")
-        .because("templates are programs: they read files and compute; none is run here")
+        .at(place, "not expanded")
+        .because(
+            "templates are programs that read files and compute; this program does not run \
+            them",
+        )
         .help(
-            "expand it and read the result: `xacro robot.urdf.xacro > robot.urdf` (of ROS, or \
-             `pip install xacro`)",
+            "expand it and read the result: `xacro robot.urdf.xacro > robot.urdf` (part of ROS, \
+             or `pip install xacro`)",
         )
 }
 
