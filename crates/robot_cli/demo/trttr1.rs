@@ -4,17 +4,17 @@
 ///
 /// TRTTR1 modular serial robot: translation, rotation, two translations, rotation. Symbols as in the paper; nominal values are plausible figures of a gantry arm of that size.
 ///
-/// - SI units, angles in radians; right-handed frames. A link's frame is its parent's frame, displaced as the robot file says, then moved by the joint.
-/// - Roll, pitch and yaw turn about fixed axes: R = Rz(yaw) Ry(pitch) Rx(roll).
-/// - Gravity is the acceleration of gravity: it points down.
-/// - Inertia tensors are about the centre of mass, in link axes unless the file says otherwise.
-/// - A tip's wrench is what the tip exerts on its surroundings, in the tip's axes, the moment about its origin: a hanging mass m with the axes upright is force z = +m g.
-/// - Armature, rotor inertia and gear ratio are three figures; the reflected inertia is armature + ratio² · rotor inertia.
-/// - Friction is b q̇ + c (d/2) F sgn q̇ for a rotation and b q̇ + c F sgn q̇ for a translation, where F is the size of the contact force across the axis and sgn 0 = 0.
+/// - SI units, angles in radians; right-handed frames. A link frame is the parent frame, displaced as given in the robot file and then moved by the joint.
+/// - Roll, pitch and yaw are rotations about fixed axes: R = Rz(yaw) Ry(pitch) Rx(roll).
+/// - The gravity vector is the acceleration of gravity: it points down.
+/// - Inertia tensors are about the center of mass, in link axes unless the file says otherwise.
+/// - A tip's wrench is the wrench that the tip exerts on its surroundings, in the tip's axes, with the moment about the tip's origin; the external wrench, which acts on the tip, is its negative. With upright axes, a mass m that hangs from the tip is force z = +m g.
+/// - Armature, rotor inertia and gear ratio are separate values; the reflected inertia is armature + ratio² · rotor inertia.
+/// - Friction is b q̇ + c (d/2) F sgn q̇ for a revolute joint and b q̇ + c F sgn q̇ for a prismatic joint, where F is the magnitude of the contact force across the axis and sgn 0 = 0.
 ///
-/// More functions are generated where they are chosen, with `functions = ["…"]` in `[code]` of the robot file or in the macro, `.functions(["…"])` of the builder, `--function` of the command; `"all"` chooses all. This robot has besides:
+/// Other functions can be generated too: list them with `functions = ["…"]` in `[code]` of the robot file or in the macro, `.functions(["…"])` in the builder, or the command's option for functions; `"all"` selects all. Also available for this robot:
 /// `inverse_dynamics_wrench`, `inverse_dynamics_friction`, `inverse_dynamics_wrench_friction`, `link_wrenches`, `mass_matrix`, `bias`, `gravity`, `forward_dynamics`, `forward_dynamics_wrench`, `forward_dynamics_friction`, `forward_dynamics_wrench_friction`, `forward_kinematics`, `frame_poses`, `jacobian`, `jacobian_dot_qd`, `energies`, `coriolis_matrix`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`, `regressor`, `regressor_base`, `base_parameters`.
-/// - Angles are below 2³⁰ = 1073741824 rad, in f32 below 2¹⁷ = 131072 rad: from there on their sines and cosines, and what is computed with them, are NaN. Take whole turns off angles that grow without end.
+/// - Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for larger angles the sines and cosines, and everything computed from them, are NaN. Wrap angles that grow without bound.
 #[allow(
     dead_code,
     non_snake_case,
@@ -37,9 +37,9 @@
 pub mod trttr1 {
     /// The robot's name.
     pub const ROBOT: &str = "TRTTR1";
-    /// The number of generalised coordinates.
+    /// The number of generalized coordinates.
     pub const DOF: usize = 5;
-    /// The names of the joints, in the order of the generalised coordinates.
+    /// The names of the joints, in the order of the generalized coordinates.
     pub const JOINT_NAMES: [&str; 5] = ["1", "2", "3", "4", "5"];
     /// The parameters of trttr1.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,7 +172,7 @@ pub mod trttr1 {
             Self::NOMINAL
         }
     }
-    /// The model trttr1: what depends on its parameters alone, computed once.
+    /// The model trttr1: everything that depends only on its parameters, computed once.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Model {
         k1: f64,
@@ -190,7 +190,7 @@ pub mod trttr1 {
     impl Model {
         /// The model with the nominal parameters.
         pub const NOMINAL: Model = Model::new(&Parameters::NOMINAL);
-        /// Computes what depends on the parameters alone.
+        /// Computes everything that depends only on the parameters.
         ///
         /// 8 multiplications, 20 additions.
         #[must_use]
@@ -239,14 +239,14 @@ pub mod trttr1 {
         }
     }
     impl Model {
-        /// Inverse dynamics: the generalised driving forces Q that bring about the accelerations `qdd`, M q̈ + C q̇ + g.
+        /// Inverse dynamics: the joint torques τ (generalized forces Q) that produce the accelerations `qdd`: M q̈ + C q̇ + g.
         /// Without friction.
         ///
-        /// - `q`: Joint positions, in rad; m for the translations at \[0\], \[2\], \[3\].
-        /// - `qd`: Joint velocities, in rad/s; m/s for the translations at \[0\], \[2\], \[3\].
-        /// - `qdd`: Joint accelerations, in rad/s²; m/s² for the translations at \[0\], \[2\], \[3\].
+        /// - `q`: Joint positions, in rad; m for the prismatic joints at \[0\], \[2\], \[3\].
+        /// - `qd`: Joint velocities, in rad/s; m/s for the prismatic joints at \[0\], \[2\], \[3\].
+        /// - `qdd`: Joint accelerations, in rad/s²; m/s² for the prismatic joints at \[0\], \[2\], \[3\].
         ///
-        /// Returns Generalised driving forces, in N m; N for the translations at \[0\], \[2\], \[3\].
+        /// Returns Joint torques, in N m; N for the prismatic joints at \[0\], \[2\], \[3\].
         ///
         /// 32 multiplications, 20 additions, 2 sines, 2 cosines.
         #[inline]
@@ -261,7 +261,7 @@ pub mod trttr1 {
             let (s, c) = ::robot_runtime::sin_cos_array(&[q2, q5]);
             self.inverse_dynamics_sc(&s, &c, q, qd, qdd)
         }
-        /// `inverse_dynamics` with the sines `s` and cosines `c` of its angles given.
+        /// `inverse_dynamics`, given the sines `s` and cosines `c` of its angles.
         ///
         /// The angles: `q2`, `q5`.
         #[inline]

@@ -56,8 +56,8 @@ fn in_form(robot: &Robot, form: Form, found: &Equations) -> Vec<Element> {
     let count: usize = all.map(|equation| terms(equation.right.pieces()).count()).sum();
     if count > MAX_TERMS {
         return vec![note(&format!(
-            "This form has {count} terms and is too long for this page; print the equations in \
-             the form `{}` by themselves.",
+            "This form has {count} terms and is too long for this page; print it separately \
+             (form `{}`).",
             form.name()
         ))];
     }

@@ -16,8 +16,8 @@ pub enum Error {
     Robot(#[from] Errors),
     /// A robot too long for a page.
     #[error(
-        "{name} has {count} coordinates, but a page covers at most {MOST_COORDINATES}; print its \
-         equations in the form `recursive`, and count its operations, by themselves"
+        "{name} has {count} coordinates, but a page covers at most {MOST_COORDINATES}; print the \
+         equations (form `recursive`) and count the operations separately"
     )]
     TooManyCoordinates {
         /// The robot.

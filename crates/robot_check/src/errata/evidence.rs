@@ -32,7 +32,7 @@ pub enum Evidence {
     UnknownSymbol(String),
 }
 
-/// `has units kg m s^-1; a force has kg m s^-2: a time derivative is missing`
+/// `has units kg m s^-1, but a force has kg m s^-2: a time derivative is missing`
 impl fmt::Display for Evidence {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -43,7 +43,7 @@ impl fmt::Display for Evidence {
                     Dimension::MOMENT => "a torque",
                     _ => "its equation",
                 };
-                write!(formatter, "has units {printed}; {what} has {expected}")?;
+                write!(formatter, "has units {printed}, but {what} has {expected}")?;
                 let same = (printed.mass, printed.length) == (expected.mass, expected.length);
                 match i16::from(expected.time) - i16::from(printed.time) {
                     -1 if same => write!(formatter, ": a time derivative is missing"),

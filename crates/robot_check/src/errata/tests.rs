@@ -162,13 +162,16 @@ fn terms_that_are_no_torque_are_told() {
     let evidence = |wrong: &str| -> Vec<String> {
         spoilt(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
     };
-    let dot = "has units kg m^2 s^-1; a torque has kg m^2 s^-2: a time derivative is missing";
+    let dot = "has units kg m^2 s^-1, but a torque has kg m^2 s^-2: a time derivative is missing";
     assert_eq!(evidence("+ m2*l1*r2*cos(q2)*qd1"), [dot]);
-    assert_eq!(evidence("+ m2*l1*cos(q2)*qdd1"), ["has units kg m s^-2; a torque has kg m^2 s^-2"]);
+    assert_eq!(
+        evidence("+ m2*l1*cos(q2)*qdd1"),
+        ["has units kg m s^-2, but a torque has kg m^2 s^-2"]
+    );
     assert_eq!(evidence("+ k*l1*r2*cos(q2)*qdd1"), ["the robot does not have the symbol k"]);
     // Where more than the time is wrong it is not a matter of dots.
     for (wrong, dimension) in [("qd1", "kg^2 m^2 s^-1"), ("qd1*qdd1", "kg^2 m^2 s^-3")] {
-        let expected = format!("has units {dimension}; a torque has kg m^2 s^-2");
+        let expected = format!("has units {dimension}, but a torque has kg m^2 s^-2");
         assert_eq!(evidence(&format!("+ m1*m2*l1*r2*cos(q2)*{wrong}")), [expected]);
     }
     let mut nameless = robot("planar_2r");

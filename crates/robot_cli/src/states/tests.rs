@@ -42,7 +42,7 @@ fn everything_that_is_wrong_with_json_is_named() {
     let expected = [
         "state 1: `q` has a text at entry 2, not a number",
         "state 1: `qd` has 1 entries, not 2",
-        "state 1: there is no key `qdt`. Did you mean `qd`? There are q, qd, qdd, tau, wrench.",
+        "state 1: there is no key `qdt`. Did you mean `qd`? Available: q, qd, qdd, tau, wrench.",
         "state 2: expected an object, not a number",
         "state 3: `q` is a number, not an array of 2 numbers",
         "state 3: `qd` has null at entry 1, not a number",
@@ -62,7 +62,7 @@ fn everything_that_is_wrong_with_json_is_named() {
 fn everything_that_is_wrong_with_csv_is_named() {
     let header = errors("q1,q3,q1\n");
     assert!(header[0].contains("there is no column `q3`. Did you mean `q1`?"), "{header:?}");
-    assert_eq!(header[1..], ["the header has `q1` twice", "the header lacks q2 of `q`"]);
+    assert_eq!(header[1..], ["`q1` appears twice in the header", "the header lacks q2 of `q`"]);
     let found = errors("q1,q2\n1,nan\n1\n2,\n");
     let expected = [
         "line 2: `q2` is `nan`, not a number",

@@ -125,7 +125,7 @@ fn every_difference_of_the_paper_has_one_grade_and_the_grade_its_reason() {
         assert_eq!((equation, printed, derived), (&*name, &*term("printed"), &*term("derived")));
 
         let evidence = difference["evidence"].as_array().unwrap();
-        let wrong = evidence.iter().any(|one| text(one).starts_with("not a "));
+        let wrong = evidence.iter().any(|one| text(one).starts_with("has units "));
         assert_eq!(dimension, if wrong { "yes" } else { "—" }, "{row:?}");
         let mistakes = difference["slips"].as_array().unwrap();
         let [mistake] = &mistakes[..] else { panic!("{mistakes:?}") };

@@ -102,7 +102,7 @@ fn parameters_without_a_value_have_to_be_set() {
     let states = json!([{"q": [0.0]}]).to_string();
     let gravity = ["eval", file, "--function", "gravity", "--states", "-", "--set", "m=2"];
     let told = complaint(1, &gravity, &states);
-    assert!(told.contains("`l` has no nominal value: give one, --set l=…"), "{told}");
+    assert!(told.contains("`l` does not have a nominal value: set it with --set l=…"), "{told}");
     assert!(!told.contains("`m`"), "{told}");
     let shown: Value =
         serde_json::from_str(&output(&[&gravity[..], &["--set", "l=0.5"]].concat(), &states))
@@ -185,7 +185,7 @@ fn everything_that_is_wrong_is_said_at_once() {
         lines[2].starts_with("error: standard input: state 2: there is no key `tip`"),
         "{shown}"
     );
-    assert_eq!(lines[3], "error: state 1: `qdd` is missing; inverse_dynamics takes it");
+    assert_eq!(lines[3], "error: state 1: `qdd` is missing; inverse_dynamics needs it");
     assert_eq!(lines.len(), 4);
 }
 
@@ -203,7 +203,7 @@ fn a_robot_without_a_tip_takes_no_wrench() {
     run_with(&arguments, state.to_string().as_bytes());
     let state = json!([{"q": zero, "qd": zero, "qdd": zero, "wrench": [1, 0, 0, 0, 0, 0]}]);
     let shown = complaint(1, &arguments, &state.to_string());
-    assert!(shown.contains("state 1: a wrench, but the robot has no tip"), "{shown}");
+    assert!(shown.contains("state 1: has a wrench, but the robot has no tip"), "{shown}");
 }
 
 #[test]
@@ -300,7 +300,7 @@ fn an_angle_that_has_no_sine_is_the_reason() {
     let states = r#"[{"q": [0, 2e9], "qd": [0, 0], "tau": [1, 1]}]"#;
     let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];
     let shown = complaint(1, &arguments, states);
-    assert!(shown.contains("q2 = 2000000000 rad (joint `2`) is beyond the angles"), "{shown}");
+    assert!(shown.contains("q2 = 2000000000 rad (joint `2`) is outside the range of the program"), "{shown}");
     assert!(!shown.contains("singular"), "{shown}");
     output(&[&arguments[..], &["--trigonometry", "standard"]].concat(), states);
     let shown = complaint(1, &["simulate", &file, "--q0", "0,2e9"], "");

@@ -120,7 +120,7 @@ fn files_of_others_are_replaced_with_force_alone_and_own_ones_without() {
         fs::write(&path, mine).unwrap();
         let outcome = write(&[]);
         assert_eq!((outcome.code, outcome.output.as_str()), (1, ""), "{line} {name}");
-        assert!(outcome.errors.contains("is not replaced: it has"), "{}", outcome.errors);
+        assert!(outcome.errors.contains("is not replaced: it does not "), "{}", outcome.errors);
         assert!(outcome.errors.contains("--force"), "{}", outcome.errors);
         assert_eq!(fs::read_to_string(&path).unwrap(), mine, "{line} {name}");
         assert_eq!(write(&["--force"]).code, 0, "{line} {name}");

@@ -93,7 +93,7 @@ fn a_trunk_that_stands_still_is_a_warning_everywhere() {
     ];
     for arguments in commands {
         let shown = run(arguments).errors;
-        let expected = "warning[R0617]: the base of 5 kg stands still, and 2 branches move on it";
+        let expected = "warning[R0617]: the base of 5 kg is fixed, and 2 branches move on it";
         assert!(shown.contains(expected), "{arguments:?}: {shown}");
     }
     // The base of an arm is what it always was.
@@ -243,7 +243,7 @@ fn values_that_are_not_finite_are_told_by_their_cause() {
     let states = r#"[{"q": [0.1, 0.2, 0.3], "qd": [0, 0, 0], "tau": [1, 1, 1]},
                      {"q": [0.1, 0, 0.3], "qd": [0, 0, 0], "tau": [1, 1, 2]}]"#;
     let shown = complaint(1, &arguments, states);
-    assert!(shown.contains("state 2: `qdd` has no finite value at entry"), "{shown}");
+    assert!(shown.contains("state 2: `qdd` does not have a finite value at entry"), "{shown}");
     assert!(shown.contains("the mass matrix is singular at this state"), "{shown}");
     assert!(
         shown.contains("q1 = 0.1 (joint `a`)") && shown.contains("q3 = 0.3 (joint `c`)"),

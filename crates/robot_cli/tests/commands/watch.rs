@@ -112,7 +112,7 @@ fn a_watch_that_ends_without_a_robot_says_so() {
     let mut watch = Watch::new("watch_broken");
     watch.wait_for("planar_2r: 2 coordinates");
     std::fs::remove_file(&watch.file).unwrap();
-    watch.wait_for("there is no robot; that of the start stands");
+    watch.wait_for("the file has errors; keeping the robot from the start");
     assert_eq!(watch.end(), Some(1));
 }
 

@@ -328,7 +328,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         }
         if let [output] = function.outputs.as_slice() {
             let meaning = common::quantity(&output.doc, &output.name, &output.unit, &output.shape);
-            lines.extend([String::new(), format!("Returns {meaning}")]);
+            lines.extend([String::new(), format!("Returns: {meaning}")]);
         }
         let counts = self.scope.module.counts(function);
         lines.extend([String::new(), format!("{}.", common::operations(&counts.call))]);
