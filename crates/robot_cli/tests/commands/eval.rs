@@ -300,7 +300,10 @@ fn an_angle_that_has_no_sine_is_the_reason() {
     let states = r#"[{"q": [0, 2e9], "qd": [0, 0], "tau": [1, 1]}]"#;
     let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];
     let shown = complaint(1, &arguments, states);
-    assert!(shown.contains("q2 = 2000000000 rad (joint `2`) is outside the range of the program"), "{shown}");
+    assert!(
+        shown.contains("q2 = 2000000000 rad (joint `2`) is outside the range of the program"),
+        "{shown}"
+    );
     assert!(!shown.contains("singular"), "{shown}");
     output(&[&arguments[..], &["--trigonometry", "standard"]].concat(), states);
     let shown = complaint(1, &["simulate", &file, "--q0", "0,2e9"], "");
