@@ -96,6 +96,12 @@ fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
     diagnostic
 }
 
+fn negative_mass(mass: f64) -> Diagnostic {
+    Diagnostic::error(code::MASS, format!("the mass is {mass} kg"))
+        .because("a body cannot have such a mass: the equations become singular or unstable")
+        .help("correct the value")
+}
+
 /// Reports what no body can be. `own` says that the body is of the moving link itself; `vertical`
 /// is its joint axis where nothing but the moment about it acts.
 fn judge_body(
@@ -108,14 +114,7 @@ fn judge_body(
     let of_mass = inertial.place.mass.clone().unwrap_or_default();
     let of_tensor = inertial.place.inertia.clone().unwrap_or_default();
     if inertial.mass < 0.0 {
-        reader.report(
-            Diagnostic::error(code::MASS, format!("the mass is {} kg", inertial.mass))
-                .at(&of_mass, "below 0")
-                .because(
-                    "a body cannot have such a mass: the equations become singular or unstable",
-                )
-                .help("correct the value"),
-        );
+        reader.report(negative_mass(inertial.mass).at(&of_mass, "below 0"));
     }
     if inertial.mass == 0.0 && !inertial.is_empty() {
         let moment = vertical.and_then(|axis| alone_about(inertial, &axis));
