@@ -449,7 +449,7 @@ fn names_of_joint_variables_have_one_place() {
             let names = |name: &&str| {
                 line.contains(&format!("\"{name}\"")) || line.contains(&format!("\"{name}{{"))
             };
-            if NAMES.iter().any(|name| names(name)) {
+            if NAMES.iter().any(names) {
                 wrong.push(format!("{shown}:{}: {}", number + 1, line.trim()));
             }
         }
