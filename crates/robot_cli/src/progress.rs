@@ -1,4 +1,4 @@
-//! How far a long run has come, on a terminal.
+//! The progress of a long run, on a terminal.
 
 use std::io::Write;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -10,12 +10,12 @@ use crate::Terminal;
 /// run takes longer than a second.
 pub(crate) struct Progress<'e> {
     errors: Option<&'e mut dyn Write>,
-    /// When it is next shown.
+    /// The time of the next output.
     next: Instant,
     shown: bool,
 }
 
-/// How long a run is watched in silence.
+/// The time for which a run shows nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// The time from one line to the next.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -38,7 +38,7 @@ impl<'e> Progress<'e> {
     }
 }
 
-/// Does work that tells nothing of its progress; shows how long it takes.
+/// Does work that reports no progress; shows how long it takes.
 pub(crate) fn watched<T: Send>(
     what: &str,
     terminal: &mut Terminal<'_>,
@@ -76,7 +76,7 @@ impl Drop for Progress<'_> {
 mod tests {
     use super::*;
 
-    /// What is shown of two seconds' work.
+    /// The output of two seconds' work.
     fn shown(progress: bool) -> String {
         let (mut output, mut errors) = (vec![], vec![]);
         let mut terminal = Terminal {

@@ -113,7 +113,7 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// What was done to angles near multiples of π/2, and what larger tolerances would do.
+/// Describes how angles near multiples of π/2 were snapped, and the effect of larger tolerances.
 pub(crate) fn snapping(snapping: &Snapping) -> String {
     let Snapping { taken, larger } = snapping;
     let mut text = format!(

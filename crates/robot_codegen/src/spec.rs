@@ -1,4 +1,4 @@
-//! What is to become code: named expressions over named inputs and parameters.
+//! The specification of code: named expressions over named inputs and parameters.
 //!
 //! Documentation is Markdown of the caller's own, printed as it is: text that the caller does not control, a
 //! remark of a robot file, goes through [`markdown`](crate::backend::common::markdown) before it becomes part of

@@ -70,7 +70,7 @@ impl Arguments {
     ///
     /// # Errors
     ///
-    /// Each name that is no function's, at its place.
+    /// Each name that is not a function's, at its place.
     pub(crate) fn options_for(&self, robot: &Robot) -> syn::Result<Options> {
         let mut options = self.options.clone();
         if let Some(names) = &self.functions {

@@ -5,7 +5,7 @@ mod expand;
 
 use proc_macro::TokenStream;
 
-/// Generates the module of a robot file where the macro stands.
+/// Generates the module of a robot file in place of the macro call.
 ///
 /// ```ignore
 /// robot_macros::include_robot!("robots/trttr1.toml");

@@ -15,7 +15,7 @@ pub const LINK_PARAMETERS: usize = 10;
 pub struct Robot {
     /// The robot's name, an identifier.
     pub name: String,
-    /// What the file says about itself: source of the figures, remarks.
+    /// The file's description: source of the values, remarks.
     pub description: Option<String>,
     /// Acceleration of gravity in the base frame, m/s²: it points down.
     pub gravity: [Formula; 3],
@@ -89,9 +89,9 @@ pub struct Parameter {
     pub value: Option<Rational>,
     /// The unit; `None` if the file gives none.
     pub unit: Option<Unit>,
-    /// How LaTeX prints it, from a small checked grammar.
+    /// Its LaTeX, from a small checked grammar.
     pub latex: Option<String>,
-    /// What it means, in the file's words.
+    /// Its meaning, in the file's words.
     pub doc: Option<String>,
 }
 
@@ -237,7 +237,7 @@ impl Placement {
     }
 }
 
-/// Friction in a joint; all figures 0 where the file has none.
+/// Friction in a joint; all values are 0 if the file has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
     /// b of equation (4), N m s/rad or N s/m.
@@ -248,7 +248,7 @@ pub struct Friction {
     pub spindle_diameter: Formula,
     /// Constant dry friction for positive velocities, N m or N.
     pub coulomb_positive: Formula,
-    /// Constant dry friction for negative velocities, N m or N, given as a positive figure.
+    /// Constant dry friction for negative velocities, N m or N, as a positive value.
     pub coulomb_negative: Formula,
     /// Constant offset, N m or N.
     pub offset: Formula,
@@ -256,7 +256,7 @@ pub struct Friction {
     pub smoothing: Option<Formula>,
 }
 
-/// The drive's inertia; all figures 0 where the file has none.
+/// The drive's inertia; all values are 0 if the file has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Inertia already reflected to the joint, kg m² or kg.
@@ -322,7 +322,7 @@ pub struct Wrench {
     pub force: [String; 3],
     /// Moment, N m.
     pub moment: [String; 3],
-    /// How LaTeX prints the components, force first, where the file says so.
+    /// The LaTeX of the components, force first, if the file has it.
     pub latex: [Option<String>; 6],
 }
 

@@ -13,7 +13,7 @@ use super::{
     spatial::{cross_force, cross_motion, cross_on, rigid_body_inertia},
 };
 
-/// What the links outside a joint contribute, gathered inwards.
+/// The contribution of the links outside a joint, gathered inwards.
 struct Composite {
     inertia: Matrix6<f64>,
     coriolis: Matrix6<f64>,

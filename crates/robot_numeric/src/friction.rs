@@ -8,7 +8,7 @@ use super::{
     newton_euler::LinkDynamics,
 };
 
-/// How the sign of a velocity is taken.
+/// The form of the sign of a velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Sign {
     /// sgn q̇, with sgn 0 = 0.
@@ -40,7 +40,7 @@ pub struct Friction {
     pub constant: [f64; 2],
     /// A force or torque that is always there, o, in N m or N.
     pub offset: f64,
-    /// How the sign of the velocity is taken.
+    /// The form of the sign of the velocity.
     pub sign: Sign,
 }
 

@@ -51,7 +51,7 @@ fn place<T: Number>(link: &Link, q: &[T]) -> Pose<T> {
     link.placement.cast().then(&motion)
 }
 
-/// Where everything is, in the base frame.
+/// The poses of all links and frames, in the base frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placements {
     /// Placement of each link frame.

@@ -1,7 +1,7 @@
 //! The numeric recursive solver: rigid-body dynamics in 6-D spatial vectors on numbers from the
 //! start, after R. Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008.
 //!
-//! It shares nothing with the symbolic derivations of this project, so that it can judge them: the
+//! It is independent of the symbolic derivations of this project, so that it can judge them: the
 //! project's tests hold every generated function against it. It is written for trust, not for
 //! speed.
 //!

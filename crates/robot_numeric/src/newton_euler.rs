@@ -68,7 +68,7 @@ pub(super) fn inward<T: Number>(
     forces
 }
 
-/// What each link exerts on its surroundings through the frames that it carries, in link
+/// The wrench that each link exerts on its surroundings through the frames that it carries, in link
 /// coordinates.
 pub(super) fn exerted<T: Number>(mechanism: &Mechanism, wrenches: &[Wrench]) -> Vec<Vector6<T>> {
     let mut forces = vec![Vector6::zeros(); mechanism.links().len()];
@@ -121,10 +121,10 @@ pub(super) fn wrench_length(
     ("wrenches", expected, wrenches.len())
 }
 
-/// What acts on the mechanism beside gravity.
+/// The loads on the mechanism besides gravity.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Loads {
-    /// What each frame exerts on its surroundings: one wrench for each frame, or none at all.
+    /// The wrench that each frame exerts on its surroundings: one for each frame, or none at all.
     pub wrenches: Vec<Wrench>,
     /// Whether the friction in the joints counts.
     pub friction: bool,

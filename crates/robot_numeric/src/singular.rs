@@ -1,4 +1,4 @@
-//! Where the mass matrix is singular: which accelerations no joint torques determine.
+//! Singular mass matrices: which accelerations no joint torques determine.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 

@@ -41,7 +41,7 @@ pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
     body
 }
 
-/// What the equations are.
+/// The form of the equations.
 const WORDS: &str = "The driving forces Q, by the joints' coordinates, velocities and accelerations. Each \
     term points at the links and parameters that it comes from, and at the definitions of the symbols in \
     it: point at a term, or go to it by the tabulator and the arrows.";
@@ -69,7 +69,7 @@ fn in_form(robot: &Robot, form: Form, found: &Equations) -> Vec<Element> {
     found.groups.iter().flat_map(|group| sources.group(group)).collect()
 }
 
-/// What symbols stand for.
+/// The meaning of symbols.
 struct Sources<'r> {
     robot: &'r Robot,
     form: Form,
@@ -118,7 +118,7 @@ impl Sources<'_> {
         shown.attribute("data-of", tokens.join(" ")).attribute("tabindex", stop)
     }
 
-    /// What a symbol comes from.
+    /// The origin of a symbol.
     fn tokens(&self, name: &str) -> Vec<String> {
         let parameter = self.robot.parameter(name).is_some();
         if !parameter && self.names.contains(&name) {

@@ -39,14 +39,14 @@ use page::{Section, page};
 use reload::Stamp;
 use structure::Structure;
 
-/// What a page is made of.
+/// The ingredients of a page.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {
     /// The robot file.
     pub source: &'a Source,
-    /// How its code is made; the page chooses the functions.
+    /// The options of making its code; the page chooses the functions.
     pub options: &'a Options,
-    /// What the compiler made of the code.
+    /// The evidence from the compiler.
     pub compiled: &'a Compiled,
     /// Holds the programs against an independent solver, or says why it cannot.
     pub judge: fn(&Programs) -> Result<Accuracy, String>,
@@ -55,7 +55,7 @@ pub struct Input<'a> {
 /// The function whose costs are taken apart.
 const FUNCTION: FunctionKind = FunctionKind::InverseDynamics(Effects::NONE);
 
-/// The functions whose costs are told.
+/// The functions whose costs are shown.
 const FUNCTIONS: [FunctionKind; 9] = [
     FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::InverseDynamics(Effects::WRENCH),
@@ -86,15 +86,15 @@ pub struct Reloading {
     /// An SVG picture. It belongs beside the page, under the page's name with `.svg` after it, and is to
     /// be written after the page.
     pub stamp: String,
-    /// The same page without what reloads it, as [`report`] gives it.
+    /// The page of [`report`] without the script that reloads it.
     pub still: String,
 }
 
-/// As [`report`], of a page that reloads itself when another is written in its place.
+/// The page of [`report`] with a script that reloads it when another is written in its place.
 ///
 /// # Errors
 ///
-/// As [`report`].
+/// The errors of [`report`].
 pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
     let (robot, sections) = sections(input)?;
     let still = page(&robot, sections.clone(), None);
@@ -136,7 +136,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
     Ok((robot, sections))
 }
 
-/// What the scheme shows.
+/// The content of the scheme.
 const CAPTION: &str = "The robot at q = 0. Cylinders turn about their axes, boxes slide in their \
     guides; the arrow of an axis points where its coordinate grows to. Directions are the robot's own; \
     short offsets are drawn longer, and joints that share a point are drawn apart, along a dotted line.";
@@ -159,7 +159,7 @@ fn parameters(robot: &Robot, symbols: &Symbols) -> Section {
     Section { id: "parameters", title: "Parameters", body: vec![body] }
 }
 
-/// What the grids show.
+/// The content of the grids.
 const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked const \
     depend on parameters alone. An entry counts as independent of a coordinate where no other value of \
     it changes the entry, at random values of all symbols, parameters included.";

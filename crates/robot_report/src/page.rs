@@ -10,7 +10,7 @@ use crate::reload::Stamp;
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
-/// That of a page which reloads itself.
+/// The script of a page that reloads itself.
 const RELOAD: &str = include_str!("reload.js");
 
 /// A section of the page.
@@ -20,7 +20,7 @@ pub(crate) struct Section {
     pub(crate) id: &'static str,
     /// Its heading.
     pub(crate) title: &'static str,
-    /// What is in it.
+    /// Its content.
     pub(crate) body: Vec<Node>,
 }
 
@@ -112,7 +112,7 @@ fn footer() -> Element {
 mod tests {
     use super::*;
 
-    /// Style and script stand in the page as they are: nothing in them may be markup.
+    /// Style and script are in the page unescaped: nothing in them may be markup.
     #[test]
     fn style_and_script_have_no_signs_of_markup() {
         for own in [STYLE, SCRIPT, RELOAD] {

@@ -10,7 +10,7 @@ use crate::text;
 pub(crate) struct Plot<'a> {
     /// Its number on the page, for anchors.
     pub(crate) number: usize,
-    /// What it shows.
+    /// Its content.
     pub(crate) title: String,
     /// The unit of the curves.
     pub(crate) unit: &'static str,

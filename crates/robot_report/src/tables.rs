@@ -1,4 +1,4 @@
-//! What the robot file says, in tables: joints, masses, parameters.
+//! The contents of the robot file, in tables: joints, masses, parameters.
 
 use robot_document::robot::words;
 use robot_model::robot::{Body, Inertia, Link, Parameter, Robot};

@@ -1,5 +1,5 @@
 #![no_std]
-//! What generated robot code calls at run time: numbers, and sines and cosines.
+//! The functions that generated robot code calls at run time: numbers, and sines and cosines.
 //!
 //! The dynamics of a robot are additions and multiplications of its velocities, its accelerations
 //! and the sines and cosines of its angles. Generated code does the former; this crate is the

@@ -1,4 +1,4 @@
-//! Where within a step a mode ends.
+//! The end of a mode within a step.
 
 use crate::system::Overrun;
 

@@ -173,7 +173,7 @@ impl Graph {
     /// An empty graph that operations fill up to so many nodes: a derivation that is too long ends soon,
     /// without memory for what nobody can use.
     ///
-    /// Where the graph [is full](Graph::is_full), operations give one of their operands in place of a new
+    /// If the graph [is full](Graph::is_full), operations return one of their operands instead of a new
     /// node, so that nothing that was derived means anything.
     #[must_use]
     pub fn limited(nodes: usize) -> Graph {

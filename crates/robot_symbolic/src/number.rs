@@ -80,7 +80,7 @@ impl Number {
         }
     }
 
-    /// What arithmetic on the number costs beyond that on machine words, in units of that: nothing
+    /// The cost of arithmetic on the number beyond that on machine words, in units of that: nothing
     /// for small numbers, memory to allocate and words to multiply for large ones.
     pub(crate) fn weight(&self) -> u64 {
         match self {

@@ -8,7 +8,7 @@
 //!   (c₁ c₂) (x y)`, `c₁ x + c₂ x = (c₁ + c₂) x`;
 //! - signs move outward: `(−x) y = −(x y)`, `(−x) + y = y − x`, and numbers are never negative;
 //! - operands of sums and products are ordered, and of `a − b` and `b − a` only one is stored, the
-//!   other is its negative, so that both share;
+//!   other is its negative, so that both use the same node;
 //! - what was just added is taken off again: `(x + y) − y = x`, `(x − y) + y = x`;
 //! - `x / c = (1/c) x`, `(x y) / y = x`, `√x √x = x`.
 

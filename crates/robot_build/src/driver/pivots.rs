@@ -65,7 +65,7 @@ impl Pivots {
         Ok(Pivots { interpreter, joints })
     }
 
-    /// The same with sines and cosines from elsewhere than the standard library.
+    /// The pivots with sines and cosines from elsewhere than the standard library.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
         let interpreter = self.interpreter.with_trigonometry(trigonometry);
@@ -101,14 +101,14 @@ impl Pivots {
 }
 
 impl Pivot {
-    /// Whether there are no accelerations, for the pivot is not above 0 and finite, or is rounding alone.
+    /// Whether there are no accelerations, because the pivot is not above 0 and finite, or is rounding error alone.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         !(self.part > 0.0 && self.part.is_finite()) || self.digits == 0
     }
 }
 
-/// What it means for the accelerations.
+/// The consequence for the accelerations.
 impl fmt::Display for Pivot {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Pivot { joint, part, digits } = self;

@@ -24,7 +24,7 @@ pub(super) struct Symbols {
 }
 
 impl Symbols {
-    /// Those of a robot: the LaTeX that its file gives, and the spelling of print.
+    /// The symbols of a robot: the LaTeX that its file gives, and the spelling of print.
     pub(super) fn of(robot: &Robot, quantities: &[Symbol], used: BTreeSet<String>) -> Symbols {
         let mut symbols = Symbols { used, ..Symbols::default() };
         for parameter in &robot.parameters {
@@ -83,7 +83,7 @@ impl Symbols {
         {
             return known.filter(|name| self.used.contains(*name)).cloned();
         }
-        // A power of a symbol of the robot is no quantity.
+        // A power of a symbol of the robot is not a quantity.
         let power = key.split_once('^').is_some_and(|(base, _)| self.names.contains_key(base));
         known.or_else(|| self.quantities.get(key).filter(|_| !power)).cloned()
     }

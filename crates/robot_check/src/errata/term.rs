@@ -22,7 +22,7 @@ pub(super) struct Power<'g> {
     pub(super) exponent: i32,
 }
 
-/// What makes terms like terms: their atoms and powers.
+/// The key of like terms: their atoms and powers.
 pub(super) type Key = Vec<(Id, i32)>;
 
 /// The canonical terms of expressions, expanded together under one limit.
@@ -90,7 +90,7 @@ pub(super) fn leftover<'g>(
 type Pair<'g> = (Option<Term<'g>>, Option<Term<'g>>);
 
 /// Pairs each wrong printed term with the missing derived term that resembles it most; what is left
-/// of either stands alone.
+/// of either is alone.
 pub(super) fn pair<'g>(wrong: Vec<Term<'g>>, missing: Vec<Term<'g>>) -> Vec<Pair<'g>> {
     let mut near: Vec<(u32, usize, usize)> = vec![];
     for (i, printed) in wrong.iter().enumerate() {
@@ -119,7 +119,7 @@ impl<'g> Term<'g> {
         power.map_or(0, |power| power.exponent)
     }
 
-    /// How many factors would have to change, a different coefficient counted once.
+    /// The number of factors that would have to change, a different coefficient counted once.
     pub(super) fn distance(&self, other: &Term<'g>) -> u32 {
         let gone: u32 = self
             .factors

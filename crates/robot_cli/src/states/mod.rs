@@ -25,7 +25,7 @@ struct Array {
 /// A state: the arrays that are given, right or wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct State {
-    /// Where it is, for messages: `state 3`, `line 4`.
+    /// Its place, for messages: `state 3`, `line 4`.
     pub(crate) place: String,
     arrays: Vec<(String, Vec<f64>)>,
 }

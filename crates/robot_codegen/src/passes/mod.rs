@@ -39,9 +39,9 @@ pub struct Options {
     pub factoring: bool,
     /// `pair_reuse` in sums and products.
     pub pair_reuse: bool,
-    /// How far `resubstitution` looks.
+    /// The effort of `resubstitution`.
     pub resubstitution: Resubstitution,
-    /// How often these run in turn, at most; they end when none saves anything.
+    /// The most times these run in turn; they end when none saves anything.
     pub rounds: usize,
     /// The order of sums and products: `arrival`, and `product_last` where multiply-adds follow.
     pub arrival: bool,
@@ -89,7 +89,7 @@ impl Options {
     }
 }
 
-/// How far `resubstitution` looks.
+/// The effort of `resubstitution`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resubstitution {
     /// Not at all.
@@ -107,7 +107,7 @@ pub enum Fused {
     /// Never: the same bits on every target.
     #[default]
     Never,
-    /// Where the target has the instruction; elsewhere the same code multiplies and adds.
+    /// Fuses if the target has the instruction; otherwise the same code multiplies and adds.
     WhereTarget,
 }
 
@@ -360,7 +360,7 @@ mod tests {
         );
     }
 
-    /// What costs as much is left, and what waits longer or adds an operation in another order.
+    /// A program that costs as much is left, and so is one that waits longer or adds an operation in another order.
     #[test]
     fn results_of_passes_are_taken_where_they_are_better() {
         let program = |value: u32| {

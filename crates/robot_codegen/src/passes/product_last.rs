@@ -1,4 +1,4 @@
-//! Product-last ordering: sums start with what is no product, so that each product that follows
+//! Product-last ordering: sums start with a term that is not a product, so that each product that follows
 //! can be a fused multiply-add.
 
 use super::arrival;
@@ -8,7 +8,7 @@ use super::waiting::Waiting;
 use crate::program::Program;
 
 /// Orders sums and products by [`arrival`]; then lets each sum that starts with a product of its own start
-/// with the first of its terms that is none, where no result is known later for it. Reassociates.
+/// with the first of its terms that is not, if no result is known later for it. Reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program) -> Program {
     let waiting = arrival::ordered(program, true);
@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
     }
 
-    /// The same sum as a factor: the product with it has to be there before the last factor is.
+    /// A sum that is also a factor: the product with it has to be known before the last factor is.
     #[test]
     fn no_product_waits_for_it() {
         let mut b = Builder::new();

@@ -14,7 +14,7 @@ fn real(random: &mut Random) -> f64 {
 
 const SEEDS: u64 = 200;
 
-/// Square roots are left out: of a sum that rounds to just below 0 there is none.
+/// Square roots are left out: a sum that rounds to just below 0 has none.
 const FUNCTIONS: [Function; 5] =
     [Function::Abs, Function::Sin, Function::Cos, Function::Sign, Function::Tanh];
 

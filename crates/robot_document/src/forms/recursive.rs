@@ -87,7 +87,7 @@ fn link_values<'h>(
     Ok((groups, named))
 }
 
-/// What a vector's components look like.
+/// The layout of a vector's components.
 #[derive(Clone, Copy)]
 enum Look {
     Letter(char),
@@ -106,7 +106,7 @@ impl Look {
 }
 
 /// The equations of the components of a vector; those that are no more than a number or a symbol are
-/// printed but get no name, so that their value stands where they are used.
+/// printed but get no name, so that their value is put where they are used.
 fn vector_equations(
     writer: &mut Writer<'_, '_>,
     named: &mut Named<'_>,

@@ -54,7 +54,7 @@ fn introduction(found: &BaseParameters<'_>) -> String {
     )
 }
 
-/// What the names of base parameters mean where they are moments in other frames.
+/// The meaning of the names of base parameters if they are moments in other frames.
 const MOMENTS: &str = "In the names of base parameters SXX is the second moment ∫ x² dm of a link, SXY ∫ x y dm \
     and so on, MX, MY, MZ the first moment, in frames of Denavit and Hartenberg: z is the joint axis, and \
     the origin lies on it where the common normal with the axis of the parent's joint meets it; a D marks one \
@@ -175,7 +175,7 @@ fn is_itself(parameter: &BaseParameter<'_>, known: &Written, standard: &[Option<
     coefficient.is_one() && standard.get(*place).is_some_and(|one| one.as_ref() == Some(known))
 }
 
-/// The symbol that a value is, where it is no more.
+/// The symbol that a value is, if it is nothing more.
 fn symbol_of(value: &Polynomial<'_>) -> Option<String> {
     let value = value.to_expr();
     value.as_symbol().map(|symbol| value.graph().symbol_name(symbol))

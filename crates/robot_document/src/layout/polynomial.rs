@@ -71,7 +71,7 @@ impl Terms<'_> {
         let mut pieces = vec![];
         let mut open = false;
         for (atom, exponent) in term.factors.iter().filter(|(_, exponent)| side(*exponent)) {
-            // What follows an angle without parentheses would seem to belong to it.
+            // A factor after an angle without parentheses would seem to belong to it.
             if open && !is_circular(*atom) {
                 pieces.push(Math::Sign('·'));
             }
@@ -119,7 +119,7 @@ fn fenced(pieces: Vec<Math>) -> Math {
     Math::Fenced(Fence::Parentheses, Box::new(Math::row(pieces)))
 }
 
-/// Whether an atom is a sum that stands alone below its fraction bar.
+/// Whether an atom is a sum that is alone below its fraction bar.
 fn is_alone_below(term: &ArrangedTerm<'_>, atom: Expr<'_>) -> bool {
     let mut below = term.factors.iter().filter(|(_, exponent)| *exponent < 0);
     below.next() == Some(&(atom, -1))

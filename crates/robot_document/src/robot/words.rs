@@ -1,4 +1,4 @@
-//! What is said of a robot in tables and lists, in the same words everywhere.
+//! Words about a robot in tables and lists, the same everywhere.
 
 use robot_model::robot::{Axis, JointKind, Move, Placement, Robot};
 use robot_symbolic::Formula;
@@ -9,7 +9,7 @@ pub fn carrier(robot: &Robot, link: Option<usize>) -> &str {
     link.and_then(|index| robot.links.get(index)).map_or("base", |link| &link.name)
 }
 
-/// How a joint moves: `rotation` or `translation`.
+/// The kind of a joint: `rotation` or `translation`.
 #[must_use]
 pub const fn motion(kind: JointKind) -> &'static str {
     match kind {

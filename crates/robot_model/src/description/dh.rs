@@ -31,7 +31,7 @@ pub(super) struct LinkRow {
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Option<Table> {
     let entry = root.get("dh")?;
     let mut table = reader.table(entry.value, &DH_TABLE)?;
-    // The stand-in for a convention that was wrong: the error is reported.
+    // The placeholder for an invalid convention: the error is reported.
     let convention = convention(reader, &mut table).unwrap_or(Convention::Standard);
     let example = "rows = [{ type = \"revolute\", a = 0, alpha = \"pi/2\", d = 0.5 }]";
     let rows = table.require(reader, "rows", example);

@@ -9,7 +9,7 @@ use super::reader::Named;
 use crate::diagnostic::Span;
 use crate::robot::{BaseFrames, Body, Drive, Friction, JointKind, Placement, Wrench};
 
-/// What a file says of a robot.
+/// A robot as a file describes it.
 #[derive(Clone)]
 pub(super) struct Draft {
     pub(super) name: Named,
@@ -23,7 +23,7 @@ pub(super) struct Draft {
     pub(super) payload: Option<DraftPayload>,
 }
 
-/// Upon what a link or frame stands.
+/// The carrier of a link or frame.
 #[derive(Clone, Debug)]
 pub(super) enum Parent {
     Base,
@@ -83,11 +83,11 @@ pub(super) struct DraftFrame {
     pub(super) places: FrameLocation,
 }
 
-/// What the robot may carry.
+/// The body that the robot may carry.
 #[derive(Clone)]
 pub(super) struct DraftPayload {
     pub(super) parent: Parent,
-    /// From the parent's frame to that of the payload's figures.
+    /// From the parent's frame to that of the payload's values.
     pub(super) placement: Placement,
     pub(super) place: Span,
 }

@@ -1,4 +1,4 @@
-//! A draft as a robot file in TOML: the links in order with the source's names and figures.
+//! A draft as a robot file in TOML: the links in order with the source's names and values.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -214,7 +214,7 @@ fn angle(angle: &Formula) -> String {
     }
 }
 
-/// A figure: a number, or an expression in quotes.
+/// A value: a number, or an expression in quotes.
 fn formula_text(formula: &Formula) -> String {
     match formula.as_number() {
         Some(value) => match value.as_rational() {

@@ -44,7 +44,7 @@ impl<'a> Table<'a> {
         self.keys.get_key_value(key).map(|(key, value)| Entry { key: key.span(), value })
     }
 
-    /// How many keys there are, known or not.
+    /// The number of keys, known or not.
     pub(super) fn len(&self) -> usize {
         self.keys.len()
     }

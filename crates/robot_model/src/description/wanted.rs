@@ -22,7 +22,7 @@ pub struct Code {
     pub bundles: Vec<Bundle>,
 }
 
-/// The same as the file has it: names of functions, which may be those of the robot's frames.
+/// The list as in the file: names of functions, including those of the robot's frames.
 #[derive(Clone, Default)]
 pub(super) struct Wanted {
     /// `None` if the file has no `functions`.
@@ -58,7 +58,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
     wanted
 }
 
-/// Reads a list of functions, in which some further words may stand.
+/// Reads a list of functions, which may contain some further words.
 fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Vec<Named> {
     let expected = "a list of functions, such as `[\"mass_matrix\", \"bias\"]`";
     let Some(entries) = reader.list(value, expected) else { return Vec::new() };

@@ -1,4 +1,4 @@
-//! Functions by their names: the one list of what can be asked for, and the way from a name to a function.
+//! Functions by their names: the one list of functions, and the lookup by name.
 
 use std::fmt;
 
@@ -45,7 +45,7 @@ impl FrameRef {
     }
 }
 
-/// What stands behind the kind in the names of the functions of each frame: the frame's name in lower
+/// The suffix of the functions of each frame: the frame's name in lower
 /// case as an identifier, made unique where several frames would have the same.
 pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     let frames: Vec<(FrameRef, String)> =
@@ -85,7 +85,7 @@ pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     found
 }
 
-/// The name with everything that cannot stand in an identifier replaced.
+/// The name with all characters replaced that cannot be in an identifier.
 fn identifier(frame: FrameRef, robot: &Robot) -> String {
     let fits = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     frame.name(robot).unwrap_or_default().chars().map(fits).collect()
@@ -180,7 +180,7 @@ fn shown(known: &[(String, FunctionKind)]) -> Vec<String> {
     shown
 }
 
-/// A name that is no function's, or not of one alone.
+/// A name that is not a function's, or not of one alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrongName {
     /// The name.

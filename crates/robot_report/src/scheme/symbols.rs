@@ -10,7 +10,7 @@ use crate::html::{Element, element};
 pub(crate) const HALF: f64 = 20.0;
 /// The radius of the cylinder, half the width of the box.
 const RADIUS: f64 = 12.0;
-/// How far the axis of a joint goes beyond its origin: against the axis, and along it.
+/// The lengths of a joint's axis beyond its origin: against the axis, and along it.
 pub(crate) const AXIS: [f64; 2] = [-40.0, 54.0];
 /// The length of the axes of a frame.
 pub(crate) const TRIAD: f64 = 38.0;

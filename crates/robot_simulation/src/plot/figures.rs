@@ -47,7 +47,7 @@ pub fn motion_figure(
     Figure { title: format!("Motion of {}", robot.name), t: motion.t.clone(), panels }
 }
 
-/// The joint torques along a trajectory by their shares, a panel for each coordinate.
+/// The joint torques along a trajectory by their contributions, a panel for each coordinate.
 #[must_use]
 pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) -> Figure {
     let panel = |(index, kind): (usize, JointKind)| {

@@ -1,4 +1,4 @@
-//! Jacobian matrices of many expressions by many symbols, in two ways that share differently.
+//! Jacobian matrices of many expressions by many symbols, in two modes that reuse different intermediate results.
 //!
 //! [`forward`] carries the slopes by every symbol from operands to results: cheap where few symbols
 //! reach a node. [`reverse`] carries, for every root, the weights of nodes from results to operands:

@@ -5,12 +5,12 @@ use std::ops::Range;
 use super::error::ParseError;
 use crate::rational::Rational;
 
-/// What a name may look like.
+/// The allowed form of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Names {
     /// `[A-Za-z_][A-Za-z0-9_]*`.
     Plain,
-    /// The same, in parts joined by dots.
+    /// Names in parts joined by dots.
     Dotted,
 }
 

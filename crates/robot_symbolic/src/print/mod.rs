@@ -39,7 +39,7 @@ pub struct TooLarge {
     pub limit: u64,
 }
 
-/// How tightly a piece of text binds.
+/// The precedence of a piece of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Level {
     Sum,
@@ -85,7 +85,7 @@ pub(crate) fn write<'g>(
 ///
 /// # Errors
 ///
-/// Where it has more than `limit` operations, each shared one counted at every use.
+/// If it has more than `limit` operations, each shared one counted at every use.
 pub fn check_length(expr: Expr<'_>, limit: u64) -> Result<(), TooLarge> {
     let operations = written_operations(expr);
     if operations > limit { Err(TooLarge { operations, limit }) } else { Ok(()) }
@@ -114,7 +114,7 @@ pub fn as_power(expr: Expr<'_>) -> (Expr<'_>, u32) {
     power_within(expr, MAX_POWER)
 }
 
-/// As [`as_power`] for exponents up to `most`; halving bounds the recursion at six calls.
+/// [`as_power`] for exponents up to `most`; halving bounds the recursion at six calls.
 fn power_within(expr: Expr<'_>, most: u32) -> (Expr<'_>, u32) {
     let View::Mul(a, b) = expr.view() else {
         return (expr, 1);

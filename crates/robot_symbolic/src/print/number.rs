@@ -24,7 +24,7 @@ pub fn exact_text(value: &Rational) -> String {
 pub enum Magnitude {
     /// Digits, perhaps with a point: `7`, `0.35`.
     Decimal(String),
-    /// A quotient of integers, where the value is no decimal.
+    /// A quotient of integers, if the value is not a decimal.
     Quotient([String; 2]),
     /// Digits, and the power of ten that they are multiplied with: `1.5`, `-7`.
     Scientific([String; 2]),

@@ -83,7 +83,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where an argument of a function is too long to be written out.
+    /// If an argument of a function is too long to be written out.
     pub fn to_text(&self) -> Result<String, TooLarge> {
         self.to_text_by(default_rank)
     }
@@ -92,7 +92,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where an argument of a function is too long to be written out.
+    /// If an argument of a function is too long to be written out.
     pub fn to_text_by<K: Ord>(&self, rank: impl Fn(Expr<'g>) -> K) -> Result<String, TooLarge> {
         let terms = self.arranged(rank);
         if terms.is_empty() {

@@ -19,16 +19,16 @@ use crate::number::Number;
 ///
 /// # Errors
 ///
-/// Where the text would have more than [`MAX_OPERATIONS`] operations.
+/// If the text would have more than [`MAX_OPERATIONS`] operations.
 pub fn to_text(expr: Expr<'_>) -> Result<String, TooLarge> {
     to_text_limited(expr, MAX_OPERATIONS)
 }
 
-/// As [`to_text`], with a limit of the caller's.
+/// [`to_text`] with a limit of the caller's.
 ///
 /// # Errors
 ///
-/// Where the text would have more than `limit` operations.
+/// If the text would have more than `limit` operations.
 pub fn to_text_limited(expr: Expr<'_>, limit: u64) -> Result<String, TooLarge> {
     write(expr, limit, notation)
 }

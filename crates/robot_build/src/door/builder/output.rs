@@ -31,7 +31,7 @@ impl Module {
         Path::new(&self.path).file_stem().and_then(OsStr::to_str)
     }
 
-    /// What keeps the file of the module from being made somewhere.
+    /// Why the module's file cannot be created on some systems, if so.
     pub(super) fn unportable(&self) -> Option<String> {
         let (path, name) = (&self.path, self.name());
         is_device(name).then(|| {

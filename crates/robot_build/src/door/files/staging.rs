@@ -1,6 +1,6 @@
 //! Files and folders written beside their place and then put there in one step.
 //!
-//! What is being written is hidden, bears the name of its target and is locked, so that what a killed
+//! A file being written is hidden, has the name of its target and is locked, so that what a killed
 //! process left behind is known from what another one is writing: the next write of the target removes it.
 
 use std::ffi::OsStr;
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::place::folder_of;
 
-/// What stands in the name of a temporary file after that of its target.
+/// The part of a temporary file's name after the name of its target.
 const INFIX: &str = ".robot-symbolic-tmp-";
 /// The longest part of a target's name in that of its temporary file: systems allow 255 bytes for all.
 const MAX_NAME: usize = 180;
@@ -84,7 +84,7 @@ impl Staged {
         fs::set_permissions(&self.temporary, present.permissions())
     }
 
-    /// Where it lies now.
+    /// Its present path.
     pub(super) fn path(&self) -> &Path {
         &self.temporary
     }
@@ -119,7 +119,7 @@ fn keep_owner(path: &Path, present: &Metadata) {
 #[cfg(not(unix))]
 fn keep_owner(_: &Path, _: &Metadata) {}
 
-/// How the temporary names of a target begin.
+/// The beginning of the temporary names of a target.
 fn prefix(target: &Path) -> String {
     let name = target.file_name().unwrap_or(OsStr::new("")).to_string_lossy();
     let end = (0..=MAX_NAME.min(name.len())).rev().find(|end| name.is_char_boundary(*end));

@@ -1,4 +1,4 @@
-//! What is generated, and how.
+//! The options of generation.
 
 mod declared;
 
@@ -33,13 +33,13 @@ pub const DEFAULT_BATCH: usize = 8;
 /// The most states that a block of a batch holds: its arrays lie on the stack.
 const MAX_BATCH: usize = 64;
 
-/// What is generated, and how.
+/// The options of generation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The functions, each by itself. [`Functions::Usual`] without bundles means what the robot file
     /// chooses with `[code]`, and where that chooses nothing, [`DEFAULT_FUNCTIONS`].
     pub functions: Functions,
-    /// Functions in one call that shares their work; where [`Options::functions`] are the usual
+    /// Functions in one call that compute common expressions once; if [`Options::functions`] are the usual
     /// ones, there are bundles alone.
     pub bundles: Vec<Bundle>,
     /// The number type of the functions.
@@ -57,7 +57,7 @@ pub struct Options {
     /// instruction (the runtime's `FUSED`) and are a product and a sum elsewhere. Without this the
     /// code gives the same bits on every target.
     pub fused: bool,
-    /// Where sines and cosines come from.
+    /// The source of sines and cosines.
     pub trigonometry: Trigonometry,
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
     /// for what the robot file says, which is 10⁻⁹ where it says nothing.
@@ -65,7 +65,7 @@ pub struct Options {
     /// Over which parameters of links the base parameters are; `None` for what the robot file says,
     /// which is the file's frames where it says nothing.
     pub base_frames: Option<BaseFrames>,
-    /// Whether figures that no body can have are taken, with a warning.
+    /// Whether values that no body can have are accepted, with a warning.
     pub allow_unphysical: bool,
     /// Whether moving links without mass are taken, with a warning.
     pub allow_massless: bool,
@@ -158,7 +158,7 @@ impl Options {
         Errors::check(missing.collect(), (functions, bundles))
     }
 
-    /// What is wrong with bundles, whatever the robot.
+    /// Errors in bundles that do not depend on the robot.
     fn wrong_bundles(&self) -> Vec<Error> {
         let mut errors = vec![];
         for (index, bundle) in self.bundles.iter().enumerate() {
@@ -185,7 +185,7 @@ impl Options {
         errors
     }
 
-    /// What is wrong with the options, whatever the robot.
+    /// Errors in the options that do not depend on the robot.
     pub(crate) fn check(&self) -> Result<(), Errors> {
         let mut errors = self.wrong_bundles();
         let snap = self.snap.map(snap::check);
@@ -199,7 +199,7 @@ impl Options {
         Errors::check(errors, ())
     }
 
-    /// How a robot file is read.
+    /// The options of reading a robot file.
     #[must_use]
     pub fn reading(&self) -> description::Options {
         description::Options {
@@ -209,7 +209,7 @@ impl Options {
         }
     }
 
-    /// How expressions become programs.
+    /// The options of making programs of expressions.
     pub(crate) fn codegen(&self) -> robot_codegen::Options {
         let options = robot_codegen::Options::default();
         if self.fused {
@@ -223,7 +223,7 @@ impl Options {
         }
     }
 
-    /// How the robot becomes expressions.
+    /// The options of making expressions of the robot.
     pub(crate) fn mechanism(&self, robot: &Robot) -> MechanismOptions {
         MechanismOptions::ROUNDED.with_snap(self.snap, robot)
     }
@@ -249,7 +249,7 @@ fn once<'f>(
 ///
 /// # Errors
 ///
-/// Each name that is no function's, and an empty list.
+/// Each name that is not a function's, and an empty list.
 pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Errors> {
     if names.is_empty() {
         return Err(Errors::from(Error::NoFunctions));
@@ -264,7 +264,7 @@ pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Err
 ///
 /// # Errors
 ///
-/// Each name that is no function's.
+/// Each name that is not a function's.
 pub fn kinds_named(names: &[String], robot: &Robot) -> Result<Vec<FunctionKind>, Errors> {
     let (mut kinds, mut errors) = (vec![], vec![]);
     for name in names {

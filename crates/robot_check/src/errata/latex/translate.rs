@@ -31,7 +31,7 @@ pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseEr
     Ok(translator.infix)
 }
 
-/// What is read, and what has been written of it.
+/// The LaTeX being read, and the text written so far.
 pub(super) struct Translator<'t, 'n> {
     tokens: &'t [Token<'t>],
     pub(super) place: usize,
@@ -315,7 +315,7 @@ impl<'t> Translator<'t, '_> {
                 self.depth -= 1;
                 Ok(if is_font(text) { inside } else { format!("{text}{inside}") })
             }
-            // Without braces one digit is an argument: more are a slip that print shows.
+            // Without braces one digit is an argument: more are a mistake that print shows.
             text => match first_digit(text) {
                 Some(_) if text.len() > 1 => self.fault(
                     format!("`{text}` without braces: only its first digit is meant by LaTeX"),

@@ -1,4 +1,4 @@
-//! How many digits the accelerations of states have.
+//! The number of digits of the accelerations of states.
 
 use robot_build::{Options, Pivot, Pivots, Programs, Trigonometry};
 use robot_model::variable::JointVariable;

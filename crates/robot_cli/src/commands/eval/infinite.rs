@@ -25,8 +25,8 @@ pub(super) fn messages(
     if wrong.is_empty() {
         return vec![];
     }
-    // The eigenvectors of a singular matrix tell every coordinate; where it is not quite singular, its
-    // pivots tell one.
+    // The eigenvectors of a singular matrix show every coordinate; if it is not quite singular, its
+    // pivots show one.
     let of_matrix = || digits.matter().then(|| singular(robot, settings, state)).flatten();
     let angle = state
         .array(JointVariable::Position.name())

@@ -369,7 +369,7 @@ fn out_of_line(elsewhere: &TokenStream) -> TokenStream {
     }
 }
 
-/// The same function outside of the model, for modules without parameters.
+/// The function as a free function, for modules without parameters.
 fn free_function(scope: &Scope<'_>, function: &Function, name: &Ident) -> Item {
     let ty = scope.number.ty();
     let inputs = Variables::new(scope, function).inputs;

@@ -1,4 +1,4 @@
-//! What functions return.
+//! Return types and values of functions.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

@@ -169,7 +169,7 @@ pub(super) fn float(value: f64) -> Expr {
     constant(Scalar::F64, value)
 }
 
-/// What a load prints as that has no variable, which no program of a checked module has.
+/// A placeholder for a load without a variable, which no program of a checked module contains.
 pub(super) fn nothing() -> Expr {
     parse_quote!(f64::NAN)
 }

@@ -7,7 +7,7 @@
 //!
 //! The processor of the model starts two products and two sums a cycle, as current x86-64 and 64-bit ARM
 //! cores do. An operation takes it half of what it takes them (`latency.rs`): they work on the next call while this one
-//! waits. Over the arms of `docs/performance.md` other figures make up to 2 % in the time of a call. While
+//! waits. Over the arms of `docs/performance.md` other numbers make up to 2 % in the time of a call. While
 //! more values than registers are alive, operations that end the life of others go first.
 
 use std::cmp::Reverse;
@@ -131,7 +131,7 @@ impl<'p> List<'p> {
         let (mut products, mut sums) = (PRODUCTS, SUMS);
         while let Some(value) = self.choose(products > 0, sums > 0) {
             let operation = self.program.operation(value);
-            // Registers are short and nothing frees one: what is under way may.
+            // Registers are short and nothing frees one: operations under way may.
             let under_way = products + sums < PRODUCTS + SUMS || !self.waiting.is_empty();
             if under_way && self.alive >= REGISTERS && self.growth(value) > 0 {
                 break;
@@ -264,7 +264,7 @@ mod tests {
             values.filter(|(value, _)| value.index() <= at && last[value.index()] > at).count()
         };
         let most = (0..last.len()).map(alive).max().unwrap();
-        // What is under way comes on top of 24; 32 registers hold them.
+        // Operations under way come on top of 24; 32 registers are enough.
         assert!(most <= 26, "{most}");
     }
 
@@ -334,7 +334,7 @@ mod tests {
         (there.into_iter().max().unwrap_or(0), (0..last.len()).map(alive).max().unwrap_or(0))
     }
 
-    /// As built and as ordered: the figures of this model, another has others.
+    /// As built and as ordered: the numbers of this model; another model has others.
     #[test]
     fn time_and_registers_of_dense_matrices() {
         let costs = [2, 4, 6].map(|size| {
@@ -344,7 +344,7 @@ mod tests {
         assert_eq!(costs, [((24, 6), (22, 7)), ((218, 20), (82, 26)), ((776, 42), (632, 62))]);
     }
 
-    /// The same over many random programs: the sums of cycles, and of values alive.
+    /// The sums over many random programs: of cycles, and of values alive.
     #[test]
     fn time_and_registers_of_random_programs() {
         let (mut before, mut after) = ((0, 0), (0, 0));
@@ -373,7 +373,7 @@ mod tests {
         assert_eq!(heights(&program), [28, 28, 28, 3, 26, 16, 9, 2]);
     }
 
-    /// Where both users of a value take it as both of their operands, it is one operand.
+    /// If both users of a value take it as both of their operands, it is one operand.
     #[test]
     fn operands_are_told_once() {
         let (x, y) = (Value(3), Value(5));

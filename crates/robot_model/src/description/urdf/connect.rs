@@ -151,8 +151,8 @@ fn link(
     found
 }
 
-/// The one link that is no child; `Some(None)` where every link is one, so that there are circles,
-/// which are told later.
+/// The one link that is not a child; `Some(None)` if every link is one, so that there are cycles,
+/// which are reported later.
 #[allow(clippy::type_complexity)]
 fn root<'l, 'a>(
     reader: &mut Reader<'_>,

@@ -33,7 +33,7 @@ const SHIFT: f64 = 6755399441055744.0;
 const HALF_PI: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33];
 
-/// The same in parts for multiply-adds that round twice.
+/// π/2 in shorter parts, for multiply-adds that round twice.
 const SHORT_HALF_PI: [f64; 4] =
     [1.570796251296997, 7.549790836947068e-08, -8.820551857060331e-15, 1.6446256936324258e-26];
 
