@@ -96,7 +96,7 @@ impl Failure {
             }
         };
         for message in messages {
-            // Nobody is listening where this fails.
+            // Nobody is listening if this fails.
             let _ = writeln!(terminal.errors, "{}", message.trim_end());
         }
         code

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::Terminal;
 
-/// A line on standard error that says how far a run has come: on a terminal only, and only where the
+/// A line on standard error that says how far a run has come: on a terminal only, and only if the
 /// run takes longer than a second.
 pub(crate) struct Progress<'e> {
     errors: Option<&'e mut dyn Write>,
@@ -26,11 +26,11 @@ impl<'e> Progress<'e> {
         Progress { errors, next: Instant::now() + PATIENCE, shown: false }
     }
 
-    /// Shows the line, where it is time.
+    /// Shows the line, if it is time.
     pub(crate) fn show(&mut self, line: impl FnOnce() -> String) {
         let now = Instant::now();
         if let Some(errors) = self.errors.as_mut().filter(|_| now >= self.next) {
-            // Nobody is watching where this fails.
+            // Nobody is watching if this fails.
             let _ = write!(errors, "\r\x1b[K{}", line()).and_then(|()| errors.flush());
             self.next = now + PAUSE;
             self.shown = true;

@@ -34,7 +34,7 @@ fn is_header(line: &str) -> bool {
 
 impl<'a> Recording<'a> {
     /// The places of a table, without which it goes to standard output, and of a plot; refused at once,
-    /// before any work, where they cannot be written.
+    /// before any work, if they cannot be written.
     pub(crate) fn open(
         table: Option<&'a Path>,
         plot: Option<&'a Path>,

@@ -53,7 +53,7 @@ pub(crate) fn sum(whole: &str) -> String {
     lines
 }
 
-/// A sum on lines of so many columns, broken before signs: within parentheses only where what they hold
+/// A sum on lines of so many columns, broken before signs: within parentheses only if what they hold
 /// fits no line.
 fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     let mut breaks: Vec<(usize, usize)> = vec![];

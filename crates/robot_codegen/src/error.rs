@@ -181,7 +181,7 @@ pub enum Error {
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Ok(value)` where nothing is wrong.
+    /// `Ok(value)` if nothing is wrong.
     pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
         if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }

@@ -32,7 +32,7 @@ pub struct ParameterSpec {
     pub doc: String,
     /// Its unit; empty if it has none.
     pub unit: String,
-    /// The value where none other is given.
+    /// The value if none other is given.
     pub nominal: Option<f64>,
 }
 

@@ -131,7 +131,7 @@ impl BaseSet {
 }
 
 impl BaseEntry {
-    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; where nothing is regrouped, `MY_2 = 0.1`.
+    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; if nothing is regrouped, `MY_2 = 0.1`.
     fn equation(&self) -> Equation {
         let formula = if self.coefficients.len() > 1 { &self.formula } else { &self.value };
         Equation {
@@ -143,7 +143,7 @@ impl BaseEntry {
     }
 }
 
-/// `formula = value`, or one of them where they look alike, as sums of masses do.
+/// `formula = value`, or one of them if they look alike, as sums of masses do.
 pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
     let mut right = formula.math.pieces().to_vec();
     if latex::formula(&formula.math) != latex::formula(&value.math) {

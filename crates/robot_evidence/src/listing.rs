@@ -44,7 +44,7 @@ pub(crate) struct Listing {
     pub(crate) conditional_jumps: usize,
     /// Jumps and calls through registers or memory that no relocation names.
     pub(crate) indirect: usize,
-    /// Traps where no panic is called: `unreachable`, overflow of the stack.
+    /// Traps if no panic is called: `unreachable`, overflow of the stack.
     pub(crate) traps: usize,
     /// Bytes of stack, the return address included.
     pub(crate) frame: u64,

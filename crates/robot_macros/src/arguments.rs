@@ -200,7 +200,7 @@ fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {
     })
 }
 
-/// `` (did you mean `functions`?)`` where one of the words is near.
+/// `` (did you mean `functions`?)`` if one of the words is near.
 fn meant(word: &str, known: &[&str]) -> String {
     let near = nearest_word(word, known.iter().copied());
     near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()

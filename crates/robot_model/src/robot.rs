@@ -32,7 +32,7 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Named frames fixed to links or to the base: tips, flanges, merged links.
     pub frames: Vec<Frame>,
-    /// The body that the robot may carry, where the file has one: it is a body of its link too.
+    /// The body that the robot may carry, if the file has one: it is a body of its link too.
     pub payload: Option<Payload>,
 }
 
@@ -102,7 +102,7 @@ pub struct Coordinate {
     pub joint: String,
     /// Radians for a rotation, meters for a translation.
     pub kind: JointKind,
-    /// Lower and upper limit where the file gives them; they bound test states, nothing else.
+    /// Lower and upper limit if the file gives them; they bound test states, nothing else.
     pub limits: Option<[Rational; 2]>,
 }
 
@@ -129,7 +129,7 @@ pub struct Link {
     pub placement: Placement,
     /// The joint that moves the link.
     pub joint: Joint,
-    /// The rigid bodies that make up the link: one, or several where fixed links were merged.
+    /// The rigid bodies that make up the link: one, or several if fixed links were merged.
     pub bodies: Vec<Body>,
     /// Friction in the joint.
     pub friction: Friction,
@@ -140,7 +140,7 @@ pub struct Link {
 /// The joint between a link and its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
-    /// The name; the link's where the file names no joints.
+    /// The name; the link's if the file names no joints.
     pub name: String,
     /// Rotation or translation.
     pub kind: JointKind,
@@ -244,7 +244,7 @@ pub struct Friction {
     pub viscous: Formula,
     /// c of equation (5): dry friction per contact force across the axis.
     pub coulomb: Formula,
-    /// d of equation (5): the spindle diameter of a rotation joint, m.
+    /// d of equation (5): the journal diameter of a revolute joint, m (the paper's spindle diameter).
     pub spindle_diameter: Formula,
     /// Constant dry friction for positive velocities, N m or N.
     pub coulomb_positive: Formula,
@@ -304,18 +304,18 @@ impl Drive {
 /// A named frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// The name; `tip` where the file gives none.
+    /// The name; `tip` if the file gives none.
     pub name: String,
     /// The link that carries it; `None` for the base.
     pub link: Option<usize>,
     /// Its place in that link's frame.
     pub placement: Placement,
-    /// The wrench that the frame exerts on its surroundings, where it is a tip.
+    /// The wrench that the frame exerts on its surroundings, if it is a tip.
     pub wrench: Option<Wrench>,
 }
 
 /// The names of a wrench's components, in the axes of its frame, the moment about its origin: what
-/// the tip exerts on its surroundings, the paper's payload torsor (25).
+/// the tip exerts on its surroundings, the paper's payload wrench (25).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrench {
     /// Force, N.

@@ -95,7 +95,7 @@ const UNITS: &[(&str, Dimension)] = &[
     ("W", Dimension::new(1, 2, -3)),
 ];
 
-/// Other units in use, each `numerator / denominator` of a unit above; 0 / 1 where the factor is
+/// Other units in use, each `numerator / denominator` of a unit above; 0 / 1 if the factor is
 /// not rational.
 const OTHERS: &[(&str, &str, i64, i64)] = &[
     ("mm", "m", 1, 1000),
@@ -214,7 +214,7 @@ impl Factor<'_> {
         UnitError::Unknown(self.span.clone(), what.into())
     }
 
-    /// Its dimension, and what to write for it where it is not SI.
+    /// Its dimension, and what to write for it if it is not SI.
     #[allow(clippy::type_complexity)]
     fn resolve(&self) -> Result<(Dimension, Option<(&'static str, i64, i64)>), UnitError> {
         let si = |name: &str| UNITS.iter().find(|(known, _)| *known == name);

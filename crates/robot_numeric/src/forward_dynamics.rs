@@ -119,8 +119,8 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length,
-    /// [`NumericError::NotPositiveDefinite`] where M is not positive definite.
+    /// [`NumericError::Lengths`] if an argument has the wrong length,
+    /// [`NumericError::NotPositiveDefinite`] if M is not positive definite.
     pub fn forward_dynamics(
         &self,
         q: &[f64],
@@ -164,8 +164,8 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length,
-    /// [`NumericError::NotPositiveDefinite`] where M is not positive definite.
+    /// [`NumericError::Lengths`] if q has the wrong length,
+    /// [`NumericError::NotPositiveDefinite`] if M is not positive definite.
     pub fn inverse_mass_matrix(&self, q: &[f64]) -> Result<DMatrix<f64>, NumericError> {
         Ok(self.decomposed_mass_matrix(q)?.inverse())
     }

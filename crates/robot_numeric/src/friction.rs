@@ -34,7 +34,7 @@ pub struct Friction {
     pub viscous: f64,
     /// Coefficient of dry friction c, without unit; its friction grows with the load of the joint.
     pub coulomb: f64,
-    /// Diameter d of the spindle of a rotation, in meters.
+    /// Journal diameter d of a revolute joint, in meters.
     pub spindle_diameter: f64,
     /// Dry friction that does not depend on the load, C₊ and C₋, each ≥ 0, in N m or N.
     pub constant: [f64; 2],
@@ -100,7 +100,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn friction_torques(
         &self,
         q: &[f64],

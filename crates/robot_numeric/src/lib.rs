@@ -13,7 +13,7 @@
 //!   by the joint about or along an axis through its origin.
 //! - Inertia tensors are about the center of mass, in the axes of the link frame.
 //! - A wrench is what a frame exerts on its surroundings ([`Wrench`]).
-//! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), friction and wrenches only where they are asked for.
+//! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), friction and wrenches only if they are asked for.
 //! - q, q̇, q̈ and τ are slices over the coordinates; matrices have a row for each torque or
 //!   acceleration.
 //!

@@ -185,7 +185,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn inverse_dynamics(
         &self,
         q: &[f64],
@@ -199,7 +199,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn inverse_dynamics_with(
         &self,
         q: &[f64],
@@ -221,7 +221,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn gravity_torques(&self, q: &[f64]) -> Result<DVector<f64>, NumericError> {
         check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let still = vec![0.0; q.len()];
@@ -232,7 +232,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn bias(&self, q: &[f64], qd: &[f64]) -> Result<DVector<f64>, NumericError> {
         let n = self.coordinates();
         check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;
@@ -244,7 +244,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn link_dynamics(
         &self,
         q: &[f64],

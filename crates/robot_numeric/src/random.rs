@@ -74,7 +74,7 @@ impl Random {
         self.numbers.uniform(low, high)
     }
 
-    /// An index below `count`; 0 where `count` is 0.
+    /// An index below `count`; 0 if `count` is 0.
     pub fn index(&mut self, count: usize) -> usize {
         self.numbers.index(count)
     }

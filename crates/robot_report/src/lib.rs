@@ -81,7 +81,7 @@ pub fn report(input: &Input<'_>) -> Result<String, Error> {
 /// The page about the robot of a file that is being edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reloading {
-    /// The page, which reloads itself where [`Reloading::stamp`] is another page's or gone.
+    /// The page, which reloads itself if [`Reloading::stamp`] is another page's or gone.
     pub page: String,
     /// An SVG picture. It belongs beside the page, under the page's name with `.svg` after it, and is to
     /// be written after the page.

@@ -24,7 +24,7 @@ pub(crate) struct Section {
     pub(crate) body: Vec<Node>,
 }
 
-/// The page of a robot; with a stamp it reloads itself where the picture beside it has another one.
+/// The page of a robot; with a stamp it reloads itself if the picture beside it has another one.
 pub(crate) fn page(robot: &Robot, sections: Vec<Section>, stamp: Option<Stamp>) -> String {
     let contents = sections.iter().map(|section| {
         let anchor = format!("#{}", section.id);

@@ -130,7 +130,7 @@ impl Scale {
     }
 }
 
-/// The range of values, with some room where they are all the same.
+/// The range of values, with some room if they are all the same.
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let finite = values.filter(|value| value.is_finite());
     let [low, high] = finite

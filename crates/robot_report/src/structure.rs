@@ -3,7 +3,7 @@
 //!
 //! Entries are exact derivatives of the paper's joint torques: M = ∂Q/∂q̈, and C = ½ ∂Q/∂q̇ at
 //! constant q and q̈, which is C by Christoffel symbols, for C q̇ is a quadratic form in q̇. An entry
-//! does not depend on a coordinate where another value of the coordinate never changes it, at random
+//! does not depend on a coordinate if another value of the coordinate never changes it, at random
 //! values of all symbols.
 
 use std::collections::BTreeMap;

@@ -101,7 +101,7 @@ pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     (!robot.parameters.is_empty()).then(|| table.build())
 }
 
-/// A formula, its parameters marked, with its nominal value below where it has parameters.
+/// A formula, its parameters marked, with its nominal value below if it has parameters.
 fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
     let shown = element("span").class("figure");
     if formula.is_constant() {

@@ -134,7 +134,7 @@ impl Dynamics for RobotProgram<'_> {
         }
     }
 
-    /// Where dry friction can hold joints, what they show of inertia may be none.
+    /// If dry friction can hold joints, what they show of inertia may be none.
     fn check(&self, state: &State) -> Result<(), Cause> {
         match self.wrong_pivot(state) {
             Some(pivot) if pivot.digits == 0 && self.dry_friction().is_none() => {

@@ -49,7 +49,7 @@ fn rows(columns: &[&[f64]], count: usize) -> Vec<Vec<f64>> {
 }
 
 impl Trajectory {
-    /// Samples: the columns t (s), rising, q1 …, qd1 …, qdd1 …, and, where a tip exerts a wrench, fx,
+    /// Samples: the columns t (s), rising, q1 …, qd1 …, qdd1 …, and, if a tip exerts a wrench, fx,
     /// fy, fz, mx, my, mz, or fx_NAME … for each of several tips. The torques and energies of a
     /// simulated motion may be beside them; they are not read.
     ///

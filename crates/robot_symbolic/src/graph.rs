@@ -52,7 +52,7 @@ pub enum Function {
     Sign,
     /// Hyperbolic tangent.
     Tanh,
-    /// 1/x where x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is
+    /// 1/x if x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is
     /// wrong. No formula of a file applies it.
     RecipPositive,
 }
@@ -292,7 +292,7 @@ impl Graph {
         self.intern(Node::Number(index as u32))
     }
 
-    /// The result of an operation on two nodes where both are constants.
+    /// The result of an operation on two nodes if both are constants.
     pub(crate) fn fold(&self, operation: Folding, a: Id, b: Id) -> Option<Id> {
         if !(self.is_number(a) && self.is_number(b)) {
             return None;

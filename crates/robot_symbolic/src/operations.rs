@@ -28,7 +28,7 @@ impl Operations {
         self.multiplications + self.additions
     }
 
-    /// Multiplications and additions where each fusible pair is one multiply-add.
+    /// Multiplications and additions if each fusible pair is one multiply-add.
     #[must_use]
     pub fn instructions(&self) -> usize {
         self.flops() - self.fusible

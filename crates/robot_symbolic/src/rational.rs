@@ -102,7 +102,7 @@ impl Rational {
         }
     }
 
-    /// `(numerator, denominator)` where both fit an `i64`.
+    /// `(numerator, denominator)` if both fit an `i64`.
     #[must_use]
     pub fn to_small(&self) -> Option<(i64, i64)> {
         match self.0 {

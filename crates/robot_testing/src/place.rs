@@ -70,7 +70,7 @@ impl<'r> Layout<'r> {
 
 /// The largest difference of values from what is expected.
 pub struct Off {
-    /// In parts of what the values are measured by; infinite where a value is not a number.
+    /// In parts of what the values are measured by; infinite if a value is not a number.
     pub error: f64,
     entry: String,
     found: f64,

@@ -130,7 +130,7 @@ fn forward_derivatives(solver: &Mechanism, state: &State) -> Vec<f64> {
     [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
 }
 
-/// q̈ with friction, by the rounds that the functions take where friction is by load.
+/// q̈ with friction, by the rounds that the functions take if friction is by load.
 fn with_friction(
     robot: &Robot,
     solver: &Mechanism,

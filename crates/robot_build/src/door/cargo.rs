@@ -82,7 +82,7 @@ impl Directives {
 
     /// Tells Cargo, on standard output.
     pub(crate) fn print(&self) {
-        // Nobody is listening where this fails.
+        // Nobody is listening if this fails.
         let _ = std::io::stdout().lock().write_all(self.0.as_bytes());
     }
 

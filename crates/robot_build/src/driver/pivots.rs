@@ -20,7 +20,7 @@ const DIGITS: f64 = 15.0;
 
 /// The pivots of a robot's mass matrix as a program, solved as its forward dynamics is.
 ///
-/// The pivot of a coordinate is the inertia that its joint shows where the joints farther out are free.
+/// The pivot of a coordinate is the inertia that its joint shows if the joints farther out are free.
 #[derive(Clone, Debug)]
 pub struct Pivots {
     interpreter: Interpreter<'static>,
@@ -32,7 +32,7 @@ pub struct Pivots {
 pub struct Pivot {
     /// The joint.
     pub joint: String,
-    /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, where the state
+    /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, if the state
     /// has no accelerations.
     pub part: f64,
     /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15. With 0 the

@@ -48,7 +48,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Whether nothing differs. Torques differ only where something else does.
+    /// Whether nothing differs. Torques differ only if something else does.
     #[must_use]
     pub fn is_none(&self) -> bool {
         let operations = self.operations.as_ref().is_ok_and(|found| !found.is_empty());

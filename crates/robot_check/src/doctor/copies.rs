@@ -6,7 +6,7 @@ use super::facts::{BodyFacts, RobotFacts};
 
 /// Two modules of an arm may well be alike; three are rare.
 const ALIKE: usize = 3;
-/// Tensors in proportion to the mass differ where masses differ by more than rounding.
+/// Tensors in proportion to the mass differ if masses differ by more than rounding.
 const SAME_MASS: f64 = 0.01;
 /// More places than this are not shown.
 const MAX_SHOWN: usize = 8;

@@ -24,7 +24,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// The size of the link where the body's radius of gyration is more than [`TIMES`] that.
+/// The size of the link if the body's radius of gyration is more than [`TIMES`] that.
 fn too_wide(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<f64> {
     let size = link.size().max(body.center.norm());
     let is_wide = body.has_tensor() && size > 0.0 && body.gyration() > TIMES * size;

@@ -73,7 +73,7 @@ impl<'e> Part<'e> {
         self.sub(start..end)
     }
 
-    /// The rows of a column, where the part is one.
+    /// The rows of a column, if the part is one.
     pub(super) fn rows(&self) -> Result<Option<Vec<Part<'e>>>, Box<Diagnostic>> {
         let Some((name, open, inside)) = environment(self.text, &COLUMNS) else {
             return Ok(None);
@@ -203,7 +203,7 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
     clean
 }
 
-/// The text with equations in one piece that go on in the next display, where `\phantom` with their
+/// The text with equations in one piece that go on in the next display, if `\phantom` with their
 /// left side opens it: only a line break and spaces are between.
 fn rejoined(text: &str) -> String {
     let seams: Vec<Range<usize>> =

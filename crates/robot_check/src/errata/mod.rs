@@ -87,14 +87,14 @@ pub struct Comparison {
     pub names: usize,
     /// The number of printed terms in the others, brackets opened.
     pub terms: usize,
-    /// Whether the derived equations have the wrenches of the tips: where any printed one has.
+    /// Whether the derived equations have the wrenches of the tips: if any printed one has.
     pub wrench: bool,
     /// The differences, in the order of print.
     pub differences: Vec<Difference>,
 }
 
 /// Compares printed equations with the paper's iterations for a robot, without friction, and without
-/// the wrenches of tips where none of the equations has any of their symbols.
+/// the wrenches of tips if none of the equations has any of their symbols.
 ///
 /// An equation is `(number) quantity = terms`, the number left out if there is none. In infix text
 /// it is on one line, continued by indented lines; `#` begins a comment line. In LaTeX it is

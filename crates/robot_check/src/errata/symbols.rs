@@ -77,7 +77,7 @@ impl Symbols {
     /// The name of a symbol on a right side.
     pub(super) fn name(&self, key: &str) -> Option<String> {
         let known = self.names.get(key);
-        // `c_2` is a cosine where no equation has a parameter of that name.
+        // `c_2` is a cosine if no equation has a parameter of that name.
         if let Some(index) = key.strip_prefix("s_").or(key.strip_prefix("c_"))
             && index.bytes().all(|byte| byte.is_ascii_digit())
         {

@@ -51,7 +51,7 @@ pub(super) fn terms_of<'g>(
 
 /// The printed terms without counterpart, and the derived terms without.
 ///
-/// Like terms may be printed apart: where their sum is the derived term, all of them are right.
+/// Like terms may be printed apart: if their sum is the derived term, all of them are right.
 pub(super) fn leftover<'g>(
     printed: &[Term<'g>],
     derived: &[Term<'g>],
@@ -140,7 +140,7 @@ impl<'g> Term<'g> {
         self.factors.iter().map(|power| (power.atom.id(), power.exponent)).collect()
     }
 
-    /// The keys of the term without one of its atoms, where that has no power, and the atom's text.
+    /// The keys of the term without one of its atoms, if that has no power, and the atom's text.
     pub(super) fn without_factor(&self) -> impl Iterator<Item = (Key, String)> {
         let single = self.factors.iter().filter(|power| power.exponent == 1);
         single.map(|power| {

@@ -31,7 +31,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    /// The array of that name where it is given.
+    /// The array of that name if it is given.
     pub(crate) fn array(&self, name: &str) -> Option<&[f64]> {
         let found = self.arrays.iter().find(|(known, _)| known == name);
         found.map(|(_, entries)| entries.as_slice())

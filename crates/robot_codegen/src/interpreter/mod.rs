@@ -5,7 +5,7 @@
 //! last bit (but for multiply-adds, those of the runtime's sines among them, which round twice here on
 //! every machine and once on targets that fuse them).
 //!
-//! [`Interpreter::call`] takes everything by name. Where one function runs at many states,
+//! [`Interpreter::call`] takes everything by name. If one function runs at many states,
 //! [`Interpreter::function`] looks it up once and gives a [`Callable`], which computes blocks of states.
 
 mod callable;

@@ -1,7 +1,7 @@
 //! Arrival order: sums and products take their operands as these become known, so that no result
 //! waits for more than it must.
 //!
-//! A recursion hands each link the sums of the link before it. Where those come last into a sum, each
+//! A recursion hands each link the sums of the link before it. If those come last into a sum, each
 //! link adds one operation to the chain that a call waits for, in place of one for each term.
 
 use super::nary::Node;

@@ -1,4 +1,4 @@
-//! Factoring: a b + a c becomes a (b + c) where that saves operations.
+//! Factoring: a b + a c becomes a (b + c) if that saves operations.
 
 use rustc_hash::FxHashMap;
 
@@ -90,7 +90,7 @@ fn saving(view: &Nary, terms: &[Term], factor: Id, places: &[usize], uses: &[u32
     let rests: Vec<Vec<Id>> = rests.collect();
     let inner_early = rests.iter().filter(|rest| is_early(rest)).count();
     let inner = operations(rests.len(), inner_early);
-    // The factor times the inner sum, which is early where all of it is.
+    // The factor times the inner sum, which is early if all of it is.
     let whole_early = inner_early == rests.len();
     let product = operations(2, usize::from(view.is_early(factor)) + usize::from(whole_early));
     let outside: Vec<usize> = (0..terms.len()).filter(|place| !places.contains(place)).collect();

@@ -83,7 +83,7 @@ impl Order {
         }
     }
 
-    /// The terms in the order that fuses one product more, where the sum is known in time.
+    /// The terms in the order that fuses one product more, if the sum is known in time.
     fn product_last(&self, terms: Vec<Term>, by: u32) -> Vec<Term> {
         let fuses = |term: &Term| self.waiting.fuses(term.node);
         let plain = terms.iter().position(|term| !fuses(term));
@@ -175,7 +175,7 @@ mod tests {
         Counts::of(&fusing::run(&run(&program))).fused
     }
 
-    /// The first term may be a late one where another result is later still.
+    /// The first term may be a late one if another result is later still.
     #[test]
     fn time_to_spare_is_used() {
         // The sum with the late term first is known at 13 + 2 · 4 cycles, with it last at 13 + 3.

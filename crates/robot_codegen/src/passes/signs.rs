@@ -1,4 +1,4 @@
-//! Signs: a change of sign is taken into a subtraction or a constant where that is possible.
+//! Signs: a change of sign is taken into a subtraction or a constant if that is possible.
 
 use crate::program::{Builder, Operation, Program, Value};
 

@@ -18,7 +18,7 @@ const SEEDS: u64 = 200;
 const FUNCTIONS: [Function; 5] =
     [Function::Abs, Function::Sin, Function::Cos, Function::Sign, Function::Tanh];
 
-/// Stands for a bound where rounding may have decided a sign: nothing follows from the value.
+/// Stands for a bound if rounding may have decided a sign: nothing follows from the value.
 const UNDECIDED: f64 = 1e100;
 
 /// A program with loads of parameters and inputs, many sums and products, and some of the rest.

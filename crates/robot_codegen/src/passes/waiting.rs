@@ -45,7 +45,7 @@ impl Waiting {
         self.known(id) + if self.fuses(id) { PRODUCT } else { 0 }
     }
 
-    /// Whether a node is a product that becomes part of a multiply-add where something precedes it in
+    /// Whether a node is a product that becomes part of a multiply-add if something precedes it in
     /// the one sum that uses it.
     pub(super) fn fuses(&self, id: Id) -> bool {
         let own = self.fused && self.uses[id as usize] == 1 && !self.view.is_early(id);

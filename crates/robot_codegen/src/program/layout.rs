@@ -123,8 +123,8 @@ fn is_signed_leaf(program: &Program, operation: Operation) -> bool {
     matches!(operation, Operation::Neg(a) if program.operation(a).is_leaf())
 }
 
-/// For each named value, the last named value whose statement uses it; itself where nothing does,
-/// and `usize::MAX` where the results use it.
+/// For each named value, the last named value whose statement uses it; itself if nothing does,
+/// and `usize::MAX` if the results use it.
 fn last_uses(program: &Program, named: &[bool]) -> Vec<usize> {
     let mut last: Vec<usize> = (0..named.len()).collect();
     for value in program.results() {

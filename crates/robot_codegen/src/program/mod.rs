@@ -76,7 +76,7 @@ pub enum Operation {
     Div(Value, Value),
     /// −a
     Neg(Value),
-    /// a b + c, with one rounding where the target has the instruction and two elsewhere.
+    /// a b + c, with one rounding if the target has the instruction and two elsewhere.
     MulAdd(Value, Value, Value),
     /// A function of one argument.
     Call(Function, Value),

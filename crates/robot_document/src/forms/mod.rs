@@ -215,7 +215,7 @@ impl<'g> Writer<'_, 'g> {
     }
 
     /// The joint torques by the economical recursion, the wrenches of the tips included, with sines of
-    /// sums of angles where the options want them.
+    /// sums of angles if the options want them.
     fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
         let kind = match friction {
             true => FunctionKind::InverseDynamics(Effects::BOTH),
@@ -226,7 +226,7 @@ impl<'g> Writer<'_, 'g> {
         self.with_angle_sums(outputs.flat_map(|output| output.values).collect())
     }
 
-    /// Values with sines and cosines of sums of angles where the options want them.
+    /// Values with sines and cosines of sums of angles if the options want them.
     fn with_angle_sums(&self, values: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
         match self.options.angle_sums {
             AngleSums::Expand => values,

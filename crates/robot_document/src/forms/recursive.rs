@@ -148,7 +148,7 @@ fn generalized_forces(
     })
 }
 
-/// The equation as a sum of products where that is short, else as the expression is built.
+/// The equation as a sum of products if that is short, else as the expression is built.
 fn sum(
     writer: &Writer<'_, '_>,
     name: String,

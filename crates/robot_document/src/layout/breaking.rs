@@ -1,6 +1,6 @@
 //! Long formulas on several lines.
 //!
-//! A line is broken before a `+` or `-` outside of fences; where a term alone does not fit, also
+//! A line is broken before a `+` or `-` outside of fences; if a term alone does not fit, also
 //! between its factors, after a `·`, and at signs within its parentheses. A product
 //! that takes several lines starts on its own one, and goes on further in.
 

@@ -302,7 +302,7 @@ fn index_of<'g>(letter: char, angle: Expr<'g>, exponent: u32) -> Vec<Step<'g>> {
     steps
 }
 
-/// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` where a joint has two digits.
+/// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` if a joint has two digits.
 fn joint_numbers(angle: Expr<'_>) -> Option<Vec<Math>> {
     let mut joints: Vec<(bool, u32)> = vec![];
     let mut pending = vec![(angle, false)];

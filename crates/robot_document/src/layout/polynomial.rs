@@ -35,7 +35,7 @@ struct Terms<'t> {
 }
 
 impl Terms<'_> {
-    /// `c x y²`, over its denominator where it has one.
+    /// `c x y²`, over its denominator if it has one.
     fn term(&mut self, term: &ArrangedTerm<'_>) -> Result<Vec<Math>, Error> {
         let above = self.factors(term, |exponent| exponent > 0)?;
         let below = self.factors(term, |exponent| exponent < 0)?;

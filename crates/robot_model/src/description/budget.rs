@@ -40,7 +40,7 @@ pub(super) fn read(
     tables.into_iter().map(|table| budget(reader, table, bundles)).collect()
 }
 
-/// A budget, and the name of its function where it is that of a frame.
+/// A budget, and the name of its function if it is that of a frame.
 fn budget(
     reader: &mut Reader<'_>,
     mut table: Table<'_>,

@@ -27,7 +27,7 @@ pub(super) struct LinkRow {
     pub(super) place: Span,
 }
 
-/// Reads the table where the file has it.
+/// Reads the table if the file has it.
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Option<Table> {
     let entry = root.get("dh")?;
     let mut table = reader.table(entry.value, &DH_TABLE)?;
@@ -67,7 +67,7 @@ fn link_row(
 }
 
 impl Table {
-    /// The row of the next link; one that says nothing where the rows are used up.
+    /// The row of the next link; one that says nothing if the rows are used up.
     pub(super) fn next_row(&mut self) -> LinkRow {
         self.taken += 1;
         self.rows.next().unwrap_or_else(|| LinkRow {

@@ -63,7 +63,7 @@ impl Dimensioned {
         }
     }
 
-    /// The dimension that a value certainly has, where its factors are known so far.
+    /// The dimension that a value certainly has, if its factors are known so far.
     fn known(self) -> Option<Dimension> {
         self.dimension.filter(|_| !self.is_number)
     }
@@ -127,7 +127,7 @@ impl Clash {
     }
 }
 
-/// An error where factors are parameters alone; a warning where a number may carry the unit.
+/// An error if factors are parameters alone; a warning if a number may carry the unit.
 fn reported(factors: Factors, message: String) -> Diagnostic {
     match factors {
         Factors::Certain => Diagnostic::error(code::DIMENSION, message)

@@ -40,7 +40,7 @@ pub(super) struct DraftLink {
     pub(super) joint: DraftJoint,
     /// From the parent's frame to the joint's frame at joint position 0.
     pub(super) before: Placement,
-    /// From the joint's frame to the link's own frame, where the file's convention puts them
+    /// From the joint's frame to the link's own frame, if the file's convention puts them
     /// apart.
     pub(super) after: Placement,
     /// Placed in the link's own frame; `None` if the link has no mass.
@@ -68,7 +68,7 @@ pub(super) struct DraftJoint {
 pub(super) struct Mimic {
     pub(super) joint: Named,
     pub(super) ratio: Formula,
-    /// The place of the ratio, where the file has one.
+    /// The place of the ratio, if the file has one.
     pub(super) of_ratio: Option<Span>,
     pub(super) offset: Formula,
 }

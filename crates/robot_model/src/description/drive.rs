@@ -114,7 +114,7 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     friction
 }
 
-/// Equation (5): dry friction of a rotation acts at the spindle's surface.
+/// Equation (5): dry friction of a revolute joint acts at the journal's surface.
 fn spindle(
     entries: &mut Entries<'_, '_, '_>,
     kind: JointKind,

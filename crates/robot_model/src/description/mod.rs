@@ -76,7 +76,7 @@ pub struct Described {
     pub choices: Diagnostics,
     /// Content of the file about the dynamics that is not part of the robot, such as `the friction of 6 joints`.
     pub left_out: Vec<String>,
-    /// Which functions are generated where the caller names none.
+    /// Which functions are generated if the caller names none.
     pub code: Code,
     /// The limits of the cost of generated code.
     pub budgets: Vec<Budget>,
@@ -239,7 +239,7 @@ struct Built {
     budgets: Vec<Budget>,
 }
 
-/// The robot of a lowered file, where nothing is wrong with it.
+/// The robot of a lowered file, if nothing is wrong with it.
 fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Built> {
     let Lowered { draft, order, parameters, wanted, budgets } = lowered;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {

@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
         Formula::symbol("_")
     }
 
-    /// The value of a formula where it has no names, or all of them have nominal values.
+    /// The value of a formula if it has no names, or all of them have nominal values.
     pub(super) fn known(&self, formula: &Formula) -> Option<f64> {
         let mut complete = true;
         let value = formula.evaluate(|name| {

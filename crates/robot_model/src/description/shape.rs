@@ -60,7 +60,7 @@ pub enum Content {
     Whole,
     /// The name of a function of generated code, or of a bundle of the file.
     Function,
-    /// A list of functions; a word for all of them where that is said.
+    /// A list of functions; a word for all of them if that is said.
     Functions(Option<&'static str>),
     /// A table whose keys are identifiers, behind each a list of functions.
     Bundles,

@@ -3,7 +3,7 @@
 use crate::diagnostic::Span;
 
 /// The place in the file of `range` within a decoded string. `span` is the string's place, quotes
-/// and all; the whole of it is returned where the text cannot be followed.
+/// and all; the whole of it is returned if the text cannot be followed.
 pub(super) fn place(file: &str, span: &Span, decoded: &str, range: Span) -> Span {
     let raw = file.get(span.clone()).unwrap_or_default();
     let (Some(start), Some(end)) = (

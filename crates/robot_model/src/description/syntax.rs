@@ -5,7 +5,7 @@ use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, Span, code};
 
-/// Parses the text; the tables are of use only where no diagnostic is found.
+/// Parses the text; the tables are of use only if no diagnostic is found.
 pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut found = Vec::new();

@@ -8,7 +8,7 @@ use super::names::Registry;
 use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};
 
-/// Checks names and parents. The links' new order, as indices, where they form a tree.
+/// Checks names and parents. The links' new order, as indices, if they form a tree.
 pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<usize>> {
     let Draft { links, frames, payload, .. } = draft;
     names(reader, links, frames);

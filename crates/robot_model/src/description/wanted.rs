@@ -1,4 +1,4 @@
-//! `[code]`: which functions are generated where the caller names none.
+//! `[code]`: which functions are generated if the caller names none.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::robot::Robot;
 /// Which functions a file wants to be generated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Code {
-    /// The functions, each by itself; where only bundles are named, none.
+    /// The functions, each by itself; if only bundles are named, none.
     pub functions: Functions,
     /// Functions in one call.
     pub bundles: Vec<Bundle>,
@@ -101,7 +101,7 @@ pub(super) fn function(reader: &mut Reader<'_>, value: Value<'_>, more: &[&str])
     Some(Named { name, span: value.span() })
 }
 
-/// The function of a name, where the robot has it.
+/// The function of a name, if the robot has it.
 pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Option<FunctionKind> {
     let diagnostic = match functions::named(robot, &named.name) {
         Ok(kind) => {

@@ -209,7 +209,7 @@ impl fmt::Display for Diagnostics {
 impl std::error::Error for Diagnostics {}
 
 /// Text of a file as a message may hold it: on one line, without control characters, its middle
-/// left out where it is long.
+/// left out if it is long.
 #[must_use]
 pub fn quote(text: &str) -> String {
     const HEAD: usize = 40;

@@ -5,7 +5,7 @@ use super::FunctionKind;
 /// Which functions are generated, each by itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Functions {
-    /// The usual ones, where nothing else is said.
+    /// The usual ones, if nothing else is said.
     #[default]
     Usual,
     /// All that the robot has.
@@ -14,7 +14,7 @@ pub enum Functions {
     Chosen(Vec<FunctionKind>),
 }
 
-/// The word for all functions where functions are named.
+/// The word for all functions if functions are named.
 pub const ALL_FUNCTIONS: &str = "all";
 
 /// Functions in one call, whose common work is done once.

@@ -232,7 +232,7 @@ impl FunctionKind {
     }
 
     /// The functions of single frames that a kind comprises; none for a kind that is one function by
-    /// itself, as also where the robot has one frame.
+    /// itself, as also if the robot has one frame.
     #[must_use]
     pub fn parts(self, robot: &Robot) -> Vec<FunctionKind> {
         let frames = FrameRef::usual(robot);

@@ -46,7 +46,7 @@ impl FrameRef {
 }
 
 /// The suffix of the functions of each frame: the frame's name in lower
-/// case as an identifier, made unique where several frames would have the same.
+/// case as an identifier, made unique if several frames would have the same.
 pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     let frames: Vec<(FrameRef, String)> =
         FrameRef::of(robot).map(|frame| (frame, identifier(frame, robot))).collect();
@@ -115,7 +115,7 @@ pub fn is_of_frame(name: &str) -> bool {
 }
 
 /// The function of a name: that of a kind, whether the robot has it or not, or the kind with that of a
-/// frame or a moving link behind it, as the file has it or as in the function's name. Where a frame and
+/// frame or a moving link behind it, as the file has it or as in the function's name. If a frame and
 /// a link have the same name, the frame is meant.
 ///
 /// # Errors

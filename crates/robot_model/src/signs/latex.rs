@@ -68,7 +68,7 @@ pub fn check_latex(latex: &str) -> Result<(), LatexError> {
 struct Walk<'l> {
     latex: &'l str,
     groups: Vec<Group>,
-    /// An accent or an index that waits for its argument, and what is wrong where none comes.
+    /// An accent or an index that waits for its argument, and what is wrong if none comes.
     waiting: Option<(Range<usize>, &'static str)>,
 }
 

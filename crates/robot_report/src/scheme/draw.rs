@@ -245,7 +245,7 @@ impl<'r> Drawing<'r> {
         self.written.push(group.with(words_at(&words, &place, LETTERS)));
     }
 
-    /// A name near a point, with a line to it where it is far.
+    /// A name near a point, with a line to it if it is far.
     fn label(&mut self, words: &str, point: Point, gap: f64, class: &str, link: Option<usize>) {
         let shown = text::shortened(words, 22);
         let place = self.room.find(point, size_of(&shown, LETTERS), gap);

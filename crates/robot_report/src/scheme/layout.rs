@@ -238,7 +238,7 @@ pub(crate) fn confusion(layout: &Layout, view: &View) -> f64 {
     for [a, b] in &segments {
         blame((a - b).norm(), 45.0);
     }
-    // Joints are drawn apart where they must be, not more.
+    // Joints are drawn apart if they must be, not more.
     let separated =
         places().flat_map(|place| &place.path).filter(|segment| segment.length.is_none());
     blame(0.0, 40.0 * (separated.count() as f64).sqrt());

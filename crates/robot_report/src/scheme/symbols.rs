@@ -21,7 +21,7 @@ pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> E
     element("g").class("axis").with_all(arrow(from, to, 8.0))
 }
 
-/// A rotation joint: a cylinder about its axis.
+/// A revolute joint: a cylinder about its axis.
 pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Element {
     let (center, along) = (view.point(origin), view.point(axis));
     let nearness = view.nearness(axis);
@@ -49,7 +49,7 @@ pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) 
         .with(cap)
 }
 
-/// A translation joint: a box between the rails of its guide.
+/// A prismatic joint: a box between the rails of its guide.
 pub(crate) fn slider(
     view: &View,
     origin: &Vector3<f64>,

@@ -35,7 +35,7 @@ impl<T: Scalar> Trig<T> for PolyTrig {
 /// Sines and cosines of `angles` (radians) by the branch-free polynomials, several at a time in
 /// vector registers: for one state.
 ///
-/// Inlined where debug assertions are off; with them it is a call, so that whatever calls it stays
+/// Inlined if debug assertions are off; with them it is a call, so that whatever calls it stays
 /// flat in both.
 #[cfg_attr(debug_assertions, inline(never))]
 #[cfg_attr(not(debug_assertions), inline(always))]

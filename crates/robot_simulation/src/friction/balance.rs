@@ -21,7 +21,7 @@ const SLACK: f64 = 1e-11;
 /// Accelerations, and what holds the coordinates at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Balance {
-    /// q̈, rad/s² or m/s²; exactly 0 where a coordinate is held.
+    /// q̈, rad/s² or m/s²; exactly 0 if a coordinate is held.
     pub(crate) qdd: Vec<f64>,
     /// For each coordinate that is held, its friction.
     pub(crate) holding: Vec<Option<Holding>>,
@@ -41,7 +41,7 @@ pub(crate) struct Holding {
 }
 
 impl Holding {
-    /// By how much more is asked than friction can give, slack allowed for; not positive where it
+    /// By how much more is asked than friction can give, slack allowed for; not positive if it
     /// holds.
     pub(crate) fn excess(&self) -> f64 {
         let [least, most] = self.range;
@@ -59,8 +59,8 @@ impl Holding {
 ///
 /// # Errors
 ///
-/// [`Cause::Accelerations`] where the moving coordinates have no positive definite mass matrix, and
-/// [`Cause::Friction`] where no accelerations agree with the friction that they cause by the load.
+/// [`Cause::Accelerations`] if the moving coordinates have no positive definite mass matrix, and
+/// [`Cause::Friction`] if no accelerations agree with the friction that they cause by the load.
 pub(crate) fn balance(
     friction: &dyn DryFriction,
     state: &State,

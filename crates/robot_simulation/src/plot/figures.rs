@@ -7,7 +7,7 @@ use super::{Curve, Figure, Panel};
 use crate::contributions::TorqueContributions;
 use crate::motion::{Energies, Motion};
 
-/// Positions, velocities, joint torques and energies of a motion. Where `conserved`, a last panel
+/// Positions, velocities, joint torques and energies of a motion. If `conserved`, a last panel
 /// shows by how much the energy has changed since the start: the error of the integration.
 #[must_use]
 pub fn motion_figure(

@@ -109,7 +109,7 @@ impl<'t> Lexer<'t> {
         }
     }
 
-    /// Takes `e12`, `E-3` where digits follow, for otherwise the letter begins a name.
+    /// Takes `e12`, `E-3` if digits follow, for otherwise the letter begins a name.
     fn exponent(&mut self) -> bool {
         let mut end = self.position;
         if !matches!(self.byte(end), Some(b'e' | b'E')) {

@@ -320,7 +320,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The text of a span, its middle left out where it is long.
+    /// The text of a span, its middle left out if it is long.
     fn quote(&self, span: &Range<usize>) -> String {
         shorten(self.text.get(span.clone()).unwrap_or_default())
     }

@@ -116,7 +116,7 @@ impl Graph {
     }
 }
 
-/// `(c, x)` with the expression equal to `c x`, signs and constants taken out; no `x` where the
+/// `(c, x)` with the expression equal to `c x`, signs and constants taken out; no `x` if the
 /// expression is the number `c`.
 fn split_multiple(expr: Expr<'_>) -> (Number, Option<Id>) {
     if let Some(number) = expr.as_number() {

@@ -186,7 +186,7 @@ impl<'g> Expander<'g> {
         self.sum_parts(&[Part { a: terms, b: None, factor: &Number::integer(1) }])
     }
 
-    /// √, | |, sgn and tanh of a canonical argument, with signs and, where they allow it, constant
+    /// √, | |, sgn and tanh of a canonical argument, with signs and, if they allow it, constant
     /// factors taken out.
     fn call(&self, function: Function, argument: &Terms) -> Terms {
         let negative = terms::leads_negative(argument);

@@ -51,7 +51,7 @@ pub(crate) enum Level {
 /// A part of what an expression is printed as.
 pub(crate) enum Piece<'g> {
     Text(Cow<'static, str>),
-    /// An operand, in parentheses where it binds less tightly than the level.
+    /// An operand, in parentheses if it binds less tightly than the level.
     Operand(Expr<'g>, Level),
 }
 
@@ -108,7 +108,7 @@ fn written_operations(root: Expr<'_>) -> u64 {
 /// Powers up to the largest that the parser takes are printed as such.
 const MAX_POWER: u32 = crate::formula::MAX_EXPONENT as u32;
 
-/// `(x, n)` where the expression is the product that [`Expr::powi`] makes of `x` and `n`.
+/// `(x, n)` if the expression is the product that [`Expr::powi`] makes of `x` and `n`.
 #[must_use]
 pub fn as_power(expr: Expr<'_>) -> (Expr<'_>, u32) {
     power_within(expr, MAX_POWER)

@@ -22,7 +22,7 @@ pub struct ArrangedTerm<'g> {
     pub factors: Vec<(Expr<'g>, i32)>,
 }
 
-/// The order of atoms where the caller has none: symbols and π, then sines and cosines, then other
+/// The order of atoms if the caller has none: symbols and π, then sines and cosines, then other
 /// functions, then sums; among each, in order of first use in the graph.
 #[must_use]
 pub fn default_rank(atom: Expr<'_>) -> u8 {

@@ -78,7 +78,7 @@ fn product<'g>(expr: Expr<'g>, a: Expr<'g>, b: Expr<'g>) -> (Level, Vec<Piece<'g
     (Level::Product, infix(a, Level::Product, "*", b, Level::Power))
 }
 
-/// `n` of `1/n` where that is printed as a fraction.
+/// `n` of `1/n` if that is printed as a fraction.
 fn unit_fraction(number: &Number) -> Option<String> {
     let (text, level) = number::magnitude_text(number);
     text.strip_prefix("1/").filter(|_| level == Level::Product).map(str::to_owned)

@@ -38,12 +38,12 @@ pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
 /// }
 /// ```
 ///
-/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. Where the
+/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. If the
 /// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` has the same module in
 /// `lift.rs` too, unless another robot or robot file is called so. Several robots have an index `robots.rs`
 /// beside them, which includes them all. Paths are relative to the package.
 ///
-/// Cargo is told to run the build script again where a robot file or the plan pinned beside it changes; with
+/// Cargo runs the build script again if a robot file or the plan pinned beside it changes; with
 /// that, it no longer watches the other files of the package, as it does if a build script prints no such line.
 /// `robot-symbolic search` sets the robot file's time, so that a first plan is seen; after a plan came in
 /// another way, such as a checkout, touch the robot file. [`Builder::compile_folder`] notices plans by itself.
@@ -68,7 +68,7 @@ impl Builder {
     /// The functions to generate, by name; `"all"` for all that the robot has, `"jacobian_tool"` for the
     /// function of one frame or moving link.
     ///
-    /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; where it
+    /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; if it
     /// chooses none, those of [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that the robot has.
     pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
         self.functions = Some(names.into_iter().map(Into::into).collect());
@@ -96,7 +96,7 @@ impl Builder {
     }
 
     /// Whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
-    /// `f32` and `Lanes` of either. Not called, there is none.
+    /// `f32` and `Lanes` of either. If not called, there is none.
     pub fn generic(mut self, generic: bool) -> Builder {
         self.options.generic = generic;
         self
@@ -104,14 +104,14 @@ impl Builder {
 
     /// Gives each function a form `…_batch` over slices of states, computed in blocks of so many
     /// states, which LLVM turns into vectors; [`DEFAULT_BATCH`](crate::DEFAULT_BATCH) is a good
-    /// number. Not called, there is none.
+    /// number. If not called, there is none.
     pub fn batch(mut self, states: usize) -> Builder {
         self.options.batch = Some(states);
         self
     }
 
     /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`,
-    /// which the package must depend on. Not called, there is none.
+    /// which the package must depend on. If not called, there is none.
     pub fn parallel(mut self, parallel: bool) -> Builder {
         self.options.parallel = parallel;
         self

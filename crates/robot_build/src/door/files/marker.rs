@@ -21,7 +21,7 @@ pub(super) fn beginning(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Whether a text that begins so bears the mark.
+/// Whether a text that begins so has the mark.
 pub(super) fn is_marked(beginning: &[u8]) -> bool {
     let mut lines = beginning.split(|byte| *byte == b'\n').take(LINES);
     lines.any(|line| {
@@ -29,7 +29,7 @@ pub(super) fn is_marked(beginning: &[u8]) -> bool {
     })
 }
 
-/// The first line of a text that begins so, where it is text.
+/// The first line of a text that begins so, if it is text.
 pub(super) fn first_line(beginning: &[u8]) -> &str {
     let line = beginning.split(|byte| *byte == b'\n').next().unwrap_or_default();
     std::str::from_utf8(line).unwrap_or_default().trim_end()

@@ -75,7 +75,7 @@ impl Staged {
         Err(std::io::Error::other("no temporary file could be made beside it"))
     }
 
-    /// Gives it the permissions and, where the system lets us, the owner of the file that is there.
+    /// Gives it the permissions and, if the system lets us, the owner of the file that is there.
     fn keep_access(&self, present: &Metadata) -> Result<()> {
         keep_owner(&self.temporary, present);
         if fs::metadata(&self.temporary)?.permissions() == present.permissions() {
@@ -105,7 +105,7 @@ impl Drop for Staged {
     }
 }
 
-/// Files are replaced by new ones, which belong to whoever writes them; where he may, he gives them back.
+/// Files are replaced by new ones, which belong to whoever writes them; if he may, he gives them back.
 #[cfg(unix)]
 fn keep_owner(path: &Path, present: &Metadata) {
     use std::os::unix::fs::{MetadataExt, chown};
@@ -149,7 +149,7 @@ pub(super) fn remove_leftovers(target: &Path) {
     }
 }
 
-/// Removes a temporary file or folder; it may stay where the system will not.
+/// Removes a temporary file or folder; it may stay if the system will not.
 fn remove(path: &Path) {
     let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
 }

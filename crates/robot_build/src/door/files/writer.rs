@@ -291,7 +291,7 @@ fn write_stream(output: &Output<'_>) -> Result<(), Error> {
     written.map_err(|error| cannot_write(&output.path, &error))
 }
 
-/// Folders that are made for outputs; those still empty go again where the outputs fail.
+/// Folders that are made for outputs; those still empty go again if the outputs fail.
 #[derive(Default)]
 struct Folders(Vec<PathBuf>);
 

@@ -68,7 +68,7 @@ pub enum Kind {
     },
     /// An angle, rad.
     Angle,
-    /// A word of several; with each what it means, where its name does not say it. The first is the default.
+    /// A word of several; with each what it means, if its name does not say it. The first is the default.
     Choice(&'static [(&'static str, &'static str)]),
     /// A path of Rust.
     Path,

@@ -17,7 +17,7 @@ use robot_model::snap;
 use crate::driver::singular::unsolvable;
 use crate::error::{Error, Errors};
 
-/// The functions that are generated where none are chosen, as far as the robot has them.
+/// The functions that are generated if none are chosen, as far as the robot has them.
 pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::InverseDynamics(Effects::WRENCH),
@@ -26,7 +26,7 @@ pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::LinkWrenches,
 ];
 
-/// The states that a block of a batch holds where no other number is given: two or four vector
+/// The states that a block of a batch holds if no other number is given: two or four vector
 /// registers of `f64` on most processors.
 pub const DEFAULT_BATCH: usize = 8;
 
@@ -37,7 +37,7 @@ const MAX_BATCH: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The functions, each by itself. [`Functions::Usual`] without bundles means what the robot file
-    /// chooses with `[code]`, and where that chooses nothing, [`DEFAULT_FUNCTIONS`].
+    /// chooses with `[code]`, and if that chooses nothing, [`DEFAULT_FUNCTIONS`].
     pub functions: Functions,
     /// Functions in one call that compute common expressions once; if [`Options::functions`] are the usual
     /// ones, there are bundles alone.
@@ -60,10 +60,10 @@ pub struct Options {
     /// The source of sines and cosines.
     pub trigonometry: Trigonometry,
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
-    /// for what the robot file says, which is 10⁻⁹ where it says nothing.
+    /// for what the robot file says, which is 10⁻⁹ if it says nothing.
     pub snap: Option<f64>,
     /// Over which parameters of links the base parameters are; `None` for what the robot file says,
-    /// which is the file's frames where it says nothing.
+    /// which is the file's frames if it says nothing.
     pub base_frames: Option<BaseFrames>,
     /// Whether values that no body can have are accepted, with a warning.
     pub allow_unphysical: bool,
@@ -112,7 +112,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// With the functions that a robot file chooses, where these options choose none.
+    /// With the functions that a robot file chooses, if these options choose none.
     pub(crate) fn or_of_file(&self, code: &Code) -> Options {
         if self.functions != Functions::Usual || !self.bundles.is_empty() {
             return self.clone();
@@ -229,7 +229,7 @@ impl Options {
     }
 }
 
-/// The functions in their order, each once; that of a frame is left out where all frames' are there.
+/// The functions in their order, each once; that of a frame is left out if all frames' are there.
 fn once<'f>(
     functions: impl IntoIterator<Item = &'f FunctionKind>,
     robot: &Robot,

@@ -50,8 +50,8 @@ impl Infix {
 /// The infix text of a formula in LaTeX.
 ///
 /// `names` gives the name of a symbol by its [`symbol_key`]. A symbol that it does not know has the
-/// letters and digits of its LaTeX for a name. An upper index is part of a symbol where `names` knows
-/// it so, and a power where it is an integer. A repeated sign at a line break, as in `a + \\ + b`,
+/// letters and digits of its LaTeX for a name. An upper index is part of a symbol if `names` knows
+/// it so, and a power if it is an integer. A repeated sign at a line break, as in `a + \\ + b`,
 /// counts once.
 ///
 /// # Errors

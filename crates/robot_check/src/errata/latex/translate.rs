@@ -77,7 +77,7 @@ impl<'t> Translator<'t, '_> {
         }
     }
 
-    /// A sum up to what closes it, which is taken; up to the end where that is `None`.
+    /// A sum up to what closes it, which is taken; up to the end if that is `None`.
     fn sum(&mut self, close: Option<&str>) -> Result<(), ParseError> {
         self.deeper()?;
         let open = self.here();
@@ -252,7 +252,7 @@ impl<'t> Translator<'t, '_> {
         self.power()
     }
 
-    /// `^2`, where it follows.
+    /// `^2`, if it follows.
     fn power(&mut self) -> Result<(), ParseError> {
         let here = self.here();
         if !self.take("^") {

@@ -60,7 +60,7 @@ fn entries(robot: &Robot, output: &OutputValues) -> String {
     }
 }
 
-/// The coordinates whose accelerations no forces determine, where the mass matrix is singular at the state.
+/// The coordinates whose accelerations no forces determine, if the mass matrix is singular at the state.
 fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<String> {
     let value = |name: &str| {
         let set = settings.iter().find(|(set, _)| *set == name).map(|(_, value)| *value);

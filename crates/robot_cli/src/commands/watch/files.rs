@@ -59,7 +59,7 @@ pub(super) struct Settling {
 }
 
 impl Settling {
-    /// The look, where it is new and was seen often enough.
+    /// The look, if it is new and was seen often enough.
     pub(super) fn after(&mut self, look: Look) -> Option<Look> {
         let times = match self.seen.take() {
             Some((earlier, times)) if earlier == look => times + 1,

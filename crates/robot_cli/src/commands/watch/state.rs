@@ -230,7 +230,7 @@ fn title(number: usize, from: Option<usize>) -> String {
     }
 }
 
-/// Under which plans two robots are compared: their own, where both have one; a pin goes stale with each
+/// Under which plans two robots are compared: their own, if both have one; a pin goes stale with each
 /// change of its file, and the default plan beside it would show the plan, not the robot.
 fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings) -> DifferenceOptions {
     let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;

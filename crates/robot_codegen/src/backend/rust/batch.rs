@@ -335,7 +335,7 @@ fn zip(mut items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
     zipped([(first, parse_quote!(#value.iter()))].into_iter().chain(items))
 }
 
-/// `((q, qd), tau)` and `q.zip(qd).zip(tau)`, where all are iterators.
+/// `((q, qd), tau)` and `q.zip(qd).zip(tau)`, if all are iterators.
 fn zipped(items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
     let all = items.reduce(|(pattern, zipped), (next, value)| {
         (parse_quote!((#pattern, #next)), parse_quote!(#zipped.zip(#value)))

@@ -29,7 +29,7 @@ pub struct RustOptions {
     /// Further constants of the module, before its types.
     pub constants: Vec<ConstantItem>,
     /// Methods of `Parameters` that set several parameters together, and associated functions of `Model` of the
-    /// same names for the nominal parameters, where all of them have nominal values.
+    /// same names for the nominal parameters, if all of them have nominal values.
     pub setters: Vec<Setter>,
     /// Limits of expressions, blocks and functions.
     pub limits: Limits,

@@ -8,7 +8,7 @@ use crate::program::{Layout, Program, Value};
 /// arguments, an expression's values while it is computed.
 const FIXED: usize = 256;
 
-/// An estimate, from above, of the bytes of stack that a call of a function takes where nothing is
+/// An estimate, from above, of the bytes of stack that a call of a function takes if nothing is
 /// optimized, sines and cosines themselves apart. `scalar` is the size of a number, 8 or 4 bytes.
 ///
 /// Without optimization rustc gives every named value a place of its own. There are the statements

@@ -94,7 +94,7 @@ impl Variables {
     }
 }
 
-/// A name where the source is loaded, `_` where it is not.
+/// A name if the source is loaded, `_` if it is not.
 fn pattern(name: &Ident, loaded: &[Source], source: Source) -> Pat {
     syntax::optional_binding(loaded.binary_search(&source).is_ok().then_some(name))
 }

@@ -11,7 +11,7 @@
 //! evaluation that it replaces. That is evidence, no proof. Two numbers near 1 that have nothing to do
 //! with each other agree to within such a tolerance by a chance of some 10⁻¹⁵; there are six points, of
 //! which pairs share the values of parameters, so that even if parameters alone decide, three are
-//! left: 10⁻⁴⁵, times the millions of pairs that are compared. Where that rounding may be large, as in
+//! left: 10⁻⁴⁵, times the millions of pairs that are compared. If that rounding may be large, as in
 //! long recursions, whose bounds grow with each joint, agreement is not evidence, and nothing is replaced.
 //! But the points are fixed, the same for every program, and values of one program are not unrelated; no
 //! bound follows for them. The results are therefore compared once more at other points, and what code
@@ -39,7 +39,7 @@ const ROUNDS: usize = 8;
 const GROWTH: f64 = 4.0;
 
 /// Replaces values by multiples of others, and with [`Resubstitution::Pairs`] by sums and products
-/// of two, where that saves operations. Reassociates.
+/// of two, if that saves operations. Reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) -> Program {
     let mut found = super::dead_code::run(program);
@@ -278,7 +278,7 @@ impl<'p> Search<'p> {
         })
     }
 
-    /// Takes a form where it saves more than the best so far and does not need the value itself.
+    /// Takes a form if it saves more than the best so far and does not need the value itself.
     fn offer(&self, value: Value, form: Form, best: &mut Best) {
         let operands = form.operands();
         let gain = self.cones.gain(value, &operands, form.cost());

@@ -130,7 +130,7 @@ mod tests {
         assert!(after * 10 < before * 9, "{before} became {after}");
     }
 
-    /// Two where a chain takes up loads, one more for each level of a tree.
+    /// Two if a chain takes up loads, one more for each level of a tree.
     #[test]
     fn registers_are_those_of_sethi_and_ullman() {
         let mut b = Builder::new();

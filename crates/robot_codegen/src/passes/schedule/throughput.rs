@@ -1,7 +1,7 @@
 //! List scheduling (Graham 1969): the order in which a simple processor would start the operations.
 //!
 //! A call waits for chains of dependent operations: without the sines and cosines some 100 cycles for
-//! an arm of six joints, twice the time that its operations need where they overlap. A processor looks
+//! an arm of six joints, twice the time that its operations need if they overlap. A processor looks
 //! a few hundred instructions ahead, so that work from the other end of a function is out of its
 //! sight. Here the operation whose results are waited for longest starts first.
 //!
@@ -159,12 +159,12 @@ impl<'p> List<'p> {
         Some(candidates.find(|value| self.growth(*value) <= 0).unwrap_or(first))
     }
 
-    /// By how much the number of values alive grows where an operation starts.
+    /// By how much the number of values alive grows if an operation starts.
     fn growth(&self, value: Value) -> isize {
         1 - self.ends[value.index()]
     }
 
-    /// Tells the users of a value where but one still needs it; for those that have started it is the same.
+    /// Tells the users of a value if but one still needs it; for those that have started it is the same.
     fn note_end(&mut self, value: Value) {
         if self.needed[value.index()] == 1 && !self.program.operation(value).is_leaf() {
             for user in &self.users[value.index()] {

@@ -96,7 +96,7 @@ fn index<'n>(
     unique.then(|| found.into_iter().map(|(name, (index, _))| (name, index)).collect())
 }
 
-/// Parent and child of each joint, where all of them are links and no link is a child twice.
+/// Parent and child of each joint, if all of them are links and no link is a child twice.
 fn ends(
     reader: &mut Reader<'_>,
     joints: &[UrdfJoint<'_>],

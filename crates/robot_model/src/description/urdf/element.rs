@@ -244,7 +244,7 @@ impl Kind {
     }
 }
 
-/// An error where a word is near or nothing else is allowed, else a warning.
+/// An error if a word is near or nothing else is allowed, else a warning.
 fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> Diagnostic {
     match near {
         Some(near) => Diagnostic::error(code::UNKNOWN_KEY, message)

@@ -253,7 +253,7 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     Some(numbers.each_ref().map(Formula::number))
 }
 
-/// Lower and upper limit, 0 if one is left out, as URDF says; none where both are the same.
+/// Lower and upper limit, 0 if one is left out, as URDF says; none if both are the same.
 fn limits(
     reader: &mut Reader<'_>,
     element: &Element<'_, '_>,

@@ -5,7 +5,7 @@
 //!
 //! - principal moments that break the triangle inequality by no more than [`PUBLISHED`] of the
 //!   largest are a warning: measured moments are so;
-//! - a massless link with a moment of inertia about its joint axis alone is a warning where the joint
+//! - a massless link with a moment of inertia about its joint axis alone is a warning if the joint
 //!   is carried by the base and turns about a vertical axis: nothing else of the link acts.
 
 use robot_symbolic::Formula;

@@ -67,7 +67,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
     Some(Lowered { draft, order, parameters, wanted: Wanted::default(), budgets: Vec::new() })
 }
 
-/// The root element, where it is that of URDF.
+/// The root element, if it is that of URDF.
 fn root<'a, 'i>(reader: &mut Reader<'_>, node: Node<'a, 'i>) -> Option<Element<'a, 'i>> {
     let name = node.tag_name().name();
     let place = element::tag(node);

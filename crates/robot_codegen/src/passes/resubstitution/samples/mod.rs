@@ -189,7 +189,7 @@ impl Sample {
         sum.trusted_as_sum_of(self, other)
     }
 
-    /// The difference, or the sum where the sign of the other is changed.
+    /// The difference, or the sum if the sign of the other is changed.
     pub(super) fn minus(&self, other: &Sample, negative: bool) -> Sample {
         let sign = if negative { -1.0 } else { 1.0 };
         let difference = Sample::new(
