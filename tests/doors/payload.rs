@@ -117,7 +117,7 @@ fn every_plan_carries_a_payload() {
     }
 }
 
-/// Where all ten figures of the link are parameters already, a payload costs nothing at a call.
+/// Where all ten parameters of the link are parameters already, a payload costs nothing at a call.
 #[test]
 fn a_payload_costs_no_operation_at_a_call() {
     for name in ["puma560", "ur5", "iiwa", "panda"] {
@@ -129,7 +129,7 @@ fn a_payload_costs_no_operation_at_a_call() {
             module.counts(&module.functions[0]).call
         };
         let text = robot_file(&format!("{name}.toml"));
-        // A center of mass at the origin is taken for that, not for a figure.
+        // A center of mass at the origin is taken for that, not for a value.
         let text = text.replace("center_of_mass = [0, 0, 0]", "center_of_mass = [0.1, 0.2, 0.3]");
         let with = count(format!("{text}\n[payload]\n"));
         assert_eq!(with.operations(), count(text).operations(), "{name}");

@@ -116,7 +116,7 @@ fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
     count
 }
 
-/// Each column of the full regressor is the kept ones times the figures of its parameter.
+/// Each column of the full regressor is the kept ones times the coefficients of its parameter.
 fn check_columns(
     robot: &Robot,
     found: &BaseParameters<'_>,

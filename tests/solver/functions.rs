@@ -256,7 +256,7 @@ fn functions_of_robots_with_free_axes_agree_with_the_numeric_solver() {
     report("free axes", worst);
 }
 
-/// Figures that must not be exceeded: multiplications and additions, and divisions.
+/// Operation counts that must not be exceeded: multiplications and additions, and divisions.
 #[test]
 fn searched_plans_keep_the_operations_of_functions_low() {
     let budgets = [

@@ -1,4 +1,4 @@
-//! Last links whose mass is spread alike all round their joint axes: no joint torque depends on their
+//! Last links that are axisymmetric about their joint axes: no joint torque depends on their
 //! joints' positions, and code does not take their sines.
 
 use robot_build::{Functions, Options, Source, programs};

@@ -15,7 +15,7 @@ use calls::{BATCH, Calls, Name, Random, STATES};
 
 use crate::timing::nanoseconds;
 
-/// The robots of the comparison: those whose figures are numbers.
+/// The robots of the comparison: those without parameters.
 const ROBOTS: [&str; 6] = ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"];
 
 /// The functions of the comparison.
@@ -31,7 +31,7 @@ const FUNCTIONS: [&str; 9] = [
     "pose_and_jacobian",
 ];
 
-/// Prints figures; `compiled` says for which machine.
+/// Prints counts and times; `compiled` says for which machine.
 struct Timer {
     compiled: String,
 }

@@ -1,4 +1,4 @@
-//! What can go wrong on the way from a robot file to code.
+//! Errors from a robot file to code.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -21,18 +21,18 @@ pub enum Error {
         function: String,
         /// The robot.
         robot: String,
-        /// What the robot lacks, and the remedy.
+        /// The missing property of the robot, and the remedy.
         why: &'static str,
     },
-    /// A name that is no function's of the robot.
+    /// A name that is not a function of the robot.
     #[error(transparent)]
     FunctionName(#[from] WrongName),
-    /// A bundle that is none.
+    /// An invalid bundle.
     #[error("the bundle `{}`: {reason}", quote(bundle))]
     Bundle {
         /// Its name.
         bundle: String,
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
     /// An empty list of functions.
@@ -41,10 +41,10 @@ pub enum Error {
         default"
     )]
     NoFunctions,
-    /// A tolerance that is no angle.
+    /// An invalid snapping tolerance.
     #[error(transparent)]
     Snap(#[from] InvalidSnap),
-    /// A number of states that is no size of a block.
+    /// A number of states that is not a valid block size.
     #[error("a batch cannot have blocks of {states} states; choose 1 to {most}, for example 8")]
     Batch {
         /// The number.
@@ -52,18 +52,18 @@ pub enum Error {
         /// The largest that there is.
         most: usize,
     },
-    /// Threads without states to share among them.
+    /// Threads without batches to distribute.
     #[error("`parallel` applies to batches: set their size with `batch`")]
     ParallelWithoutBatch,
-    /// What the code generator refuses.
+    /// An error of the code generator.
     #[error("{name}: {error}")]
     Code {
         /// The robot file.
         name: String,
-        /// What is wrong.
+        /// The error.
         error: robot_codegen::Error,
     },
-    /// A mass matrix that is singular in every posture, so that there is no forward dynamics.
+    /// A mass matrix that is singular in every configuration, so that there is no forward dynamics.
     #[error(
         "{name}: the mass matrix is singular in every posture, so forward dynamics has no \
          solution: the joint torques do not determine the accelerations of {}; give mass or \
@@ -84,17 +84,17 @@ pub enum Error {
     TooLarge {
         /// The robot file.
         name: String,
-        /// How many expressions there may be.
+        /// The largest number of expressions.
         limit: usize,
     },
     /// A file that cannot be read or written.
     #[error("cannot {action} {}: {reason}", shown(path))]
     File {
-        /// What was tried.
+        /// The action that failed.
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system says, and the remedy if there is one.
+        /// The system's message, and the remedy if there is one.
         reason: String,
     },
     /// An output that is an input.
@@ -117,7 +117,7 @@ pub enum Error {
         path: PathBuf,
         /// By what it is known.
         reason: &'static str,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// A robot file outside of the package.
@@ -138,7 +138,7 @@ pub enum Error {
     NotUnderCargo {
         /// The variable.
         variable: &'static str,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// A pinned plan that is stale or no plan.
@@ -148,7 +148,7 @@ pub enum Error {
         path: PathBuf,
         /// The robot file.
         robot: String,
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
     /// A plan for another robot.
@@ -162,7 +162,7 @@ pub enum Error {
     Budget {
         /// The robot file.
         name: String,
-        /// What costs too much.
+        /// The function and resource over its limit.
         over: crate::driver::budget::Over,
     },
     /// No robot file at all.
@@ -211,7 +211,7 @@ impl Errors {
         if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }
 
-    /// What is wrong with code made of the file `name`.
+    /// The errors of code made from the file `name`.
     pub(crate) fn of_code(name: &str, errors: &robot_codegen::Errors) -> Errors {
         let errors = errors.as_slice().iter();
         Errors(

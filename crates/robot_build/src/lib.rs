@@ -15,10 +15,10 @@
 //! include!(concat!(env!("OUT_DIR"), "/trttr1.rs"));
 //! ```
 //!
-//! The module bears the robot's name in lower case; the file may be called as that or as the robot file.
+//! The module has the robot's name in lower case; the file may be called as that or as the robot file.
 //! Generated code calls the crate `robot_runtime`, which must be a dependency (with its feature `std`
 //! where [`Builder::trigonometry`] asks for the standard library's sine and cosine). Building again is
-//! cheap: the file is written only where it changes, and Cargo runs the build script again only where a
+//! cheap: the file is written only if it changes, and Cargo runs the build script again only if a
 //! robot file has changed. [`Builder`] has the options.
 //!
 //! The driver itself is pure: [`generate`] takes a text and gives a text. It touches no file, no

@@ -211,7 +211,7 @@ fn trees_with_massless_links_agree_with_the_numeric_solver() {
         let state = Random::new(seed).state(&mechanism);
         let (q, qd, tau) = (&state.q, &state.qd, &state.tau);
         let Ok(expected) = mechanism.articulated_body(q, qd, tau, &[]) else { continue };
-        // Two parallel slides with nothing between: M is singular in every posture.
+        // Two parallel slides with nothing between: M is singular in every configuration.
         if expected.iter().any(|entry| !entry.is_finite() || entry.abs() > 1e8) {
             continue;
         }
@@ -225,7 +225,7 @@ fn trees_with_massless_links_agree_with_the_numeric_solver() {
     assert!(checked > 40, "{checked}");
 }
 
-/// A joint that moves nothing in any posture: the error names the mass matrix.
+/// A joint that moves nothing in any configuration: the error names the mass matrix.
 #[test]
 fn a_joint_without_mass_is_the_reason() {
     let text = format!(

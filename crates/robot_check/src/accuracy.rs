@@ -20,7 +20,7 @@ pub fn states() -> String {
     )
 }
 
-/// The largest difference of each function in a component, as a share of the largest component of the result.
+/// The largest difference of each function in a component, as a fraction of the largest component of the result.
 ///
 /// # Errors
 ///
@@ -63,7 +63,7 @@ pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
     Ok(errors)
 }
 
-/// The largest difference as a share of the largest expected value.
+/// The largest difference as a fraction of the largest expected value.
 fn difference(values: &[f64], expected: &[f64]) -> f64 {
     let size = expected.iter().fold(0.0f64, |size, value| size.max(value.abs()));
     let pairs = values.iter().zip(expected);

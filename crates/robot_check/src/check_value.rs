@@ -13,7 +13,7 @@ const STATE: [[&str; 7]; 3] = [
 /// The wrench of each tip, N and N m.
 const WRENCH: [&str; 6] = ["3", "-2", "5", "0.4", "0.7", "-0.3"];
 
-/// The joint torques at a state, by the numeric solver, which shares nothing with the equations, with or without
+/// The joint torques at a state, by the numeric solver, which is independent of the equations, with or without
 /// friction. `None` if parameters have no values.
 #[must_use]
 pub fn check_value(robot: &Robot, friction: bool) -> Option<CheckValue> {

@@ -1,7 +1,7 @@
-//! What judges robots and equations.
+//! Judgment of robots and equations.
 //!
-//! [`doctor`] looks for likely slips in robot files, [`errata`] compares published equations with the
-//! derived ones, [`difference`] tells in what two robots differ, [`accuracy`] holds programs against the numeric
+//! [`doctor`] looks for likely mistakes in robot files, [`errata`] compares published equations with the
+//! derived ones, [`difference`] compares two robots, [`accuracy`] compares programs with the numeric
 //! solver, and [`check_value`] is a state for whoever copies equations.
 
 pub mod accuracy;

@@ -4,10 +4,10 @@ use robot_build::{Snapping, snapping::Tried};
 use robot_codegen::{Counts, FunctionCounts};
 use serde_json::{Map, Value, json};
 
-/// A named figure of [`Counts`].
+/// A named count of [`Counts`].
 type Column = (&'static str, fn(&Counts) -> usize);
 
-/// The figures, by their names in JSON.
+/// The counts, by their names in JSON.
 pub(crate) const COLUMNS: [Column; 8] = [
     ("mul", |counts| counts.mul),
     ("add", |counts| counts.add),

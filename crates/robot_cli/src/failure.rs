@@ -20,7 +20,7 @@ pub(crate) enum Failure {
     Input(Vec<String>),
     /// Arguments that do not fit together, or name what there is not.
     Usage(Vec<String>),
-    /// What is shown already.
+    /// A failure that has been shown already.
     Shown,
     /// As the failure, with the code 2: a comparison keeps 1 for what differs.
     Refused(Box<Failure>),
@@ -97,7 +97,7 @@ impl Failure {
             }
         };
         for message in messages {
-            // Nobody is listening where this fails.
+            // Nobody is listening if this fails.
             let _ = writeln!(terminal.errors, "{}", in_flags(message.trim_end()));
         }
         code

@@ -8,7 +8,7 @@ use robot_build::shown;
 use crate::Terminal;
 use crate::failure::Failure;
 
-/// Tables of states and torques are no larger; a device may have no end.
+/// Tables of states and torques are smaller; a device may have no end.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// The name of a file as messages show it, and its text; `-` is standard input.

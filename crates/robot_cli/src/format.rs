@@ -1,4 +1,4 @@
-//! How results are shown.
+//! The formats of results.
 
 use clap::ValueEnum;
 

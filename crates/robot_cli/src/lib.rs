@@ -119,7 +119,7 @@ fn usage(error: &clap::Error, terminal: &mut Terminal<'_>) -> u8 {
         let shown = write!(terminal.output, "{error}").and_then(|()| terminal.output.flush());
         return shown.map_or_else(|error| Failure::from(error).report(terminal), |()| 0);
     }
-    // Nobody is listening where this fails.
+    // Nobody is listening if this fails.
     let _ = write!(terminal.errors, "{error}");
     2
 }

@@ -6,7 +6,7 @@ use std::io::Write;
 use robot_model::diagnostic::is_invisible;
 
 /// Standard error. Control characters and those that show nothing or reorder text are written as escapes, but for ends of lines, tabs, and on a terminal
-/// this program's own commands; what cannot be written is dropped, for messages that nobody hears are no reason
+/// this program's own commands; text that cannot be written is dropped, because messages that nobody reads are no reason
 /// to leave the work undone.
 pub(crate) struct Messages<'a> {
     pub(crate) stream: &'a mut dyn Write,

@@ -1,4 +1,4 @@
-//! What commands about motions make of a robot file.
+//! The robot of commands about motions, made from its file.
 
 use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
 use robot_model::robot::Robot;

@@ -11,7 +11,7 @@ use crate::progress::watched;
 /// The options with the plan that is pinned beside the robot file.
 ///
 /// A pin that cannot be taken, because it is stale or no plan, is warned of: what is computed is right under
-/// every plan, and one searched for this call stands in.
+/// every plan, and one searched for this call is used instead.
 pub(crate) fn pinned_or_searched(
     file: &RobotFile,
     options: Options,

@@ -1,4 +1,4 @@
-//! How far a long run has come, on a terminal.
+//! The progress of a long run, on a terminal.
 
 use std::io::Write;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -6,16 +6,16 @@ use std::time::{Duration, Instant};
 
 use crate::Terminal;
 
-/// A line on standard error that says how far a run has come: on a terminal only, and only where the
+/// A line on standard error that says how far a run has come: on a terminal only, and only if the
 /// run takes longer than a second.
 pub(crate) struct Progress<'e> {
     errors: Option<&'e mut dyn Write>,
-    /// When it is next shown.
+    /// The time of the next output.
     next: Instant,
     shown: bool,
 }
 
-/// How long a run is watched in silence.
+/// The time for which a run shows nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// The time from one line to the next.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -26,11 +26,11 @@ impl<'e> Progress<'e> {
         Progress { errors, next: Instant::now() + PATIENCE, shown: false }
     }
 
-    /// Shows the line, where it is time.
+    /// Shows the line, if it is time.
     pub(crate) fn show(&mut self, line: impl FnOnce() -> String) {
         let now = Instant::now();
         if let Some(errors) = self.errors.as_mut().filter(|_| now >= self.next) {
-            // Nobody is watching where this fails.
+            // Nobody is watching if this fails.
             let _ = write!(errors, "\r\x1b[K{}", line()).and_then(|()| errors.flush());
             self.next = now + PAUSE;
             self.shown = true;
@@ -38,7 +38,7 @@ impl<'e> Progress<'e> {
     }
 }
 
-/// Does work that tells nothing of its progress; shows how long it takes.
+/// Does work that reports no progress; shows how long it takes.
 pub(crate) fn watched<T: Send>(
     what: &str,
     terminal: &mut Terminal<'_>,
@@ -76,7 +76,7 @@ impl Drop for Progress<'_> {
 mod tests {
     use super::*;
 
-    /// What is shown of two seconds' work.
+    /// The output of two seconds' work.
     fn shown(progress: bool) -> String {
         let (mut output, mut errors) = (vec![], vec![]);
         let mut terminal = Terminal {

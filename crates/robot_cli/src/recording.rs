@@ -1,4 +1,4 @@
-//! What commands about motions write: a table, and a plot of it.
+//! The output of commands about motions: a table, and a plot of it.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ pub(crate) fn plot_path(text: &str) -> Result<PathBuf, String> {
     if known { Ok(path) } else { Err("the name must end in .svg or .png".to_owned()) }
 }
 
-/// Where table and plot go, which has been found to be free for them.
+/// The paths of table and plot, which have been found to be free for them.
 pub(crate) struct Recording<'a> {
     table: Option<&'a Path>,
     plot: Option<&'a Path>,
@@ -34,7 +34,7 @@ fn is_header(line: &str) -> bool {
 
 impl<'a> Recording<'a> {
     /// The places of a table, without which it goes to standard output, and of a plot; refused at once,
-    /// before any work, where they cannot be written.
+    /// before any work, if they cannot be written.
     pub(crate) fn open(
         table: Option<&'a Path>,
         plot: Option<&'a Path>,

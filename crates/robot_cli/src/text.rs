@@ -54,7 +54,7 @@ pub(crate) fn sum(whole: &str) -> String {
     lines
 }
 
-/// A sum on lines of so many columns, broken before signs: within parentheses only where what they hold
+/// A sum on lines of so many columns, broken before signs: within parentheses only if what they hold
 /// fits no line.
 fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     let mut breaks: Vec<(usize, usize)> = vec![];
@@ -114,7 +114,7 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// What was done to angles near multiples of π/2, and what larger tolerances would do.
+/// Describes how angles near multiples of π/2 were snapped, and the effect of larger tolerances.
 pub(crate) fn snapping(snapping: &Snapping) -> String {
     let Snapping { taken, larger } = snapping;
     let mut text = format!(

@@ -1,4 +1,4 @@
-//! What the passes minimize.
+//! The cost that the passes minimize.
 
 use crate::counts::Counts;
 use crate::passes::{fusing, product_last};

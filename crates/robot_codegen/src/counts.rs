@@ -89,7 +89,7 @@ impl Counts {
     }
 }
 
-/// What a function costs.
+/// The cost of a function.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FunctionCounts {
     /// Each call: the angles, their sines and cosines, and the arithmetic.
@@ -120,7 +120,7 @@ impl FunctionCounts {
         FunctionCounts { call, constructor: constructor_counts }
     }
 
-    /// The same with the named values of the function's arithmetic in a text within such limits.
+    /// These counts with the named values of the function's arithmetic in a text within such limits.
     #[must_use]
     pub fn laid_out(mut self, function: &Function, limits: &Limits) -> FunctionCounts {
         self.call.temporaries = Layout::new(&function.core, limits).statements();

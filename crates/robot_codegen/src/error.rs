@@ -1,4 +1,4 @@
-//! What can be wrong with a specification, a call or a generation.
+//! Errors of a specification, a call or a generation.
 
 use std::fmt;
 
@@ -22,9 +22,9 @@ pub enum Error {
     /// Two things of one kind have one name.
     #[error("{place}: the {kind} `{name}` is declared twice; rename one of them")]
     Duplicate {
-        /// Where: the module or one of its functions.
+        /// The module or one of its functions.
         place: String,
-        /// What: parameter, function, input, symbol, output.
+        /// Parameter, function, input, symbol or output.
         kind: &'static str,
         /// The name.
         name: String,
@@ -61,7 +61,7 @@ pub enum Error {
         /// The output.
         output: String,
     },
-    /// A constant that is no finite number: a division by zero, or beyond the range of `f64`.
+    /// A constant that is not a finite number: a division by zero, or beyond the range of `f64`.
     #[error(
         "output `{output}` of function `{function}` contains a constant that is not a finite \
          number (a division by zero, the square root of a negative number, or a value outside \
@@ -73,7 +73,7 @@ pub enum Error {
         /// The first output with such a constant.
         output: String,
     },
-    /// A nominal value that is no finite number.
+    /// A nominal value that is not a finite number.
     #[error("the nominal value of the parameter `{parameter}` is not a finite number")]
     NominalNotFinite {
         /// The parameter.
@@ -162,7 +162,7 @@ pub enum Error {
         /// The number of states of another input or output.
         found: usize,
     },
-    /// An option of a backend that is no Rust path.
+    /// An option of a backend that is not a Rust path.
     #[error("the runtime path `{path}` is not a Rust path such as `::robot_runtime`")]
     RuntimePath {
         /// The text given.
@@ -183,7 +183,7 @@ pub enum Error {
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Ok(value)` where nothing is wrong.
+    /// `Ok(value)` if nothing is wrong.
     pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
         if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }

@@ -86,7 +86,7 @@ fn check_names<'a>(
     }
 }
 
-/// What a node depends on, in the order of what prevails.
+/// The stage that a node depends on, in order of precedence.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Class {
     Constant,
@@ -137,7 +137,7 @@ fn output_with(function: &Function<'_>, id: Id) -> String {
 }
 
 struct Lowering<'g> {
-    /// What each symbol reads.
+    /// The source that each symbol reads.
     sources: FxHashMap<SymbolId, Source>,
     nodes: Vec<Expr<'g>>,
     classes: FxHashMap<Id, Class>,
@@ -220,7 +220,7 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// The argument of a sine or cosine of inputs; one that itself contains such a sine is no angle
+    /// The argument of a sine or cosine of inputs; one that itself contains such a sine is not an angle
     /// of the function, but computed in its place.
     fn angle(&self, expr: Expr<'g>) -> Option<(Call, Expr<'g>)> {
         match expr.view() {

@@ -125,13 +125,13 @@ impl Module {
         }
     }
 
-    /// What one call of a function costs, and what of the constructor it needs.
+    /// The cost of one call of a function, and the part of the constructor that it needs.
     #[must_use]
     pub fn counts(&self, function: &Function) -> FunctionCounts {
         FunctionCounts::new(&self.constructor, function)
     }
 
-    /// What the constructor of the whole module costs.
+    /// The cost of the constructor of the whole module.
     #[must_use]
     pub fn constructor_counts(&self) -> Counts {
         Counts::of(&self.constructor)

@@ -3,7 +3,7 @@
 //! Running error analysis (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., 2002,
 //! section 3.3): each operation passes on the errors of its operands, to first order, and adds half a unit
 //! in its last place. The bounds are of the values for the inputs as they are given; parameters are decimal
-//! numbers, of which the nearest `f64` is taken.
+//! numbers, whose nearest `f64` is taken.
 
 use robot_symbolic::Function as Call;
 
@@ -21,7 +21,7 @@ const POLYNOMIAL: f64 = 1.7e-16;
 pub struct Rounded {
     /// The value.
     pub value: f64,
-    /// How far off it may be.
+    /// The bound of its error.
     pub error: f64,
 }
 
@@ -35,7 +35,7 @@ impl Rounded {
         Rounded { value, error: 0.0 }
     }
 
-    /// What a load reads: inputs are what they are; parameters, fields and sines are rounded.
+    /// A value as loaded: inputs are exact; parameters, fields and sines are rounded.
     pub(crate) fn loaded(source: Source, trigonometry: Trigonometry, value: f64) -> Rounded {
         match source {
             Source::Input(_) => Rounded::exact(value),

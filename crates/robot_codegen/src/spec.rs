@@ -1,4 +1,4 @@
-//! What is to become code: named expressions over named inputs and parameters.
+//! The specification of code: named expressions over named inputs and parameters.
 //!
 //! Documentation is Markdown of the caller's own, printed as it is: text that the caller does not control, a
 //! remark of a robot file, goes through [`markdown`](crate::backend::common::markdown) before it becomes part of
@@ -32,6 +32,6 @@ pub struct ParameterSpec {
     pub doc: String,
     /// Its unit; empty if it has none.
     pub unit: String,
-    /// The value where none other is given.
+    /// The value if none other is given.
     pub nominal: Option<f64>,
 }

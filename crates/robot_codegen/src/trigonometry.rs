@@ -1,6 +1,6 @@
-//! Where sines and cosines come from.
+//! The source of sines and cosines.
 
-/// Where the sines and cosines of a function's angles come from.
+/// The source of the sines and cosines of a function's angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Trigonometry {
     /// The runtime's branch-free polynomials: fast, the same bits on every machine, and without the
@@ -12,7 +12,7 @@ pub enum Trigonometry {
 }
 
 impl Trigonometry {
-    /// What generated code tells its readers of the angles that it takes.
+    /// The documentation, in generated code, of the angles that it takes.
     #[must_use]
     pub fn range_of_angles(self) -> &'static str {
         match self {

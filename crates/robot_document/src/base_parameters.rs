@@ -1,4 +1,4 @@
-//! The base parameters of a robot: what of its inertias and drives the joint torques tell.
+//! The base parameters of a robot: the combinations of its inertial parameters that the joint torques determine.
 
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, base_parameters};
 use robot_dynamics::functions::Derivation;
@@ -15,15 +15,15 @@ use crate::latex;
 use crate::layout::{Order, SymbolTable, Trigonometry};
 use crate::math::{Fence, Math};
 
-/// What expansions may cost: more terms than anybody reads.
+/// The limits of expansions: more terms than anybody reads.
 const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
 
-/// What helps where formulas of base parameters are too long.
+/// The remedy for formulas of base parameters that are too long.
 const SHORTER: &str =
     "snapping angles between frames that are nearly multiples of π/2 makes them shorter";
 
-/// What the names mean.
+/// The meaning of the names.
 pub(crate) const NAMES: &str = "XX to ZZ are the entries of a link's inertia tensor about the \
     origin of its frame, in its axes and with their signs, MX, MY, MZ its first moment, M its \
     mass; IA is a drive's reflected inertia (armature), FV, FP, FN its viscous, forward and \
@@ -37,7 +37,7 @@ pub struct BaseSet {
     pub standard: Vec<String>,
     /// The base parameters, in the order of their columns.
     pub list: Vec<BaseEntry>,
-    /// Whether figures are rounded, see [`BaseParameters::rounded`].
+    /// Whether coefficients are rounded, see [`BaseParameters::rounded`].
     pub rounded: bool,
 }
 
@@ -50,9 +50,9 @@ pub struct BaseEntry {
     pub left: Math,
     /// The column of the full regressor that is this one's.
     pub column: Option<usize>,
-    /// The formula in standard parameters: those with one figure stand in one term.
+    /// The formula in standard parameters: those with equal coefficients are in one term.
     pub formula: Written,
-    /// The figure of each standard parameter by its place, as text that reads back.
+    /// The coefficient of each standard parameter by its place, as text that reads back.
     pub coefficients: Vec<(usize, String)>,
     /// The value in the file's parameters.
     pub value: Written,
@@ -63,7 +63,7 @@ pub struct BaseEntry {
 pub struct Written {
     /// Infix text that reads back.
     pub text: String,
-    /// What it looks like.
+    /// Its layout.
     pub math: Math,
 }
 
@@ -79,7 +79,7 @@ pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
     let graph = Graph::limited(MAX_NODES);
     let set = written(robot, snap, &graph);
     if graph.is_full() {
-        // What was written on the way means nothing then.
+        // Symbols written before mean nothing then.
         let reason = format!("they need more than {MAX_NODES} expressions; {SHORTER}");
         return Err(Error::Base { reason });
     }
@@ -132,7 +132,7 @@ impl BaseSet {
 }
 
 impl BaseEntry {
-    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; where nothing is regrouped, `MY_2 = 0.1`.
+    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; if nothing is regrouped, `MY_2 = 0.1`.
     fn equation(&self) -> Equation {
         let formula = if self.coefficients.len() > 1 { &self.formula } else { &self.value };
         Equation {
@@ -144,7 +144,7 @@ impl BaseEntry {
     }
 }
 
-/// `formula = value`, or one of them where they look alike, as sums of masses do.
+/// `formula = value`, or one of them if they look alike, as sums of masses do.
 pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
     let mut right = formula.math.pieces().to_vec();
     if latex::formula(&formula.math) != latex::formula(&value.math) {
@@ -154,32 +154,32 @@ pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
     Math::row(right)
 }
 
-/// The base parameters, or why there are none.
+/// The base parameters, or why they cannot be computed.
 pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameters<'g>, Error> {
     base_parameters(derivation).ok_or_else(|| Error::Base {
         reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
     })
 }
 
-/// Figures and values, expanded.
+/// Coefficients and values, expanded.
 pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
     Polynomial::of_all(values, &LIMITS)
         .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })
 }
 
-/// The figures of a base parameter, expanded.
+/// The coefficients of a base parameter, expanded.
 fn coefficients<'g>(parameter: &BaseParameter<'g>) -> Result<Vec<Polynomial<'g>>, Error> {
     let coefficients: Vec<Expr<'g>> =
         parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect();
     polynomials(&coefficients)
 }
 
-/// What the name of a base parameter looks like.
+/// The layout of the name of a base parameter.
 pub(crate) fn look(parameter: &BaseParameter<'_>) -> Math {
     shape(parameter.kept.quantity, parameter.mark(), parameter.kept.link)
 }
 
-/// What a name looks like: slanted letters that belong together, the number of the link below.
+/// The layout of a name: italic letters that belong together, the number of the link below.
 pub(crate) fn shape(quantity: Quantity, mark: &str, link: usize) -> Math {
     let letters = quantity.symbol().chars().chain(mark.chars());
     let letters = Math::row(letters.map(Math::Letter).collect());
@@ -204,7 +204,7 @@ impl Formulas<'_> {
     }
 
     /// The formula of a base parameter in standard ones, which are written as `standard` has them: the
-    /// kept one comes first, and those with one figure stand together. `None` is left out.
+    /// kept one comes first, and those with equal coefficients are together. `None` is left out.
     pub(crate) fn of_parameter(
         &self,
         parameter: &BaseParameter<'_>,
@@ -227,7 +227,7 @@ impl Formulas<'_> {
         Ok(sum(&terms))
     }
 
-    /// A figure as a factor: nothing for 1, sums in parentheses.
+    /// A coefficient as a factor: nothing for 1, sums in parentheses.
     fn factor(&self, coefficient: &Polynomial<'_>) -> Result<Term, Error> {
         let written = self.of_polynomial(coefficient)?;
         if coefficient.len() > 1 {
@@ -251,7 +251,7 @@ pub(crate) struct Term {
 }
 
 impl Term {
-    /// A term, or a sum, whose first sign stands for the whole.
+    /// A term, or a sum whose first sign counts for the whole.
     pub(crate) fn of(written: Written) -> Term {
         let text = written.text.strip_prefix('-').map(str::to_owned);
         let math = match written.math.pieces() {
@@ -281,7 +281,7 @@ pub(crate) fn sum(terms: &[Term]) -> Written {
     Written { text, math: Math::row(pieces) }
 }
 
-/// The figure times the sum of the names.
+/// The coefficient times the sum of the names.
 fn product(factor: &Term, names: &[&Written]) -> Term {
     let text = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(" + ");
     let mut sum = vec![];
@@ -294,7 +294,7 @@ fn product(factor: &Term, names: &[&Written]) -> Term {
     let Term { negative, written } = factor;
     let is_one = written.text.is_empty();
     let mut pieces = written.math.pieces().to_vec();
-    // What follows a sine would seem to be in its argument.
+    // A factor after a sine would seem to be in its argument.
     if pieces.iter().any(Math::is_function) {
         pieces.push(Math::Sign('·'));
     }

@@ -8,7 +8,7 @@ use crate::math::Math;
 pub struct Document {
     /// The title.
     pub title: String,
-    /// What it holds, in order.
+    /// Its blocks, in order.
     pub blocks: Vec<Block>,
 }
 
@@ -30,7 +30,7 @@ pub enum Block {
 /// A table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
-    /// What it shows.
+    /// Its content.
     pub caption: String,
     /// The heads of the columns.
     pub head: Vec<Vec<Inline>>,
@@ -53,7 +53,7 @@ pub struct NumberedEquation {
 pub enum Inline {
     /// Text, as it is to be read.
     Text(String),
-    /// Text that is to stand out.
+    /// Emphasized text.
     Emphasis(String),
     /// A formula within the line.
     Math(Math),

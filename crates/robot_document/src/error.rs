@@ -29,7 +29,7 @@ pub enum Error {
         /// The most that there are coefficients for.
         limit: usize,
     },
-    /// More expressions than anybody reads, on the way to the equations.
+    /// Too many expressions on the way to the equations for anybody to read.
     #[error(
         "the equations need more than {limit} expressions; the forms `recursive` and `compact` \
          need the fewest, and snapping angles that are nearly multiples of π/2 (the option \
@@ -39,7 +39,7 @@ pub enum Error {
         /// The most that are derived.
         limit: usize,
     },
-    /// A tolerance that is no angle.
+    /// An invalid snapping tolerance.
     #[error(transparent)]
     Snap(#[from] InvalidSnap),
     /// Base parameters that cannot be found or written out.
@@ -70,7 +70,7 @@ pub enum Error {
         name: String,
         /// The other one.
         other: String,
-        /// What they print as.
+        /// Their printed form.
         latex: String,
     },
     /// A symbol that prints like the short form of a sine or cosine.
@@ -81,7 +81,7 @@ pub enum Error {
     LikeSine {
         /// The symbol.
         name: String,
-        /// What it prints as.
+        /// Its printed form.
         latex: String,
     },
     /// A piece that is wider than a line.
@@ -93,9 +93,9 @@ pub enum Error {
     Narrow {
         /// The left side in text.
         name: String,
-        /// What the piece needs.
+        /// The width that the piece needs.
         needed: Centimeters,
-        /// What there is.
+        /// The width available.
         available: Centimeters,
     },
     /// Parts within parts within parts.

@@ -19,7 +19,7 @@ fn robot_file(name: &str) -> Robot {
     read_toml(name, &std::fs::read_to_string(path).unwrap()).unwrap().robot
 }
 
-/// Shipped robots with parameters, and random ones with every figure of their bodies a parameter.
+/// Shipped robots with parameters, and random ones with every value of their bodies a parameter.
 fn robots() -> Vec<(String, Robot)> {
     let files = ["trttr1.toml", "planar_2r.toml", "planar_3r.toml"];
     let mut robots: Vec<_> =

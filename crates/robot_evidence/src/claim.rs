@@ -24,22 +24,22 @@ const CIRCULAR: [&str; 10] = [
     "_sincosf",
 ];
 
-/// What the compiler made of a function.
+/// The compiled form of a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Evidence {
     /// Its name: `Model::inverse_dynamics`.
     pub name: String,
     /// Whether it takes slices of states, and so loops over them.
     pub takes_slices: bool,
-    /// Its figures.
+    /// Its measurements.
     pub measurements: Measurements,
-    /// What it calls that is not looked into, by name, with the number of calls in the code.
+    /// Its calls that are not followed, by name, with the number of calls in the code.
     pub calls: Vec<(String, usize)>,
-    /// What stands in the way of the claim.
+    /// The violations of the claim.
     pub violations: Vec<Violation>,
 }
 
-/// Figures of a function together with all that it calls and that is looked into, each counted
+/// Measurements of a function together with all called functions that are followed, each counted
 /// once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Measurements {
@@ -60,26 +60,26 @@ pub struct Measurements {
     pub bytes: usize,
 }
 
-/// Something that stands in the way of the claim.
+/// A violation of the claim.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Violation {
     /// Conditional jumps.
     Jumps {
-        /// How many.
+        /// Their number.
         count: usize,
         /// In which function.
         place: String,
     },
     /// Jumps or calls to where a register or memory says.
     Indirect {
-        /// How many.
+        /// Their number.
         count: usize,
         /// In which function.
         place: String,
     },
     /// Instructions that trap.
     Traps {
-        /// How many.
+        /// Their number.
         count: usize,
         /// In which function.
         place: String,
@@ -164,11 +164,11 @@ struct Reader<'o> {
     profile: Profile,
 }
 
-/// What a function outside of the object file is.
+/// The kind of a function outside of the object file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Outside {
     Circular,
-    /// Fills with zeros: a large result of which most is 0 starts with one.
+    /// Fills with zeros: a large result that is mostly 0 starts with one.
     Zeros,
     Memory,
     Panic,
@@ -253,7 +253,7 @@ impl Reader<'_> {
         (evidence, walk.trigonometry)
     }
 
-    /// What in one function stands in the claim's way.
+    /// The violations of one function.
     fn judge(&self, place: usize, takes_slices: bool, violations: &mut BTreeSet<Violation>) {
         let (listing, here) = (&self.listings[place], self.name(place).to_owned());
         let jumps = if takes_slices { 0 } else { listing.conditional_jumps };
@@ -333,11 +333,11 @@ impl Reader<'_> {
     }
 }
 
-/// What a function reaches.
+/// The functions that a function reaches.
 struct Walk {
     /// The functions that are looked into, itself first.
     functions: Vec<usize>,
-    /// Those of the runtime for sines and cosines.
+    /// The functions of the runtime for sines and cosines.
     trigonometry: Vec<usize>,
     stack: u64,
     recurs: bool,

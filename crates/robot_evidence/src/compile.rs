@@ -11,10 +11,10 @@ use crate::probe::{CRATE, Probe, ROOT_FILE};
 /// Lines of the compiler's messages that are shown.
 const SHOWN_LINES: usize = 12;
 
-/// What the compiler says of a processor that it does not know.
+/// The compiler's message about a processor that it does not know.
 const UNKNOWN_CPU: &str = "is not a recognized processor";
 
-/// How the code is compiled: as Cargo does by default.
+/// The profile of compilation, as Cargo sets it by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
     /// `cargo build`: no optimization, overflow checks, debug assertions.
@@ -33,7 +33,7 @@ impl Profile {
         }
     }
 
-    /// What it says to the compiler.
+    /// Its arguments for the compiler.
     #[must_use]
     pub fn flags(self) -> &'static [&'static str] {
         match self {
@@ -148,7 +148,7 @@ impl Compiler {
         }
     }
 
-    /// What to do about messages of a known cause.
+    /// The remedy for messages of a known cause.
     fn advice(&self, messages: &str) -> Option<String> {
         let target = self.target.as_deref();
         if let Some(cpu) = self.cpu.as_deref().filter(|_| messages.contains(UNKNOWN_CPU)) {

@@ -1,4 +1,4 @@
-//! Why there is no evidence.
+//! Errors of gathering evidence.
 
 use std::path::PathBuf;
 
@@ -19,9 +19,9 @@ pub enum Error {
         shown(path)
     )]
     NoCompiler {
-        /// What was started.
+        /// The command.
         path: PathBuf,
-        /// What the system says.
+        /// The system's message.
         reason: String,
     },
     /// A program that is not a Rust compiler.
@@ -31,9 +31,9 @@ pub enum Error {
         shown(path)
     )]
     OtherProgram {
-        /// What was started.
+        /// The command.
         path: PathBuf,
-        /// What it did instead, and its first line.
+        /// Its exit, and its first line.
         answer: String,
     },
     /// A compiler that gives no object file, or not the one that was asked for.
@@ -48,15 +48,15 @@ pub enum Error {
         target: String,
         /// The first line of what it says is wrong.
         first: String,
-        /// What to do, where the cause is known.
+        /// The remedy, if the cause is known.
         advice: Option<String>,
-        /// What it says.
+        /// The compiler's message.
         messages: String,
     },
     /// A folder for temporary files that cannot be used.
     #[error("cannot write temporary files: {0}; set the variable TMPDIR to another folder")]
     Folder(#[from] std::io::Error),
-    /// What the compiler wrote is not what was expected.
+    /// The compiler's output is not as expected.
     #[error("cannot read the object file: {0}")]
     Object(String),
     /// A processor whose instructions are not known here.

@@ -1,8 +1,8 @@
-//! What the compiler makes of generated code.
+//! Evidence from the compiled form of generated code.
 //!
 //! [`prove`] compiles a robot's functions with the user's own `rustc`, in the way Cargo's profiles
 //! do, reads the object file and holds it against the claim of the generator: **no conditional
-//! jump, no panic, and no call but that of the sines and cosines**. What stands in the claim's way
+//! jump, no panic, and no call but that of the sines and cosines**. Each violation of the claim
 //! is named, a [`Violation`] each.
 //!
 //! | | dev | release |
@@ -35,7 +35,7 @@ use object_file::Object;
 use robot_build::budget::max_stack;
 use robot_build::{Options, Programs, Source, names};
 
-/// What the functions of one object file are.
+/// The functions of one object file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Module {
     /// The profile under which it was compiled.
@@ -58,7 +58,7 @@ impl Module {
         claim::module(&object, roots, profile)
     }
 
-    /// Everything that stands in the claim's way, with the function it was found in.
+    /// Every violation of the claim, with the function it was found in.
     pub fn violations(&self) -> impl Iterator<Item = (&str, &Violation)> {
         self.functions.iter().flat_map(|function| {
             function.violations.iter().map(|violation| (function.name.as_str(), violation))

@@ -1,4 +1,4 @@
-//! What the instructions of one function do, whatever the processor.
+//! The instructions of one function, in terms common to all processors.
 
 use crate::object_file::{Code, Machine, Object, Referred};
 use crate::{thumb, x86};
@@ -10,13 +10,13 @@ pub(crate) struct Instruction {
     pub(crate) place: usize,
     /// Its length in bytes.
     pub(crate) length: usize,
-    /// What comes after it.
+    /// Its successors.
     pub(crate) flow: Flow,
     /// By how many bytes the stack grows.
     pub(crate) grows: i64,
 }
 
-/// What comes after an instruction; targets are offsets from the start of the function.
+/// The successors of an instruction; targets are offsets from the start of the function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Flow {
     /// The next one.
@@ -37,19 +37,19 @@ pub(crate) enum Flow {
     Trap,
 }
 
-/// What a function is.
+/// The measurements of a function.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Listing {
     pub(crate) instructions: usize,
     pub(crate) conditional_jumps: usize,
     /// Jumps and calls through registers or memory that no relocation names.
     pub(crate) indirect: usize,
-    /// Traps where no panic is called: `unreachable`, overflow of the stack.
+    /// Traps if no panic is called: `unreachable`, overflow of the stack.
     pub(crate) traps: usize,
     /// Bytes of stack, the return address included.
     pub(crate) frame: u64,
     pub(crate) bytes: usize,
-    /// What it calls, or ends in, in the order of the code.
+    /// The functions that it calls, or ends in, in the order of the code.
     pub(crate) calls: Vec<Referred>,
 }
 
@@ -70,7 +70,7 @@ impl Listing {
             deepest = deepest.max(depth);
             listing.follow(object, code, &instructions, instruction);
             if matches!(instruction.flow, Flow::Return | Flow::Jump(_) | Flow::Indirect(_)) {
-                // What follows is reached from where the frame still stood.
+                // The next instructions are reached from before the frame was removed.
                 depth = deepest;
             }
         }

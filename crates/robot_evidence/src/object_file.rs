@@ -8,7 +8,7 @@ use object::{Architecture, RelocationTarget, SectionIndex, SectionKind, SymbolIn
 use crate::error::Error;
 use crate::probe::TABLE;
 
-/// What x86 takes from a place that is counted from the end of an instruction.
+/// The bias of a place on x86 that is counted from the end of an instruction.
 const PC_BIAS: i64 = 4;
 
 /// A processor whose instructions are read.
@@ -43,7 +43,7 @@ pub(crate) struct Code {
     pub(crate) data: Vec<(usize, usize)>,
 }
 
-/// What a place in a function refers to.
+/// The target of a place in a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Referred {
     /// A function of the object file, by its index.
@@ -55,7 +55,7 @@ pub(crate) enum Referred {
 }
 
 impl Code {
-    /// What the linker fills in there refers to.
+    /// The target of the address that the linker fills in there.
     pub(crate) fn reference_within(&self, places: Range<usize>) -> Option<Referred> {
         let mut references = self.references.iter().filter(|(place, _)| places.contains(place));
         references.next().map(|(_, referred)| referred.clone())
@@ -211,7 +211,7 @@ fn references(
     Ok(references)
 }
 
-/// What a symbol is; `offset` counts where it stands for its section.
+/// The target that a symbol is; `offset` counts if it is a section's.
 fn referred(
     file: &object::File<'_>,
     functions: &[Code],

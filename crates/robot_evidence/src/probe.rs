@@ -53,7 +53,7 @@ impl Probe {
     }
 }
 
-/// Functions for inlining are compiled where their addresses are taken; the table tells which is
+/// Functions for inlining are compiled where their addresses are taken; the table shows which is
 /// which where the compiler keeps one of several that are alike.
 fn root_text(roots: &[Root]) -> String {
     let addresses = roots.iter().map(|root| format!("    model::{} as *const (),\n", root.path));

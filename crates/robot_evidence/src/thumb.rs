@@ -3,14 +3,14 @@
 
 use crate::listing::{Flow, Instruction};
 
-/// The instructions of a function; `data` are the parts of it that are none.
+/// The instructions of a function; `data` are the parts of it that are not instructions.
 pub(crate) fn instructions(bytes: &[u8], data: &[(usize, usize)]) -> Vec<Instruction> {
     let half = |place: usize| -> Option<u16> {
         Some(u16::from_le_bytes(bytes.get(place..place + 2)?.try_into().ok()?))
     };
     let mut instructions = vec![];
     let mut place = 0;
-    // How many of the next instructions depend on a condition.
+    // The number of next instructions that depend on a condition.
     let mut predicated = 0;
     while let Some(first) = half(place) {
         if let Some((_, end)) = data.iter().find(|(start, end)| (*start..*end).contains(&place)) {
@@ -37,7 +37,7 @@ pub(crate) fn instructions(bytes: &[u8], data: &[(usize, usize)]) -> Vec<Instruc
     instructions
 }
 
-/// How many instructions an `IT` makes depend on its condition (A7.7.38).
+/// The number of instructions that an `IT` makes depend on its condition (A7.7.38).
 fn if_then(first: u16) -> Option<u32> {
     let mask = first & 0xf;
     (first & 0xff00 == 0xbf00 && mask != 0).then(|| 4 - mask.trailing_zeros())

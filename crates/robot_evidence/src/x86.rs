@@ -63,7 +63,7 @@ impl Addresses {
             FlowControl::Call | FlowControl::IndirectCall => {
                 self.loads.retain(|register, _| !VOLATILE.contains(register));
             }
-            // What is known holds on a straight way alone.
+            // Knowledge of registers is valid on a straight path alone.
             FlowControl::Next => {}
             _ => self.loads.clear(),
         }
@@ -109,7 +109,7 @@ fn grows(decoded: &Decoded) -> i64 {
     match (decoded.mnemonic(), immediate) {
         (Mnemonic::Sub, Some(bytes)) if of_stack => bytes,
         (Mnemonic::Add, Some(bytes)) if of_stack => -bytes,
-        // `lea r11, [rsp - size]` is where the loop ends; its own step is counted where it stands.
+        // `lea r11, [rsp - size]` is the end of the loop; its own step is counted at its place.
         (Mnemonic::Lea, _)
             if decoded.op0_register() == Register::R11
                 && decoded.memory_base() == Register::RSP

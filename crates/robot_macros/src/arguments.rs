@@ -70,7 +70,7 @@ impl Arguments {
     ///
     /// # Errors
     ///
-    /// Each name that is no function's, at its place.
+    /// Each name that is not a function's, at its place.
     pub(crate) fn options_for(&self, robot: &Robot) -> syn::Result<Options> {
         let mut options = self.options.clone();
         if let Some(names) = &self.functions {
@@ -200,7 +200,7 @@ fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {
     })
 }
 
-/// `` (did you mean `functions`?)`` where one of the words is near.
+/// `` (did you mean `functions`?)`` if one of the words is near.
 fn meant(word: &str, known: &[&str]) -> String {
     let near = nearest_word(word, known.iter().copied());
     near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()

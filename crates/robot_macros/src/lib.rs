@@ -5,7 +5,7 @@ mod expand;
 
 use proc_macro::TokenStream;
 
-/// Generates the module of a robot file where the macro stands.
+/// Generates the module of a robot file in place of the macro call.
 ///
 /// ```ignore
 /// robot_macros::include_robot!("robots/trttr1.toml");
@@ -13,7 +13,7 @@ use proc_macro::TokenStream;
 /// let model = trttr1::Model::NOMINAL;
 /// ```
 ///
-/// The path is relative to the package's `Cargo.toml`. The module bears the robot's name in lower
+/// The path is relative to the package's `Cargo.toml`. The module has the robot's name in lower
 /// case and is the same that `robot_build` generates in a build script. The crate `robot_runtime`
 /// must be a dependency. A change of the file builds again; each thing that is wrong with it is a compile
 /// error, the place in the file and the reason on its first line.

@@ -1,4 +1,4 @@
-//! What a robot is, and how it is read.
+//! The model of a robot, and its readers.
 //!
 //! A robot file is read by [`description`] into a checked [`robot::Robot`], whose values are formulas
 //! with [`mod@unit`]s; what is wrong with it is a [`diagnostic`] with a place, a reason and a remedy.

@@ -1,12 +1,12 @@
-//! What no body can be: principal moments of inertia and what is wrong with them.
+//! Physical limits of bodies: principal moments of inertia and how they can be wrong.
 
 use crate::diagnostic::{code, significant};
 use crate::space::eigenvalues;
 
-/// Figures are rounded: this part of the largest principal moment is no violation.
+/// Values are rounded: this part of the largest principal moment is not a violation.
 pub(crate) const TOLERANCE: f64 = 1e-3;
 
-/// What is to be said of an inertia tensor. Principal moments ascend, kg m².
+/// The verdict on an inertia tensor. Principal moments ascend, kg m².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
     /// Some body has it; all zeros are a point mass.
@@ -59,7 +59,7 @@ impl Verdict {
         }
     }
 
-    /// The figures for the place.
+    /// The label with the values, for the place.
     pub(crate) fn label(&self) -> String {
         match self {
             Verdict::Possible => String::new(),

@@ -15,7 +15,7 @@ pub const LINK_PARAMETERS: usize = 10;
 pub struct Robot {
     /// The robot's name, an identifier.
     pub name: String,
-    /// What the file says about itself: source of the figures, remarks.
+    /// The file's description: source of the values, remarks.
     pub description: Option<String>,
     /// Acceleration of gravity in the base frame, m/s²: it points down.
     pub gravity: [Formula; 3],
@@ -32,7 +32,7 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Named frames fixed to links or to the base: tips, flanges, merged links.
     pub frames: Vec<Frame>,
-    /// The body that the robot may carry, where the file has one: it is a body of its link too.
+    /// The body that the robot may carry, if the file has one: it is a body of its link too.
     pub payload: Option<Payload>,
 }
 
@@ -89,9 +89,9 @@ pub struct Parameter {
     pub value: Option<Rational>,
     /// The unit; `None` if the file gives none.
     pub unit: Option<Unit>,
-    /// How LaTeX prints it, from a small checked grammar.
+    /// Its LaTeX, from a small checked grammar.
     pub latex: Option<String>,
-    /// What it means, in the file's words.
+    /// Its meaning, in the file's words.
     pub doc: Option<String>,
 }
 
@@ -102,7 +102,7 @@ pub struct Coordinate {
     pub joint: String,
     /// Radians for a rotation, meters for a translation.
     pub kind: JointKind,
-    /// Lower and upper limit where the file gives them; they bound test states, nothing else.
+    /// Lower and upper limit if the file gives them; they bound test states, nothing else.
     pub limits: Option<[Rational; 2]>,
 }
 
@@ -129,7 +129,7 @@ pub struct Link {
     pub placement: Placement,
     /// The joint that moves the link.
     pub joint: Joint,
-    /// The rigid bodies that make up the link: one, or several where fixed links were merged.
+    /// The rigid bodies that make up the link: one, or several if fixed links were merged.
     pub bodies: Vec<Body>,
     /// Friction in the joint.
     pub friction: Friction,
@@ -140,7 +140,7 @@ pub struct Link {
 /// The joint between a link and its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
-    /// The name; the link's where the file names no joints.
+    /// The name; the link's if the file names no joints.
     pub name: String,
     /// Rotation or translation.
     pub kind: JointKind,
@@ -237,18 +237,18 @@ impl Placement {
     }
 }
 
-/// Friction in a joint; all figures 0 where the file has none.
+/// Friction in a joint; all values are 0 if the file has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
     /// b of equation (4), N m s/rad or N s/m.
     pub viscous: Formula,
     /// c of equation (5): dry friction per contact force across the axis.
     pub coulomb: Formula,
-    /// d of equation (5): the spindle diameter of a rotation joint, m.
+    /// d of equation (5): the journal diameter of a revolute joint, m (the paper's spindle diameter).
     pub spindle_diameter: Formula,
     /// Constant dry friction for positive velocities, N m or N.
     pub coulomb_positive: Formula,
-    /// Constant dry friction for negative velocities, N m or N, given as a positive figure.
+    /// Constant dry friction for negative velocities, N m or N, as a positive value.
     pub coulomb_negative: Formula,
     /// Constant offset, N m or N.
     pub offset: Formula,
@@ -256,7 +256,7 @@ pub struct Friction {
     pub smoothing: Option<Formula>,
 }
 
-/// The drive's inertia; all figures 0 where the file has none.
+/// The drive's inertia; all values are 0 if the file has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Inertia already reflected to the joint, kg m² or kg.
@@ -304,25 +304,25 @@ impl Drive {
 /// A named frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// The name; `tip` where the file gives none.
+    /// The name; `tip` if the file gives none.
     pub name: String,
     /// The link that carries it; `None` for the base.
     pub link: Option<usize>,
     /// Its place in that link's frame.
     pub placement: Placement,
-    /// The wrench that the frame exerts on its surroundings, where it is a tip.
+    /// The wrench that the frame exerts on its surroundings, if it is a tip.
     pub wrench: Option<Wrench>,
 }
 
 /// The names of a wrench's components, in the axes of its frame, the moment about its origin: what
-/// the tip exerts on its surroundings, the paper's payload torsor (25).
+/// the tip exerts on its surroundings, the paper's payload wrench (25).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrench {
     /// Force, N.
     pub force: [String; 3],
     /// Moment, N m.
     pub moment: [String; 3],
-    /// How LaTeX prints the components, force first, where the file says so.
+    /// The LaTeX of the components, force first, if the file has it.
     pub latex: [Option<String>; 6],
 }
 

@@ -1,6 +1,6 @@
 //! Which constant angles are taken for multiples of π/2.
 
-/// The tolerance where neither a caller nor the robot file gives one, rad.
+/// The tolerance if neither a caller nor the robot file gives one, rad.
 pub const DEFAULT: f64 = 1e-9;
 
 /// The largest tolerance, rad.

@@ -95,7 +95,7 @@ const UNITS: &[(&str, Dimension)] = &[
     ("W", Dimension::new(1, 2, -3)),
 ];
 
-/// Other units in use, each `numerator / denominator` of a unit above; 0 / 1 where the factor is
+/// Other units in use, each `numerator / denominator` of a unit above; 0 / 1 if the factor is
 /// not rational.
 const OTHERS: &[(&str, &str, i64, i64)] = &[
     ("mm", "m", 1, 1000),
@@ -124,10 +124,10 @@ const OTHERS: &[(&str, &str, i64, i64)] = &[
     ("rpm", "rad/s", 0, 1),
 ];
 
-/// Why a text is no unit.
+/// Why a text is not a unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum UnitError {
-    /// No such unit, or no such way to write one; the bytes and what is wrong.
+    /// An unknown unit, or an invalid notation; the bytes and the problem.
     Unknown(Range<usize>, String),
     /// A unit outside the SI.
     NotSi {
@@ -154,7 +154,7 @@ impl Unit {
     ///
     /// # Errors
     ///
-    /// Text that is no unit, or a unit outside the SI, with what to write instead.
+    /// Text that is not a unit, or a unit outside the SI, with the replacement.
     pub fn parse(text: &str) -> Result<Unit, UnitError> {
         let mut dimension = Dimension::default();
         let mut foreign: Option<Range<usize>> = None;
@@ -214,7 +214,7 @@ impl Factor<'_> {
         UnitError::Unknown(self.span.clone(), what.into())
     }
 
-    /// Its dimension, and what to write for it where it is not SI.
+    /// Its dimension, and what to write for it if it is not SI.
     #[allow(clippy::type_complexity)]
     fn resolve(&self) -> Result<(Dimension, Option<(&'static str, i64, i64)>), UnitError> {
         let si = |name: &str| UNITS.iter().find(|(known, _)| *known == name);

@@ -1,4 +1,4 @@
-//! The variables of a robot: what there are, what they are called, in which order they stand, and how many.
+//! The variables of a robot: their kinds, names, order and number.
 //!
 //! Equations, code, files of states and trajectories name them alike: `q1` for the first joint position, `qd1`
 //! its velocity, `qdd1` its acceleration, `tau1` the joint torque or force, numbers from 1 in the order of
@@ -50,7 +50,7 @@ impl JointVariable {
         (0..count).map(|coordinate| self.symbol(coordinate)).collect()
     }
 
-    /// What a symbol stands for, of a robot with any number of coordinates.
+    /// The variable that a symbol is, for a robot with any number of coordinates.
     #[must_use]
     pub fn parse(symbol: &str) -> Option<(JointVariable, usize)> {
         let letters = symbol.trim_end_matches(|letter: char| letter.is_ascii_digit());
@@ -67,7 +67,7 @@ impl JointVariable {
         JointVariable::ALL.into_iter().find(|one| one.name() == name)
     }
 
-    /// How often the position is differentiated with respect to time; `None` of the torque.
+    /// The number of times that the position is differentiated with respect to time; `None` for the torque.
     #[must_use]
     pub const fn order(self) -> Option<i8> {
         match self {
@@ -78,7 +78,7 @@ impl JointVariable {
         }
     }
 
-    /// What the array holds, in words.
+    /// The meaning of the array, in words.
     #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {
@@ -130,7 +130,7 @@ impl Wrench {
 }
 
 impl Robot {
-    /// How many entries an array over the joints has.
+    /// The number of entries of an array over the joints.
     #[must_use]
     pub fn count(&self, variable: JointVariable) -> usize {
         match variable {
@@ -162,7 +162,7 @@ impl Robot {
         })
     }
 
-    /// What stands behind the names of a tip's wrench and its components: nothing of the only tip, `_NAME`
+    /// The suffix of the names of a tip's wrench and its components: nothing for the only tip, `_NAME`
     /// of one of several.
     #[must_use]
     pub fn wrench_suffix(&self, tip: &Frame) -> String {

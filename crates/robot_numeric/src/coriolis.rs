@@ -13,7 +13,7 @@ use super::{
     spatial::{cross_force, cross_motion, cross_on, rigid_body_inertia},
 };
 
-/// What the links outside a joint contribute, gathered inwards.
+/// The contribution of the links outside a joint, gathered inwards.
 struct Composite {
     inertia: Matrix6<f64>,
     coriolis: Matrix6<f64>,
@@ -35,7 +35,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn coriolis_matrix(&self, q: &[f64], qd: &[f64]) -> Result<DMatrix<f64>, NumericError> {
         let n = self.coordinates();
         check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;
@@ -89,7 +89,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn mass_matrix_derivatives(&self, q: &[f64]) -> Result<Vec<DMatrix<f64>>, NumericError> {
         check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let along = |k| mass_matrix(self, &Configuration::new(self, &step(q, k))).map(derivative);
@@ -102,7 +102,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn christoffel_symbols(&self, q: &[f64]) -> Result<Vec<DMatrix<f64>>, NumericError> {
         let slopes = self.mass_matrix_derivatives(q)?;
         let n = self.coordinates();

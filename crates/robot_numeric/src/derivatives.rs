@@ -39,7 +39,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn inverse_dynamics_derivatives(
         &self,
         q: &[f64],
@@ -66,7 +66,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// As [`Mechanism::forward_dynamics`].
+    /// The errors of [`Mechanism::forward_dynamics`].
     pub fn forward_dynamics_derivatives(
         &self,
         q: &[f64],
@@ -106,7 +106,7 @@ mod tests {
     use crate::forward_dynamics::articulated_body;
     use crate::random::{Random, Recipe};
 
-    /// The second way to the derivatives: complex steps through the articulated-body algorithm.
+    /// An independent computation of the derivatives: complex steps through the articulated-body algorithm.
     #[test]
     fn forward_derivatives_agree_with_steps_through_the_articulated_body_algorithm() {
         for seed in 0..40 {

@@ -21,7 +21,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn energies(&self, q: &[f64], qd: &[f64]) -> Result<Energies, NumericError> {
         let n = self.coordinates();
         check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;

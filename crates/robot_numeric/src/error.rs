@@ -1,4 +1,4 @@
-//! What can be wrong with a mechanism or with the arguments of a call.
+//! Errors of a mechanism or of the arguments of a call.
 
 use std::fmt;
 
@@ -6,9 +6,9 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {reason}")]
 pub struct Fault {
-    /// Where it is: `gravity`, `link 3`, `frame 0`.
+    /// Its place: `gravity`, `link 3`, `frame 0`.
     pub place: String,
-    /// What is wrong and what was expected.
+    /// The problem and what was expected.
     pub reason: String,
 }
 
@@ -36,14 +36,14 @@ pub enum NumericError {
     /// Arguments of wrong length: every one of them.
     #[error("{}", listed(.0))]
     Lengths(Vec<Mismatch>),
-    /// There is no link or frame of this index.
+    /// A link or frame of this index does not exist.
     #[error("{kind} {index} does not exist: the mechanism has {count}, counted from 0")]
     NoSuchBody {
         /// `link` or `frame`.
         kind: &'static str,
         /// The index asked for.
         index: usize,
-        /// How many there are.
+        /// Their number.
         count: usize,
     },
     /// The mass matrix is not positive definite at this position (a coordinate that moves no mass,

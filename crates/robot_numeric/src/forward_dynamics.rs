@@ -12,7 +12,7 @@ use super::{
     spatial::{cross_force, cross_motion, rigid_body_inertia, spatial},
 };
 
-/// A link with all that hangs on it: what force it takes to accelerate it by a is
+/// A link with all that it carries: the force to accelerate it by a is
 /// `inertia` a + `bias`.
 #[derive(Clone, Copy)]
 struct Articulated<T: Number> {
@@ -20,7 +20,7 @@ struct Articulated<T: Number> {
     bias: Vector6<T>,
 }
 
-/// What the inward pass leaves for the outward one.
+/// The results of the inward pass for the outward one.
 #[derive(Clone, Copy)]
 struct Resistance<T: Number> {
     /// I^A S
@@ -119,8 +119,8 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length,
-    /// [`NumericError::NotPositiveDefinite`] where M is not positive definite.
+    /// [`NumericError::Lengths`] if an argument has the wrong length,
+    /// [`NumericError::NotPositiveDefinite`] if M is not positive definite.
     pub fn forward_dynamics(
         &self,
         q: &[f64],
@@ -134,11 +134,11 @@ impl Mechanism {
         Ok(self.decomposed_mass_matrix(q)?.solve(&excess))
     }
 
-    /// The same accelerations by the articulated-body algorithm, which forms no mass matrix.
+    /// The accelerations by the articulated-body algorithm, which forms no mass matrix.
     ///
     /// # Errors
     ///
-    /// As [`Mechanism::forward_dynamics`], and [`NumericError::SharedCoordinate`] where a coordinate
+    /// The errors of [`Mechanism::forward_dynamics`], and [`NumericError::SharedCoordinate`] if a coordinate
     /// drives several joints.
     pub fn articulated_body(
         &self,
@@ -164,8 +164,8 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length,
-    /// [`NumericError::NotPositiveDefinite`] where M is not positive definite.
+    /// [`NumericError::Lengths`] if q has the wrong length,
+    /// [`NumericError::NotPositiveDefinite`] if M is not positive definite.
     pub fn inverse_mass_matrix(&self, q: &[f64]) -> Result<DMatrix<f64>, NumericError> {
         Ok(self.decomposed_mass_matrix(q)?.inverse())
     }

@@ -8,7 +8,7 @@ use super::{
     newton_euler::LinkDynamics,
 };
 
-/// How the sign of a velocity is taken.
+/// The form of the sign of a velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Sign {
     /// sgn q̇, with sgn 0 = 0.
@@ -34,13 +34,13 @@ pub struct Friction {
     pub viscous: f64,
     /// Coefficient of dry friction c, without unit; its friction grows with the load of the joint.
     pub coulomb: f64,
-    /// Diameter d of the spindle of a rotation, in meters.
+    /// Journal diameter d of a revolute joint, in meters.
     pub spindle_diameter: f64,
     /// Dry friction that does not depend on the load, C₊ and C₋, each ≥ 0, in N m or N.
     pub constant: [f64; 2],
     /// A force or torque that is always there, o, in N m or N.
     pub offset: f64,
-    /// How the sign of the velocity is taken.
+    /// The form of the sign of the velocity.
     pub sign: Sign,
 }
 
@@ -100,7 +100,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn friction_torques(
         &self,
         q: &[f64],

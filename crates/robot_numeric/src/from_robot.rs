@@ -43,7 +43,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// Those of [`Mechanism::from_robot`]; where parameters have no nominal value,
+    /// The errors of [`Mechanism::from_robot`]; if parameters have no nominal value,
     /// [`NumericError::WithoutValues`] in their place.
     pub fn nominal(robot: &robot::Robot) -> Result<Self, NumericError> {
         Mechanism::from_robot(robot, &|name| robot.nominal_value(name)).map_err(|error| {
@@ -54,7 +54,7 @@ impl Mechanism {
     }
 }
 
-/// Takes the locked rotor out of its carrier's inertia, of which the file has it as a part.
+/// Takes the locked rotor out of its carrier's inertia, which includes it in the file.
 fn take_from(carrier: &mut Link, rotor: &Link) {
     let rotation = rotor.placement.rotation;
     carrier.inertia -= rotation * rotor.inertia * rotation.transpose();

@@ -13,7 +13,7 @@ use super::{
 };
 
 /// A column with the rows of a Jacobian: the linear half, then the angular one (the force, then the
-/// moment), the other way round than in spatial vectors.
+/// moment), in the opposite order to spatial vectors.
 fn rows(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
     Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }
@@ -25,7 +25,7 @@ impl Mechanism {
     /// # Errors
     ///
     /// [`NumericError::Lengths`] where q has the wrong length, [`NumericError::NoSuchBody`] where
-    /// there is no such frame.
+    /// the frame does not exist.
     pub fn frame_jacobian(&self, q: &[f64], frame: usize) -> Result<Matrix6xX<f64>, NumericError> {
         check_index("frame", frame, self.frames().len())?;
         let frame = &self.frames()[frame];
@@ -37,7 +37,7 @@ impl Mechanism {
     /// # Errors
     ///
     /// [`NumericError::Lengths`] where q has the wrong length, [`NumericError::NoSuchBody`] where
-    /// there is no such link.
+    /// the link does not exist.
     pub fn link_jacobian(&self, q: &[f64], link: usize) -> Result<Matrix6xX<f64>, NumericError> {
         check_index("link", link, self.links().len())?;
         self.jacobian(q, Some(link), &Vector3::zeros())
@@ -48,7 +48,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// As [`Mechanism::frame_jacobian`].
+    /// The errors of [`Mechanism::frame_jacobian`].
     pub fn frame_jacobian_dot_qd(
         &self,
         q: &[f64],
@@ -64,7 +64,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// As [`Mechanism::link_jacobian`].
+    /// The errors of [`Mechanism::link_jacobian`].
     pub fn link_jacobian_dot_qd(
         &self,
         q: &[f64],
@@ -75,7 +75,7 @@ impl Mechanism {
         self.jacobian_dot_qd(q, qd, Some(link), &Pose::identity())
     }
 
-    /// A column for each coordinate: the axes of the joints on the way to the base that it moves,
+    /// A column for each coordinate: the axes of the joints towards the base that it moves,
     /// and their moments about the point.
     fn jacobian(
         &self,
@@ -139,7 +139,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn wrench_torques(
         &self,
         q: &[f64],

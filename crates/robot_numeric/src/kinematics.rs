@@ -51,7 +51,7 @@ fn place<T: Number>(link: &Link, q: &[T]) -> Pose<T> {
     link.placement.cast().then(&motion)
 }
 
-/// Where everything is, in the base frame.
+/// The poses of all links and frames, in the base frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placements {
     /// Placement of each link frame.
@@ -65,7 +65,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn forward_kinematics(&self, q: &[f64]) -> Result<Placements, NumericError> {
         check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let links = Configuration::new(self, q).in_base(self);
@@ -84,7 +84,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn center_of_mass(&self, q: &[f64]) -> Result<Vector3<f64>, NumericError> {
         let placements = self.forward_kinematics(q)?;
         let moment: Vector3<f64> = self

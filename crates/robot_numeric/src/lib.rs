@@ -1,7 +1,7 @@
 //! The numeric recursive solver: rigid-body dynamics in 6-D spatial vectors on numbers from the
 //! start, after R. Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008.
 //!
-//! It shares nothing with the symbolic derivations of this project, so that it can judge them: the
+//! It is independent of the symbolic derivations of this project, so that it can judge them: the
 //! project's tests hold every generated function against it. It is written for trust, not for
 //! speed.
 //!
@@ -13,7 +13,7 @@
 //!   by the joint about or along an axis through its origin.
 //! - Inertia tensors are about the center of mass, in the axes of the link frame.
 //! - A wrench is what a frame exerts on its surroundings ([`Wrench`]).
-//! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), friction and wrenches only where they are asked for.
+//! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), friction and wrenches only if they are asked for.
 //! - q, q̇, q̈ and τ are slices over the coordinates; matrices have a row for each torque or
 //!   acceleration.
 //!

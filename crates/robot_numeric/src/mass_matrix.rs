@@ -53,7 +53,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn mass_matrix(&self, q: &[f64]) -> Result<DMatrix<f64>, NumericError> {
         check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         Ok(mass_matrix(self, &Configuration::new(self, q)))

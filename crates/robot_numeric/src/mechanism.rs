@@ -6,7 +6,7 @@ use super::{
     error::NumericError, friction::Friction, pose::Pose, scalar::Number, spatial, validate,
 };
 
-/// How a joint moves its link.
+/// The kind of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
     /// Not at all: the link is part of its parent.
@@ -24,7 +24,7 @@ pub enum JointKind {
 /// the torque of the coordinate then is the sum of the torques of the joints, each times its ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joint {
-    /// How the joint moves its link.
+    /// The kind of the joint.
     pub kind: JointKind,
     /// Unit vector in the link frame, of no account for a fixed joint. The axis passes through the
     /// origin of the link frame.
@@ -93,7 +93,7 @@ pub struct Link {
     /// Inertia tensor about the center of mass in the axes of the link frame, in kg m²; the
     /// elements beside the diagonal are those of the tensor (−∫xy dm).
     pub inertia: Matrix3<f64>,
-    /// What the spinning parts of the drive add to the inertia that the joint feels (armature,
+    /// The inertia that the spinning parts of the drive add at the joint (armature,
     /// N² J), in kg m² or kg: an element of the diagonal of the mass matrix, without gyroscopic
     /// effects.
     pub rotor_inertia: f64,
@@ -142,7 +142,7 @@ pub struct Frame {
     pub placement: Pose,
 }
 
-/// What a frame exerts on its surroundings, in the axes of the frame.
+/// The wrench that a frame exerts on its surroundings, in the axes of the frame.
 ///
 /// A hanging mass m, with the z axis of the frame upright, is the force (0, 0, +m g).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,7 +177,7 @@ impl Mechanism {
     ///
     /// [`NumericError::Mechanism`] with every fault found: a parent that does not come before its
     /// child, a coordinate that no joint or too large an index for one, an axis that is not a unit
-    /// vector, a rotation that is none, an inertia that is not symmetric, a number that is not
+    /// vector, a rotation that is not one, an inertia that is not symmetric, a number that is not
     /// finite. Whether a body can have these masses and inertias is not asked.
     pub fn new(
         gravity: Vector3<f64>,

@@ -68,7 +68,7 @@ pub(super) fn inward<T: Number>(
     forces
 }
 
-/// What each link exerts on its surroundings through the frames that it carries, in link
+/// The wrench that each link exerts on its surroundings through the frames that it carries, in link
 /// coordinates.
 pub(super) fn exerted<T: Number>(mechanism: &Mechanism, wrenches: &[Wrench]) -> Vec<Vector6<T>> {
     let mut forces = vec![Vector6::zeros(); mechanism.links().len()];
@@ -121,10 +121,10 @@ pub(super) fn wrench_length(
     ("wrenches", expected, wrenches.len())
 }
 
-/// What acts on the mechanism beside gravity.
+/// The loads on the mechanism besides gravity.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Loads {
-    /// What each frame exerts on its surroundings: one wrench for each frame, or none at all.
+    /// The wrench that each frame exerts on its surroundings: one for each frame, or none at all.
     pub wrenches: Vec<Wrench>,
     /// Whether the friction in the joints counts.
     pub friction: bool,
@@ -185,7 +185,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn inverse_dynamics(
         &self,
         q: &[f64],
@@ -199,7 +199,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn inverse_dynamics_with(
         &self,
         q: &[f64],
@@ -221,7 +221,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn gravity_torques(&self, q: &[f64]) -> Result<DVector<f64>, NumericError> {
         check_lengths(&[(Position.name(), self.coordinates(), q.len())])?;
         let still = vec![0.0; q.len()];
@@ -232,7 +232,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn bias(&self, q: &[f64], qd: &[f64]) -> Result<DVector<f64>, NumericError> {
         let n = self.coordinates();
         check_lengths(&[(Position.name(), n, q.len()), (Velocity.name(), n, qd.len())])?;
@@ -244,7 +244,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn link_dynamics(
         &self,
         q: &[f64],

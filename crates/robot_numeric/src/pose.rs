@@ -63,7 +63,7 @@ impl Pose {
         [roll, (-r[(2, 0)]).atan2(cos_pitch), (-second[0]).atan2(second[1])]
     }
 
-    /// The same placement over other numbers.
+    /// This placement over other numbers.
     pub(super) fn cast<T: Number>(&self) -> Pose<T> {
         Pose {
             rotation: self.rotation.map(T::from_real),

@@ -16,12 +16,12 @@ pub struct Random {
     numbers: robot_symbolic::Random,
 }
 
-/// What a random mechanism is to be like.
+/// The properties of random mechanisms.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recipe {
     /// The number of moving joints; each has a coordinate of its own unless `mimic` is set.
     pub joints: usize,
-    /// Whether a link may hang on any link before it, or on the base, instead of on the last one.
+    /// Whether a link's parent may be any link before it, or the base, instead of the last one.
     pub branching: bool,
     /// Whether some joints follow the coordinate of another, with a ratio and an offset.
     pub mimic: bool,
@@ -74,7 +74,7 @@ impl Random {
         self.numbers.uniform(low, high)
     }
 
-    /// An index below `count`; 0 where `count` is 0.
+    /// An index below `count`; 0 if `count` is 0.
     pub fn index(&mut self, count: usize) -> usize {
         self.numbers.index(count)
     }

@@ -68,7 +68,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn regressor(
         &self,
         q: &[f64],
@@ -112,7 +112,7 @@ impl Mechanism {
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where an argument has the wrong length.
+    /// [`NumericError::Lengths`] if an argument has the wrong length.
     pub fn drive_regressor(&self, qd: &[f64], qdd: &[f64]) -> Result<DMatrix<f64>, NumericError> {
         let n = self.coordinates();
         check_lengths(&[(Velocity.name(), n, qd.len()), (Acceleration.name(), n, qdd.len())])?;

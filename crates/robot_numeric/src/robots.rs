@@ -1,6 +1,6 @@
 //! Random robots for tests and checks, the same on every machine for one seed.
 //!
-//! Figures are short decimals, hence exact; the numeric solver reads the same robot through
+//! Values are short decimals, hence exact; the numeric solver reads the same robot through
 //! [`crate::Mechanism::nominal`].
 
 use robot_symbolic::{Formula, Rational};
@@ -54,7 +54,7 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
     }
 }
 
-/// The robot with every mass, center of mass and inertia a parameter that has the figure for its
+/// The robot with every mass, center of mass and inertia a parameter that has the value for its
 /// nominal value: `m1`, `cx1`, `Ixx1` for the first link's first body, `m1_2` for its second.
 #[must_use]
 pub fn parameterized(robot: &Robot) -> Robot {

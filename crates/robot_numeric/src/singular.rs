@@ -1,4 +1,4 @@
-//! Where the mass matrix is singular: which accelerations no joint torques determine.
+//! Singular mass matrices: which accelerations no joint torques determine.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -12,11 +12,11 @@ const SHARE: f64 = 1e-4;
 
 impl Mechanism {
     /// The coordinates, from 0, whose accelerations the joint torques do not determine at q, as the mass
-    /// matrix is singular there; none where it is not.
+    /// matrix is singular there; none if it is not.
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length.
+    /// [`NumericError::Lengths`] if q has the wrong length.
     pub fn undetermined(&self, q: &[f64]) -> Result<Vec<usize>, NumericError> {
         let matrix = self.mass_matrix(q)?;
         let most = matrix.diagonal().iter().fold(0.0_f64, |most, own| most.max(own.abs()));

@@ -1,4 +1,4 @@
-//! What the data of a mechanism must satisfy for the recursions to have a meaning.
+//! The conditions on the data of a mechanism for the recursions to have a meaning.
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -1,4 +1,4 @@
-//! What the generated code costs: operations by function, by stage and by option.
+//! The cost of the generated code: operations by function, by stage and by option.
 
 use robot_build::ablation::Ablation;
 use robot_codegen::{Counts, Module};
@@ -25,7 +25,7 @@ pub(crate) fn functions(module: &Module) -> Element {
     table.build()
 }
 
-/// What is left of inverse dynamics after each pass.
+/// The operations of inverse dynamics after each pass.
 pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
     let mut columns = vec!["After"];
     columns.extend(COLUMNS.iter().filter(|name| **name != "sin, cos"));
@@ -39,7 +39,7 @@ pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
     Some(table.build())
 }
 
-/// What each option of the recursion and each pass is worth.
+/// The worth of each option of the recursion and each pass.
 pub(crate) fn options(found: &[Ablation], function: &str) -> Option<Element> {
     let operations = |ablation: &Ablation| {
         let mut counts = ablation.counts.iter();

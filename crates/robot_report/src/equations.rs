@@ -41,7 +41,7 @@ pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
     body
 }
 
-/// What the equations are.
+/// The form of the equations.
 const WORDS: &str = "The joint torques τ (Q in the equations), as functions of the joint \
     positions, velocities and accelerations. Hover a term, or move to it with Tab and the arrow \
     keys, to highlight the links and parameters it depends on and the definitions of its \
@@ -71,7 +71,7 @@ fn in_form(robot: &Robot, form: Form, found: &Equations) -> Vec<Element> {
     found.groups.iter().flat_map(|group| sources.group(group)).collect()
 }
 
-/// What symbols stand for.
+/// The meaning of symbols.
 struct Sources<'r> {
     robot: &'r Robot,
     form: Form,
@@ -120,7 +120,7 @@ impl Sources<'_> {
         shown.attribute("data-of", tokens.join(" ")).attribute("tabindex", stop)
     }
 
-    /// What a symbol comes from.
+    /// The origin of a symbol.
     fn tokens(&self, name: &str) -> Vec<String> {
         let parameter = self.robot.parameter(name).is_some();
         if !parameter && self.names.contains(&name) {

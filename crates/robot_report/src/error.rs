@@ -1,4 +1,4 @@
-//! Why there is no page.
+//! Errors of making a page.
 
 use robot_build::Errors;
 use robot_model::robot::Robot;

@@ -1,18 +1,18 @@
-//! What stands behind the code: what the compiler made of it, and what the numeric solver says.
+//! The evidence for the code: from the compiler, and from the numeric solver.
 
 use robot_evidence::{Evidence, Module};
 
 use crate::html::{Element, Node, element, holding};
 use crate::table::Table;
 
-/// What the compiler made of the code.
+/// The evidence from the compiler.
 #[derive(Clone, Debug)]
 pub enum Compiled {
     /// Its objects were read.
     Read {
         /// The compiler, its version and target.
         compiler: String,
-        /// What was read, for each profile.
+        /// The functions read, for each profile.
         modules: Vec<Module>,
     },
     /// There is no evidence.
@@ -22,7 +22,7 @@ pub enum Compiled {
     },
 }
 
-/// How far the programs are off an independent solver.
+/// The difference of the programs from an independent solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
     /// The states at which they were compared, in words.

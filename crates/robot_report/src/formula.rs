@@ -14,7 +14,7 @@ pub(crate) fn math(formula: &Math) -> Element {
     holding("math", of_markup(mathml::formula(formula)))
 }
 
-/// A term of a sum: a sign before it stands between it and the term before.
+/// A term of a sum: a sign before it is between it and the term before.
 pub(crate) fn term(pieces: &[Math], is_first: bool) -> Element {
     let term = Math::Row(pieces.to_vec());
     let markup = if is_first { mathml::formula(&term) } else { mathml::continued(&term) };
@@ -32,7 +32,7 @@ fn of_markup(markup: Markup) -> Element {
     }
 }
 
-/// How the symbols of a robot look.
+/// The layout of the robot's symbols.
 pub(crate) struct Symbols {
     /// `None` if two symbols look alike: then they are shown by their names.
     table: Option<SymbolTable>,

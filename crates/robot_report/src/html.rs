@@ -16,14 +16,14 @@ pub(crate) struct Element {
     children: Vec<Node>,
 }
 
-/// What an element holds.
+/// The content of an element.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Node {
     /// An element.
     Element(Element),
     /// Text, as it is to be read.
     Text(String),
-    /// Style or script of this program's own: it is written as it stands.
+    /// Style or script of this program's own: it is written unescaped.
     Own(&'static str),
 }
 
@@ -85,7 +85,7 @@ impl Element {
         self
     }
 
-    /// The page of which this is the root.
+    /// The page with this element as its root.
     pub(crate) fn to_document(&self) -> String {
         let mut text = format!("<!DOCTYPE html>\n<!-- {MARKER} -->\n");
         self.write(&mut text);

@@ -39,14 +39,14 @@ use page::{Section, page};
 use reload::Stamp;
 use structure::Structure;
 
-/// What a page is made of.
+/// The ingredients of a page.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {
     /// The robot file.
     pub source: &'a Source,
-    /// How its code is made; the page chooses the functions.
+    /// The options of making its code; the page chooses the functions.
     pub options: &'a Options,
-    /// What the compiler made of the code.
+    /// The evidence from the compiler.
     pub compiled: &'a Compiled,
     /// Holds the programs against an independent solver, or says why it cannot.
     pub judge: fn(&Programs) -> Result<Accuracy, String>,
@@ -55,7 +55,7 @@ pub struct Input<'a> {
 /// The function whose costs are taken apart.
 const FUNCTION: FunctionKind = FunctionKind::InverseDynamics(Effects::NONE);
 
-/// The functions whose costs are told.
+/// The functions whose costs are shown.
 const FUNCTIONS: [FunctionKind; 9] = [
     FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::InverseDynamics(Effects::WRENCH),
@@ -81,20 +81,20 @@ pub fn report(input: &Input<'_>) -> Result<String, Error> {
 /// The page about the robot of a file that is being edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reloading {
-    /// The page, which reloads itself where [`Reloading::stamp`] is another page's or gone.
+    /// The page, which reloads itself if [`Reloading::stamp`] is another page's or gone.
     pub page: String,
     /// An SVG picture. It belongs beside the page, under the page's name with `.svg` after it, and is to
     /// be written after the page.
     pub stamp: String,
-    /// The same page without what reloads it, as [`report`] gives it.
+    /// The page of [`report`] without the script that reloads it.
     pub still: String,
 }
 
-/// As [`report`], of a page that reloads itself when another is written in its place.
+/// The page of [`report`] with a script that reloads it when another is written in its place.
 ///
 /// # Errors
 ///
-/// As [`report`].
+/// The errors of [`report`].
 pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
     let (robot, sections) = sections(input)?;
     let still = page(&robot, sections.clone(), None);
@@ -132,7 +132,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
     Ok((robot, sections))
 }
 
-/// What the scheme shows.
+/// The content of the scheme.
 const CAPTION: &str = "The robot at q = 0. Cylinders rotate about their axes, boxes slide along \
     their guides; the arrow on an axis points in the positive direction of its coordinate. \
     Directions are true; short offsets are enlarged, and joints at the same point are drawn \
@@ -156,7 +156,7 @@ fn parameters(robot: &Robot, symbols: &Symbols) -> Section {
     Section { id: "parameters", title: "Parameters", body: vec![body] }
 }
 
-/// What the grids show.
+/// The content of the grids.
 const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked \
     const depend on parameters alone. An entry counts as independent of a coordinate if no other \
     value of the coordinate changes it, at random values of all symbols, parameters included.";

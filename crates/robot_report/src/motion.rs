@@ -15,7 +15,7 @@ use crate::text;
 /// The length of the trajectory, s, and the number of steps in it.
 const DURATION: f64 = 4.0;
 const STEPS: u32 = 160;
-/// The share of a joint's range that is used, and what is used where it has no limits, rad and m.
+/// The part of a joint's range that is used, and the amplitude if it has no limits, rad and m.
 const SHARE: f64 = 0.3;
 const SWING: f64 = 0.8;
 const STROKE: f64 = 0.2;
@@ -59,7 +59,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     body
 }
 
-/// What the trajectory is.
+/// The description of the trajectory.
 const WORDS: &str = "Each coordinate oscillates about the middle of its range, or about 0 if it \
     has no limits: q = middle − amplitude · cos(2π k t / 4 s), with k = 1 for odd coordinate \
     numbers and k = 2 for even ones. The amplitude is 0.3 of half the range; without limits it \

@@ -9,7 +9,7 @@ use crate::reload::Stamp;
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
-/// That of a page which reloads itself.
+/// The script of a page that reloads itself.
 const RELOAD: &str = include_str!("reload.js");
 
 /// A section of the page.
@@ -19,11 +19,11 @@ pub(crate) struct Section {
     pub(crate) id: &'static str,
     /// Its heading.
     pub(crate) title: &'static str,
-    /// What is in it.
+    /// Its content.
     pub(crate) body: Vec<Node>,
 }
 
-/// The page of a robot; with a stamp it reloads itself where the picture beside it has another one.
+/// The page of a robot; with a stamp it reloads itself if the picture beside it has another one.
 pub(crate) fn page(robot: &Robot, sections: Vec<Section>, stamp: Option<Stamp>) -> String {
     let contents = sections.iter().map(|section| {
         let anchor = format!("#{}", section.id);
@@ -111,7 +111,7 @@ fn footer() -> Element {
 mod tests {
     use super::*;
 
-    /// Style and script stand in the page as they are: nothing in them may be markup.
+    /// Style and script are in the page unescaped: nothing in them may be markup.
     #[test]
     fn style_and_script_have_no_signs_of_markup() {
         for own in [STYLE, SCRIPT, RELOAD] {

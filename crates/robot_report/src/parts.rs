@@ -1,4 +1,4 @@
-//! What a piece of the page is about: links and parameters by tokens that the page's script matches.
+//! The subject of a piece of the page: links and parameters by tokens that the page's script matches.
 //!
 //! `data-is` is on what shows a link or a parameter, `data-of` on what depends on some.
 
@@ -16,7 +16,7 @@ pub(crate) fn parameter(name: &str) -> String {
     format!("parameter-{name}")
 }
 
-/// The links whose figures have a parameter in them, by index.
+/// The links whose values have a parameter in them, by index.
 pub(crate) fn links_of_parameter(robot: &Robot, name: &str) -> Vec<usize> {
     let has = |formula: &Formula| formula.symbols().any(|(used, _)| used == name);
     let uses = |(index, link): (usize, &Link)| {

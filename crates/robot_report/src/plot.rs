@@ -10,7 +10,7 @@ use crate::text;
 pub(crate) struct Plot<'a> {
     /// Its number on the page, for anchors.
     pub(crate) number: usize,
-    /// What it shows.
+    /// Its content.
     pub(crate) title: String,
     /// The unit of the curves.
     pub(crate) unit: &'static str,
@@ -130,7 +130,7 @@ impl Scale {
     }
 }
 
-/// The range of values, with some room where they are all the same.
+/// The range of values, with some room if they are all the same.
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let finite = values.filter(|value| value.is_finite());
     let [low, high] = finite

@@ -2,7 +2,7 @@
 
 use robot_build::MARKER;
 
-/// What the page's script looks at: which page is the newest.
+/// The file that the page's script reads: which page is the newest.
 ///
 /// Two numbers, the size of a picture: of what lies beside a page that was opened from a file, a browser
 /// shows its script nothing else.

@@ -3,7 +3,7 @@
 //!
 //! Entries are exact derivatives of the paper's joint torques: M = ∂Q/∂q̈, and C = ½ ∂Q/∂q̇ at
 //! constant q and q̈, which is C by Christoffel symbols, for C q̇ is a quadratic form in q̇. An entry
-//! does not depend on a coordinate where another value of the coordinate never changes it, at random
+//! does not depend on a coordinate if another value of the coordinate never changes it, at random
 //! values of all symbols.
 
 use std::collections::BTreeMap;
@@ -20,12 +20,12 @@ use crate::text;
 
 /// States at which entries are tried.
 const STATES: usize = 4;
-/// Changes smaller than this are rounding: entries are of the size of the robot's figures.
+/// Changes smaller than this are rounding: entries are of the size of the robot's values.
 const ROUNDING: f64 = 1e-10;
 /// The seed of the states.
 const SEED: u64 = 6;
 
-/// What an entry of a matrix depends on.
+/// The dependence of an entry of a matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Entry {
     /// It is 0.
@@ -80,7 +80,7 @@ impl Structure {
     }
 }
 
-/// What each of the expressions depends on.
+/// The dependence of each of the expressions.
 fn entries(roots: &[Expr<'_>], positions: &[Option<SymbolId>]) -> Vec<Entry> {
     let mut largest = vec![0.0f64; roots.len()];
     let mut changes = vec![vec![0.0f64; positions.len()]; roots.len()];
@@ -110,7 +110,7 @@ fn entries(roots: &[Expr<'_>], positions: &[Option<SymbolId>]) -> Vec<Entry> {
     found.map(|(size, list)| if *size < ROUNDING { Entry::Zero } else { depends(list) }).collect()
 }
 
-/// The larger magnitude; what is no number is no zero.
+/// The larger magnitude; a value that is not a number is not zero.
 fn larger(size: f64, value: f64) -> f64 {
     if value.is_nan() { f64::INFINITY } else { size.max(value.abs()) }
 }

@@ -29,7 +29,7 @@ impl Table {
         self.rows.push(if parts.is_empty() { row } else { row.attribute("data-is", parts) });
     }
 
-    /// The table, in a box that scrolls sideways where it is too wide.
+    /// The table, in a box that scrolls sideways if it is too wide.
     pub(crate) fn build(self) -> Element {
         let headings =
             self.columns.into_iter().map(|column| holding("th", column).attribute("scope", "col"));

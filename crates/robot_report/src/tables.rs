@@ -1,4 +1,4 @@
-//! What the robot file says, in tables: joints, masses, parameters.
+//! The contents of the robot file, in tables: joints, masses, parameters.
 
 use robot_document::robot::words;
 use robot_model::robot::{Body, Inertia, Link, Parameter, Robot};
@@ -102,7 +102,7 @@ pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     (!robot.parameters.is_empty()).then(|| table.build())
 }
 
-/// A formula, its parameters marked, with its nominal value below where it has parameters.
+/// A formula, its parameters marked, with its nominal value below if it has parameters.
 fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
     let shown = element("span").class("figure");
     if formula.is_constant() {

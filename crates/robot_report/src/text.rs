@@ -4,12 +4,12 @@ use robot_document::robot::words;
 use robot_model::robot::{Move, Placement, Robot};
 use robot_symbolic::Formula;
 
-/// The nominal value of a formula; NaN where a parameter of it has none.
+/// The nominal value of a formula; NaN if a parameter of it has none.
 pub(crate) fn value(robot: &Robot, formula: &Formula) -> f64 {
     formula.evaluate(|name| robot.nominal_value(name))
 }
 
-/// A formula as its text; with its nominal value where that is not the same.
+/// A formula as its text; with its nominal value if that is not the same.
 pub(crate) fn with_value(robot: &Robot, formula: &Formula) -> String {
     let text = plain(formula);
     let value = value(robot, formula);

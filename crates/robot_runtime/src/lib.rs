@@ -1,5 +1,5 @@
 #![no_std]
-//! What generated robot code calls at run time: numbers, and sines and cosines.
+//! The functions that generated robot code calls at run time: numbers, and sines and cosines.
 //!
 //! The dynamics of a robot are additions and multiplications of its velocities, its accelerations
 //! and the sines and cosines of its angles. Generated code does the former; this crate is the
@@ -62,7 +62,7 @@
 //! spindles, are brought back by whole turns before they get there; the standard library's sine and
 //! cosine take angles of any size.
 //!
-//! The same program gives the same bits on every target where [`FUSED`] is the same, with
+//! The same program gives the same bits on every target if [`FUSED`] is the same, with
 //! polynomials; the standard library's sines differ between platforms.
 //! [`trig::double::portable_sin_cos`] gives those without [`FUSED`] on every target.
 //!
@@ -72,7 +72,7 @@
 //! |---|---|
 //! | [`Scalar::sqrt`] | correctly rounded with feature `std`; without, no bit differed for any `f32` nor for 3·10⁸ random `f64` |
 //! | [`Scalar::tanh`] | below 3 last places everywhere (2.61 in `f32`, every number tried) |
-//! | [`Scalar::mul_add`] | rounds once where [`FUSED`], else twice |
+//! | [`Scalar::mul_add`] | rounds once if [`FUSED`], else twice |
 //! | [`Scalar::abs`], [`Scalar::signum0`] | exact |
 //! | [`Scalar::recip_positive`] | correctly rounded |
 //!
@@ -91,7 +91,7 @@
 //! # Features
 //!
 //! - `std` (off): `StdTrig` and `std_sin_cos_array`, the processor's square root, and fused
-//!   multiply-add where the target has it.
+//!   multiply-add if the target has it.
 //! - `sources` (off): `SOURCES`, the text of the modules, for generators of self-contained crates.
 
 mod runtime;

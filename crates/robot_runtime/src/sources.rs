@@ -5,7 +5,7 @@ pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 
 /// Path and text of every file of the run-time module, its root `mod.rs` first.
 ///
-/// A generator of self-contained crates writes them as they stand into a folder `runtime` beside
+/// A generator of self-contained crates writes them unchanged into a folder `runtime` beside
 /// its crate root and declares `pub mod runtime;` (private, it would warn of unused functions).
 /// The manifest declares a feature `std`, empty; with it the module offers `StdTrig`, without it
 /// the module needs `core` alone. Nothing else is asked of the crate around it: no dependency, no

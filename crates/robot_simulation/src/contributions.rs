@@ -17,22 +17,22 @@ use crate::trajectory::Trajectory;
 pub struct TorqueContributions {
     /// t, s.
     pub t: Vec<f64>,
-    /// The whole joint torque τ: the sum of the shares.
+    /// The whole joint torques τ: the sum of the contributions.
     pub total: Vec<Vec<f64>>,
-    /// That of the accelerations, M q̈.
+    /// The inertia terms M q̈.
     pub inertia: Vec<Vec<f64>>,
-    /// That of the velocities, C q̇: Coriolis and centrifugal forces.
+    /// The Coriolis and centrifugal terms C q̇.
     pub coriolis: Vec<Vec<f64>>,
-    /// That of the weight, g.
+    /// The gravity terms g.
     pub gravity: Vec<Vec<f64>>,
-    /// That of friction, Q_f, if it is asked for. It holds the dry friction that a wrench causes
+    /// Friction, Q_f, if it is asked for. It includes the dry friction that a wrench causes
     /// by its load.
     pub friction: Option<Vec<Vec<f64>>>,
-    /// That of the tips' wrenches, if they are given.
+    /// The effect of the tips' wrenches, if they are given.
     pub wrench: Option<Vec<Vec<f64>>>,
 }
 
-/// The samples of a share over time, a column for each coordinate.
+/// The samples of a contribution over time, a column for each coordinate.
 type Series = Vec<Vec<f64>>;
 
 impl TorqueContributions {
@@ -53,7 +53,7 @@ impl TorqueContributions {
         kinds
     }
 
-    /// The shares that there are, by name, the total last.
+    /// The contributions, by name, the total last.
     #[must_use]
     pub fn named(&self) -> Vec<(&'static str, &Series)> {
         let mut contributions = vec![
@@ -67,7 +67,7 @@ impl TorqueContributions {
         contributions
     }
 
-    /// The columns t, tau1 …, then each share's: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
+    /// The columns t, tau1 …, then those of each contribution: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
     /// wrench1 ….
     #[must_use]
     pub fn table(&self) -> Table {
@@ -190,7 +190,7 @@ fn differences(a: &[Vec<f64>], b: &[Vec<f64>]) -> Series {
     a.iter().zip(b).map(|(a, b)| difference(a, b)).collect()
 }
 
-/// The sum of some shares at a time.
+/// The sum of some contributions at a time.
 fn sum(parts: &[&Series], time: usize) -> Vec<f64> {
     let samples = || parts.iter().filter_map(|part| part.get(time));
     let entries = samples().map(Vec::len).max().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What moves, and what drives it.
+//! Traits of the moving system and of its loads.
 
 use crate::error::Cause;
 
@@ -20,14 +20,14 @@ pub trait Dynamics {
     ///
     /// # Errors
     ///
-    /// Where the state has none. Values that are not finite are an error as well; the caller looks.
+    /// If the state has none. Values that are not finite are an error as well; the caller checks.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause>;
 
     /// Whether the accelerations at a state are more than rounding; asked at each sample.
     ///
     /// # Errors
     ///
-    /// Where they are not.
+    /// If they are not.
     fn check(&self, state: &State) -> Result<(), Cause> {
         let _ = state;
         Ok(())
@@ -53,7 +53,7 @@ pub trait DryFriction {
     ///
     /// # Errors
     ///
-    /// Where the positions have none.
+    /// If the positions have none.
     fn mass_matrix(&self, q: &[f64]) -> Result<Vec<f64>, Cause>;
 
     /// The n joint torques (N m or N) that the accelerations `qdd` take, with friction or without it.
@@ -61,7 +61,7 @@ pub trait DryFriction {
     ///
     /// # Errors
     ///
-    /// Where the state has none.
+    /// If the state has none.
     fn joint_torques(&self, state: &State, qdd: &[f64], friction: bool) -> Result<Vec<f64>, Cause>;
 }
 
@@ -76,14 +76,14 @@ pub trait TorqueLaw {
         &[]
     }
 
-    /// What else the integrator must not step over in the span of the samples, times in s.
+    /// Further times that the integrator must not step over in the span of the samples, s.
     fn features(&self, samples: &[f64]) -> Features {
         let _ = samples;
         Features::default()
     }
 }
 
-/// Where joint torques change so quickly that a step might miss it; times in s, rising.
+/// The times at which joint torques change so quickly that a step might miss it; s, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
     /// Times just before and just after a jump of the forces or their slopes: a step ends at the first, and

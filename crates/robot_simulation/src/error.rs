@@ -1,10 +1,10 @@
-//! Why there is no motion.
+//! Errors of simulation.
 
 use std::fmt;
 
 use robot_model::diagnostic::number;
 
-/// Why there is no motion, or no picture of one.
+/// Why there is no motion, or no plot of one.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -46,7 +46,7 @@ impl Error {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cause {
-    /// Steps became so small that time stands still.
+    /// Steps became too small to advance the time.
     StepSize,
     /// The accelerations have no finite value.
     Accelerations,
@@ -58,11 +58,11 @@ pub enum Cause {
     Events,
     /// So many steps were not enough.
     Steps(usize),
-    /// So many steps, the first figure, led so short a way that the second would not be enough.
+    /// So many steps, the first number, advanced so little that the second would not be enough.
     Slow(usize, usize),
     /// A velocity or an acceleration, such as `qdd1 = 1e300`, that no step can follow.
     Large(String),
-    /// What the interpreter or the robot's mass matrix says.
+    /// The error of the interpreter or of the robot's mass matrix.
     Other(String),
 }
 

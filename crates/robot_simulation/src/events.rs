@@ -1,4 +1,4 @@
-//! Where within a step a mode ends.
+//! The end of a mode within a step.
 
 use crate::system::Overrun;
 
@@ -63,7 +63,7 @@ impl Bracket {
         (whole * part).max(shortest / 2.0).min(whole)
     }
 
-    /// The end of the mode, where it is known as well as need be: nothing is far beyond it, or the
+    /// The end of the mode, if it is known as well as need be: nothing is far beyond it, or the
     /// bracket is so short that what happens within it is linear in time.
     pub(crate) fn event(&self, base: &Base<'_>, shortest: f64) -> Option<Event> {
         let ended = self.overruns.iter().enumerate().filter(|(_, overrun)| overrun.value > 0.0);

@@ -14,14 +14,14 @@ use crate::dynamics::Features;
 const LEAST: usize = 1 << 16;
 /// and at so many between two samples.
 const PARTS: usize = 16;
-/// What bends by less than this part of the largest value between two looks is no pulse; one as long as a
-/// hundred looks, of a hundredth of the largest value, bends by twice as much.
+/// A change of less than this part of the largest value between two samples is not a pulse; one as long as a
+/// hundred samples, of a hundredth of the largest value, bends by twice as much.
 const BEND: f64 = 1e-6;
-/// In units of the time between two looks, the length of the pulses that bend by so much.
+/// In units of the time between two samples, the length of the pulses that bend by so much.
 const REACH: f64 = 100.0;
 /// By how much looks at longer pulses are farther apart.
 const STRIDE: usize = 32;
-/// How far from a jump steps end and begin, in units of the time's last place.
+/// The distance from a jump at which steps end and begin, in units of the time's last place.
 const MARGIN: f64 = 8.0;
 
 /// The jumps and peaks of formulas of t, the state and constants, within the span of the samples.
@@ -53,15 +53,15 @@ pub(crate) fn features(
     Features { jumps: jumps(&parts, times), peaks: found }
 }
 
-/// What depends on the time alone.
+/// The parts that depend on the time alone.
 struct Parts {
-    /// The values of the largest such parts of the formulas, then of what stands in their `abs` and `sign`.
+    /// The values of the largest such parts of the formulas, then of the arguments of their `abs` and `sign`.
     values: Evaluator,
     /// The number of the former.
     roots: usize,
     /// The number of the latter.
     switches: usize,
-    /// What symbols other than the time stand for.
+    /// The values of symbols other than the time.
     constants: BTreeMap<SymbolId, f64>,
 }
 
@@ -107,18 +107,18 @@ impl Parts {
         Parts { values: Evaluator::new(&found), roots, switches: switches_count, constants }
     }
 
-    /// The values at a time: of the parts, then of what stands in switches.
+    /// The values at a time: of the parts, then of the arguments of switches.
     fn at(&self, t: f64) -> Vec<f64> {
         self.values.values(|symbol| self.constants.get(&symbol).copied().unwrap_or(t))
     }
 
-    /// The classes of what stands in `abs` and `sign` at a time.
+    /// The classes of the arguments of `abs` and `sign` at a time.
     fn classes(&self, t: f64) -> Vec<f64> {
         self.at(t).into_iter().skip(self.roots).map(class).collect()
     }
 }
 
-/// Those that depend on the time.
+/// The switches that depend on the time.
 fn moving<'g>(exprs: Vec<Expr<'g>>, known: &BTreeMap<Id, bool>) -> Vec<Expr<'g>> {
     exprs.into_iter().filter(|expr| known.get(&expr.id()) == Some(&true)).collect()
 }
@@ -128,7 +128,7 @@ fn class(value: f64) -> f64 {
     Function::Sign.apply(value)
 }
 
-/// Where what stands in an `abs` or a `sign` passes 0, comes to it or leaves it, in order.
+/// The times at which the argument of an `abs` or a `sign` passes 0, comes to it or leaves it, in order.
 fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
     let (mut found, mut before) = (vec![], None);
     if parts.switches == 0 {
@@ -139,7 +139,7 @@ fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
         if let Some((start, old)) = before.replace((t, classes.clone())) {
             for (switch, (old, new)) in old.iter().zip(&classes).enumerate() {
                 let mut span = (start, *old);
-                // By way of 0.
+                // Through 0.
                 for _ in 0..2 {
                     if span.1 != *new && !(span.1.is_nan() || new.is_nan()) {
                         let [low, high] = boundary(parts, switch, [span.0, t], span.1);
@@ -163,7 +163,7 @@ fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
     apart
 }
 
-/// The neighboring times between which a value's class is no longer what it was at the first.
+/// The neighboring times between which a value's class changes from the first.
 fn boundary(parts: &Parts, switch: usize, [mut low, mut high]: [f64; 2], old: f64) -> [f64; 2] {
     loop {
         let middle = low + (high - low) / 2.0;
@@ -174,7 +174,7 @@ fn boundary(parts: &Parts, switch: usize, [mut low, mut high]: [f64; 2], old: f6
     }
 }
 
-/// Where a part bends most: the tops and feet of pulses, the ends of steep flanks.
+/// The times at which a part bends most: the tops and feet of pulses, the ends of steep flanks.
 fn peaks(parts: &Parts, times: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
     let mut largest = vec![0.0_f64; parts.roots];
     for t in times.clone() {

@@ -7,7 +7,7 @@ use crate::error::Error;
 /// More samples than this are refused: a table of them would fill the memory.
 const MAX_SAMPLES: f64 = 1e7;
 
-/// 0, step, 2 step, … up to the duration, and the duration itself where no step falls on it; s.
+/// 0, step, 2 step, … up to the duration, and the duration itself if no step falls on it; s.
 ///
 /// # Errors
 ///

@@ -28,7 +28,7 @@ const MAX_EVENTS: usize = 100;
 /// DOP853.
 type Method = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 16>;
 
-/// A motion under way.
+/// A motion in progress.
 pub(crate) struct Integration<'s, D, L> {
     system: System<'s, D, L>,
     method: Method,
@@ -37,9 +37,9 @@ pub(crate) struct Integration<'s, D, L> {
     pub(crate) steps: usize,
     /// The time at the last look at how far the steps led, s.
     watched: f64,
-    /// How far each coordinate is from the end of its mode at the integrator's time.
+    /// The distance of each coordinate from the end of its mode at the integrator's time.
     overruns: Vec<Overrun>,
-    /// Where a mode ends ahead.
+    /// The next end of a mode.
     bracket: Option<Bracket>,
     /// The length of a step that is to be tried for its own sake, s.
     shortened: Option<f64>,
@@ -115,7 +115,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         self.restart(t, &y, 0.0)
     }
 
-    /// The shortest time within which events are told apart, s.
+    /// The shortest time between two distinct events, s.
     fn shortest(&self) -> f64 {
         SMALLEST_STEP * self.options.duration + 4.0 * f64::EPSILON * self.method.t()
     }
@@ -141,7 +141,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         self.system.seen.set(f64::INFINITY);
         match self.method.step(&self.system) {
             Ok(_) => Ok(()),
-            // What is stiff is slow, no error; the steps are limited in any case.
+            // A stiff system is slow, which is not an error; the steps are limited in any case.
             Err(IntegratorError::Stiffness { .. }) => {
                 let (y, h) = (self.method.y().clone(), self.method.h());
                 self.restart(t, &y, h)
@@ -207,7 +207,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         };
         let mut guess = starting(friction, &state.qd);
         for (index, mode) in self.system.modes.iter().enumerate() {
-            // What sets off slowly is still at rest.
+            // A coordinate that sets off slowly is still at rest.
             let goes_on = ended.is_some_and(|ended| !ended.contains(&index));
             if goes_on && state.qd[index] == 0.0 {
                 guess[index] = *mode;
@@ -251,7 +251,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(())
     }
 
-    /// Why steps are too small: the integrator tells only that they are.
+    /// Why steps are too small: the integrator reports only that they are.
     fn stopped(&self, t: f64) -> Error {
         let cause = self.system.failure.take().unwrap_or(Cause::StepSize);
         Error::Stopped { t, cause }

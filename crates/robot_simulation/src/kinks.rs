@@ -1,17 +1,17 @@
 //! Kinks and jumps of a motion that is given by expressions with `abs` and `sign`.
 //!
-//! Where what stands in an `abs` or a `sign` passes 0, the velocity or the position may jump: the
+//! When the argument of an `abs` or a `sign` passes 0, the velocity or the position may jump: the
 //! acceleration is then an impulse, which derivatives do not see.
 
 use robot_symbolic::{Expr, Function, View, walk};
 
-/// Where a coordinate jumps.
+/// A jump of a coordinate.
 pub(crate) struct Kink {
     /// The coordinate, from 0.
     pub(crate) coordinate: usize,
-    /// When, s.
+    /// The time, s.
     pub(crate) t: f64,
-    /// What jumps: the position or the velocity.
+    /// The position or the velocity.
     pub(crate) what: &'static str,
     /// From where to where.
     pub(crate) sides: [f64; 2],
@@ -39,7 +39,7 @@ pub(crate) fn kinks<'g>(
     coordinates.filter_map(of).collect()
 }
 
-/// What stands in `abs` and `sign`.
+/// The arguments of `abs` and `sign`.
 fn switches<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
     let inner = |expr: Expr<'g>| match expr.view() {
         View::Call(Function::Abs | Function::Sign, inner) => Some(inner),
@@ -84,7 +84,7 @@ fn crossings<'g>(
     found
 }
 
-/// Where the expression passes 0 between two times.
+/// The time at which the expression passes 0 between two times.
 fn bisected<'g>(
     switch: Expr<'g>,
     [mut low, mut high]: [f64; 2],

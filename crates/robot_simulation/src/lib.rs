@@ -1,6 +1,6 @@
 //! Motions of robots.
 //!
-//! [`simulate`] integrates the motion law q(t), the direct problem (7) of the paper, over any
+//! [`simulate`] integrates the motion q(t), the forward dynamics (7) of the paper, over any
 //! [`Dynamics`]: the interpreted program of a robot ([`RobotProgram`]), generated code or a closure.
 //! [`fn@contributions`] is the inverse problem along a [`Trajectory`], split by cause. Both give series over
 //! time, which [`Table`] writes as CSV and [`plot`] draws.

@@ -20,11 +20,11 @@ pub struct RobotProgram<'p> {
     robot: &'p Robot,
     interpreter: Interpreter<'p>,
     friction: Option<RobotFriction>,
-    /// What says why there are no accelerations.
+    /// Determines why there are no accelerations.
     pivots: Option<Pivots>,
 }
 
-/// What the program's friction is like.
+/// The properties of the program's friction.
 #[derive(Clone, Debug)]
 struct RobotFriction {
     /// Whether it depends on the accelerations.
@@ -65,7 +65,7 @@ impl<'p> RobotProgram<'p> {
         Ok(RobotProgram { robot, interpreter, friction, pivots: None })
     }
 
-    /// The same with the pivots of the robot's mass matrix, so that if there are no accelerations the
+    /// This program with the pivots of the robot's mass matrix, so that if there are no accelerations the
     /// error names the joint.
     #[must_use]
     pub fn with_pivots(self, pivots: Pivots) -> RobotProgram<'p> {
@@ -109,7 +109,7 @@ impl Dynamics for RobotProgram<'_> {
         self.robot.degrees_of_freedom()
     }
 
-    /// With friction where that was asked for; where a velocity is 0, there is no dry friction.
+    /// With friction if that was asked for; at velocity 0 there is no dry friction.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause> {
         let found = match self.friction {
             Some(_) => balance(self, state, tau, &vec![Mode::Free; tau.len()])?.qdd,
@@ -134,7 +134,7 @@ impl Dynamics for RobotProgram<'_> {
         }
     }
 
-    /// Where dry friction can hold joints, what they show of inertia may be none.
+    /// If dry friction can hold joints, what they show of inertia may be none.
     fn check(&self, state: &State) -> Result<(), Cause> {
         match self.wrong_pivot(state) {
             Some(pivot) if pivot.digits == 0 && self.dry_friction().is_none() => {
@@ -177,7 +177,7 @@ impl DryFriction for RobotProgram<'_> {
     }
 }
 
-/// What a robot's friction is like with its parameters given.
+/// The properties of a robot's friction with its parameters given.
 fn robot_friction(robot: &Robot, given: &[(&str, f64)]) -> Result<RobotFriction, Error> {
     let parameters = parameters(robot, given);
     let mut friction =
@@ -201,7 +201,7 @@ fn robot_friction(robot: &Robot, given: &[(&str, f64)]) -> Result<RobotFriction,
                 "the Coulomb friction of joint `{joint}` is negative, which would drive the joint"
             ));
         }
-        // What is not a number is to show in the accelerations.
+        // A value that is not a number must show in the accelerations.
         let is_dry = dry.iter().any(|value| *value != 0.0);
         friction.by_load |= by_load != 0.0;
         if is_dry && link.friction.smoothing.is_none() {

@@ -1,4 +1,4 @@
-//! The integration of the motion law.
+//! The integration of the equations of motion.
 
 use robot_model::diagnostic::number;
 use robot_model::variable::JointVariable;
@@ -9,7 +9,7 @@ use crate::grid;
 use crate::integration::Integration;
 use crate::motion::Motion;
 
-/// How long and how exactly.
+/// The duration and the accuracy.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulationOptions {
     /// The time that is simulated, s.
@@ -31,14 +31,14 @@ impl Default for SimulationOptions {
     }
 }
 
-/// The motion law q(t) from a state under joint torques: the direct problem (7) of the paper.
+/// The motion q(t) from a state under joint torques: the forward dynamics (7) of the paper.
 ///
 /// The method is that of Dormand and Prince of order 8 with error estimates of orders 5 and 3
 /// (DOP853; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.10).
 /// It steps onto every sample, so that nothing is interpolated. `progress` hears the time reached, s,
 /// after every step.
 ///
-/// Where [`Dynamics::dry_friction`] gives dry friction with a sharp sign, the integrator also steps onto
+/// If [`Dynamics::dry_friction`] has dry friction with a sharp sign, the integrator also steps onto
 /// every event: a coordinate that comes to rest, and one at rest of which more is asked than its friction can
 /// give. A coordinate that friction holds keeps its position, and has no velocity and no acceleration.
 ///
@@ -77,7 +77,7 @@ struct Stop {
     then: Then,
 }
 
-/// What is done at a stop.
+/// The action at a stop.
 enum Then {
     Nothing,
     Sample,

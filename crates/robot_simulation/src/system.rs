@@ -8,7 +8,7 @@ use crate::dynamics::{DryFriction, Dynamics, State, TorqueLaw};
 use crate::error::Cause;
 use crate::friction::{Balance, Holding, Mode, balance};
 
-/// How far a velocity may be from 0 where a coordinate comes to rest, rad/s or m/s.
+/// The largest velocity, rad/s or m/s, at which a coordinate comes to rest.
 pub(crate) const REST: f64 = 1e-13;
 
 /// ẏ for y = (q, q̇) under the joint torques.
@@ -24,13 +24,13 @@ pub(crate) struct System<'s, D, L> {
     pub(crate) modes: Vec<Mode>,
     /// The error that is asked of a step.
     tolerance: f64,
-    /// What went wrong last, for the integrator knows of NaN only.
+    /// The last error, because the integrator knows of NaN only.
     pub(crate) failure: RefCell<Option<Cause>>,
     /// The earliest time within a step at which a mode seemed to end.
     pub(crate) seen: Cell<f64>,
 }
 
-/// How far a coordinate is beyond the end of its mode: a velocity that has changed its sign, or a force
+/// The distance of a coordinate beyond the end of its mode: a velocity that has changed its sign, or a force
 /// that friction cannot give.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrun {
@@ -97,7 +97,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
         self.dynamics.check(state)
     }
 
-    /// How far each coordinate is beyond the end of its mode.
+    /// The distance of each coordinate beyond the end of its mode.
     pub(crate) fn overruns(&self, state: &State, found: &Balance) -> Vec<Overrun> {
         let holding = found.holding.iter();
         let of_mode =
@@ -131,7 +131,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
     }
 
     /// Notes the time where a mode seems to have ended. States within a step are rough: what they
-    /// tell is looked at again with a step to that time.
+    /// decide is evaluated again with a step to that time.
     fn look(&self, t: f64, state: &State, found: &Balance) {
         let margin = 100.0 * self.tolerance;
         let ended = |(overrun, qd): (Overrun, &f64)| {

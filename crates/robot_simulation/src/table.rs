@@ -119,7 +119,7 @@ fn cells(line: &str) -> Vec<&str> {
     line.split(',').map(|cell| cell.trim().trim_matches('"')).collect()
 }
 
-/// What is wrong with the column `t` of a table: it must be there and rise.
+/// The problem with the column `t` of a table: it must exist and ascend.
 pub(crate) fn check_times(source: &str, table: &Table) -> Vec<String> {
     let Some(times) = table.column("t") else {
         return vec![format!("{source}: there is no column `t`, the time in s")];

@@ -24,7 +24,7 @@ enum Law {
     Samples { t: Vec<f64>, columns: Vec<Vec<f64>> },
 }
 
-/// What a name in a formula stands for.
+/// The meaning of a name in a formula.
 #[derive(Clone, Copy, Debug)]
 enum Meaning {
     Time,

@@ -23,7 +23,7 @@ pub struct Trajectory {
     pub qd: Vec<Vec<f64>>,
     /// q̈, rad/s² or m/s².
     pub qdd: Vec<Vec<f64>>,
-    /// What the tips exert on their surroundings, force (N) then moment (N m), in the tips' frames,
+    /// The wrenches that the tips exert on their surroundings, force (N) then moment (N m), in the tips' frames,
     /// one tip after the other; `None` if nothing is said of wrenches.
     pub wrenches: Option<Vec<Vec<f64>>>,
 }
@@ -49,9 +49,9 @@ fn rows(columns: &[&[f64]], count: usize) -> Vec<Vec<f64>> {
 }
 
 impl Trajectory {
-    /// Samples: the columns t (s), rising, q1 …, qd1 …, qdd1 …, and, where a tip exerts a wrench, fx,
+    /// Samples: the columns t (s), rising, q1 …, qd1 …, qdd1 …, and, if a tip exerts a wrench, fx,
     /// fy, fz, mx, my, mz, or fx_NAME … for each of several tips. The torques and energies of a
-    /// simulated motion may stand beside them; they are not read.
+    /// simulated motion may be beside them; they are not read.
     ///
     /// # Errors
     ///

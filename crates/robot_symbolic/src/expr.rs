@@ -137,7 +137,7 @@ impl<'g> Expr<'g> {
         self.apply(Function::Tanh)
     }
 
-    /// 1/x where x is above 0 and finite, NaN elsewhere.
+    /// 1/x if x is above 0 and finite, NaN elsewhere.
     #[must_use]
     pub fn recip_positive(self) -> Expr<'g> {
         self.apply(Function::RecipPositive)

@@ -52,7 +52,7 @@ pub enum Function {
     Sign,
     /// Hyperbolic tangent.
     Tanh,
-    /// 1/x where x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is
+    /// 1/x if x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is
     /// wrong. No formula of a file applies it.
     RecipPositive,
 }
@@ -173,7 +173,7 @@ impl Graph {
     /// An empty graph that operations fill up to so many nodes: a derivation that is too long ends soon,
     /// without memory for what nobody can use.
     ///
-    /// Where the graph [is full](Graph::is_full), operations give one of their operands in place of a new
+    /// If the graph [is full](Graph::is_full), operations return one of their operands instead of a new
     /// node, so that nothing that was derived means anything.
     #[must_use]
     pub fn limited(nodes: usize) -> Graph {
@@ -292,7 +292,7 @@ impl Graph {
         self.intern(Node::Number(index as u32))
     }
 
-    /// The result of an operation on two nodes where both are constants.
+    /// The result of an operation on two nodes if both are constants.
     pub(crate) fn fold(&self, operation: Folding, a: Id, b: Id) -> Option<Id> {
         if !(self.is_number(a) && self.is_number(b)) {
             return None;

@@ -7,7 +7,7 @@ use crate::rational::{MAX_BITS, Rational};
 /// A constant of an expression.
 ///
 /// Robot files hold decimals, which are exact rationals; sums and products of them stay exact.
-/// A constant becomes `Real` where it has no rational value (the sine of an arbitrary angle,
+/// A constant becomes `Real` if it has no rational value (the sine of an arbitrary angle,
 /// evaluated for code), or would need more than a few thousand bits.
 #[derive(Clone, Debug)]
 pub enum Number {
@@ -80,7 +80,7 @@ impl Number {
         }
     }
 
-    /// What arithmetic on the number costs beyond that on machine words, in units of that: nothing
+    /// The cost of arithmetic on the number beyond that on machine words, in units of that: nothing
     /// for small numbers, memory to allocate and words to multiply for large ones.
     pub(crate) fn weight(&self) -> u64 {
         match self {

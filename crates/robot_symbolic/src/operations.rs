@@ -28,7 +28,7 @@ impl Operations {
         self.multiplications + self.additions
     }
 
-    /// Multiplications and additions where each fusible pair is one multiply-add.
+    /// Multiplications and additions if each fusible pair is one multiply-add.
     #[must_use]
     pub fn instructions(&self) -> usize {
         self.flops() - self.fusible
@@ -38,7 +38,7 @@ impl Operations {
 /// The operations that `roots` need each time the symbols change that are not `free`: what depends
 /// on free symbols and constants alone is computed beforehand and costs nothing.
 ///
-/// Who counts often on one graph uses a [`Counter`].
+/// Use a [`Counter`] to count repeatedly on one graph.
 #[must_use]
 pub fn operations(roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operations {
     Counter::default().count(roots, free)
@@ -52,7 +52,7 @@ pub struct Counter {
     count: u64,
 }
 
-/// What a count knows of a node.
+/// The state of a node during a count.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
     /// The last count that met the node; the rest is of that count.
@@ -61,7 +61,7 @@ struct Mark {
     varies: bool,
     /// Whether it has to be computed at each change.
     needed: bool,
-    /// How often what is needed uses it.
+    /// The number of needed uses.
     uses: u32,
 }
 
@@ -103,7 +103,7 @@ impl Counter {
         }
     }
 
-    /// What varies below the roots, in any order.
+    /// The nodes below the roots that vary, in any order.
     fn mark_needed(&mut self, nodes: &[Node], roots: &[Id]) -> Vec<Id> {
         let mut needed = vec![];
         let mut pending = roots.to_vec();
@@ -117,7 +117,7 @@ impl Counter {
         needed
     }
 
-    /// How often each node is an operand of `needed` nodes or a root; a change of sign is part of its
+    /// The number of times that each node is an operand of `needed` nodes or a root; a change of sign is part of its
     /// use.
     fn mark_uses(&mut self, nodes: &[Node], roots: &[Id], needed: &[Id]) {
         let users = needed.iter().map(|id| nodes[id.index()]);

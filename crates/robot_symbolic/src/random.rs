@@ -27,7 +27,7 @@ impl Random {
         low + (high - low) * unit
     }
 
-    /// An index below `count`; 0 where `count` is 0.
+    /// An index below `count`; 0 if `count` is 0.
     pub fn index(&mut self, count: usize) -> usize {
         (self.bits() % count.max(1) as u64) as usize
     }

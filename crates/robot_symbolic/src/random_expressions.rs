@@ -5,7 +5,7 @@ use crate::graph::{Function, Graph};
 pub(crate) use crate::random::Random;
 use crate::rational::Rational;
 
-/// What random expressions are made of.
+/// The ingredients of random expressions.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Sums, products, sines and cosines of integer combinations of angles.

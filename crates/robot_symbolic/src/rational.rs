@@ -49,7 +49,7 @@ impl Rational {
 
     /// The exact value of decimal text as robot files hold it: `12`, `-0.35`, `1.5e-3`.
     ///
-    /// `None` if the text is no finite decimal number, or its exponent is beyond ±400 (no `f64`
+    /// `None` if the text is not a finite decimal number, or its exponent is beyond ±400 (no `f64`
     /// is that large or small).
     #[must_use]
     pub fn from_decimal(text: &str) -> Option<Rational> {
@@ -102,7 +102,7 @@ impl Rational {
         }
     }
 
-    /// `(numerator, denominator)` where both fit an `i64`.
+    /// `(numerator, denominator)` if both fit an `i64`.
     #[must_use]
     pub fn to_small(&self) -> Option<(i64, i64)> {
         match self.0 {

@@ -8,7 +8,7 @@
 //!   (c₁ c₂) (x y)`, `c₁ x + c₂ x = (c₁ + c₂) x`;
 //! - signs move outward: `(−x) y = −(x y)`, `(−x) + y = y − x`, and numbers are never negative;
 //! - operands of sums and products are ordered, and of `a − b` and `b − a` only one is stored, the
-//!   other is its negative, so that both share;
+//!   other is its negative, so that both use the same node;
 //! - what was just added is taken off again: `(x + y) − y = x`, `(x − y) + y = x`;
 //! - `x / c = (1/c) x`, `(x y) / y = x`, `√x √x = x`.
 
@@ -65,7 +65,7 @@ impl Graph {
         if a < b { self.intern(Node::Sub(a, b)) } else { self.neg(self.intern(Node::Sub(b, a))) }
     }
 
-    /// `a ± b` where constants fold, or both are multiples of one expression.
+    /// `a ± b` if constants fold, or both are multiples of one expression.
     fn merge_terms(&self, a: Id, b: Id, subtract: bool) -> Option<Id> {
         let operation = if subtract { Folding::Sub } else { Folding::Add };
         if let Some(constant) = self.fold(operation, a, b) {
@@ -91,7 +91,7 @@ impl Graph {
             && self.as_number(id).is_some_and(|number| number.is_zero())
     }
 
-    /// `(c, x)` where the expression is `c x` with a constant `c`.
+    /// `(c, x)` if the expression is `c x` with a constant `c`.
     fn split_coefficient(&self, id: Id) -> (Option<Id>, Id) {
         match self.node(id) {
             Node::Mul(a, b) if self.is_number(a) => (Some(a), b),

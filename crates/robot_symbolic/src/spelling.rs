@@ -1,11 +1,11 @@
 //! Which known word a misspelt one most likely means.
 
-/// Longer words are no slips of the pen.
+/// Longer words are not typing mistakes.
 const MAX_LENGTH: usize = 64;
 
 /// The candidate that a misspelt word most likely means, upper and lower case being alike: at most a
 /// third of its letters differ, and no more than three. A beginning of a longer word is as good as
-/// one slip. Of several that are equally near, the one with the same first letter; else the first.
+/// one mistake. Of several that are equally near, the one with the same first letter; else the first.
 ///
 /// ```
 /// let known = ["revolute", "prismatic", "fixed"];

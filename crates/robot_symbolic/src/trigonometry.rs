@@ -59,7 +59,7 @@ impl Graph {
         }
     }
 
-    /// Sine and cosine of `fraction · π` in the first quadrant where they are exact.
+    /// Sine and cosine of `fraction · π` in the first quadrant if they are exact.
     fn exact_circular(&self, rest: Id, fraction: &Rational) -> Option<(Id, Id)> {
         if !self.as_number(rest)?.is_zero() {
             return None;

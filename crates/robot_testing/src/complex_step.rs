@@ -13,7 +13,7 @@ use super::value_of;
 /// Its square, the truncation error, is far below the last bit of a double.
 const STEP: f64 = 1e-100;
 
-/// How fast values change at a state where the state changes like `rate`.
+/// The rate of values at a state that changes like `rate`.
 pub fn derivative(robot: &Robot, roots: &[Expr<'_>], state: &State, rate: &State) -> Vec<f64> {
     let mut values: HashMap<_, Complex<f64>> = HashMap::new();
     for expr in walk::reachable(roots) {

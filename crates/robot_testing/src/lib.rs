@@ -1,4 +1,4 @@
-//! What tests of several crates share: robots, states, values of expressions at them, and the pages of the book.
+//! Common code of the tests of several crates: robots, states, values of expressions at them, and the pages of the book.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

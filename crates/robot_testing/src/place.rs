@@ -1,11 +1,11 @@
-//! Where values are off: at which entry of which output, in the row of which joint.
+//! The places of wrong values: which entry of which output, in the row of which joint.
 
 use std::fmt;
 
 use robot_dynamics::functions::Output;
 use robot_model::robot::Robot;
 
-/// What values are: arrays one after another, each with a name and the lengths of its dimensions, row by row.
+/// The layout of values: arrays one after another, each with a name and the lengths of its dimensions, row by row.
 pub struct Layout<'r> {
     robot: &'r Robot,
     arrays: Vec<(String, Vec<usize>)>,
@@ -70,7 +70,7 @@ impl<'r> Layout<'r> {
 
 /// The largest difference of values from what is expected.
 pub struct Off {
-    /// In parts of what the values are measured by; infinite where a value is not a number.
+    /// In parts of what the values are measured by; infinite if a value is not a number.
     pub error: f64,
     entry: String,
     found: f64,

@@ -1,4 +1,4 @@
-//! What the numeric solver says about functions, and the states and inputs to ask for.
+//! The numeric solver's values of functions, and the states and inputs to ask for.
 
 use nalgebra::{DMatrix, Vector3};
 use robot_model::functions::{Effects, FrameRef, FunctionKind};
@@ -40,7 +40,7 @@ pub fn inputs(
     names.map(value).collect()
 }
 
-/// What the solver says the functions of a kind yield, one after another; of the regressor the
+/// The numeric solver's values of the functions of a kind, one after another; of the regressor the
 /// columns of the links.
 pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
     let State { q, qd, qdd, tau, wrenches } = state;
@@ -130,7 +130,7 @@ fn forward_derivatives(solver: &Mechanism, state: &State) -> Vec<f64> {
     [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
 }
 
-/// q̈ with friction, by the rounds that the functions take where friction is by load.
+/// q̈ with friction, by the rounds that the functions take if friction is by load.
 fn with_friction(
     robot: &Robot,
     solver: &Mechanism,

@@ -1,4 +1,4 @@
-//! What Cargo tells a build script, and what a build script tells Cargo.
+//! The environment that Cargo gives a build script, and the lines that a build script prints for Cargo.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -49,7 +49,7 @@ impl Directives {
     /// An error each, on one line; with it the build fails.
     ///
     /// Nothing for a package that says it builds with a Cargo from before there was `cargo::error`: it would be
-    /// told of that instead.
+    /// gets that instead.
     pub(crate) fn errors(&mut self, errors: &Errors) {
         let declared = std::env::var("CARGO_PKG_RUST_VERSION").unwrap_or_default();
         for problem in errors.problems().iter().filter(|_| knows_errors(&declared)) {
@@ -83,7 +83,7 @@ impl Directives {
 
     /// Tells Cargo, on standard output.
     pub(crate) fn print(&self) {
-        // Nobody is listening where this fails.
+        // Nobody is listening if this fails.
         let _ = std::io::stdout().lock().write_all(self.0.as_bytes());
     }
 

@@ -1,4 +1,5 @@
-//! What touches files and the environment: the builder for build scripts, robot files, pins and output files.
+//! The doors: everything that touches files or the environment. The builder for build scripts, robot files, pins and output
+//! files.
 
 pub(crate) mod builder;
 mod cargo;

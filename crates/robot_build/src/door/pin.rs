@@ -13,10 +13,10 @@ use crate::door::paths::RobotFile;
 use crate::driver::options::Options;
 use crate::error::{Error, Errors};
 
-/// A pin is a few kilobytes; a larger file is none.
+/// Pins are a few kilobytes; anything larger is rejected.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// Where the pin of a robot file lies: beside it, with the ending `plan` in place of `toml` and after any
+/// The path of a robot file's pin: beside it, with the ending `plan` in place of `toml` and after any
 /// other, so that `ur5.toml`, imported from `ur5.urdf`, has a pin of its own.
 #[must_use]
 pub fn pin_path(robot: &Path) -> PathBuf {
@@ -26,7 +26,7 @@ pub fn pin_path(robot: &Path) -> PathBuf {
     }
 }
 
-/// What is read for a robot: its file, and the pin that is or may come to lie beside it.
+/// The files that are read for a robot: its file, and its pin, existing or not.
 #[must_use]
 pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
     let followed = robot.canonicalize();
@@ -88,7 +88,7 @@ impl RobotFile {
     }
 }
 
-/// The pin in a file, or why there is none.
+/// The pin in a file, or why it cannot be read.
 fn read_pin(path: &Path) -> Result<Pin, String> {
     let found = std::fs::metadata(path).map_err(|error| error.to_string())?;
     if !found.is_file() {
@@ -169,7 +169,7 @@ mod tests {
         std::fs::remove_dir(pin_path(&path)).unwrap();
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
 
-        // What people write beside the mechanics is no change of them.
+        // Remarks and other text beside the mechanics do not change it.
         let remarked =
             ROBOT.replace("[robot]\n", "# a remark\n[robot]\ndescription = \"swings\"\n");
         std::fs::write(&path, remarked).unwrap();

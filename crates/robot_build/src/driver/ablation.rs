@@ -1,4 +1,4 @@
-//! What each option and each pass is worth: the operations of functions where one of them is left
+//! The worth of each option and each pass: the operations of functions if one of them is left
 //! out.
 
 use robot_codegen::{FunctionCounts, Resubstitution};
@@ -20,9 +20,9 @@ const MAX_NODES: usize = 40_000;
 /// The functions with one option or pass left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ablation {
-    /// What is left out: `none`, a key of a pinned plan, or a pass.
+    /// The part that is left out: `none`, a key of a pinned plan, or a pass.
     pub without: &'static str,
-    /// What each function costs then, by its name.
+    /// The cost of each function without it, by the function's name.
     pub counts: Vec<(String, FunctionCounts)>,
 }
 

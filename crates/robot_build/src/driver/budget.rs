@@ -1,4 +1,4 @@
-//! What generated code may cost: `[[budget]]` of a robot file, and the options of a build.
+//! Limits of the cost of generated code: `[[budget]]` of a robot file, and the options of a build.
 //!
 //! Operations are exact: the multiplications, additions and divisions of one call, as
 //! `robot-symbolic stats` counts them. A build has no compiler to ask for the stack; it holds the
@@ -17,7 +17,7 @@ use crate::driver::options::Options;
 use crate::driver::programs::Programs;
 use crate::error::{Error, Errors};
 
-/// What is limited.
+/// The resource that is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resource {
     /// Operations of a call.
@@ -31,16 +31,16 @@ pub enum Resource {
 pub struct Over {
     /// The function.
     pub function: String,
-    /// What it has too much of.
+    /// The resource that exceeds its limit.
     pub resource: Resource,
-    /// How much it has.
+    /// The amount used.
     pub found: u64,
-    /// How much it may have.
+    /// The limit.
     pub limit: u64,
 }
 
 impl Over {
-    /// What to do.
+    /// The remedy.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self.resource {
@@ -103,7 +103,7 @@ pub(crate) fn check(programs: &Programs, source: &Source, options: &Options) -> 
     Errors::check(errors, ())
 }
 
-/// What a function costs.
+/// The cost of a function.
 #[derive(Clone, Copy)]
 struct Cost<'f> {
     function: &'f str,
@@ -154,7 +154,7 @@ fn limits<'p>(
     budgets.map(|budget| (budget.max_operations.as_ref(), budget.max_stack.as_ref()))
 }
 
-/// What kind of function a name is of: functions of a frame have its name at their end.
+/// The kind of the function of that name: functions of a frame end in the frame's name.
 fn kind(name: &str) -> Option<FunctionKind> {
     let is_of = |kind: &&FunctionKind| {
         let rest = name.strip_prefix(kind.name());

@@ -12,7 +12,7 @@ pub struct File {
 }
 
 impl File {
-    /// Where the file lies in a folder.
+    /// The file's path in a folder.
     #[must_use]
     pub fn path_in(&self, folder: &Path) -> PathBuf {
         let parts = self.path.split('/').filter(|part| !part.is_empty());

@@ -20,7 +20,7 @@ const DIGITS: f64 = 15.0;
 
 /// The pivots of a robot's mass matrix as a program, solved as its forward dynamics is.
 ///
-/// The pivot of a coordinate is the inertia that its joint shows where the joints farther out are free.
+/// The pivot of a coordinate is the inertia that its joint shows if the joints farther out are free.
 #[derive(Clone, Debug)]
 pub struct Pivots {
     interpreter: Interpreter<'static>,
@@ -32,7 +32,7 @@ pub struct Pivots {
 pub struct Pivot {
     /// The joint.
     pub joint: String,
-    /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, where the state
+    /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, if the state
     /// has no accelerations.
     pub part: f64,
     /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15. With 0 the
@@ -65,7 +65,7 @@ impl Pivots {
         Ok(Pivots { interpreter, joints })
     }
 
-    /// The same with sines and cosines from elsewhere than the standard library.
+    /// The pivots with sines and cosines from elsewhere than the standard library.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
         let interpreter = self.interpreter.with_trigonometry(trigonometry);
@@ -101,14 +101,14 @@ impl Pivots {
 }
 
 impl Pivot {
-    /// Whether there are no accelerations, for the pivot is not above 0 and finite, or is rounding alone.
+    /// Whether there are no accelerations, because the pivot is not above 0 and finite, or is rounding error alone.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         !(self.part > 0.0 && self.part.is_finite()) || self.digits == 0
     }
 }
 
-/// What it means for the accelerations.
+/// The consequence for the accelerations.
 impl fmt::Display for Pivot {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Pivot { joint, part, digits } = self;

@@ -1,4 +1,4 @@
-//! What is wrong, thing by thing, for tools that show the first line of a message: Cargo, rustc, editors.
+//! Errors one by one, for tools that show the first line of a message: Cargo, rustc, editors.
 
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, render};
 
@@ -13,7 +13,7 @@ pub struct Problem {
     /// The place, if there is one, and what is wrong, on one line:
     /// ``lift.toml:52:9: error R0303: `m5` is not a parameter of this robot``.
     pub headline: String,
-    /// What else there is to say, on lines of its own: an excerpt of the file, the reason, the remedy. May be
+    /// The rest, on lines of its own: an excerpt of the file, the reason, the remedy. May be
     /// empty.
     pub details: String,
 }

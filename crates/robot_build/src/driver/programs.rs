@@ -24,7 +24,7 @@ pub(crate) const MAX_NODES: usize = 500_000;
 pub struct Programs {
     /// The robot.
     pub robot: Robot,
-    /// What looks like a slip in the file.
+    /// Likely mistakes in the file.
     pub warnings: Diagnostics,
     /// The constant angles that were taken for multiples of π/2.
     pub snapped: Vec<Snap>,
@@ -32,7 +32,7 @@ pub struct Programs {
     pub functions: Vec<FunctionKind>,
     /// The functions that were wanted in one call.
     pub bundles: Vec<Bundle>,
-    /// What the file lets the functions cost.
+    /// The limits that the file sets for the functions' cost.
     pub budgets: Vec<Budget>,
     /// The programs: what the interpreter runs and the backends print.
     pub module: Module,
@@ -47,7 +47,7 @@ pub fn read(source: &Source) -> Result<Described, Errors> {
     Ok(description::read(&source.name, &source.text)?)
 }
 
-/// As [`read`], with what the options take that is an error otherwise.
+/// [`read`] with the options that turn errors into warnings.
 ///
 /// # Errors
 ///
@@ -69,7 +69,7 @@ pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> 
     Ok(programs)
 }
 
-/// As [`programs`], for a robot that is there already; `name` is what errors call its source.
+/// [`programs`] for a robot that has been read; `name` is the name of its source in errors.
 ///
 /// # Errors
 ///
@@ -92,7 +92,7 @@ pub fn planned(robot: &Robot, options: &Options) -> Options {
     Options { plan: plan_of(robot, options), search: false, ..options.clone() }
 }
 
-/// As [`programs_of`], with passes of choice, of so many expressions at most.
+/// [`programs_of`] with a choice of passes, and at most so many expressions.
 pub(crate) fn programs_under(
     robot: Robot,
     name: &str,

@@ -1,4 +1,4 @@
-//! Robots whose mass matrix is singular in every posture: what they lack, and what is said of it.
+//! Robots whose mass matrix is singular in every configuration: the functions they lack, and the message.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use crate::driver::options::Options;
 use crate::driver::programs::programs_of;
 use crate::error::{Error, Errors, quoted};
 
-/// The functions that a robot lacks as its mass matrix is singular in every posture, whatever the values of
+/// The functions that a robot lacks because its mass matrix is singular in every configuration, whatever the values of
 /// its parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unsolvable {
@@ -21,7 +21,7 @@ pub struct Unsolvable {
     pub joints: Vec<String>,
 }
 
-/// What the robot lacks, and why, on one line.
+/// The missing functions and the reason, on one line.
 impl fmt::Display for Unsolvable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names: Vec<&str> = self.functions.iter().map(|kind| kind.name()).collect();
@@ -35,7 +35,7 @@ impl fmt::Display for Unsolvable {
     }
 }
 
-/// The functions that a robot lacks as its mass matrix is singular in every posture; `None` if it is not.
+/// The functions that a robot lacks because its mass matrix is singular in every configuration; `None` if it is not.
 #[must_use]
 pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
     // At the nominal values alone it may be singular by chance: the derivation decides.
@@ -55,7 +55,7 @@ pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
     Some(Unsolvable { functions, joints })
 }
 
-/// The errors of the code generator, with a division by zero told by its cause.
+/// The errors of the code generator, with a division by zero explained by its cause.
 pub(crate) fn by_cause(
     name: &str,
     robot: &Robot,

@@ -1,4 +1,4 @@
-//! What taking angles near multiples of π/2 for them changes, and what it saves.
+//! The effects of snapping angles near multiples of π/2, and the operations it saves.
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions, Snap};
@@ -13,16 +13,16 @@ use crate::error::Errors;
 /// Tolerances that are tried besides the one that is taken, rad.
 const TRIED: [f64; 3] = [1e-6, 1e-4, 1e-3];
 
-/// What snapping does to a robot.
+/// The effect of snapping on a robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapping {
     /// Under the tolerance that is taken.
     pub taken: Tried,
-    /// Under larger tolerances, each of which snaps more angles.
+    /// The effects of larger tolerances, each of which snaps more angles.
     pub larger: Vec<Tried>,
 }
 
-/// What a tolerance does.
+/// The effect of a tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tried {
     /// The tolerance, rad.
@@ -41,12 +41,12 @@ impl Tried {
     }
 }
 
-/// What snapping does to a robot: with the tolerance given, else the file's, and with larger ones.
+/// Computes the effect of snapping on a robot: with the tolerance given, else the file's, and with larger ones.
 /// All under one plan, the default one if none is given.
 ///
 /// # Errors
 ///
-/// A tolerance that is no angle; a plan that is not the robot's.
+/// A tolerance that is not an angle; a plan that is not the robot's.
 pub fn snapping(robot: &Robot, snap: Option<f64>, plan: Option<&Plan>) -> Result<Snapping, Errors> {
     let tolerance = MechanismOptions::ROUNDED.with_snap(snap, robot).snap;
     let taken = tried(robot, tolerance, plan)?;

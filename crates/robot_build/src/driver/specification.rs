@@ -75,7 +75,7 @@ pub(crate) fn not_generated(
     let mut more = FunctionKind::of_robot(robot);
     let chosen = |kind: &FunctionKind| functions.contains(kind) || bundled(kind);
     more.retain(|kind| !chosen(kind));
-    // Whoever chose one that solves with the mass matrix is told elsewhere that it is singular.
+    // A caller that chose one that solves with the mass matrix gets a message elsewhere that it is singular.
     let mut solving = FunctionKind::ALL.iter().filter(|kind| kind.divides_by_mass_matrix());
     if !solving.any(chosen) && unsolvable(robot, options).is_some() {
         more.retain(|kind| !kind.divides_by_mass_matrix());

@@ -13,7 +13,7 @@ use robot_symbolic::{
 
 use crate::difference::{Options, Refusal};
 
-/// What the expansion of one joint torque may cost: a fraction of a second.
+/// The limits of the expansion of one joint torque: a fraction of a second.
 const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 100_000,
@@ -32,7 +32,7 @@ const FARTHER_OUT: &str =
 pub struct Equation {
     /// The joint torque, `Q1`.
     pub name: String,
-    /// The terms that appear, vanish or change; why there are none.
+    /// The terms that appear, vanish or change, or why they cannot be compared.
     pub terms: Result<Vec<Term>, Refusal>,
 }
 

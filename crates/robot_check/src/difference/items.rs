@@ -1,11 +1,11 @@
-//! What the files of two robots say: parameters, links, joints and frames.
+//! The contents of the files of two robots: parameters, links, joints and frames.
 
 use robot_document::robot::words;
 use robot_model::robot::{Body, Frame, Joint, Link, Move, Parameter, Payload, Placement, Robot};
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Formula, print};
 
-/// What an item is.
+/// The kind of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ItemKind {
     /// The robot as a whole.
@@ -37,11 +37,11 @@ impl ItemKind {
 /// A part of a robot, with what is said of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// What it is.
+    /// Its kind.
     pub kind: ItemKind,
     /// Its name.
     pub name: String,
-    /// What is said of it: names and values as text, figures exact where they are numbers.
+    /// Its properties: names and values as text, exact if they are numbers.
     pub properties: Vec<(String, String)>,
 }
 
@@ -63,16 +63,16 @@ pub enum Change {
     Removed(Item),
     /// Both have it, with other properties.
     Changed {
-        /// What it is.
+        /// Its kind.
         kind: ItemKind,
         /// Its name.
         name: String,
-        /// What differs.
+        /// The differences.
         properties: Vec<Property>,
     },
 }
 
-/// What differs, the first robot's in its order, then what came.
+/// The differences, those of the first robot's items in its order, then the new items.
 pub(crate) fn changes(a: &Robot, b: &Robot) -> Vec<Change> {
     let (before, after) = (items(a), items(b));
     let counterpart = |item: &Item, among: &[Item]| {

@@ -16,19 +16,19 @@ pub use items::{Change, Item, ItemKind, Property};
 pub use operations::Operations;
 pub use torques::{State, StateBox, Torque, Torques};
 
-/// What is compared, and how.
+/// The options of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// How code is made of either robot, for the operations: the plan, and the snapping of angles.
-    /// The functions are all that the robot has, whatever stands here.
+    /// The options of making code of either robot, for the operations: the plan, and the snapping of angles.
+    /// The functions are all that the robot has, whatever is set here.
     pub code: [robot_build::Options; 2],
     /// The seed of the states.
     pub seed: u64,
-    /// How many states are drawn.
+    /// The number of states to draw.
     pub states: usize,
 }
 
-/// What could not be compared: why, and the remedy if there is one.
+/// A comparison that failed: why, and the remedy if there is one.
 pub type Refusal = String;
 
 /// In what two robots differ.
@@ -48,7 +48,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Whether nothing differs. Torques differ only where something else does.
+    /// Whether nothing differs. Torques differ only if something else does.
     #[must_use]
     pub fn is_none(&self) -> bool {
         let operations = self.operations.as_ref().is_ok_and(|found| !found.is_empty());

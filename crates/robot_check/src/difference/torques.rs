@@ -8,12 +8,12 @@ use robot_numeric::{Loads, Mechanism};
 
 use crate::difference::{Options, Refusal};
 
-/// Where states are drawn.
+/// The range that states are drawn from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateBox {
     /// The seed.
     pub seed: u64,
-    /// How many states.
+    /// The number of states.
     pub states: usize,
     /// Lowest and highest position of each joint, rad or m: the limits that both robots keep; where
     /// neither has any, ±π and ±0.5 m.
@@ -42,7 +42,7 @@ pub struct Torque {
     pub joint: String,
     /// Rotation (N m) or translation (N).
     pub kind: JointKind,
-    /// What the two robots need in that state, friction included, no wrench at the tips.
+    /// The joint torques of the two robots in that state, friction included, no wrench at the tips.
     pub torques: [f64; 2],
     /// The state.
     pub state: State,

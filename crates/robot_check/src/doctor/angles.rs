@@ -102,7 +102,7 @@ fn tolerance(miss: f64) -> String {
 
 /// `π/2`, `-3π/2`.
 fn multiple(quarters: f64) -> String {
-    // Angles beyond a turn are told as degrees: quarters are few.
+    // Angles beyond a turn are shown as degrees: quarters are few.
     let quarters = quarters as i64;
     let sign = if quarters < 0 { "-" } else { "" };
     match quarters.abs() {

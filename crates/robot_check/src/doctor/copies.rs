@@ -1,4 +1,4 @@
-//! The same inertia on several links.
+//! Checks for the same inertia on several links.
 
 use robot_model::diagnostic::{Diagnostic, code};
 
@@ -6,12 +6,12 @@ use super::facts::{BodyFacts, RobotFacts};
 
 /// Two modules of an arm may well be alike; three are rare.
 const ALIKE: usize = 3;
-/// Tensors in proportion to the mass differ where masses differ by more than rounding.
+/// Tensors in proportion to the mass differ if masses differ by more than rounding.
 const SAME_MASS: f64 = 0.01;
 /// More places than this are not shown.
 const MAX_SHOWN: usize = 8;
 
-/// Tensors of figures alone are looked at: a parameter that stands on several links says that they
+/// Only tensors of numbers are compared: a parameter that occurs on several links says that they
 /// are meant to be alike.
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     let bodies = facts.links.iter().flat_map(|link| &link.bodies);

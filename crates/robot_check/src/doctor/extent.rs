@@ -8,7 +8,7 @@ use super::facts::{BodyFacts, LinkFacts, RobotFacts};
 
 /// A body's parts lie at its edge or nearer, and one of its ends is at the link's origin: the mass
 /// center is then no farther than the size of the link, nor is the radius of gyration larger. Motors
-/// and housings stand over, and links are often longer than the frames on them tell.
+/// and housings overhang, and links are often longer than the frames on them show.
 const TIMES: f64 = 3.0;
 
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
@@ -24,7 +24,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// The size of the link where the body's radius of gyration is more than [`TIMES`] that.
+/// The size of the link if the body's radius of gyration is more than [`TIMES`] that.
 fn too_wide(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<f64> {
     let size = link.size().max(body.center.norm());
     let is_wide = body.has_tensor() && size > 0.0 && body.gyration() > TIMES * size;

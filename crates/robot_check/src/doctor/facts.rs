@@ -1,4 +1,4 @@
-//! The figures of a robot at its nominal values, with their places; NaN if one has none, so that
+//! The values of a robot at its nominal parameters, with their places; NaN if one has none, so that
 //! no comparison with it holds.
 
 use nalgebra::{Matrix3, Vector3};
@@ -26,7 +26,7 @@ pub(super) struct LinkFacts<'d> {
     pub(super) points: Vec<Vector3<f64>>,
     /// From the parent's origin to this one's at joint position 0, m.
     pub(super) arm: f64,
-    /// How far a prismatic joint moves the link, m; 0 where that is not known.
+    /// How far a prismatic joint moves the link, m; 0 if that is not known.
     pub(super) travel: f64,
 }
 
@@ -76,7 +76,7 @@ fn bodies<'d>(link: &'d Link, place: &'d LinkLocation, at: &Evaluation<'_>) -> V
             tensor: pose.rotation * at.tensor(&body.inertia) * pose.rotation.transpose(),
         }
     });
-    // What nothing is known to be of, such as a payload that is set at run time.
+    // Unknown values, such as those of a payload that is set at run time.
     bodies.filter(|body| body.mass != 0.0 || body.tensor.norm() != 0.0).collect()
 }
 
@@ -99,7 +99,7 @@ fn travel(robot: &Robot, link: &Link) -> f64 {
 }
 
 impl LinkFacts<'_> {
-    /// The farthest point that something else of the robot marks on the link, or on the way to it
+    /// The farthest point that another part of the robot marks on the link, or on the way to it
     /// from its parent, m.
     pub(super) fn size(&self) -> f64 {
         let farthest = self.points.iter().map(Vector3::norm).fold(0.0, f64::max);
@@ -133,7 +133,7 @@ impl BodyFacts<'_> {
         self.place.center_of_mass.as_ref().unwrap_or(&self.place.name)
     }
 
-    /// Whether mass, center of mass and inertia are in likely units; what is not so is told by
+    /// Whether mass, center of mass and inertia are in likely units; if not, they are reported by
     /// [`super::units`], and nothing else is said of it.
     pub(super) fn is_in_units(&self) -> bool {
         !super::units::is_suspect(self)

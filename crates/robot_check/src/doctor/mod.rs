@@ -1,8 +1,8 @@
-//! The doctor: what a robot file says that is likely a slip.
+//! The doctor: finds likely mistakes in robot files.
 //!
-//! The readers refuse what no mechanism can be. What a mechanism can be, but hardly is, is told
+//! The readers reject impossible mechanisms. Possible but unlikely ones are reported
 //! here: inertias in kg mm², a tensor about the wrong point, a right angle of four digits. A file per
-//! family of checks; each threshold stands there with its reason, and in the page of the code
+//! family of checks; each threshold is there with its reason, and in the page of the code
 //! (docs/diagnostics). Nothing is ever changed. What depends on a parameter without a nominal value
 //! is passed over.
 
@@ -20,12 +20,12 @@ use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity};
 
 use facts::RobotFacts;
 
-/// What is found in a file.
+/// The findings about a file.
 #[derive(Clone, Debug)]
 pub struct Examination {
     /// Errors and warnings; if there are errors, those of the reader alone.
     pub found: Diagnostics,
-    /// How the file was taken where its format leaves a choice: notes.
+    /// The reader's decisions where its format leaves a choice: notes.
     pub choices: Diagnostics,
 }
 
@@ -39,7 +39,7 @@ pub fn check(name: &str, text: &str, options: &Options) -> Examination {
 }
 
 impl Examination {
-    /// That of a file which gives no robot.
+    /// The examination of a file that does not describe a robot.
     #[must_use]
     pub fn refused(found: Diagnostics) -> Examination {
         let choices = Diagnostics::new(found.source().clone(), vec![]);

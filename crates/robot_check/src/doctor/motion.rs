@@ -75,7 +75,7 @@ fn rotates(facts: &RobotFacts<'_>, index: usize) -> bool {
     false
 }
 
-/// Coordinates whose inertia is 0 in every posture.
+/// Coordinates whose inertia is 0 in every configuration.
 fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     let Ok(mechanism) = Mechanism::nominal(facts.robot) else {
         return;

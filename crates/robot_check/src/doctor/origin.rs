@@ -21,7 +21,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
 }
 
 /// Standard deviation of the mass along the line from the origin to the center of mass, and the
-/// largest that it can have, m, where it has more and would not have it if the tensor were about
+/// largest that it can have, m, if it has more and would not have it if the tensor were about
 /// the origin.
 ///
 /// Of a mass between the points a and b of a line, with its center at c, the variance is at most

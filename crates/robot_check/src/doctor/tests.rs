@@ -7,7 +7,7 @@ fn codes(text: &str) -> Vec<&'static str> {
     check("arm.toml", text, &Options::default()).found.iter().map(|one| one.code).collect()
 }
 
-/// A link of 0.4 m with these figures, and a hand on it.
+/// A link of 0.4 m with these keys, and a hand on it.
 fn arm(keys: &str) -> String {
     format!(
         "format = 1\n[robot]\nname = \"arm\"\n\

@@ -1,4 +1,4 @@
-//! Figures in other units than kg, m and s.
+//! Values in other units than kg, m and s.
 
 use std::f64::consts::PI;
 
@@ -54,7 +54,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Whether one of the figures of a body is told here.
+/// Whether one of the values of a body is reported here.
 pub(super) fn is_suspect(body: &BodyFacts<'_>) -> bool {
     let of_tensor = body.gyration() > WIDEST || density(body) > DENSEST;
     body.center.norm() > LONGEST || (body.has_tensor() && of_tensor)

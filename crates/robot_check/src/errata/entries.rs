@@ -15,12 +15,12 @@ const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
 const COLUMNS: [&str; 7] =
     ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
 
-/// What stands for a left side that is printed in the display before.
+/// The placeholder of a left side that is printed in the display before.
 const PHANTOM: &str = r"\phantom{";
 /// Bytes of a left side that `\phantom` holds.
 const LONGEST_LEFT_SIDE: usize = 1000;
 
-/// A printed equation as it stands: `text` is the file's, comments and marks replaced by spaces.
+/// A printed equation as in the file: `text` is the file's, comments and marks replaced by spaces.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     text: String,
@@ -38,7 +38,7 @@ pub(super) struct Part<'e> {
 }
 
 impl Entry {
-    /// What stands on either side of the `=`.
+    /// The two sides of the `=`.
     pub(super) fn sides(&self) -> Result<(Part<'_>, Part<'_>), Box<Diagnostic>> {
         let whole = self.part(0..self.text.len());
         let Some(place) = self.text.find('=') else {
@@ -73,7 +73,7 @@ impl<'e> Part<'e> {
         self.sub(start..end)
     }
 
-    /// The rows of a column, where the part is one.
+    /// The rows of a column, if the part is one.
     pub(super) fn rows(&self) -> Result<Option<Vec<Part<'e>>>, Box<Diagnostic>> {
         let Some((name, open, inside)) = environment(self.text, &COLUMNS) else {
             return Ok(None);
@@ -107,7 +107,7 @@ impl<'e> Part<'e> {
     }
 }
 
-/// The error for a left side that is no quantity.
+/// The error for a left side that is not a quantity.
 pub(super) fn unnamed(span: &Span) -> Diagnostic {
     let message = "expected a quantity on the left, such as `F_l5.x` or `Q1`";
     let help = "in LaTeX `F_{l_x}^{5}` or `Q_{1}`";
@@ -203,8 +203,8 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
     clean
 }
 
-/// The text with equations in one piece that go on in the next display, where `\phantom` with their
-/// left side opens it: what stands between is a line break and spaces.
+/// The text with equations in one piece that go on in the next display, if `\phantom` with their
+/// left side opens it: only a line break and spaces are between.
 fn rejoined(text: &str) -> String {
     let seams: Vec<Range<usize>> =
         text.match_indices(PHANTOM).filter_map(|(place, _)| seam(text, place)).collect();
@@ -240,7 +240,7 @@ fn seam(text: &str, place: usize) -> Option<Range<usize>> {
     Some(end..inside + close + 1)
 }
 
-/// What is displayed, or where something is not closed.
+/// The displayed text, or the place where something is not closed.
 fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
     let mut found = vec![];
     let mut place = 0;
@@ -264,7 +264,7 @@ fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
     found
 }
 
-/// Where the content of a display begins that opens a text, and what closes it.
+/// The start of the content of a display that opens a text, and its closing mark.
 fn display(text: &str) -> Option<(usize, String)> {
     if text.starts_with(r"\[") {
         return Some((2, r"\]".to_owned()));

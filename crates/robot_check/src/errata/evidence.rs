@@ -1,4 +1,4 @@
-//! What speaks against a printed term or for a derived one, without the derivation.
+//! Evidence against a printed term or for a derived one, independent of the derivation.
 
 use std::collections::BTreeMap;
 use std::collections::HashMap;
@@ -19,9 +19,9 @@ pub enum Evidence {
         /// The equation's.
         expected: Dimension,
     },
-    /// The derived term stands in other printed equations, as it is.
+    /// The derived term occurs in other printed equations unchanged.
     SameTerm(Vec<String>),
-    /// The derived term stands in other printed equations, but for one factor.
+    /// The derived term occurs in other printed equations, but for one factor.
     RelatedTerm {
         /// The factor by which it differs.
         factor: String,
@@ -73,7 +73,7 @@ impl fmt::Display for Evidence {
     }
 }
 
-/// Where a product of factors is printed: the equation, and the number before it.
+/// The place where a product of factors is printed: the equation, and the number before it.
 type Place = (usize, Number);
 
 /// The terms of all printed equations, to be looked up.

@@ -1,4 +1,4 @@
-//! What kind of slip turns a derived term into the printed one.
+//! The kinds of mistake that turn a derived term into the printed one.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use robot_symbolic::{Expr, View};
 
 use super::term::{Power, Term};
 
-/// The kinds of slips.
+/// The kinds of mistakes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum MistakeKind {
     /// A derived term is not in print.
@@ -54,14 +54,14 @@ impl MistakeKind {
     }
 }
 
-/// One slip of a term.
+/// One mistake in a term.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
     /// Its kind.
     pub kind: MistakeKind,
-    /// What is printed, where the slip is about a part of the term.
+    /// The printed part, if the mistake is about a part of the term.
     pub printed: Option<String>,
-    /// What is derived in its place.
+    /// The derived part in its place.
     pub derived: Option<String>,
 }
 
@@ -80,7 +80,7 @@ impl fmt::Display for Mistake {
 /// A factor of one term that the other has not to that power: the power that is left.
 type Odd<'g> = Power<'g>;
 
-/// The slips between a printed and a derived term; with one alone, that it is alone.
+/// The mistakes between a printed and a derived term; if only one is given, that it is alone.
 pub(super) fn mistakes(printed: Option<&Term<'_>>, derived: Option<&Term<'_>>) -> Vec<Mistake> {
     let bare = |kind| Mistake { kind, printed: None, derived: None };
     let (printed, derived) = match (printed, derived) {
@@ -155,7 +155,7 @@ fn powers<'g>(
     }
 }
 
-/// The first two factors of which one is easily taken for the other.
+/// The first two factors that are easily taken for each other.
 fn related(gone: &[Odd<'_>], come: &[Odd<'_>]) -> Option<(usize, usize, MistakeKind)> {
     let pairs = (0..gone.len()).flat_map(|i| (0..come.len()).map(move |j| (i, j)));
     pairs.into_iter().find_map(|(i, j)| {

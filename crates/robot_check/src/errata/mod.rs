@@ -2,9 +2,9 @@
 //!
 //! Terms have no order and like terms may be printed apart, so equations are compared as sets of
 //! canonical terms. What differs is paired, a printed term with the derived term that it most
-//! resembles, and comes with the kind of slip and with evidence that does not lean on the
+//! resembles, and comes with the kind of mistake and with evidence that does not depend on the
 //! derivation: the dimension of the printed term, and the other printed equations in which the
-//! derived term stands.
+//! derived term.
 
 mod dimension;
 mod entries;
@@ -37,7 +37,7 @@ use robot_model::unit::Dimension;
 use symbols::Symbols;
 use term::Term;
 
-/// What an expansion may cost: a second or two.
+/// The limits of an expansion: a second or two.
 const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 500_000,
@@ -47,10 +47,10 @@ const LIMITS: PolynomialOptions = PolynomialOptions {
 /// Of one equation's wrong terms and derived terms no more pairs than these are tried.
 const MAX_PAIRS: usize = 2_000_000;
 
-/// How equations are compared.
+/// The options of a comparison.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// How they are written; without this as [`Notation::of`] finds.
+    /// The notation; if not given, the one that [`Notation::detect`] finds.
     pub notation: Option<Notation>,
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
     /// for what the robot file says, or 10⁻⁹.
@@ -74,30 +74,30 @@ pub struct Difference {
     pub nearest: Option<String>,
     /// In what the printed term differs from the derived one; never empty.
     pub mistakes: Vec<Mistake>,
-    /// What speaks against the printed term or for the derived one, without the derivation.
+    /// Evidence against the printed term or for the derived one, independent of the derivation.
     pub evidence: Vec<Evidence>,
 }
 
-/// What a comparison found.
+/// The result of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Comparison {
-    /// How many equations were compared.
+    /// The number of equations compared.
     pub equations: usize,
-    /// How many of them only name another quantity.
+    /// The number of them that only name another quantity.
     pub names: usize,
-    /// How many terms the others have in print, brackets opened.
+    /// The number of printed terms in the others, brackets opened.
     pub terms: usize,
-    /// Whether the derived equations have the wrenches of the tips: where any printed one has.
+    /// Whether the derived equations have the wrenches of the tips: if any printed one has.
     pub wrench: bool,
     /// The differences, in the order of print.
     pub differences: Vec<Difference>,
 }
 
 /// Compares printed equations with the paper's iterations for a robot, without friction, and without
-/// the wrenches of tips where none of the equations has any of their symbols.
+/// the wrenches of tips if none of the equations has any of their symbols.
 ///
 /// An equation is `(number) quantity = terms`, the number left out if there is none. In infix text
-/// it stands on a line, continued by indented lines; `#` begins a comment line. In LaTeX it stands
+/// it is on one line, continued by indented lines; `#` begins a comment line. In LaTeX it is
 /// likewise on a line, or in a display (`equation`, `align` …), all else being prose; a vector may be
 /// a column of three rows.
 ///
@@ -207,7 +207,7 @@ fn expand<'p, 'g>(
     let mut compared = vec![];
     for equation in printed {
         let Some(quantity) = quantities.get(&equation.quantity) else { continue };
-        // A right side that is another quantity by name stands for that quantity.
+        // A right side that is another quantity's name means that quantity.
         let named = match equation.terms.as_slice() {
             [alone] => quantities.get(alone.text().trim()),
             _ => None,

@@ -10,7 +10,7 @@ use robot_symbolic::{Formula, ParseError};
 use super::entries::{Entry, entries, unnamed};
 use super::symbols::Symbols;
 
-/// How equations are written.
+/// The notation of equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
     /// Infix text: `M5*l5*qdd1*cos(q2)`, an equation on each line.
@@ -20,7 +20,7 @@ pub enum Notation {
 }
 
 impl Notation {
-    /// What a text looks like: infix text has no backslash but in comments.
+    /// Guesses the notation of a text: infix text has no backslash but in comments.
     #[must_use]
     pub fn detect(text: &str) -> Notation {
         let mut lines = text.lines().filter(|line| !line.trim_start().starts_with('#'));

@@ -24,7 +24,7 @@ pub(super) struct Symbols {
 }
 
 impl Symbols {
-    /// Those of a robot: the LaTeX that its file gives, and the spelling of print.
+    /// The symbols of a robot: the LaTeX that its file gives, and the spelling of print.
     pub(super) fn of(robot: &Robot, quantities: &[Symbol], used: BTreeSet<String>) -> Symbols {
         let mut symbols = Symbols { used, ..Symbols::default() };
         for parameter in &robot.parameters {
@@ -77,13 +77,13 @@ impl Symbols {
     /// The name of a symbol on a right side.
     pub(super) fn name(&self, key: &str) -> Option<String> {
         let known = self.names.get(key);
-        // `c_2` is a cosine where no equation has a parameter of that name.
+        // `c_2` is a cosine if no equation has a parameter of that name.
         if let Some(index) = key.strip_prefix("s_").or(key.strip_prefix("c_"))
             && index.bytes().all(|byte| byte.is_ascii_digit())
         {
             return known.filter(|name| self.used.contains(*name)).cloned();
         }
-        // A power of a symbol of the robot is no quantity.
+        // A power of a symbol of the robot is not a quantity.
         let power = key.split_once('^').is_some_and(|(base, _)| self.names.contains_key(base));
         known.or_else(|| self.quantities.get(key).filter(|_| !power)).cloned()
     }

@@ -22,7 +22,7 @@ pub(super) struct Power<'g> {
     pub(super) exponent: i32,
 }
 
-/// What makes terms like terms: their atoms and powers.
+/// The key of like terms: their atoms and powers.
 pub(super) type Key = Vec<(Id, i32)>;
 
 /// The canonical terms of expressions, expanded together under one limit.
@@ -51,7 +51,7 @@ pub(super) fn terms_of<'g>(
 
 /// The printed terms without counterpart, and the derived terms without.
 ///
-/// Like terms may be printed apart: where their sum is the derived term, all of them are right.
+/// Like terms may be printed apart: if their sum is the derived term, all of them are right.
 pub(super) fn leftover<'g>(
     printed: &[Term<'g>],
     derived: &[Term<'g>],
@@ -90,7 +90,7 @@ pub(super) fn leftover<'g>(
 type Pair<'g> = (Option<Term<'g>>, Option<Term<'g>>);
 
 /// Pairs each wrong printed term with the missing derived term that resembles it most; what is left
-/// of either stands alone.
+/// of either is alone.
 pub(super) fn pair<'g>(wrong: Vec<Term<'g>>, missing: Vec<Term<'g>>) -> Vec<Pair<'g>> {
     let mut near: Vec<(u32, usize, usize)> = vec![];
     for (i, printed) in wrong.iter().enumerate() {
@@ -119,7 +119,7 @@ impl<'g> Term<'g> {
         power.map_or(0, |power| power.exponent)
     }
 
-    /// How many factors would have to change, a different coefficient counted once.
+    /// The number of factors that would have to change, a different coefficient counted once.
     pub(super) fn distance(&self, other: &Term<'g>) -> u32 {
         let gone: u32 = self
             .factors
@@ -140,7 +140,7 @@ impl<'g> Term<'g> {
         self.factors.iter().map(|power| (power.atom.id(), power.exponent)).collect()
     }
 
-    /// The keys of the term without one of its atoms, where that has no power, and the atom's text.
+    /// The keys of the term without one of its atoms, if that has no power, and the atom's text.
     pub(super) fn without_factor(&self) -> impl Iterator<Item = (Key, String)> {
         let single = self.factors.iter().filter(|power| power.exponent == 1);
         single.map(|power| {

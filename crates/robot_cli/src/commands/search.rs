@@ -66,7 +66,7 @@ impl Arguments {
             )));
         };
         let snapping = snapping(&robot, self.robot.snap(), Some(&found.plan))?;
-        // First, so that it is done where nobody reads what is shown.
+        // First, so that it is done if nobody reads what is shown.
         if !self.dry_run {
             let text = pin_text(&robot, &found);
             let (bytes, ownership) = (text.as_bytes(), Ownership::Marked);

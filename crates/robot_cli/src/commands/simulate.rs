@@ -1,4 +1,4 @@
-//! `simulate`: the motion law of a robot.
+//! `simulate`: the motion of a robot.
 
 use std::path::PathBuf;
 
@@ -112,7 +112,7 @@ impl Arguments {
         let given = |values: &Option<Vec<f64>>| values.clone().unwrap_or_else(zeros);
         let start = State { q: given(&self.q0), qd: given(&self.qd0) };
         let &Arguments { time: duration, step, tolerance, .. } = self;
-        // Of times that make no sense the simulation tells.
+        // The simulation reports invalid times.
         let usual = SimulationOptions::default().max_steps.max((10.0 * duration / step) as usize);
         let max_steps = self.max_steps.unwrap_or(usual);
         let options = SimulationOptions { duration, step, tolerance, max_steps };

@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
     )]
     expressions: Vec<String>,
     /// Duration of the motion given by --expressions, s
-    // A requirement alone is dropped where it conflicts with what is given.
+    // A requirement alone is dropped if it conflicts with what is given.
     #[arg(
         long,
         value_name = "S",

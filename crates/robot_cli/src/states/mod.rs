@@ -25,13 +25,13 @@ struct Array {
 /// A state: the arrays that are given, right or wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct State {
-    /// Where it is, for messages: `state 3`, `line 4`.
+    /// Its place, for messages: `state 3`, `line 4`.
     pub(crate) place: String,
     arrays: Vec<(String, Vec<f64>)>,
 }
 
 impl State {
-    /// The array of that name where it is given.
+    /// The array of that name if it is given.
     pub(crate) fn array(&self, name: &str) -> Option<&[f64]> {
         let found = self.arrays.iter().find(|(known, _)| known == name);
         found.map(|(_, entries)| entries.as_slice())

@@ -11,11 +11,11 @@ fn base(name: &str, frames: &str) -> Value {
     serde_json::from_str(&output(&arguments, "")).unwrap()
 }
 
-/// The formula of a base parameter says what its figures say, and both read back.
+/// The formula of a base parameter says what its coefficients say, and both read back.
 fn hold(entry: &Value) {
     let parse = |text: &Value| Formula::parse(text.as_str().unwrap()).unwrap();
     parse(&entry["value"]);
-    // A number of its own for each name: the figures are the formula's.
+    // A number of its own for each name: the coefficients are the formula's.
     let value = |name: &str| name.bytes().fold(0.5, |sum, byte| sum * 0.7 + f64::from(byte));
     let formula = parse(&entry["formula"]).evaluate(value);
     let coefficients = entry["figures"].as_object().unwrap().iter();

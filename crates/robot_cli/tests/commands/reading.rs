@@ -251,7 +251,7 @@ fn values_that_are_not_finite_are_told_by_their_cause() {
     );
     assert!(!shown.contains("q2 ="), "{shown}");
 
-    // Singular in every posture.
+    // Singular in every configuration.
     let text = text.replace("axis = \"y\"", "axis = \"z\"");
     let file = written("reading-idle", "idle.toml", &text);
     let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];

@@ -1,4 +1,4 @@
-//! Robots without forward dynamics: the mass matrix is singular in every posture.
+//! Robots without forward dynamics: the mass matrix is singular in every configuration.
 
 use serde_json::Value;
 

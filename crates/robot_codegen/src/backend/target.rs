@@ -1,4 +1,4 @@
-//! What the rest of the compiler knows of a language.
+//! The properties of a language that the rest of the compiler needs.
 
 use crate::error::Errors;
 use crate::module::Module;
@@ -9,9 +9,9 @@ use crate::program::Limits;
 pub struct Language {
     /// Its name, as people write it.
     pub name: &'static str,
-    /// What the names of its source files end with.
+    /// The extension of its source files.
     pub extension: &'static str,
-    /// The words that nothing in printed code may be called, where names of a robot file stand.
+    /// The words that no printed name may be, if names of a robot file are used.
     pub reserved: &'static [&'static str],
     /// The sizes of expressions, blocks and functions that its compilers take well.
     pub limits: Limits,

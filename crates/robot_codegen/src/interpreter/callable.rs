@@ -233,7 +233,7 @@ impl<'i> Callable<'i> {
         }
     }
 
-    /// What the loads of the arithmetic read at a state.
+    /// The values that the loads of the arithmetic read at a state.
     pub(super) fn loads(self, inputs: &[f64]) -> impl Fn(Source) -> f64 {
         let mut block = Block::<1>::new(self.function);
         let read = |entry: usize| [inputs[entry]];

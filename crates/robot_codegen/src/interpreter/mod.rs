@@ -5,7 +5,7 @@
 //! last bit (but for multiply-adds, those of the runtime's sines among them, which round twice here on
 //! every machine and once on targets that fuse them).
 //!
-//! [`Interpreter::call`] takes everything by name. Where one function runs at many states,
+//! [`Interpreter::call`] takes everything by name. If one function runs at many states,
 //! [`Interpreter::function`] looks it up once and gives a [`Callable`], which computes blocks of states.
 
 mod callable;
@@ -52,16 +52,16 @@ impl<'m> Interpreter<'m> {
     ///
     /// # Errors
     ///
-    /// Names that are no parameters, and parameters with neither a given nor a nominal value.
+    /// Names that are not parameters, and parameters with neither a given nor a nominal value.
     pub fn new(module: &'m Module, given: &[(&str, f64)]) -> Result<Interpreter<'m>, Errors> {
         Interpreter::of(Cow::Borrowed(module), given)
     }
 
-    /// As [`Interpreter::new`], of a module that it keeps.
+    /// [`Interpreter::new`] with ownership of the module.
     ///
     /// # Errors
     ///
-    /// Those of [`Interpreter::new`].
+    /// The errors of [`Interpreter::new`].
     pub fn owned(module: Module, given: &[(&str, f64)]) -> Result<Interpreter<'static>, Errors> {
         Interpreter::of(Cow::Owned(module), given)
     }
@@ -92,7 +92,7 @@ impl<'m> Interpreter<'m> {
         Ok(Interpreter { module, parameters, fields, rounded: OnceLock::new(), trigonometry })
     }
 
-    /// The same with sines and cosines, of the constructor as well, from elsewhere.
+    /// Takes sines and cosines, of the constructor as well, from elsewhere.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Interpreter<'m> {
         let fields = fields(&self.module, &self.parameters, trigonometry);
@@ -113,12 +113,12 @@ impl<'m> Interpreter<'m> {
         Ok(function.named(function.call(inputs)?))
     }
 
-    /// As [`Interpreter::call`], all outputs in one array, with bounds of what rounding does to them, that
+    /// [`Interpreter::call`] with all outputs in one array and bounds of their rounding errors, that
     /// of the constructor and of the parameters' values included: half a unit in the last place of each.
     ///
     /// # Errors
     ///
-    /// Those of [`Interpreter::call`].
+    /// The errors of [`Interpreter::call`].
     pub fn call_rounded(
         &self,
         function: &str,
@@ -135,7 +135,7 @@ impl<'m> Interpreter<'m> {
         Ok(rounding::evaluate(callable.core(), self.trigonometry, load))
     }
 
-    /// What the constructor stores, with bounds of its rounding.
+    /// The values that the constructor stores, with bounds of their rounding.
     fn rounded_fields(&self) -> Vec<Rounded> {
         rounding::evaluate(&self.module.constructor, self.trigonometry, |source| {
             let value = match source {
@@ -163,7 +163,7 @@ impl<'m> Interpreter<'m> {
     }
 }
 
-/// What the constructor stores.
+/// The values that the constructor stores.
 fn fields(module: &Module, parameters: &[f64], trigonometry: Trigonometry) -> Vec<f64> {
     evaluate(&module.constructor, trigonometry, |source| match source {
         Source::Parameter(index) => parameters[index as usize],

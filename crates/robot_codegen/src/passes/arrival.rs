@@ -1,7 +1,7 @@
 //! Arrival order: sums and products take their operands as these become known, so that no result
 //! waits for more than it must.
 //!
-//! A recursion hands each link the sums of the link before it. Where those come last into a sum, each
+//! A recursion hands each link the sums of the link before it. If those come last into a sum, each
 //! link adds one operation to the chain that a call waits for, in place of one for each term.
 
 use super::nary::Node;
@@ -51,7 +51,7 @@ mod tests {
         assert_same_values("arrival order", run);
     }
 
-    /// Ten sums, each of the one before it, of a product and of three inputs: what is known late stands first.
+    /// Ten sums, each of the one before it, of a product and of three inputs: the term that is known late comes first.
     fn recursion() -> Program {
         let mut b = Builder::new();
         let mut late = b.load(Source::Input(0));
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn what_is_known_late_comes_last() {
         let (program, ordered) = (recursion(), run(&recursion()));
-        // A product and three sums a link. A product and one sum, but for the first, of which nothing is late.
+        // A product and three sums a link. A product and one sum, but for the first, which has nothing late.
         assert_eq!(longest_chain(&program), 10 * (PRODUCT + 3 * SUM));
         assert_eq!(longest_chain(&ordered), 3 * SUM + 9 * (PRODUCT + SUM));
     }

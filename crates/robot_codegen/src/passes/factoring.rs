@@ -1,4 +1,4 @@
-//! Factoring: a b + a c becomes a (b + c) where that saves operations.
+//! Factoring: a b + a c becomes a (b + c) if that saves operations.
 
 use rustc_hash::FxHashMap;
 
@@ -7,7 +7,7 @@ use crate::program::Program;
 
 /// Takes common factors out of sums, the one that saves most first.
 ///
-/// What depends on parameters alone costs nothing at a call: x p + x r becomes x (p + r) with the
+/// Terms in parameters alone cost nothing at a call: x p + x r becomes x (p + r) with the
 /// sum in the constructor. Reassociates.
 #[must_use]
 pub(super) fn run(program: &Program) -> Program {
@@ -90,7 +90,7 @@ fn saving(view: &Nary, terms: &[Term], factor: Id, places: &[usize], uses: &[u32
     let rests: Vec<Vec<Id>> = rests.collect();
     let inner_early = rests.iter().filter(|rest| is_early(rest)).count();
     let inner = operations(rests.len(), inner_early);
-    // The factor times the inner sum, which is early where all of it is.
+    // The factor times the inner sum, which is early if all of it is.
     let whole_early = inner_early == rests.len();
     let product = operations(2, usize::from(view.is_early(factor)) + usize::from(whole_early));
     let outside: Vec<usize> = (0..terms.len()).filter(|place| !places.contains(place)).collect();
@@ -109,7 +109,7 @@ fn saving(view: &Nary, terms: &[Term], factor: Id, places: &[usize], uses: &[u32
     before.saturating_sub(after)
 }
 
-/// The operations at a call that join so many operands, of which those known early are joined in
+/// The operations at a call that join so many operands, those known early joined in
 /// the constructor.
 fn operations(operands: usize, early: usize) -> usize {
     if operands == early { 0 } else { operands - early - 1 + usize::from(early > 0) }
@@ -257,7 +257,7 @@ mod tests {
             .sum()
     }
 
-    /// What a factoring is said to save, a count of operations before and after confirms.
+    /// The saving that a factoring predicts is confirmed by counting operations before and after.
     #[test]
     fn savings_come_as_foretold() {
         let mut counted = 0;
@@ -308,7 +308,7 @@ mod tests {
         assert_eq!(view.node(0), &Node::Leaf(Operation::Load(Source::Input(2))));
     }
 
-    /// n operands, e of them early: a chain of n − 1, of which the early ones are one operand.
+    /// n operands, e of them early: a chain of n − 1, with the early ones as one operand.
     #[test]
     fn operands_known_early_are_one() {
         let counts = [(1, 0), (3, 0), (3, 1), (3, 2), (3, 3), (5, 2)];

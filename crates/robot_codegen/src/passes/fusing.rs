@@ -44,7 +44,7 @@ pub(crate) fn run(program: &Program) -> Program {
 
 /// For each value, whether it is a product that one sum alone uses, as one of its operands.
 ///
-/// A product of several sums would be multiplied in each, where sums cost as little as products.
+/// A product of several sums would be multiplied in each, if sums cost as little as products.
 fn fusible(program: &Program) -> Vec<bool> {
     let mut fusible = vec![false; program.operations().len()];
     let uses = program.uses();

@@ -1,6 +1,6 @@
-//! How many cycles operations take.
+//! The latencies of operations, in cycles.
 //!
-//! The figures are those of current x86-64 cores (Zen 4, after Fog's instruction tables); on 64-bit ARM
+//! The numbers are those of current x86-64 cores (Zen 4, after Fog's instruction tables); on 64-bit ARM
 //! cores their ratios are much the same. One call by itself waits for [`latency`], which orders its sums and products;
 //! among other calls it waits for [`shared_latency`], which orders the statements.
 

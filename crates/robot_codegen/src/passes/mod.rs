@@ -1,7 +1,7 @@
 //! Passes over programs: each takes a [`Program`] and gives one that computes the same results.
 //!
 //! The recursion that made the expressions decides what a program costs; the passes save a few
-//! operations in a hundred, more where a recursion repeats itself, and order the rest.
+//! operations in a hundred, more if a recursion repeats itself, and order the rest.
 //!
 //! Each pass is a function in a file of its own and proved on random programs to keep the values:
 //! to the last bit if it does not reassociate, else to rounding.
@@ -39,11 +39,11 @@ pub struct Options {
     pub factoring: bool,
     /// `pair_reuse` in sums and products.
     pub pair_reuse: bool,
-    /// How far `resubstitution` looks.
+    /// The effort of `resubstitution`.
     pub resubstitution: Resubstitution,
-    /// How often these run in turn, at most; they end when none saves anything.
+    /// The most times these run in turn; they end when none saves anything.
     pub rounds: usize,
-    /// The order of sums and products: `arrival`, and `product_last` where multiply-adds follow.
+    /// The order of sums and products: `arrival`, and `product_last` if multiply-adds follow.
     pub arrival: bool,
     /// `signs` into differences.
     pub signs: bool,
@@ -89,7 +89,7 @@ impl Options {
     }
 }
 
-/// How far `resubstitution` looks.
+/// The effort of `resubstitution`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resubstitution {
     /// Not at all.
@@ -107,7 +107,7 @@ pub enum Fused {
     /// Never: the same bits on every target.
     #[default]
     Never,
-    /// Where the target has the instruction; elsewhere the same code multiplies and adds.
+    /// Fuses if the target has the instruction; otherwise the same code multiplies and adds.
     WhereTarget,
 }
 
@@ -176,7 +176,7 @@ struct Runner {
 }
 
 impl Runner {
-    /// Takes the result of a pass where it costs less.
+    /// Takes the result of a pass if it costs less.
     fn attempt(&mut self, name: &'static str, pass: impl Fn(&Program) -> Program) -> bool {
         let candidate = dead_code::run(&pass(&self.program));
         let saves = self.cost.of(&candidate) < self.cost.of(&self.program);
@@ -193,8 +193,8 @@ impl Runner {
         self.note(name);
     }
 
-    /// Takes the result of a pass where, `finished`, no result waits longer, for what was a tree of sums can
-    /// have become a chain, and where no operation is added.
+    /// Takes the result of a pass if, `finished`, no result waits longer, for what was a tree of sums can
+    /// have become a chain, and if no operation is added.
     fn take_order(
         &mut self,
         name: &'static str,
@@ -278,7 +278,7 @@ mod tests {
         report.iter().map(|counts| counts.pass).collect()
     }
 
-    /// A round after one that saved something; it ends where the first two save nothing more.
+    /// A round after one that saved something; it ends if the first two save nothing more.
     #[test]
     fn rounds_end_when_nothing_is_saved() {
         let program = |saves: bool| {
@@ -360,7 +360,7 @@ mod tests {
         );
     }
 
-    /// What costs as much is left, and what waits longer or adds an operation in another order.
+    /// A program that costs as much is left, and so is one that waits longer or adds an operation in another order.
     #[test]
     fn results_of_passes_are_taken_where_they_are_better() {
         let program = |value: u32| {

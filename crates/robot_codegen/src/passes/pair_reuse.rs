@@ -1,4 +1,4 @@
-//! Pair reuse: two terms or factors that stand together in several sums or products are joined
+//! Pair reuse: two terms or factors that occur together in several sums or products are joined
 //! once.
 
 use std::cmp::Reverse;
@@ -12,7 +12,7 @@ use crate::program::Program;
 /// Longer sums and products are left alone: their pairs are too many.
 const LONGEST: usize = 64;
 
-/// Joins pairs, the one that stands together most often first.
+/// Joins pairs, the most frequent one first.
 ///
 /// Terms pair up to a common sign. What depends on parameters alone is joined in any case, for it
 /// costs nothing at a call. Reassociates.
@@ -132,7 +132,7 @@ impl Rows {
         }
     }
 
-    /// Puts one node in the place of a pair wherever it stands.
+    /// Puts one node in the place of a pair wherever it occurs.
     fn join(&mut self, pair: Pair, view: &mut Nary) {
         let mut rows = self.places.remove(&pair).unwrap_or_default();
         rows.sort_unstable();
@@ -151,7 +151,7 @@ impl Rows {
         }
     }
 
-    /// How often a pair stands in a row, without overlap.
+    /// The number of times that a pair occurs in a row, without overlap.
     fn occurrences(&self, row: usize, pair: Pair) -> usize {
         let terms = &self.rows[row].1;
         let count = |node: Id| terms.iter().filter(|term| term.node == node).count();
@@ -334,7 +334,7 @@ mod tests {
         assert_eq!([three, square, fourth, cube, fifth].map(|counts| counts.1), [4, 2, 2, 2, 3]);
     }
 
-    /// The pair that stands in three sums is joined before the two that stand in two, which it breaks.
+    /// The pair that occurs in three sums is joined before the two that occur in two, which it breaks.
     #[test]
     fn the_commonest_pair_is_joined_first() {
         let sums = left(|b, [u, v, x, y, z]| {

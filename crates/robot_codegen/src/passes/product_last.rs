@@ -1,4 +1,4 @@
-//! Product-last ordering: sums start with what is no product, so that each product that follows
+//! Product-last ordering: sums start with a term that is not a product, so that each product that follows
 //! can be a fused multiply-add.
 
 use super::arrival;
@@ -8,7 +8,7 @@ use super::waiting::Waiting;
 use crate::program::Program;
 
 /// Orders sums and products by [`arrival`]; then lets each sum that starts with a product of its own start
-/// with the first of its terms that is none, where no result is known later for it. Reassociates.
+/// with the first of its terms that is not, if no result is known later for it. Reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program) -> Program {
     let waiting = arrival::ordered(program, true);
@@ -83,7 +83,7 @@ impl Order {
         }
     }
 
-    /// The terms in the order that fuses one product more, where the sum is known in time.
+    /// The terms in the order that fuses one product more, if the sum is known in time.
     fn product_last(&self, terms: Vec<Term>, by: u32) -> Vec<Term> {
         let fuses = |term: &Term| self.waiting.fuses(term.node);
         let plain = terms.iter().position(|term| !fuses(term));
@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
     }
 
-    /// The same sum as a factor: the product with it has to be there before the last factor is.
+    /// A sum that is also a factor: the product with it has to be known before the last factor is.
     #[test]
     fn no_product_waits_for_it() {
         let mut b = Builder::new();
@@ -175,7 +175,7 @@ mod tests {
         Counts::of(&fusing::run(&run(&program))).fused
     }
 
-    /// The first term may be a late one where another result is later still.
+    /// The first term may be a late one if another result is later still.
     #[test]
     fn time_to_spare_is_used() {
         // The sum with the late term first is known at 13 + 2 · 4 cycles, with it last at 13 + 3.

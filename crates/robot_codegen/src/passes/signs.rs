@@ -1,8 +1,8 @@
-//! Signs: a change of sign is taken into a subtraction or a constant where that is possible.
+//! Signs: a change of sign is taken into a subtraction or a constant if that is possible.
 
 use crate::program::{Builder, Operation, Program, Value};
 
-/// How deep a sign may sink to find a place.
+/// The most operations that a sign may pass to find a place.
 const DEPTH: usize = 12;
 
 /// Lets the negatives of values that nothing else uses sink to a difference, which turns round, or
@@ -83,7 +83,7 @@ impl Signs<'_> {
         super::dead_code::run(&builder.finish(results.collect()))
     }
 
-    /// The negative of an operation of which an operand is flipped already, or a constant.
+    /// The negative of an operation with an operand that is flipped already, or of a constant.
     fn negative(&self, operation: Operation, values: &[Value], builder: &mut Builder) -> Value {
         let at = |value: Value| values[value.index()];
         let mut operand = |value: Value| match self.program.operation(value) {
@@ -199,7 +199,7 @@ mod tests {
             let product = b.mul(root, z);
             vec![b.neg(product)]
         });
-        // A constant gives way whatever else uses it, one of two operands alone.
+        // A constant is flipped whatever else uses it, one of two operands alone.
         let constant = left(|b, [x, y, z, w]| {
             let third = b.constant(1.5);
             let (first, second) = (b.mul(third, x), b.mul(third, y));

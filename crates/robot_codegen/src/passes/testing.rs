@@ -14,11 +14,11 @@ fn real(random: &mut Random) -> f64 {
 
 const SEEDS: u64 = 200;
 
-/// Square roots are left out: of a sum that rounds to just below 0 there is none.
+/// Square roots are left out: a sum that rounds to just below 0 has none.
 const FUNCTIONS: [Function; 5] =
     [Function::Abs, Function::Sin, Function::Cos, Function::Sign, Function::Tanh];
 
-/// Stands for a bound where rounding may have decided a sign: nothing follows from the value.
+/// Stands for a bound if rounding may have decided a sign: nothing follows from the value.
 const UNDECIDED: f64 = 1e100;
 
 /// A program with loads of parameters and inputs, many sums and products, and some of the rest.

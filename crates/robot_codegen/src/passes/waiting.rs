@@ -1,4 +1,4 @@
-//! When values are known: cycles from the start of a call, were there room for everything at once.
+//! Arrival times of values: cycles from the start of a call, with room for everything at once.
 
 use super::latency::{FUSED, PRODUCT, QUOTIENT, SUM, latency, of_call};
 use super::nary::{Id, Nary, Node, Term};
@@ -35,17 +35,17 @@ impl Waiting {
         0..self.known.len() as Id
     }
 
-    /// When a node is known; of a product that fuses, when its factors are.
+    /// The cycle at which a node is known; for a product that fuses, the cycle at which its factors are.
     pub(super) fn known(&self, id: Id) -> u32 {
         self.known[id as usize]
     }
 
-    /// When the first term of a sum is known, which fuses with nothing.
+    /// The cycle at which the first term of a sum is known, which fuses with nothing.
     pub(super) fn known_first(&self, id: Id) -> u32 {
         self.known(id) + if self.fuses(id) { PRODUCT } else { 0 }
     }
 
-    /// Whether a node is a product that becomes part of a multiply-add where something precedes it in
+    /// Whether a node is a product that becomes part of a multiply-add if something precedes it in
     /// the one sum that uses it.
     pub(super) fn fuses(&self, id: Id) -> bool {
         let own = self.fused && self.uses[id as usize] == 1 && !self.view.is_early(id);
@@ -57,7 +57,7 @@ impl Waiting {
         if self.fuses(term.node) { FUSED } else { SUM }
     }
 
-    /// When a sum is known that takes its terms in this order.
+    /// The cycle at which a sum is known that takes its terms in this order.
     pub(super) fn sum(&self, terms: &[Term]) -> u32 {
         let Some((first, rest)) = terms.split_first() else { return 0 };
         rest.iter().fold(self.known_first(first.node), |sum, term| {
@@ -82,7 +82,7 @@ impl Waiting {
         };
     }
 
-    /// When the last multiplication of a product can start, which takes its factors in this order.
+    /// The cycle at which the last multiplication of a product can start, which takes its factors in this order.
     fn product(&self, factors: &[Id]) -> u32 {
         let Some((first, rest)) = factors.split_first() else { return 0 };
         let mut ready = self.known(*first);
@@ -120,7 +120,7 @@ mod tests {
         }
     }
 
-    /// When each result is known, for a program that `build` makes of inputs.
+    /// The cycle at which each result is known, for a program that `build` makes of inputs.
     fn known(fused: bool, build: impl Fn(&mut Builder, [Value; 5]) -> Value) -> u32 {
         let mut b = Builder::new();
         let loads = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
@@ -173,7 +173,7 @@ mod tests {
             b.add(sum, v)
         });
         assert_eq!((one, two, three), (FUSED, PRODUCT + FUSED, SUM + FUSED));
-        // What two sums use is multiplied by itself.
+        // A value used by two sums is multiplied by itself.
         let shared = known(true, |b, [x, y, z, u, _]| {
             let product = b.mul(x, y);
             let (first, second) = (b.add(product, z), b.add(product, u));

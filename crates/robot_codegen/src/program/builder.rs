@@ -34,7 +34,7 @@ impl Builder {
         Program::new(self.operations, results)
     }
 
-    /// The value of an operation as it stands; the earlier value if there is one.
+    /// The value of an operation without simplification; the earlier value if there is one.
     pub fn push(&mut self, operation: Operation) -> Value {
         let next = Value(self.operations.len() as u32);
         let value = *self.index.entry(operation).or_insert(next);

@@ -30,7 +30,7 @@ impl DoubleDouble {
         DoubleDouble { high: value, low: 0.0 }
     }
 
-    /// `high + low` where `|high| ≥ |low|`.
+    /// `high + low` if `|high| ≥ |low|`.
     fn fast(high: f64, low: f64) -> DoubleDouble {
         let sum = high + low;
         if sum.is_finite() {
@@ -108,7 +108,7 @@ impl DoubleDouble {
         if quarters >= 2 { -value } else { value }
     }
 
-    /// x + σ x³/3! + x⁵/5! + … where `odd`, 1 + σ x²/2! + x⁴/4! + … otherwise; signs σᵏ.
+    /// x + σ x³/3! + x⁵/5! + … if `odd`, 1 + σ x²/2! + x⁴/4! + … otherwise; signs σᵏ.
     fn series(self, odd: bool, sign: f64) -> DoubleDouble {
         let square = self * self * DoubleDouble::exact(sign);
         let mut term = if odd { self } else { DoubleDouble::exact(1.0) };

@@ -1,8 +1,8 @@
-//! How a program is laid out as text: which values have names, in what blocks.
+//! The layout of a program as text: which values have names, in what blocks.
 //!
 //! A backend prints each named value as a statement and every other value inside the one expression
-//! that uses it. Compilers do not take thousands of statements in one block well, so statements stand
-//! in blocks out of which only those values leave that are used later; very long programs are cut
+//! that uses it. Compilers do not take thousands of statements in one block well, so statements are grouped
+//! in blocks that export only the values used later; very long programs are cut
 //! into functions in the same way.
 
 use super::{Operation, Program, Value};
@@ -20,18 +20,18 @@ pub struct Limits {
     pub part: usize,
 }
 
-/// Statements that stand together.
+/// Statements of one block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
     /// The named values that the block computes, in order.
     pub statements: Vec<Value>,
-    /// Those of them that later blocks or the results use.
+    /// Those of its values that later blocks or the results use.
     pub leaving: Vec<Value>,
     /// The named values of earlier blocks that the block uses.
     pub entering: Vec<Value>,
 }
 
-/// Blocks that stand in one function.
+/// Blocks of one function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
     /// The blocks in order. A single block needs no nesting.
@@ -123,8 +123,8 @@ fn is_signed_leaf(program: &Program, operation: Operation) -> bool {
     matches!(operation, Operation::Neg(a) if program.operation(a).is_leaf())
 }
 
-/// For each named value, the last named value whose statement uses it; itself where nothing does,
-/// and `usize::MAX` where the results use it.
+/// For each named value, the last named value whose statement uses it; itself if nothing does,
+/// and `usize::MAX` if the results use it.
 fn last_uses(program: &Program, named: &[bool]) -> Vec<usize> {
     let mut last: Vec<usize> = (0..named.len()).collect();
     for value in program.results() {
@@ -142,7 +142,7 @@ fn last_uses(program: &Program, named: &[bool]) -> Vec<usize> {
     last
 }
 
-/// Where blocks end, as positions in `statements`: of the later half of each block, the place over
+/// The ends of blocks, as positions in `statements`: of the later half of each block, the place over
 /// which the fewest values live.
 fn cut(statements: &[Value], last_use: &[usize], limit: usize) -> Vec<usize> {
     let live = live_after(statements, last_use);

@@ -44,7 +44,7 @@ impl Constant {
     }
 }
 
-/// Where a load reads.
+/// The place that a load reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Source {
     /// A parameter of the module, by its index.
@@ -76,7 +76,7 @@ pub enum Operation {
     Div(Value, Value),
     /// −a
     Neg(Value),
-    /// a b + c, with one rounding where the target has the instruction and two elsewhere.
+    /// a b + c, with one rounding if the target has the instruction and two elsewhere.
     MulAdd(Value, Value, Value),
     /// A function of one argument.
     Call(Function, Value),
@@ -119,10 +119,10 @@ impl Operation {
     }
 }
 
-/// When a value is known.
+/// The stage at which a value is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
-    /// When the code is generated.
+    /// At generation.
     Constant,
     /// When the parameters are known.
     Parameters,
@@ -138,7 +138,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// A program of operations and results, as they stand. Operands must be earlier operations.
+    /// A program of operations and results, taken as given. Operands must be earlier operations.
     pub(crate) fn new(operations: Vec<Operation>, results: Vec<Value>) -> Program {
         debug_assert!(operations.iter().enumerate().all(|(index, operation)| {
             operation.operands().all(|operand| operand.index() < index)
@@ -201,7 +201,7 @@ impl Program {
         stages
     }
 
-    /// Where the program reads, in the order of sources, each once.
+    /// The sources that the program reads, in the order of sources, each once.
     #[must_use]
     pub fn sources(&self) -> Vec<Source> {
         let loads = self.operations.iter().filter_map(|operation| match operation {

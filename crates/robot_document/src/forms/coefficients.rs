@@ -8,7 +8,7 @@ use super::{Equation, Group, Writer, generalized_force, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
-/// Coefficients are expanded where that takes no more than this; else what they have in common gets
+/// Coefficients are expanded if that takes no more than this; else what they have in common gets
 /// names.
 const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 60_000, max_products: 600_000 };
@@ -38,7 +38,7 @@ impl<'g> Coefficient<'g> {
 }
 
 /// The joint torques as sums of products of coefficients that have names, and the coefficients:
-/// expanded where that is short, else what they have in common gets names too.
+/// expanded if that is short, else what they have in common gets names too.
 pub(super) fn by_name<'g>(
     writer: &mut Writer<'_, 'g>,
     title: &str,
@@ -111,7 +111,7 @@ pub(super) fn motions<'g>(writer: &Writer<'_, 'g>, variable: JointVariable) -> V
     symbols.iter().map(|symbol| writer.graph.symbol(symbol)).collect()
 }
 
-/// The polynomials of all coefficients but those of friction, where they are short enough.
+/// The polynomials of all coefficients but those of friction, if they are short enough.
 pub(super) fn expanded<'g>(
     writer: &Writer<'_, 'g>,
     sections: &[Section<'g>],

@@ -10,7 +10,7 @@ use super::{Equation, Group, Writer, of_generalized_force};
 use crate::error::Error;
 use crate::math::Math;
 
-/// What an expansion may cost: under a second, and more terms than anybody reads.
+/// The limits of an expansion: under a second, and more terms than anybody reads.
 const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 250_000,
@@ -61,7 +61,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     ])
 }
 
-/// Adds friction to the joint torques. The forces in the joints that dry friction asks for stand under
+/// Adds friction to the joint torques. The forces in the joints that dry friction needs are defined under
 /// its root by names, for no line holds them expanded.
 fn with_friction<'g>(
     writer: &mut Writer<'_, 'g>,

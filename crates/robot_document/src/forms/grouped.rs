@@ -12,7 +12,7 @@ use crate::error::Error;
 const MAX_COORDINATES: usize = 12;
 
 /// Letters of the mass matrix, of the coefficients of velocities, of Christoffel symbols, of gravity
-/// and of the wrenches' shares.
+/// and of the wrenches' contributions.
 const MASS: [&str; 6] = ["M", "H", "A", "D", "B", "W"];
 const VELOCITY: [&str; 5] = ["b", "h", "v", "n", "B"];
 const CHRISTOFFEL: [&str; 5] = ["c", "C", "e", "f", "E"];

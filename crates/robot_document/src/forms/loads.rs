@@ -1,4 +1,4 @@
-//! Shares of the joint torques that are no products with velocities or accelerations: gravity, the
+//! Contributions to the joint torques that are not products with velocities or accelerations: gravity, the
 //! wrenches of the tips, friction.
 
 use robot_dynamics::mechanism::MechanismFriction;
@@ -13,7 +13,7 @@ use super::coefficients::{Coefficient, Section, Sum};
 use crate::layout::is_rate;
 use crate::math::Math;
 
-/// Letters of the shares of gravity and of the wrenches.
+/// Letters of the contributions of gravity and of the wrenches.
 const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
 const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
 
@@ -28,7 +28,7 @@ pub(super) fn gravity<'g>(
     single(writer, "Gravity", writer.symbols.free_letter(&GRAVITY), values, sums)
 }
 
-/// The shares of the wrenches of the tips, Jᵀ times the wrench.
+/// The contributions of the wrenches of the tips, Jᵀ times the wrench.
 pub(super) fn wrenches<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -64,12 +64,12 @@ fn single<'g>(
     Section { title, by_symbols: false, coefficients }
 }
 
-/// The figures of friction as the file has them.
+/// The friction parameters as the file has them.
 pub(super) fn whole<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
     friction.clone()
 }
 
-/// The friction of the joints by those figures of it that `part` takes, and the joint forces that dry
+/// The friction of the joints by the parameters that `part` selects, and the joint forces that dry
 /// friction asks for.
 pub(super) fn frictions<'g>(
     writer: &Writer<'_, 'g>,
@@ -95,8 +95,8 @@ pub(super) fn frictions<'g>(
     vec![joints, contributions]
 }
 
-/// The shares of friction in the joint torques, by symbols for the joint forces that dry friction asks
-/// for, and these.
+/// The contributions of friction to the joint torques, by symbols for the joint forces that dry friction
+/// needs, and these.
 pub(super) fn friction_contributions<'g>(
     writer: &Writer<'_, 'g>,
     part: fn(&MechanismFriction<'g>) -> MechanismFriction<'g>,

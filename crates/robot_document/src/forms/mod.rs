@@ -24,7 +24,7 @@ use crate::error::Error;
 use crate::layout::{Order, SymbolTable, Trigonometry};
 use crate::math::Math;
 
-/// How the equations are put.
+/// The form of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
     /// Sums of products, like terms merged: the paper's.
@@ -71,7 +71,7 @@ pub struct EquationOptions {
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
     /// for what the robot file says, or 10⁻⁹.
     pub snap: Option<f64>,
-    /// How sines and cosines look.
+    /// The notation of sines and cosines.
     pub trigonometry: Trigonometry,
     /// Whether sines and cosines of sums of angles are kept, for joint torques in all forms but
     /// [`Form::Recursive`].
@@ -107,9 +107,9 @@ pub struct Equations {
 /// Equations that belong together.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// What they are.
+    /// Its title.
     pub title: String,
-    /// What is to be said before them, in plain text.
+    /// The remarks before them, in plain text.
     pub introduction: String,
     /// Whether they define symbols that other equations use.
     pub definitions: bool,
@@ -190,7 +190,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     Ok(Equations { groups, symbols: writer.symbols })
 }
 
-/// What the forms share.
+/// The state that the forms have in common.
 struct Writer<'r, 'g> {
     robot: &'r Robot,
     options: &'r EquationOptions,
@@ -215,7 +215,7 @@ impl<'g> Writer<'_, 'g> {
     }
 
     /// The joint torques by the economical recursion, the wrenches of the tips included, with sines of
-    /// sums of angles where the options want them.
+    /// sums of angles if the options want them.
     fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
         let kind = match friction {
             true => FunctionKind::InverseDynamics(Effects::BOTH),
@@ -226,7 +226,7 @@ impl<'g> Writer<'_, 'g> {
         self.with_angle_sums(outputs.flat_map(|output| output.values).collect())
     }
 
-    /// Values with sines and cosines of sums of angles where the options want them.
+    /// Values with sines and cosines of sums of angles if the options want them.
     fn with_angle_sums(&self, values: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
         match self.options.angle_sums {
             AngleSums::Expand => values,

@@ -55,7 +55,7 @@ pub(super) fn is_long_constant(expr: Expr<'_>) -> bool {
         && robot_symbolic::print::to_text(expr).is_ok_and(|text| text.len() > LONG_CONSTANT)
 }
 
-/// What is worth a name among the parts of `roots`, operands before results: what is used in several
+/// The parts of `roots` that deserve a name, operands before results: those used in several
 /// places and long, and parts of what would be too long to print. Sines and cosines never are.
 pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let all = walk::reachable(roots);
@@ -95,7 +95,7 @@ fn operand_sizes(expr: Expr<'_>, sizes: &FxHashMap<Id, usize>) -> usize {
     expr.operands().iter().map(size).sum()
 }
 
-/// Sines, cosines, and what stands under them.
+/// Sines, cosines, and their arguments.
 fn angles(all: &[Expr<'_>]) -> FxHashSet<Id> {
     use robot_symbolic::Function::{Cos, Sin};
     let is_circular = |expr: &&Expr<'_>| matches!(expr.view(), View::Call(Sin | Cos, _));

@@ -87,7 +87,7 @@ fn link_values<'h>(
     Ok((groups, named))
 }
 
-/// What a vector's components look like.
+/// The layout of a vector's components.
 #[derive(Clone, Copy)]
 enum Look {
     Letter(char),
@@ -106,7 +106,7 @@ impl Look {
 }
 
 /// The equations of the components of a vector; those that are no more than a number or a symbol are
-/// printed but get no name, so that their value stands where they are used.
+/// printed but get no name, so that their value is put where they are used.
 fn vector_equations(
     writer: &mut Writer<'_, '_>,
     named: &mut Named<'_>,
@@ -148,7 +148,7 @@ fn generalized_forces(
     })
 }
 
-/// The equation as a sum of products where that is short, else as the expression is built.
+/// The equation as a sum of products if that is short, else as the expression is built.
 fn sum(
     writer: &Writer<'_, '_>,
     name: String,

@@ -54,7 +54,7 @@ fn introduction(found: &BaseParameters<'_>) -> String {
     )
 }
 
-/// What the names of base parameters mean where they are moments in other frames.
+/// The meaning of the names of base parameters if they are moments in other frames.
 const MOMENTS: &str = "In the names of base parameters, SXX is the second moment ∫ x² dm of a \
     link, SXY is ∫ x y dm and so on, and MX, MY, MZ are the first moments, in Denavit-Hartenberg \
     frames: z is the joint axis, and the origin is the point where the common normal with the \
@@ -176,7 +176,7 @@ fn is_itself(parameter: &BaseParameter<'_>, known: &Written, standard: &[Option<
     coefficient.is_one() && standard.get(*place).is_some_and(|one| one.as_ref() == Some(known))
 }
 
-/// The symbol that a value is, where it is no more.
+/// The symbol that a value is, if it is nothing more.
 fn symbol_of(value: &Polynomial<'_>) -> Option<String> {
     let value = value.to_expr();
     value.as_symbol().map(|symbol| value.graph().symbol_name(symbol))

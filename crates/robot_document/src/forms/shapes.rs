@@ -1,4 +1,4 @@
-//! What quantities and defined symbols look like.
+//! The layout of quantities and defined symbols.
 
 use crate::math::Math;
 

@@ -1,6 +1,6 @@
 //! Long formulas on several lines.
 //!
-//! A line is broken before a `+` or `-` outside of fences; where a term alone does not fit, also
+//! A line is broken before a `+` or `-` outside of fences; if a term alone does not fit, also
 //! between its factors, after a `·`, and at signs within its parentheses. A product
 //! that takes several lines starts on its own one, and goes on further in.
 
@@ -12,7 +12,7 @@ use crate::forms::Equation;
 /// A piece that cannot be broken further is wider than a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TooWide {
-    /// What the piece needs, pt.
+    /// The width that the piece needs, pt.
     pub needed: f64,
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn right_side(equation: &Equation, available: f64) -> Result<Vec<Math
     })
 }
 
-/// How a piece is joined to the one before it.
+/// The way that a piece is joined to the one before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Joint {
     /// By the sign that it starts with.
@@ -68,7 +68,7 @@ const DEEPER: f64 = 10.0;
 struct Lines {
     first: f64,
     rest: f64,
-    /// What the closing parentheses to come will need.
+    /// The width of the closing parentheses to come.
     reserve: f64,
     done: Vec<Vec<Math>>,
     line: Vec<Math>,
@@ -82,7 +82,7 @@ impl Lines {
         }
     }
 
-    /// What a further line that starts with these pieces may take.
+    /// The width of a further line that starts with these pieces.
     fn further(&self, pieces: &[Math]) -> f64 {
         let indent = if is_within_product(pieces) { DEEPER } else { 0.0 };
         self.rest - self.reserve - indent
@@ -209,7 +209,7 @@ mod tests {
         assert_eq!(lines(sum, 80.0, 80.0), ["m( a_1 + a_2 + a_3", "+a_4 ) + b"]);
     }
 
-    /// What closing parentheses needed is free again behind them.
+    /// The width reserved for closing parentheses is free again behind them.
     #[test]
     fn lines_behind_parentheses_are_as_long_as_before() {
         let long = |letter: &str| [1, 2, 3, 4, 5, 6].map(|k| format!("{letter}_{k}")).join(" + ");

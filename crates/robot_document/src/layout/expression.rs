@@ -13,7 +13,7 @@ use crate::error::Error;
 /// layout recursively.
 const MAX_DEPTH: usize = 200;
 
-/// How tightly a part of a formula binds.
+/// The precedence of a part of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     Sum,
@@ -36,14 +36,14 @@ enum Step<'g> {
     Raise(u32),
 }
 
-/// What a row becomes.
+/// The meaning of a row.
 #[derive(Clone, Copy)]
 enum Whole {
     Fenced(Fence),
     Root,
     /// The upper part of a fraction, whose lower part is the next row.
     Numerator,
-    /// A fraction, above whose bar the piece before stands.
+    /// A fraction with the piece before above its bar.
     Denominator,
     /// The lower index of a letter, whose upper one is a power.
     IndexOf(char, u32),
@@ -275,7 +275,7 @@ fn infix<'g>(a: Expr<'g>, left: Level, between: char, b: Expr<'g>, right: Level)
     vec![Step::Operand(a, left), sign(between), Step::Operand(b, right)]
 }
 
-/// What applies a function, to a power, and the argument in parentheses.
+/// Applies a function, to a power, and the argument in parentheses.
 fn applied(applying: Math, argument: Expr<'_>, exponent: u32) -> (Level, Vec<Step<'_>>) {
     let mut steps = raised_name(applying, exponent);
     let whole = Whole::Fenced(Fence::Parentheses);
@@ -302,7 +302,7 @@ fn index_of<'g>(letter: char, angle: Expr<'g>, exponent: u32) -> Vec<Step<'g>> {
     steps
 }
 
-/// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` where a joint has two digits.
+/// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` if a joint has two digits.
 fn joint_numbers(angle: Expr<'_>) -> Option<Vec<Math>> {
     let mut joints: Vec<(bool, u32)> = vec![];
     let mut pending = vec![(angle, false)];

@@ -1,4 +1,4 @@
-//! Formulas as layout: what stands beside, above and below what, in no notation.
+//! Formulas as layout: pieces beside, above and below each other, in no notation.
 //!
 //! The printers, one per notation, walk this tree; line breaking measures and cuts it. A symbol of
 //! the robot keeps its name, so that a printer can say which parameter or coordinate it shows.
@@ -43,14 +43,14 @@ pub enum Math {
 pub struct Symbol {
     /// The name in text: a parameter, `q2`, `qdd2`, `F_l5.x`.
     pub name: String,
-    /// What it looks like.
+    /// Its layout.
     pub shape: Box<Math>,
 }
 
 /// A base with indices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Script {
-    /// What the indices belong to.
+    /// The piece that the indices belong to.
     pub base: Math,
     /// Below to the right.
     pub lower: Option<Math>,
@@ -58,7 +58,7 @@ pub struct Script {
     pub upper: Option<Math>,
 }
 
-/// What stands around a piece.
+/// The enclosing signs of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fence {
     /// `( )`

@@ -1,4 +1,4 @@
-//! From a formula to the expression that it stands for.
+//! From a formula to the expression that it means.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Function, Graph, Rational};
@@ -8,7 +8,7 @@ use super::math::{Fence, Math, Script};
 use super::{SymbolTable, Trigonometry};
 use crate::latex::{self, ReadError};
 
-/// A formula that stands for no expression.
+/// A formula that is not an expression.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct MeaningError(&'static str);
@@ -64,7 +64,7 @@ impl Looks {
 ///
 /// # Errors
 ///
-/// A formula that is no sum of products: an equation, a word, an index without a meaning.
+/// A formula that is not a sum of products: an equation, a word, an index without a meaning.
 pub fn meaning<'g>(math: &Math, graph: &'g Graph, looks: &Looks) -> Meaning<'g> {
     Reader { graph, looks }.sum(math.pieces())
 }

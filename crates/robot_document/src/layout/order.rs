@@ -56,7 +56,7 @@ impl<'r> Order<'r> {
         if let Some(rank) = self.defined.get(&name) {
             return *rank;
         }
-        // Motions stand at the end of a term, wrenches at its beginning.
+        // Motions are at the end of a term, wrenches at its beginning.
         if let Some((variable, index)) = motion(&name) {
             return (9, variable as u8, index + 1);
         }

@@ -35,7 +35,7 @@ struct Terms<'t> {
 }
 
 impl Terms<'_> {
-    /// `c x y²`, over its denominator where it has one.
+    /// `c x y²`, over its denominator if it has one.
     fn term(&mut self, term: &ArrangedTerm<'_>) -> Result<Vec<Math>, Error> {
         let above = self.factors(term, |exponent| exponent > 0)?;
         let below = self.factors(term, |exponent| exponent < 0)?;
@@ -71,7 +71,7 @@ impl Terms<'_> {
         let mut pieces = vec![];
         let mut open = false;
         for (atom, exponent) in term.factors.iter().filter(|(_, exponent)| side(*exponent)) {
-            // What follows an angle without parentheses would seem to belong to it.
+            // A factor after an angle without parentheses would seem to belong to it.
             if open && !is_circular(*atom) {
                 pieces.push(Math::Sign('·'));
             }
@@ -119,7 +119,7 @@ fn fenced(pieces: Vec<Math>) -> Math {
     Math::Fenced(Fence::Parentheses, Box::new(Math::row(pieces)))
 }
 
-/// Whether an atom is a sum that stands alone below its fraction bar.
+/// Whether an atom is a sum that is alone below its fraction bar.
 fn is_alone_below(term: &ArrangedTerm<'_>, atom: Expr<'_>) -> bool {
     let mut below = term.factors.iter().filter(|(_, exponent)| *exponent < 0);
     below.next() == Some(&(atom, -1))

@@ -1,4 +1,4 @@
-//! What symbols and quantities look like.
+//! The spelling of symbols and quantities.
 
 use robot_dynamics::quantity::Symbol;
 use robot_model::signs::{Accent, Letter};

@@ -1,4 +1,4 @@
-//! How the symbols of a robot look, and formulas made of expressions.
+//! The layout of a robot's symbols, and formulas made of expressions.
 
 use robot_model::robot::Robot;
 use robot_model::signs::check_latex;
@@ -96,7 +96,7 @@ impl SymbolTable {
         Ok(())
     }
 
-    /// How sines and cosines look.
+    /// The notation of sines and cosines.
     #[must_use]
     pub fn trigonometry(&self) -> Trigonometry {
         self.trigonometry

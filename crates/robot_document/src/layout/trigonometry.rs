@@ -1,6 +1,6 @@
 //! Styles of sines and cosines.
 
-/// How sines and cosines are printed.
+/// The notation of sines and cosines in print.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Trigonometry {
     /// `sin q₂`, `cos² q₅`, `sin(q₂ + q₃)`.

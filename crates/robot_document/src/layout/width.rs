@@ -1,4 +1,4 @@
-//! How wide formulas print, in points, set in Computer Modern at 10 points.
+//! The printed width of formulas, in points, set in Computer Modern at 10 points.
 //!
 //! Advance widths, italic corrections included, are those of the font metrics cmmi10 and cmr10; smaller
 //! sizes take the largest ratio among the letters of cmmi7 and cmr7. Spaces are those of The TeXbook,
@@ -178,7 +178,7 @@ fn row(pieces: &[Math], size: Size) -> f64 {
         if before.is_some_and(|before| piece.is_apart_from(before)) {
             sum += size.space(0);
         }
-        // A function keeps its distance from what stands before it.
+        // A function keeps its distance from the piece before it.
         if place > 0 && piece.is_function() {
             sum += size.space(0);
         }

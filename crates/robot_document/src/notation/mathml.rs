@@ -16,11 +16,11 @@ pub struct Markup {
     pub name: &'static str,
     /// Its attributes.
     pub attributes: Vec<(&'static str, &'static str)>,
-    /// What is in it.
+    /// Its content.
     pub content: Content,
 }
 
-/// What an element holds.
+/// The content of an element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Text, as it is to be read.
@@ -135,7 +135,7 @@ fn row(pieces: &[Math]) -> Markup {
 }
 
 fn with_indices(script: &Script) -> Markup {
-    // The power of a symbol with an index stands above the index.
+    // The power of a symbol with an index is above the index.
     if let (None, Some(upper), Some(own)) = (&script.lower, &script.upper, own_index(&script.base))
         && let (Some(lower), None) = (&own.lower, &own.upper)
     {

@@ -56,7 +56,7 @@ fn heading(text: &str) -> Block {
     Block::Heading(1, text.to_owned())
 }
 
-/// What a reader must know of frames and signs.
+/// The frame and sign conventions.
 fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
     let indexed = |letter: char| Math::Letter(letter).with_lower(Math::Letter('i'));
     let friction = match options.friction {

@@ -9,7 +9,7 @@ use crate::document::{Block, Inline};
 use crate::forms::{Equations, Form};
 use crate::math::Math;
 
-/// What the symbols of the robot mean.
+/// The meaning of the robot's symbols.
 pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
     let Some((_, first)) = parts.first() else { return vec![] };
     let symbols = &first.symbols;

@@ -1,9 +1,9 @@
-//! What is said of a robot in tables and lists, in the same words everywhere.
+//! Words about a robot in tables and lists, the same everywhere.
 
 use robot_model::robot::{Axis, JointKind, Move, Placement, Robot};
 use robot_symbolic::Formula;
 
-/// The name of the link that carries something, by its index; `base` where no link does.
+/// The name of the link that carries something, by its index; `base` if no link does.
 #[must_use]
 pub fn carrier(robot: &Robot, link: Option<usize>) -> &str {
     link.and_then(|index| robot.links.get(index)).map_or("base", |link| &link.name)

@@ -65,7 +65,7 @@ pub struct BaseParameter<'g> {
     /// The kept parameter: a standard one, or a moment in another frame ([`Quantity::Moment`]).
     pub kept: StandardParameter,
     /// A row of B: the coefficients of standard parameters by their places, all but those that are 0, in
-    /// order. Where the kept ones are standard parameters, that of the kept one is 1, and no other
+    /// order. If the kept ones are standard parameters, that of the kept one is 1, and no other
     /// kept one occurs.
     pub terms: Vec<(usize, Expr<'g>)>,
     /// Standard parameters that have this base parameter 1 and all others 0, by their places: the
@@ -81,7 +81,7 @@ impl<'g> BaseParameter<'g> {
         (!matches!(self.kept.quantity, Quantity::Moment(_))).then_some(self.column)
     }
 
-    /// The name: that of the kept parameter, with an R where others are regrouped under it, as in
+    /// The name: that of the kept parameter, with an R if others are regrouped under it, as in
     /// `ZZR_2`.
     #[must_use]
     pub fn name(&self) -> String {
@@ -89,7 +89,7 @@ impl<'g> BaseParameter<'g> {
         format!("{}{}_{}", quantity.symbol(), self.mark(), link + 1)
     }
 
-    /// `R` where other parameters are regrouped under the kept one; under a moment, those of other links
+    /// `R` if other parameters are regrouped under the kept one; under a moment, those of other links
     /// or of drives.
     #[must_use]
     pub fn mark(&self) -> &'static str {
@@ -196,7 +196,7 @@ fn kept_parameter<'g>(
     }
 }
 
-/// The mechanism in the frames over which the robot's base parameters are, where they are not the
+/// The mechanism in the frames over which the robot's base parameters are, if they are not the
 /// file's.
 pub(crate) fn base_frames<'g>(derivation: &Derivation<'_, 'g>) -> Option<Reframed<'g>> {
     match derivation.robot.base_frames {

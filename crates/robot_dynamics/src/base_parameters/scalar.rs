@@ -28,8 +28,8 @@ const SHORT: usize = 100;
 /// An expression in constants and parameters, with its values at seeded values of the parameters.
 ///
 /// A scalar that vanishes is the constant 0. Rational numbers decide that exactly. Of the others, a
-/// sum that is small at all points is 0 where its canonical polynomial is; it is not where that is a
-/// polynomial in parameters with rational coefficients. Where irrational constants occur or the
+/// sum that is small at all points is 0 if its canonical polynomial is; it is not if that is a
+/// polynomial in parameters with rational coefficients. If irrational constants occur or the
 /// polynomial would be too large, the values at the points decide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scalar<'g> {
@@ -91,7 +91,7 @@ fn is_rational(polynomial: &Polynomial<'_>) -> bool {
         && polynomial.atoms().iter().all(|atom| atom.as_symbol().is_some())
 }
 
-/// The canonical form of an expression where it is short and without sums in denominators.
+/// The canonical form of an expression if it is short and without sums in denominators.
 pub(super) fn tidied(expr: Expr<'_>) -> Expr<'_> {
     let is_simple = !walk::is_longer_than(expr, 3);
     let is_done = is_simple || expr.as_number().is_some() || expr.graph().is_full();

@@ -10,7 +10,7 @@
 //!
 //! - ∂τᵢ/∂qⱼ = ⟨Ẑᵢ, X P + 2 Ẏ B⟩ and ∂τᵢ/∂q̇ⱼ = ⟨Ẑᵢ, 2 Ẏ P + 2 Ẑⱼ B⟩ with the composites of the
 //!   outer of both joints;
-//! - where j is the outer one, its whole wrench W turns along as well: + Ẑⱼ ×* W.
+//! - if j is the outer one, its whole wrench W turns along as well: + Ẑⱼ ×* W.
 //!
 //! The Christoffel form of the Coriolis matrix is half of ∂τ/∂q̇.
 

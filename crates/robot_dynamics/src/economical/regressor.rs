@@ -56,7 +56,7 @@ pub struct RegressorColumns<'g> {
     /// Ten per link: parameters about the origin and in the axes of the link's frame.
     pub links: Vec<Column<'g>>,
     /// One per link: the coupling of its drive's rotor with the link that carries the rotor
-    /// ([`crate::mechanism::MechanismLink::rotor_coupling`]), 0 where the base does.
+    /// ([`crate::mechanism::MechanismLink::rotor_coupling`]), 0 if the base does.
     pub rotors: Vec<Column<'g>>,
 }
 

@@ -22,7 +22,7 @@ const STATES: usize = 3;
 const TOLERANCE: f64 = 1e-11;
 
 /// Robot files, chains, trees with drives, friction, joints that follow and fixed links, robots whose
-/// figures are parameters, and robots whose joint axes are: a name and a seed for states with each.
+/// values are parameters, and robots whose joint axes are: a name and a seed for states with each.
 fn robots() -> Vec<(String, Robot, u64)> {
     let files = ["trttr1", "scara", "stanford", "puma560"];
     let files = files.map(|name| (name.to_owned(), robot_testing::robot(name), 3));

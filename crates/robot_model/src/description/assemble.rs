@@ -84,7 +84,7 @@ fn parent(parent: &Parent, carried: &[Carried]) -> Carried {
     }
 }
 
-/// How a coordinate moves a joint.
+/// The relation of a coordinate to a joint.
 struct Motion {
     kind: JointKind,
     following: Following,

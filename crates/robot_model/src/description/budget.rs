@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Span, code};
 use crate::functions::FunctionKind;
 use crate::robot::Robot;
 
-/// What a function of generated code may cost.
+/// The limits of a function's cost in generated code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// The name of the function or bundle; `None` for every one that is generated.
@@ -40,7 +40,7 @@ pub(super) fn read(
     tables.into_iter().map(|table| budget(reader, table, bundles)).collect()
 }
 
-/// A budget, and the name of its function where it is that of a frame.
+/// A budget, and the name of its function if it is that of a frame.
 fn budget(
     reader: &mut Reader<'_>,
     mut table: Table<'_>,
@@ -49,7 +49,7 @@ fn budget(
     let named = table.get("function").and_then(|entry| function(reader, entry.value, bundles));
     let max_operations = table.get("max_operations").and_then(|entry| limit(reader, &entry));
     let max_stack = table.get("max_stack").and_then(|entry| limit(reader, &entry));
-    // A misspelt key is told by itself.
+    // A misspelt key is reported by itself.
     if table.len() == usize::from(table.has("function")) {
         reader.report(
             Diagnostic::error(code::MISSING_KEY, "the budget sets no limit")

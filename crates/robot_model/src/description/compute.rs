@@ -1,8 +1,8 @@
-//! Formulas of formulas: exact numbers where all parts are numbers, else text.
+//! Formulas of formulas: exact numbers if all parts are numbers, else text.
 
 use robot_symbolic::{Formula, Rational};
 
-/// A formula of formulas: a number where all of them are, else `pattern` with each `#i` replaced
+/// A formula of formulas: a number if all of them are, else `pattern` with each `#i` replaced
 /// by the text of the i-th; `None` if the text grows beyond what a formula may be.
 pub(super) fn compute(
     operands: &[&Formula],

@@ -1,4 +1,4 @@
-//! Whether an expression has a value: no division by what is 0, nor by what rounding cannot tell from 0.
+//! Whether an expression has a value: no division by 0, or by a value that rounding cannot distinguish from 0.
 
 use robot_symbolic::formula::Step;
 use robot_symbolic::{Formula, Function, Rational};
@@ -69,7 +69,7 @@ impl Rounded {
             Function::Sqrt if value < -DIGITS * error => {
                 return Err("the square root of a negative number");
             }
-            // What rounding has made negative is 0.
+            // A value that rounding has made negative is 0.
             Function::Sqrt if value <= 0.0 => Rounded { value: 0.0, error: error.sqrt() },
             Function::Sqrt => Rounded::new(result, error / result),
             Function::Sign => Rounded { value: result, error: 0.0 },
@@ -97,7 +97,7 @@ impl Reader<'_> {
     }
 
     /// Whether the expression is 0 at the nominal values of the parameters, or as near to it as rounding can
-    /// tell.
+    /// decide.
     pub(super) fn vanishes(&self, formula: &Formula) -> bool {
         let value = formula.fold(|step| self.rounded(&step).ok()).flatten();
         value.is_some_and(Rounded::is_zero)

@@ -27,11 +27,11 @@ pub(super) struct LinkRow {
     pub(super) place: Span,
 }
 
-/// Reads the table where the file has it.
+/// Reads the table if the file has it.
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Option<Table> {
     let entry = root.get("dh")?;
     let mut table = reader.table(entry.value, &DH_TABLE)?;
-    // The stand-in for a convention that was wrong: the error is reported.
+    // The placeholder for an invalid convention: the error is reported.
     let convention = convention(reader, &mut table).unwrap_or(Convention::Standard);
     let example = "rows = [{ type = \"revolute\", a = 0, alpha = \"pi/2\", d = 0.5 }]";
     let rows = table.require(reader, "rows", example);
@@ -67,7 +67,7 @@ fn link_row(
 }
 
 impl Table {
-    /// The row of the next link; one that says nothing where the rows are used up.
+    /// The row of the next link; one that says nothing if the rows are used up.
     pub(super) fn next_row(&mut self) -> LinkRow {
         self.taken += 1;
         self.rows.next().unwrap_or_else(|| LinkRow {

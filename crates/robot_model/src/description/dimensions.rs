@@ -3,9 +3,9 @@
 //! The parameters of an expression and the operations on them give it a dimension. Of the numbers it
 //! is not known whether they carry units: in `m1*0.2^2/12` the 0.2 is a length. So
 //!
-//! - a number takes what dimension is needed where it stands alone, and in a sum the other term's;
+//! - a number takes the dimension that is needed if it is alone, and in a sum the other term's;
 //! - an expression whose only factors are parameters must have the dimension of its place;
-//! - one with small whole numbers and halves as factors, which are hardly figures with units, is
+//! - one with small whole numbers and halves as factors, which are unlikely to have units, is
 //!   warned of;
 //! - with other numbers as factors it may have any dimension.
 //!
@@ -19,10 +19,10 @@ use super::value::Quantity;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 use crate::unit::Dimension;
 
-/// Whole numbers and halves up to this are counts and shares, as in `m*l^2/12`.
+/// Whole numbers and halves up to this are counts and fractions, as in `m*l^2/12`.
 const COUNT: i64 = 12;
 
-/// What kind of factors an expression has; the last that occurs counts.
+/// The kind of factors in an expression; the last that occurs counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Factors {
     /// Parameters, π and functions: the dimension is certain.
@@ -33,13 +33,13 @@ pub(super) enum Factors {
     Numbers,
 }
 
-/// What is known of an expression's dimension.
+/// The known part of an expression's dimension.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dimensioned {
     /// `None` if a parameter has no unit.
     pub(super) dimension: Option<Dimension>,
     pub(super) factors: Factors,
-    /// Whether there is no parameter in it, so that it takes any dimension.
+    /// Whether it contains no parameter, so that it takes any dimension.
     is_number: bool,
 }
 
@@ -63,7 +63,7 @@ impl Dimensioned {
         }
     }
 
-    /// The dimension that a value certainly has, where its factors are known so far.
+    /// The dimension that a value certainly has, if its factors are known so far.
     fn known(self) -> Option<Dimension> {
         self.dimension.filter(|_| !self.is_number)
     }
@@ -127,7 +127,7 @@ impl Clash {
     }
 }
 
-/// An error where factors are parameters alone; a warning where a number may carry the unit.
+/// An error if factors are parameters alone; a warning if a number may carry the unit.
 fn reported(factors: Factors, message: String) -> Diagnostic {
     match factors {
         Factors::Certain => Diagnostic::error(code::DIMENSION, message)
@@ -198,7 +198,7 @@ impl Reader<'_> {
         found.factors != Factors::Certain
     }
 
-    /// What is said of a parameter that stands alone.
+    /// The message about a parameter that is alone.
     fn alone(
         &self,
         formula: &Formula,

@@ -9,7 +9,7 @@ use super::reader::Named;
 use crate::diagnostic::Span;
 use crate::robot::{BaseFrames, Body, Drive, Friction, JointKind, Placement, Wrench};
 
-/// What a file says of a robot.
+/// A robot as a file describes it.
 #[derive(Clone)]
 pub(super) struct Draft {
     pub(super) name: Named,
@@ -23,7 +23,7 @@ pub(super) struct Draft {
     pub(super) payload: Option<DraftPayload>,
 }
 
-/// Upon what a link or frame stands.
+/// The carrier of a link or frame.
 #[derive(Clone, Debug)]
 pub(super) enum Parent {
     Base,
@@ -40,7 +40,7 @@ pub(super) struct DraftLink {
     pub(super) joint: DraftJoint,
     /// From the parent's frame to the joint's frame at joint position 0.
     pub(super) before: Placement,
-    /// From the joint's frame to the link's own frame, where the file's convention puts them
+    /// From the joint's frame to the link's own frame, if the file's convention puts them
     /// apart.
     pub(super) after: Placement,
     /// Placed in the link's own frame; `None` if the link has no mass.
@@ -68,7 +68,7 @@ pub(super) struct DraftJoint {
 pub(super) struct Mimic {
     pub(super) joint: Named,
     pub(super) ratio: Formula,
-    /// The place of the ratio, where the file has one.
+    /// The place of the ratio, if the file has one.
     pub(super) of_ratio: Option<Span>,
     pub(super) offset: Formula,
 }
@@ -83,11 +83,11 @@ pub(super) struct DraftFrame {
     pub(super) places: FrameLocation,
 }
 
-/// What the robot may carry.
+/// The body that the robot may carry.
 #[derive(Clone)]
 pub(super) struct DraftPayload {
     pub(super) parent: Parent,
-    /// From the parent's frame to that of the payload's figures.
+    /// From the parent's frame to that of the payload's values.
     pub(super) placement: Placement,
     pub(super) place: Span,
 }

@@ -10,7 +10,7 @@ use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::{Drive, Friction, JointKind};
 
-/// The signs that a figure may have.
+/// The signs that a value may have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sign {
     Any,
@@ -19,14 +19,14 @@ enum Sign {
     NotZero,
 }
 
-/// Figures of one table.
+/// Entries of one table.
 struct Entries<'r, 'f, 'a> {
     reader: &'r mut Reader<'f>,
     table: Table<'a>,
 }
 
 impl Entries<'_, '_, '_> {
-    /// Puts the figure of a key into its place where the file has it; the key's place.
+    /// Stores the value of a key in its place if the file has it; returns the key's place.
     fn read(
         &mut self,
         key: &'static str,
@@ -114,7 +114,7 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     friction
 }
 
-/// Equation (5): dry friction of a rotation acts at the spindle's surface.
+/// Equation (5): dry friction of a revolute joint acts at the journal's surface.
 fn spindle(
     entries: &mut Entries<'_, '_, '_>,
     kind: JointKind,

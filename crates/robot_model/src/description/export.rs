@@ -1,4 +1,4 @@
-//! A draft as a robot file in TOML: the links in order with the source's names and figures.
+//! A draft as a robot file in TOML: the links in order with the source's names and values.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -147,7 +147,7 @@ fn joint(link: &DraftLink) -> String {
     format!("{{ {} }}", parts.join(", "))
 }
 
-/// `"z"` where the axis is one of the frame, else the vector.
+/// `"z"` if the axis is one of the frame, else the vector.
 fn axis(axis: &[Formula; 3]) -> String {
     let along: Vec<usize> =
         (0..3).filter(|index| axis.get(*index).is_some_and(|one| !Reader::is_zero(one))).collect();
@@ -174,7 +174,7 @@ fn friction(friction: &Friction, kind: Option<JointKind>) -> String {
     format!("{{ {} }}", parts.join(", "))
 }
 
-/// The translation and the angles of a placement, where they are there.
+/// The translation and the angles of a placement, if they are there.
 fn xyz_rpy(placement: &Placement) -> [Option<[Formula; 3]>; 2] {
     let (mut xyz, mut rpy) = (None, None);
     for step in &placement.0 {
@@ -216,7 +216,7 @@ fn angle(angle: &Formula) -> String {
     }
 }
 
-/// A figure: a number, or an expression in quotes.
+/// A value: a number, or an expression in quotes.
 fn formula_text(formula: &Formula) -> String {
     match formula.as_number() {
         Some(value) => match value.as_rational() {
@@ -227,7 +227,7 @@ fn formula_text(formula: &Formula) -> String {
     }
 }
 
-/// A decimal number of TOML with exactly this value, the shortest where floating point has it.
+/// A decimal number of TOML with exactly this value, the shortest if floating point has it.
 fn number(value: &Rational) -> String {
     if let Some(integer) = value.to_integer().filter(|integer| integer.unsigned_abs() < 1 << 53) {
         return integer.to_string();

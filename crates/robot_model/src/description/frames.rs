@@ -178,7 +178,7 @@ fn component(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Component> {
     Some((named.name, latex))
 }
 
-/// The names of a wrench that the file does not name: `Fx` … `Mz`, with the tip's name where there
+/// The names of a wrench that the file does not name: `Fx` … `Mz`, with the tip's name if there
 /// are several tips.
 fn plain_wrench(reader: &mut Reader<'_>, tip: &Named, alone: bool) -> Option<Wrench> {
     let suffix: String = tip

@@ -1,5 +1,5 @@
-//! A base that has mass and carries several branches: most likely it is free to move, and robots here stand
-//! on a fixed one.
+//! A base that has mass and carries several branches: most likely it is free to move, but robots here have
+//! a fixed base.
 
 use std::collections::BTreeSet;
 

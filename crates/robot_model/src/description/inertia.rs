@@ -87,7 +87,7 @@ pub(super) fn read(
     tensor
 }
 
-/// The six entries; products are 0 where they are left out, and so is all of an unchecked tensor.
+/// The six entries; products are 0 if they are left out, and so is all of an unchecked tensor.
 fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, unchecked: bool) -> Inertia {
     let mut entry = |key: &'static str, needed: bool| {
         let entry = if needed && !unchecked {

@@ -35,7 +35,7 @@ pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<
     })
 }
 
-/// What to write for a type that other descriptions have.
+/// The replacement for a type that other descriptions have.
 fn elsewhere(word: &str) -> Option<&'static str> {
     match word {
         "continuous" => Some("write \"revolute\" and leave out `limits`"),
@@ -67,7 +67,7 @@ pub(super) fn read(
     places: &mut LinkLocation,
 ) -> DraftJoint {
     let mut joint = DraftJoint {
-        // Where the type is wrong, the stand-in lets the rest of the link be checked.
+        // If the type is wrong, the placeholder lets the rest of the link be checked.
         kind: row.unwrap_or(Some(JointKind::Revolute)),
         name: link.clone(),
         axis: [zero(), zero(), Formula::number(&Rational::ONE)],

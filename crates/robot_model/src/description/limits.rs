@@ -1,4 +1,4 @@
-//! The limits of what is read, each of which ends in a message of its own.
+//! The limits of input, each of which has a message of its own.
 
 /// A robot file of more bytes than this is refused.
 pub const MAX_BYTES: usize = 1 << 20;

@@ -23,7 +23,7 @@ pub(super) fn read(
     let name = table
         .require(reader, "name", &format!("name = \"{}\"", index + 1))
         .and_then(|entry| reader.name(entry.value, "a link", Kind::Label));
-    // A stand-in, so that the rest of the link is checked all the same.
+    // A placeholder, so that the rest of the link is checked all the same.
     let named = name.clone().unwrap_or(Named { name: String::new(), span: table.span.clone() });
     let mut places = LinkLocation { name: named.span.clone(), ..LinkLocation::default() };
     let parent = parent(reader, &mut table, index, &mut places);
@@ -71,7 +71,7 @@ fn parent(
     }
 }
 
-/// A parent by name. A wrong name is reported and stands for the base.
+/// A parent by name. A wrong name is reported and taken as the base.
 pub(super) fn named_parent(reader: &mut Reader<'_>, entry: &super::table::Entry<'_>) -> Parent {
     let expected = "the name of a link, or \"base\"";
     let Some(text) = reader.string(entry.value, expected) else {

@@ -1,11 +1,11 @@
-//! Where in the file the parts of a robot are.
+//! Places of the parts of a robot in the file.
 
 use robot_symbolic::Formula;
 
 use crate::diagnostic::{Diagnostic, Span, code};
 
 /// Places of a [`crate::robot::Robot`]'s parts, index by index; what the file leaves out is `None`
-/// or stands at the place of the table that lacks it.
+/// or is the place of the table that lacks it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Locations {
     /// The robot's name.
@@ -102,7 +102,7 @@ pub struct BodyLocation {
     pub center_of_mass: Option<Span>,
     /// The inertia's table.
     pub inertia: Option<Span>,
-    /// Whether the file says that the inertia is no body's (`unchecked = true`).
+    /// Whether the file waives the check of the inertia (`unchecked = true`).
     pub unchecked: bool,
 }
 

@@ -17,7 +17,7 @@ pub(super) struct Following {
     pub(super) offset: Formula,
 }
 
-/// How the joint of `link` follows a coordinate; what is wrong with a mimic is reported. `links` are
+/// The coordinate that the joint of `link` follows; errors in a mimic are reported. `links` are
 /// in order.
 pub(super) fn follow(
     reader: &mut Reader<'_>,

@@ -2,9 +2,9 @@
 //!
 //! A reader turns the text of a file into a checked [`Robot`] and a side table of places
 //! ([`Locations`]), or into everything that is wrong with it ([`Diagnostics`]). No value is ever
-//! replaced or repaired in silence.
+//! silently replaced or repaired.
 //!
-//! The way through: `file` lowers the tables of a TOML file, `urdf` the elements of a URDF file, to a
+//! The flow: `file` lowers the tables of a TOML file, `urdf` the elements of a URDF file, to a
 //! draft whose fixed links are still apart; `tree` puts the links in order; `assemble` merges fixed
 //! links and builds the robot. [`import()`] writes the draft as a robot file in TOML.
 
@@ -62,23 +62,23 @@ pub use reader::is_finite;
 use reader::{Named, Reader};
 use wanted::Wanted;
 
-/// What a robot file gives.
+/// The result of reading a robot file.
 #[derive(Clone, Debug)]
 pub struct Described {
     /// The robot.
     pub robot: Robot,
-    /// Where in the file its parts are.
+    /// The places of its parts in the file.
     pub locations: Locations,
-    /// What looks like a slip, with the source.
+    /// Likely mistakes, with the source.
     pub warnings: Diagnostics,
-    /// How the reader took what the format leaves open or what is not part of a robot here: notes,
+    /// The reader's decisions where the format leaves a choice, or about content that is not part of a robot here: notes,
     /// for a file that was not written for this program.
     pub choices: Diagnostics,
-    /// What the file says of the dynamics that is no part of the robot, such as `the friction of 6 joints`.
+    /// Content of the file about the dynamics that is not part of the robot, such as `the friction of 6 joints`.
     pub left_out: Vec<String>,
-    /// Which functions are generated where the caller names none.
+    /// Which functions are generated if the caller names none.
     pub code: Code,
-    /// What generated code may cost.
+    /// The limits of the cost of generated code.
     pub budgets: Vec<Budget>,
     /// The format of the file.
     pub format: Format,
@@ -127,8 +127,8 @@ pub fn read_toml(name: &str, text: &str) -> Result<Described, Diagnostics> {
 /// Reads a robot from URDF, the description format of ROS.
 ///
 /// The base is the root link. Fixed links are merged and their frames kept as named frames; joints
-/// that mimic others share their coordinate. Meshes are never looked for. What the format leaves
-/// open is told in [`Described::choices`].
+/// that mimic others have the coordinate of the other. Meshes are never opened. The choices that the format leaves
+/// are listed in [`Described::choices`].
 ///
 /// # Errors
 ///
@@ -137,7 +137,7 @@ pub fn read_urdf(name: &str, text: &str) -> Result<Described, Diagnostics> {
     described(Format::Urdf, name, text, &Options::default()).map(|(described, _)| described)
 }
 
-/// Writes a description as a robot file in TOML, with the source's names and figures. The robot file
+/// Writes a description as a robot file in TOML, with the source's names and values. The robot file
 /// gives the same robot, and the same description always the same text. What is a robot file already
 /// stays as it is.
 ///
@@ -231,7 +231,7 @@ fn described(
     }
 }
 
-/// What a lowered file gives.
+/// The result of lowering a file.
 struct Built {
     robot: Robot,
     locations: Locations,
@@ -239,7 +239,7 @@ struct Built {
     budgets: Vec<Budget>,
 }
 
-/// The robot of a lowered file, where nothing is wrong with it.
+/// The robot of a lowered file, if nothing is wrong with it.
 fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Built> {
     let Lowered { draft, order, parameters, wanted, budgets } = lowered;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {
@@ -253,7 +253,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Bu
     }
     let (robot, mut locations) = assemble::robot(reader, draft, &order, parameters);
     locations.angles = std::mem::take(&mut reader.angles);
-    // What an error kept from being read may use parameters.
+    // Content that an error kept from being read may use parameters.
     if reader.failed() {
         return None;
     }

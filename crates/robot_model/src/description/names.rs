@@ -1,6 +1,6 @@
 //! The one gate through which every name comes in.
 //!
-//! What passes here goes into generated code, equations and file names; nothing else from a file
+//! The names that pass here go into generated code, equations and file names; nothing else from a file
 //! does. Identifiers name robots, parameters and wrench components; labels name links, joints and
 //! frames.
 
@@ -12,13 +12,13 @@ use crate::variable::{JointVariable, WRENCH};
 /// No name is longer.
 const MAX_NAME: usize = 64;
 
-/// What equations and states call by themselves, and the functions of formulas.
+/// The names that equations and states use, and the functions of formulas.
 const OWN: &[&str] = &[
     "t", WRENCH, "abs", "acos", "asin", "atan", "atan2", "cos", "exp", "log", "pi", "pow", "sign",
     "sin", "sqrt", "tan", "tanh",
 ];
 
-/// What a name is for.
+/// The use of a name.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// `[A-Za-z_][A-Za-z0-9_]{0,63}` that means nothing else in a robot file or an equation.
@@ -122,7 +122,7 @@ pub(super) fn is_coordinate(name: &str) -> bool {
 /// Names of one kind, each once.
 pub(super) struct Registry {
     what: &'static str,
-    /// Whether names that differ in case or underscores alone are told apart.
+    /// Whether names that differ in case or underscores alone are distinct.
     exact: bool,
     names: Vec<Named>,
     folded: std::collections::BTreeMap<String, usize>,

@@ -1,4 +1,4 @@
-//! What the caller may ask of a reader.
+//! The options of readers.
 
 use robot_symbolic::Rational;
 
@@ -13,7 +13,7 @@ pub enum Format {
     Urdf,
 }
 
-/// How a file is read: what is taken that is an error otherwise, and what it does not say itself.
+/// The options of reading a file: errors that become warnings, and values that the file does not have.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Lets moving links have no mass; the errors become warnings.
@@ -23,7 +23,7 @@ pub struct Options {
     /// Takes the friction of joints in URDF: damping as viscous, friction as constant dry friction. Without
     /// this it is left out of the robot.
     pub friction: bool,
-    /// Values of parameters in place of the nominal ones; every check sees these. Names that are none of
+    /// Values of parameters in place of the nominal ones; every check uses these. Names that are not
     /// the robot's parameters have no effect.
     pub values: Vec<(String, Rational)>,
 }
@@ -34,12 +34,12 @@ impl Options {
         self.values.iter().find(|(name, _)| name == parameter).map(|(_, value)| value)
     }
 
-    /// How grave an inertia or a mass is that no body can have.
+    /// The severity of an inertia or a mass that no body can have.
     pub(super) fn unphysical(&self) -> Severity {
         if self.allow_unphysical { Severity::Warning } else { Severity::Error }
     }
 
-    /// How grave a moving link without mass is.
+    /// The severity of a moving link without mass.
     pub(super) fn massless(&self) -> Severity {
         if self.allow_massless { Severity::Warning } else { Severity::Error }
     }

@@ -93,7 +93,7 @@ fn one(reader: &mut Reader<'_>, value: Value<'_>) -> (Parameter, ParameterLocati
     (parameter, place)
 }
 
-/// A nominal value: a number, for what is computed from other parameters is no parameter.
+/// A nominal value: a number, because a value computed from other parameters is not a parameter.
 fn nominal(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Rational> {
     if let DeValue::String(_) = value.get_ref() {
         reader.report(
@@ -142,7 +142,7 @@ fn unit(reader: &mut Reader<'_>, value: Value<'_>, nominal: Option<&Rational>) -
     None
 }
 
-/// A number as text: a fraction where it is no short decimal.
+/// A number as text: a fraction if it is not a short decimal.
 fn decimal(value: &Rational) -> String {
     let float = value.to_f64().to_string();
     match Rational::from_decimal(&float) {

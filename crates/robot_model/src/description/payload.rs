@@ -1,4 +1,4 @@
-//! `[payload]`: a body that the robot may carry, whose ten figures stay parameters.
+//! `[payload]`: a body that the robot may carry, whose ten parameters stay parameters.
 
 use robot_symbolic::{Formula, Rational};
 

@@ -1,4 +1,4 @@
-//! Where frames stand: `origin` by xyz and rpy, `dh` by a Denavit–Hartenberg row.
+//! Placements of frames: `origin` by xyz and rpy, `dh` by a Denavit–Hartenberg row.
 
 use robot_symbolic::{Formula, Rational};
 

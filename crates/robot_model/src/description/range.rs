@@ -1,7 +1,7 @@
-//! Figures that are too large or too small to compute with.
+//! Values that are too large or too small to compute with.
 //!
 //! Torques are products of masses, squared lengths and more; beyond these bounds such products could
-//! leave the range of floating point, and the figures would have no meaning for a robot anyway.
+//! leave the range of floating point, and the values would have no meaning for a robot.
 
 use robot_symbolic::Formula;
 
@@ -11,14 +11,14 @@ use crate::diagnostic::significant;
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::{Body, Drive, Friction, Joint, JointKind, Link, Move, Placement, Robot};
 
-/// The largest figure, in SI units: the Sun has 2e30 kg.
+/// The largest value, in SI units: the Sun has 2e30 kg.
 const LARGEST: f64 = 1e30;
 /// The least mass, kg, largest entry of a tensor, kg m², and whatever else is a divisor.
 const LEAST: f64 = 1e-100;
 /// The largest angle, rad: of larger ones rounding leaves less than ten digits within a turn.
 const ANGLE: f64 = 1e6;
 
-/// Reports all figures that are out of range at the nominal values of the parameters.
+/// Reports all values that are out of range at the nominal values of the parameters.
 pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Locations) {
     let mut range = Range { reader };
     let of_gravity = locations.gravity.as_ref().unwrap_or(&locations.name);
@@ -144,7 +144,7 @@ impl Range<'_, '_> {
         }
     }
 
-    /// Reports the first figure that is too large.
+    /// Reports the first value that is too large.
     fn all<'f>(&mut self, formulas: impl IntoIterator<Item = &'f Formula>, what: &str, at: &Span) {
         let known = formulas.into_iter().filter_map(|formula| self.reader.known(formula));
         let diagnostic = known.into_iter().find_map(|value| too_large(what, value, at));
@@ -153,7 +153,7 @@ impl Range<'_, '_> {
         }
     }
 
-    /// Reports figures of which the largest, a divisor somewhere, is too small.
+    /// Reports values of which the largest, a divisor somewhere, is too small.
     fn divisor<'f>(
         &mut self,
         formulas: impl IntoIterator<Item = &'f Formula>,
@@ -178,7 +178,7 @@ impl Range<'_, '_> {
     }
 }
 
-/// What is said of a number that is too large; `None` if it is not.
+/// The message about a number that is too large; `None` if it is not.
 pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
     let message = || format!("{what} contains a value of {}", significant(value));
     (value.abs() > LARGEST).then(|| {

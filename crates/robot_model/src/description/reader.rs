@@ -1,4 +1,4 @@
-//! What every part of a reader shares: the diagnostics, and the parameters that expressions may
+//! The common state of all parts of a reader: the diagnostics, and the parameters that expressions may
 //! name.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,7 +37,7 @@ pub(super) struct Reader<'a> {
     pub(super) found: Vec<Diagnostic>,
     /// The angles of the file.
     pub(super) angles: Vec<AngleLocation>,
-    /// What the file says of the dynamics that is no part of the robot, in words.
+    /// Content of the file about the dynamics that is not part of the robot, in words.
     pub(super) left_out: Vec<String>,
     parameters: Vec<Known>,
     by_name: BTreeMap<String, usize>,
@@ -98,12 +98,12 @@ impl<'a> Reader<'a> {
         self.found.push(diagnostic);
     }
 
-    /// A stand-in for a value that was wrong: no further check has an opinion on it.
+    /// A placeholder for an invalid value: no further check has an opinion on it.
     pub(super) fn unknown() -> Formula {
         Formula::symbol("_")
     }
 
-    /// The value of a formula where it has no names, or all of them have nominal values.
+    /// The value of a formula if it has no names, or all of them have nominal values.
     pub(super) fn known(&self, formula: &Formula) -> Option<f64> {
         let mut complete = true;
         let value = formula.evaluate(|name| {
@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
         matches!(formula.as_number(), Some(Number::Rational(value)) if value.is_zero())
     }
 
-    /// Marks the parameters that a formula names, and reports the names that are none. `place`
+    /// Marks the parameters that a formula names, and reports the unknown names. `place`
     /// maps bytes of the formula's text to the file.
     pub(super) fn resolve(&mut self, formula: &Formula, place: &dyn Fn(Span) -> Span) -> bool {
         let mut unknown = BTreeSet::new();
@@ -199,7 +199,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether a part of the formula is no finite number whatever the parameters are, as in `1/(x - x)`.
+/// Whether a part of the formula is not a finite number whatever the parameters are, as in `1/(x - x)`.
 fn unbounded(formula: &Formula) -> Option<&'static str> {
     if formula.is_constant() {
         return None;

@@ -1,4 +1,4 @@
-//! What the tables of a robot file hold: the one list of its keys.
+//! The tables of a robot file: the one list of its keys.
 //!
 //! The reader asks a table for no key that its shape does not have, and the JSON schema of the
 //! format is made of the same shapes.
@@ -9,9 +9,9 @@ use crate::robot::BaseFrames;
 /// A table of the file.
 #[derive(Debug)]
 pub struct Shape {
-    /// What it is, as messages say it: `a joint`.
+    /// The table in messages: `a joint`.
     pub what: &'static str,
-    /// What it is for.
+    /// Its purpose.
     pub doc: &'static str,
     /// Its keys.
     pub keys: &'static [Key],
@@ -22,11 +22,11 @@ pub struct Shape {
 pub struct Key {
     /// The key.
     pub name: &'static str,
-    /// What stands behind it.
+    /// Its content.
     pub content: Content,
     /// Whether it must be there.
     pub presence: Presence,
-    /// What it is for.
+    /// Its purpose.
     pub doc: &'static str,
 }
 
@@ -41,16 +41,16 @@ pub enum Presence {
     Optional,
 }
 
-/// What stands behind a key.
+/// The content of a key.
 #[derive(Clone, Copy, Debug)]
 pub enum Content {
     /// The number of the format.
     Format,
     /// A number, or an expression over the parameters.
     Formula,
-    /// Three figures.
+    /// Three formulas.
     Vector,
-    /// A word for an axis, or three figures.
+    /// A word for an axis, or three formulas.
     Axis,
     /// A number.
     Number,
@@ -60,7 +60,7 @@ pub enum Content {
     Whole,
     /// The name of a function of generated code, or of a bundle of the file.
     Function,
-    /// A list of functions; a word for all of them where that is said.
+    /// A list of functions; a word for all of them if that is said.
     Functions(Option<&'static str>),
     /// A table whose keys are identifiers, behind each a list of functions.
     Bundles,

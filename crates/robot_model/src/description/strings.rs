@@ -1,9 +1,9 @@
-//! Where in the file the characters of a TOML string are.
+//! Places of the characters of a TOML string in the file.
 
 use crate::diagnostic::Span;
 
 /// The place in the file of `range` within a decoded string. `span` is the string's place, quotes
-/// and all; the whole of it is returned where the text cannot be followed.
+/// and all; the whole of it is returned if the text cannot be followed.
 pub(super) fn place(file: &str, span: &Span, decoded: &str, range: Span) -> Span {
     let raw = file.get(span.clone()).unwrap_or_default();
     let (Some(start), Some(end)) = (
@@ -37,7 +37,7 @@ fn offset(raw: &str, decoded: &str, target: usize, onward: bool) -> Option<usize
     (done == target && decoded.is_char_boundary(target)).then_some(position)
 }
 
-/// Where the text of a raw string begins, and whether it knows escapes.
+/// The start of the text of a raw string, and whether it has escapes.
 fn opening(raw: &str) -> Option<(usize, bool)> {
     let quote = raw.chars().next().filter(|quote| matches!(quote, '"' | '\''))?;
     let basic = quote == '"';
@@ -50,7 +50,7 @@ fn opening(raw: &str) -> Option<(usize, bool)> {
     Some((3 + newline, basic))
 }
 
-/// Bytes that an escape stands for, and bytes that it takes.
+/// The bytes that an escape means, and the bytes that it takes.
 fn escape(rest: &str) -> Option<(usize, usize)> {
     rest.strip_prefix('\\')?;
     let digits = match rest.chars().nth(1)? {

@@ -5,7 +5,7 @@ use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, Span, code};
 
-/// Parses the text; the tables are of use only where no diagnostic is found.
+/// Parses the text; the tables are of use only if no diagnostic is found.
 pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut found = Vec::new();
@@ -41,7 +41,7 @@ fn next_header(text: &str, byte: usize) -> usize {
     rest.find("\n[").map_or(text.len(), |at| byte + at + 1)
 }
 
-/// What the parser says, and what to do in the cases that occur most.
+/// The parser's message, and the remedy in the cases that occur most.
 fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
     let rest = text.get(span.start..).unwrap_or_default();
     let starts = |start: &str| message.starts_with(start);

@@ -44,7 +44,7 @@ impl<'a> Table<'a> {
         self.keys.get_key_value(key).map(|(key, value)| Entry { key: key.span(), value })
     }
 
-    /// How many keys there are, known or not.
+    /// The number of keys, known or not.
     pub(super) fn len(&self) -> usize {
         self.keys.len()
     }
@@ -64,7 +64,7 @@ impl<'a> Table<'a> {
         self.require_with(reader, key, &format!("add `{example}`"))
     }
 
-    /// The value of a key that must be there, with what to do where it is not.
+    /// The value of a key that must be there, with what to do if it is not.
     pub(super) fn require_with(
         &mut self,
         reader: &mut Reader<'_>,

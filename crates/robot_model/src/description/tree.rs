@@ -8,7 +8,7 @@ use super::names::Registry;
 use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};
 
-/// Checks names and parents. The links' new order, as indices, where they form a tree.
+/// Checks names and parents. The links' new order, as indices, if they form a tree.
 pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<usize>> {
     let Draft { links, frames, payload, .. } = draft;
     names(reader, links, frames);
@@ -46,7 +46,7 @@ pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<us
     Some(order)
 }
 
-/// Links and frames share their names; joints have their own.
+/// Links and frames have one set of names; joints have their own.
 fn names(reader: &mut Reader<'_>, links: &[DraftLink], frames: &[DraftFrame]) {
     let mut registry = Registry::exact("link or frame");
     let own = links.iter().map(|link| &link.name);
@@ -112,7 +112,7 @@ fn sorted(parents: &[Option<usize>]) -> Vec<usize> {
     }
 }
 
-/// One diagnostic for each cycle; links that hang on one are cured with it.
+/// One diagnostic for each cycle; links attached to one are cured with it.
 fn report_cycles(
     reader: &mut Reader<'_>,
     links: &[DraftLink],

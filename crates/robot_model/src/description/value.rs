@@ -17,7 +17,7 @@ use crate::unit::Dimension;
 /// The longest text of a description.
 const MAX_TEXT: usize = 4096;
 
-/// What a value is, as messages say it, and its dimension where that is fixed.
+/// A value's name in messages, and its dimension if that is fixed.
 #[derive(Clone, Copy)]
 pub(super) struct Quantity {
     pub(super) what: &'static str,

@@ -1,4 +1,4 @@
-//! `[code]`: which functions are generated where the caller names none.
+//! `[code]`: which functions are generated if the caller names none.
 
 use std::collections::BTreeSet;
 
@@ -16,13 +16,13 @@ use crate::robot::Robot;
 /// Which functions a file wants to be generated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Code {
-    /// The functions, each by itself; where only bundles are named, none.
+    /// The functions, each by itself; if only bundles are named, none.
     pub functions: Functions,
     /// Functions in one call.
     pub bundles: Vec<Bundle>,
 }
 
-/// The same as the file has it: names of functions, which may be those of the robot's frames.
+/// The list as in the file: names of functions, including those of the robot's frames.
 #[derive(Clone, Default)]
 pub(super) struct Wanted {
     /// `None` if the file has no `functions`.
@@ -60,7 +60,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
     wanted
 }
 
-/// Reads a list of functions, in which some further words may stand.
+/// Reads a list of functions, which may contain some further words.
 fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Vec<Named> {
     let expected = "a list of functions, such as `[\"mass_matrix\", \"bias\"]`";
     let Some(entries) = reader.list(value, expected) else { return Vec::new() };
@@ -103,7 +103,7 @@ pub(super) fn function(reader: &mut Reader<'_>, value: Value<'_>, more: &[&str])
     Some(Named { name, span: value.span() })
 }
 
-/// The function of a name, where the robot has it.
+/// The function of a name, if the robot has it.
 pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Option<FunctionKind> {
     let diagnostic = match functions::named(robot, &named.name) {
         Ok(kind) => {

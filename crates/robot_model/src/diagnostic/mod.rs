@@ -1,4 +1,4 @@
-//! What is wrong with a robot file: the place, the reason and the remedy.
+//! Errors and warnings about a robot file: the place, the reason and the remedy.
 //!
 //! Every reader collects [`Diagnostic`]s and goes on, so that a file's errors are reported all at
 //! once, in the order of their places.
@@ -14,7 +14,7 @@ pub use render::{Style, render};
 /// Bytes of a source text.
 pub type Span = Range<usize>;
 
-/// How bad it is.
+/// The severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// The file gives no robot.
@@ -41,7 +41,7 @@ pub struct Diagnostic {
     pub code: &'static str,
     /// Error, warning or note.
     pub severity: Severity,
-    /// What is wrong, in one line.
+    /// The problem, in one line.
     pub message: String,
     /// The offending text; `None` if it is the file as a whole.
     pub primary: Option<Label>,
@@ -49,7 +49,7 @@ pub struct Diagnostic {
     pub secondary: Vec<Label>,
     /// Why it matters.
     pub why: Option<String>,
-    /// What to do.
+    /// The remedy.
     pub help: Option<String>,
 }
 
@@ -80,7 +80,7 @@ impl Diagnostic {
         Diagnostic { severity: Severity::Note, ..Diagnostic::error(code, message) }
     }
 
-    /// The same, so grave.
+    /// This diagnostic with another severity.
     #[must_use]
     pub fn graded(self, severity: Severity) -> Diagnostic {
         Diagnostic { severity, ..self }
@@ -107,7 +107,7 @@ impl Diagnostic {
         self
     }
 
-    /// What to do.
+    /// Sets the remedy.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Diagnostic {
         self.help = Some(help.into());
@@ -180,7 +180,7 @@ impl Diagnostics {
         self.list.len()
     }
 
-    /// Whether there is none.
+    /// Whether the list is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
@@ -209,7 +209,7 @@ impl fmt::Display for Diagnostics {
 impl std::error::Error for Diagnostics {}
 
 /// Text of a file as a message may hold it: on one line, without control characters, its middle
-/// left out where it is long.
+/// left out if it is long.
 #[must_use]
 pub fn quote(text: &str) -> String {
     const HEAD: usize = 40;

@@ -7,7 +7,7 @@ use super::{Diagnostic, Label, Severity, Source, Span, quote};
 /// More diagnostics than this are counted, not shown.
 const MAX_SHOWN: usize = 40;
 
-/// How diagnostics are rendered.
+/// The style in which diagnostics are rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// Text alone.

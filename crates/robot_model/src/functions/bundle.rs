@@ -1,11 +1,11 @@
-//! Which functions are wanted: each by itself, and several in one call that shares their work.
+//! Selections of functions: each by itself, and several in one call that compute common expressions once.
 
 use super::FunctionKind;
 
 /// Which functions are generated, each by itself.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Functions {
-    /// The usual ones, where nothing else is said.
+    /// The usual ones, if nothing else is said.
     #[default]
     Usual,
     /// All that the robot has.
@@ -14,7 +14,7 @@ pub enum Functions {
     Chosen(Vec<FunctionKind>),
 }
 
-/// The word for all functions where functions are named.
+/// The word for all functions if functions are named.
 pub const ALL_FUNCTIONS: &str = "all";
 
 /// Functions in one call, whose common work is done once.
@@ -27,11 +27,11 @@ pub struct Bundle {
 }
 
 impl Bundle {
-    /// Whose name it is; `None` if a bundle can bear it.
+    /// The owner of the name; `None` if a bundle can have it.
     ///
     /// Functions have names, those of frames begin with `jacobian_`, and `all` means all functions. Names that
     /// differ in case or underscores alone are the same here: a printer of code may name types after bundles. What
-    /// else it needs names for makes way for bundles.
+    /// other owners of names yield to bundles.
     #[must_use]
     pub fn owner_of(name: &str) -> Option<&'static str> {
         let folded = fold(name);

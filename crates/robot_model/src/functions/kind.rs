@@ -5,7 +5,7 @@ use super::reach::out_of_reach;
 use crate::robot::Robot;
 use crate::variable::JointVariable;
 
-/// What acts on the joints beside inertia and gravity.
+/// Loads on the joints besides inertia and gravity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Effects {
     /// The friction of the joints, equations (4)-(5).
@@ -105,7 +105,7 @@ impl FunctionKind {
         FunctionKind::BaseParameters,
     ];
 
-    /// What is declared of the function.
+    /// The declared properties of the function.
     const fn declaration(self) -> Declaration {
         use FunctionKind as F;
         use JointVariable::{Position, Torque, Velocity};
@@ -168,7 +168,7 @@ impl FunctionKind {
     }
 
     /// The arrays over the joints that the function takes, in the order of the call. The wrenches of the tips
-    /// stand behind them if there are any.
+    /// follow them if there are any.
     #[must_use]
     pub const fn inputs(self) -> &'static [JointVariable] {
         self.declaration().inputs
@@ -180,7 +180,7 @@ impl FunctionKind {
         self.declaration().effects
     }
 
-    /// The same function with other effects, of one that can have any.
+    /// This function with other effects, if it can have any.
     #[must_use]
     pub const fn with_effects(self, effects: Effects) -> Option<FunctionKind> {
         match self {
@@ -231,8 +231,8 @@ impl FunctionKind {
         suffix.map_or_else(|| self.name().to_owned(), |suffix| format!("{}_{suffix}", self.name()))
     }
 
-    /// The functions of single frames that a kind stands for; none of a kind that is one function by
-    /// itself, as also where the robot has one frame.
+    /// The functions of single frames that a kind comprises; none for a kind that is one function by
+    /// itself, as also if the robot has one frame.
     #[must_use]
     pub fn parts(self, robot: &Robot) -> Vec<FunctionKind> {
         let frames = FrameRef::usual(robot);
@@ -282,7 +282,7 @@ impl FunctionKind {
     }
 }
 
-/// What is known of a function whatever the robot.
+/// The properties of a function that do not depend on the robot.
 #[derive(Clone, Copy, Debug)]
 struct Declaration {
     name: &'static str,

@@ -1,4 +1,4 @@
-//! Functions by their names: the one list of what can be asked for, and the way from a name to a function.
+//! Functions by their names: the one list of functions, and the lookup by name.
 
 use std::fmt;
 
@@ -45,8 +45,8 @@ impl FrameRef {
     }
 }
 
-/// What stands behind the kind in the names of the functions of each frame: the frame's name in lower
-/// case as an identifier, made unique where several frames would have the same.
+/// The suffix of the functions of each frame: the frame's name in lower
+/// case as an identifier, made unique if several frames would have the same.
 pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     let frames: Vec<(FrameRef, String)> =
         FrameRef::of(robot).map(|frame| (frame, identifier(frame, robot))).collect();
@@ -85,7 +85,7 @@ pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     found
 }
 
-/// The name with everything that cannot stand in an identifier replaced.
+/// The name with all characters replaced that cannot be in an identifier.
 fn identifier(frame: FrameRef, robot: &Robot) -> String {
     let fits = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     frame.name(robot).unwrap_or_default().chars().map(fits).collect()
@@ -115,7 +115,7 @@ pub fn is_of_frame(name: &str) -> bool {
 }
 
 /// The function of a name: that of a kind, whether the robot has it or not, or the kind with that of a
-/// frame or a moving link behind it, as the file has it or as in the function's name. Where a frame and
+/// frame or a moving link behind it, as the file has it or as in the function's name. If a frame and
 /// a link have the same name, the frame is meant.
 ///
 /// # Errors
@@ -180,7 +180,7 @@ fn shown(known: &[(String, FunctionKind)]) -> Vec<String> {
     shown
 }
 
-/// A name that is no function's, or not of one alone.
+/// A name that is not a function's, or not of one alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrongName {
     /// The name.

@@ -48,7 +48,7 @@ impl Font {
         self.row().0
     }
 
-    /// What stands before and behind a piece in Typst's math mode.
+    /// The text before and after a piece in Typst's math mode.
     #[must_use]
     pub const fn typst(self) -> [&'static str; 2] {
         self.row().1

@@ -31,7 +31,7 @@ impl FunctionName {
         }
     }
 
-    /// The name of a function, where it prints by one.
+    /// The name of a function, if it prints by one.
     #[must_use]
     pub fn of(function: Function) -> Option<FunctionName> {
         FunctionName::ALL.into_iter().find(|name| name.function() == function)

@@ -13,14 +13,14 @@ use super::{Accent, Font, Letter};
 pub struct LatexError {
     /// The offending bytes.
     pub span: Range<usize>,
-    /// What is wrong.
+    /// The problem.
     pub message: &'static str,
 }
 
 const MAX_LENGTH: usize = 64;
 const MAX_DEPTH: usize = 8;
 
-/// What the grammar needs to know of the group that it is in.
+/// The properties of the group that the grammar is in.
 #[derive(Clone, Copy, Default)]
 struct Group {
     start: usize,
@@ -64,11 +64,11 @@ pub fn check_latex(latex: &str) -> Result<(), LatexError> {
     }
 }
 
-/// The way through a text.
+/// The position in a text.
 struct Walk<'l> {
     latex: &'l str,
     groups: Vec<Group>,
-    /// An accent or an index that waits for its argument, and what is wrong where none comes.
+    /// An accent or an index that waits for its argument, and what is wrong if none comes.
     waiting: Option<(Range<usize>, &'static str)>,
 }
 

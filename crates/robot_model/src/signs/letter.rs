@@ -7,11 +7,11 @@ pub struct Letter {
     pub latex: &'static str,
     /// The character.
     pub character: char,
-    /// Where it may occur.
+    /// The places where it may occur.
     pub used: Use,
 }
 
-/// Where a letter or sign may occur.
+/// The places where a letter or sign may occur.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
     /// In names, which spell it as its command: `alpha1`.

@@ -1,4 +1,4 @@
-//! URDF of robots, for tests alone: every figure as it is.
+//! URDF of robots, for tests alone: every value as it is.
 
 use std::fmt::Write;
 
@@ -93,7 +93,7 @@ fn number(formula: &Formula) -> String {
     formula.text().to_owned()
 }
 
-/// One link on a joint: the figures of its `<inertial>` and what else the joint has.
+/// One link on a joint: the values of its `<inertial>` and what else the joint has.
 pub(crate) fn one_link(inertial: &str, joint: &str) -> String {
     format!(
         "<robot name=\"arm\">\n<link name=\"ground\"/>\n<link name=\"arm\">{inertial}</link>\n\

@@ -31,7 +31,7 @@ pub(crate) struct Drawing<'r> {
 const LETTERS: f64 = 14.0;
 /// Small letters, at the axes of frames.
 const SMALL: f64 = 11.0;
-/// How far beside a link its dimension line may be.
+/// The distance of a link's dimension line from it.
 const BESIDE: [f64; 6] = [20.0, -20.0, 32.0, -32.0, 48.0, -48.0];
 
 impl<'r> Drawing<'r> {
@@ -235,7 +235,7 @@ impl<'r> Drawing<'r> {
         group = group.with_all(arrow(middle, ends[0], 6.0)).with_all(arrow(middle, ends[1], 6.0));
         self.room.take_line(ends[0], ends[1]);
         let place = label(best);
-        // Where something is there already, the label goes to the nearest free place.
+        // If something is there already, the label goes to the nearest free place.
         let place = if self.room.cost(&place) < 1e3 {
             self.room.set(place);
             place
@@ -245,7 +245,7 @@ impl<'r> Drawing<'r> {
         self.written.push(group.with(words_at(&words, &place, LETTERS)));
     }
 
-    /// A name near a point, with a line to it where it is far.
+    /// A name near a point, with a line to it if it is far.
     fn label(&mut self, words: &str, point: Point, gap: f64, class: &str, link: Option<usize>) {
         let shown = text::shortened(words, 22);
         let place = self.room.find(point, size_of(&shown, LETTERS), gap);

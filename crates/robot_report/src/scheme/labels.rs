@@ -30,7 +30,7 @@ impl Rectangle {
     }
 }
 
-/// What is drawn where, as far as labels are concerned.
+/// The areas that are drawn on, as far as labels are concerned.
 #[derive(Default)]
 pub(crate) struct Room {
     /// Labels: nothing may be on top of them.
@@ -59,7 +59,7 @@ impl Room {
         }
     }
 
-    /// What it costs to set a label there: area that it covers, labels counting so much that any
+    /// The cost of setting a label there: area that it covers, labels counting so much that any
     /// other place is better.
     pub(crate) fn cost(&self, label: &Rectangle) -> f64 {
         let labels: f64 = self.labels.iter().map(|taken| taken.overlap(label)).sum();

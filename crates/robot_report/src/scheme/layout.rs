@@ -1,4 +1,4 @@
-//! Where the joints of the scheme are drawn: the offsets of the robot file at rest, in the base
+//! The positions of the joints of the scheme: the offsets of the robot file at rest, in the base
 //! frame, with those too short to be seen drawn longer and joints at one point drawn apart.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
@@ -12,13 +12,13 @@ use crate::text;
 const LONGEST: f64 = 190.0;
 /// No offset is drawn shorter.
 const SHORTEST: f64 = 58.0;
-/// How far joints at one point are drawn apart.
+/// The distance of joints at one point that are drawn apart.
 const SPREAD: f64 = 86.0;
 /// Joints nearer to each other than this on the page are drawn apart.
 const CLOSE: f64 = 46.0;
-/// Offsets shorter than this share of the longest are left out.
+/// Offsets shorter than this part of the longest are left out.
 const NEGLIGIBLE: f64 = 0.01;
-/// What stands for a length whose parameters have no values, m.
+/// The placeholder of a length whose parameters have no values, m.
 const UNKNOWN: f64 = 0.3;
 
 /// The robot on the page, in units of the page.
@@ -37,7 +37,7 @@ pub(crate) struct Place {
     pub(crate) rotation: Matrix3<f64>,
     /// Unit vector of the joint axis in the base frame; the last offset's for a named frame.
     pub(crate) axis: Vector3<f64>,
-    /// What leads to it from its carrier: pieces of the carrier's body.
+    /// The pieces of the carrier's body that lead to it.
     pub(crate) path: Vec<Segment>,
 }
 
@@ -49,7 +49,7 @@ pub(crate) struct Segment {
     pub(crate) length: Option<Formula>,
 }
 
-/// Where the base stands.
+/// The base.
 pub(crate) const BASE: Vector3<f64> = Vector3::new(0.0, 0.0, 0.0);
 
 /// More frames than this crowd the page: then tips alone are drawn.
@@ -133,7 +133,7 @@ impl Layout {
         Place { position: walk.position, rotation, axis: axis.unwrap_or(along), path: walk.path }
     }
 
-    /// How far a place is from the base and all joints, on the page.
+    /// The distance of a place from the base and all joints, on the page.
     fn room(&self, view: &View, place: &Vector3<f64>) -> f64 {
         let end = view.point(place);
         let taken = self.links.iter().map(|link| (view.point(&link.position) - end).norm());
@@ -215,7 +215,7 @@ fn turn(axis: Axis, angle: f64) -> Matrix3<f64> {
     Rotation3::from_axis_angle(&axis, angle).into_inner()
 }
 
-/// How ill a layout is seen from its view: joints on top of each other or of links, and pieces seen
+/// The faults of a layout seen from its view: joints on top of each other or of links, and pieces seen
 /// from their end.
 pub(crate) fn confusion(layout: &Layout, view: &View) -> f64 {
     let places = || layout.links.iter().chain(layout.frames.iter().map(|(_, place)| place));
@@ -238,12 +238,12 @@ pub(crate) fn confusion(layout: &Layout, view: &View) -> f64 {
     for [a, b] in &segments {
         blame((a - b).norm(), 45.0);
     }
-    // Joints are drawn apart where they must be, not more.
+    // Joints are drawn apart if they must be, not more.
     let separated =
         places().flat_map(|place| &place.path).filter(|segment| segment.length.is_none());
     blame(0.0, 40.0 * (separated.count() as f64).sqrt());
     for place in &layout.links {
-        // An axis that points at the eye is no line.
+        // An axis that points at the eye is not a line.
         blame(view.point(&place.axis).norm() * 60.0, 25.0);
     }
     sum

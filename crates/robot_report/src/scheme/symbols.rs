@@ -10,7 +10,7 @@ use crate::html::{Element, element};
 pub(crate) const HALF: f64 = 20.0;
 /// The radius of the cylinder, half the width of the box.
 const RADIUS: f64 = 12.0;
-/// How far the axis of a joint goes beyond its origin: against the axis, and along it.
+/// The lengths of a joint's axis beyond its origin: against the axis, and along it.
 pub(crate) const AXIS: [f64; 2] = [-40.0, 54.0];
 /// The length of the axes of a frame.
 pub(crate) const TRIAD: f64 = 38.0;
@@ -21,7 +21,7 @@ pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> E
     element("g").class("axis").with_all(arrow(from, to, 8.0))
 }
 
-/// A rotation joint: a cylinder about its axis.
+/// A revolute joint: a cylinder about its axis.
 pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Element {
     let (center, along) = (view.point(origin), view.point(axis));
     let nearness = view.nearness(axis);
@@ -49,7 +49,7 @@ pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) 
         .with(cap)
 }
 
-/// A translation joint: a box between the rails of its guide.
+/// A prismatic joint: a box between the rails of its guide.
 pub(crate) fn slider(
     view: &View,
     origin: &Vector3<f64>,

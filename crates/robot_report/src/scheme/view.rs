@@ -26,7 +26,7 @@ const ANGLES: [[f64; 2]; 6] =
 pub(crate) fn views(robot: &Robot) -> [View; 6] {
     let gravity = robot.gravity.each_ref().map(|part| text::value(robot, part));
     let gravity = Vector3::from(gravity.map(|part| if part.is_finite() { part } else { 0.0 }));
-    // Where nothing falls, z is upright.
+    // If there is no gravity, z is upright.
     let vertical = if gravity.norm() > 0.0 { gravity.iamax() } else { 2 };
     let sign = if gravity.norm() > 0.0 && gravity[vertical] > 0.0 { -1.0 } else { 1.0 };
     let axis = |index: usize| Vector3::ith(index % 3, 1.0);
@@ -49,7 +49,7 @@ impl View {
         Vector2::new(point.dot(&self.right), -point.dot(&self.up))
     }
 
-    /// How far a direction comes toward the eye.
+    /// The component of a direction toward the eye.
     pub(crate) fn nearness(&self, direction: &Vector3<f64>) -> f64 {
         direction.dot(&self.toward)
     }

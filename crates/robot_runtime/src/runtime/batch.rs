@@ -38,7 +38,7 @@ pub fn blocks<T, const N: usize>(slice: &[T]) -> (impl Iterator<Item = &[T; N]>,
     (blocks.filter_map(|block| block.try_into().ok()), rest)
 }
 
-/// The same of a slice that is written to.
+/// [`blocks`] for a slice that is written to.
 #[inline(always)]
 pub fn blocks_mut<T, const N: usize>(
     slice: &mut [T],

@@ -1,4 +1,4 @@
-//! Multiply and add, in one instruction where the target has one.
+//! Multiply and add, in one instruction if the target has one.
 
 #[cfg(feature = "std")]
 extern crate std;
@@ -19,7 +19,7 @@ pub const FUSED: bool = cfg!(all(
 
 macro_rules! multiply_add {
     ($name:ident, $float:ident) => {
-        /// `a · b + c`, fused where [`FUSED`].
+        /// `a · b + c`, fused if [`FUSED`].
         #[inline(always)]
         pub(super) fn $name(a: $float, b: $float, c: $float) -> $float {
             #[cfg(feature = "std")]

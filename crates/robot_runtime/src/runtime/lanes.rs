@@ -26,7 +26,7 @@ pub type F32x8 = Lanes<f32, 8>;
 pub type F32x16 = Lanes<f32, 16>;
 
 impl<T: Scalar, const N: usize> Lanes<T, N> {
-    /// The same number in every lane.
+    /// One number in every lane.
     #[inline(always)]
     pub const fn splat(value: T) -> Self {
         Self([value; N])

@@ -1,4 +1,4 @@
-//! What generated robot code calls at run time.
+//! The functions that generated robot code calls at run time.
 //!
 //! The one condition that these files lay on the crate around them is its feature `std`: with it,
 //! [`FUSED`] multiply-add, the processor's square root and `StdTrig` come from the standard

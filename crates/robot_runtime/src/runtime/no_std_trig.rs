@@ -1,4 +1,4 @@
-//! What stands in for the standard library's sine and cosine without feature `std`: names that cannot be called,
+//! The substitute for the standard library's sine and cosine without feature `std`: names that cannot be called,
 //! so that the compiler says which feature is missing.
 
 use super::scalar::Scalar;

@@ -35,7 +35,7 @@ pub trait Scalar:
     /// The number of this type nearest to `value`; all lanes alike.
     fn from_f64(value: f64) -> Self;
 
-    /// `self · factor + addend`, rounded once where [`FUSED`](super::FUSED) says that the target
+    /// `self · factor + addend`, rounded once if [`FUSED`](super::FUSED) says that the target
     /// has the instruction, twice elsewhere; never the slow software emulation.
     #[must_use]
     fn mul_add(self, factor: Self, addend: Self) -> Self;
@@ -57,7 +57,7 @@ pub trait Scalar:
     #[must_use]
     fn tanh(self) -> Self;
 
-    /// 1/x where x is above 0 and finite, NaN elsewhere: for a divisor that is positive unless something is
+    /// 1/x if x is above 0 and finite, NaN elsewhere: for a divisor that is positive unless something is
     /// wrong, so that a wrong one does not go unseen.
     #[must_use]
     fn recip_positive(self) -> Self;

@@ -35,7 +35,7 @@ impl<T: Scalar> Trig<T> for PolyTrig {
 /// Sines and cosines of `angles` (radians) by the branch-free polynomials, several at a time in
 /// vector registers: for one state.
 ///
-/// Inlined where debug assertions are off; with them it is a call, so that whatever calls it stays
+/// Inlined if debug assertions are off; with them it is a call, so that whatever calls it stays
 /// flat in both.
 #[cfg_attr(debug_assertions, inline(never))]
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -47,7 +47,7 @@ pub fn sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T;
 /// body of a loop over many states.
 ///
 /// LLVM vectorises such a loop across the states when its body is straight, at `opt-level` 2
-/// already; the loop stands in a function of its own that is not inlined, takes the states by
+/// already; the loop is in a function of its own that is not inlined, takes the states by
 /// reference as arrays (`&[[f64; N]; 8]`) and returns an array. Values as of [`sin_cos_array`].
 #[inline(always)]
 pub fn sin_cos_each<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {

@@ -13,15 +13,15 @@ const TINY: f64 = 1e-200;
 /// The change of the accelerations at which they have settled, in parts of 1 + the largest, rad/s² or
 /// m/s²: as tolerances are understood.
 const SETTLED: f64 = 1e-12;
-/// What rounding does to a force, in parts of those that make it up.
+/// The rounding of a force, relative to its terms.
 const ROUNDING_OF_FORCES: f64 = 1e-14;
-/// What may be asked of friction beyond what it can give, in parts of the forces.
+/// The excess over the limit of friction that is still accepted, relative to the forces.
 const SLACK: f64 = 1e-11;
 
 /// Accelerations, and what holds the coordinates at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Balance {
-    /// q̈, rad/s² or m/s²; exactly 0 where a coordinate is held.
+    /// q̈, rad/s² or m/s²; exactly 0 if a coordinate is held.
     pub(crate) qdd: Vec<f64>,
     /// For each coordinate that is held, its friction.
     pub(crate) holding: Vec<Option<Holding>>,
@@ -30,25 +30,25 @@ pub(crate) struct Balance {
 /// The friction of a coordinate at rest, N m or N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Holding {
-    /// What is asked of it.
+    /// The force required of it.
     pub(crate) force: f64,
-    /// What it can give at the least and at the most.
+    /// The smallest and the largest force that it can supply.
     pub(crate) range: [f64; 2],
-    /// What rounding may do to these.
+    /// The rounding of these.
     pub(crate) slack: f64,
     /// The coordinate's inertia, kg m² or kg.
     pub(crate) inertia: f64,
 }
 
 impl Holding {
-    /// By how much more is asked than friction can give, slack allowed for; not positive where it
+    /// By how much more is asked than friction can give, slack allowed for; not positive if it
     /// holds.
     pub(crate) fn excess(&self) -> f64 {
         let [least, most] = self.range;
         (self.force - most).max(least - self.force) - self.slack
     }
 
-    /// The direction in which the coordinate would give way.
+    /// The direction in which the coordinate would break away.
     pub(crate) fn direction(&self) -> f64 {
         let [least, most] = self.range;
         if self.force - most >= least - self.force { 1.0 } else { -1.0 }
@@ -59,8 +59,8 @@ impl Holding {
 ///
 /// # Errors
 ///
-/// [`Cause::Accelerations`] where the moving coordinates have no positive definite mass matrix, and
-/// [`Cause::Friction`] where no accelerations agree with the friction that they cause by the load.
+/// [`Cause::Accelerations`] if the moving coordinates have no positive definite mass matrix, and
+/// [`Cause::Friction`] if no accelerations agree with the friction that they cause by the load.
 pub(crate) fn balance(
     friction: &dyn DryFriction,
     state: &State,
@@ -155,7 +155,7 @@ fn accelerations(
         rest = next;
         add(&mut qdd, &moving, &step);
         let size = qdd.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
-        // Where forces balance, the accelerations settle no further than their rounding.
+        // If forces balance, the accelerations settle no further than their rounding.
         if step.amax() <= SETTLED * (1.0 + size) + (inverse.abs() * &rounding).amax() {
             return Ok(qdd);
         }

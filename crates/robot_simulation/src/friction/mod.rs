@@ -10,7 +10,7 @@ mod modes;
 pub(crate) use balance::{Balance, Holding, balance};
 pub(crate) use modes::{chosen, starting};
 
-/// How a coordinate moves until the next event.
+/// The mode of a coordinate until the next event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mode {
     /// Without dry friction that has a sharp sign.

@@ -26,13 +26,13 @@ pub(crate) fn starting(friction: &dyn DryFriction, qd: &[f64]) -> Vec<Mode> {
 /// the modes of the coordinates that move.
 ///
 /// It is a linear complementarity problem with bounds, whose matrix M⁻¹ is positive definite, and is
-/// solved by exchanging all wrong modes at once and, where these become no fewer, one by one (Júdice
+/// solved by exchanging all wrong modes at once and, if these become no fewer, one by one (Júdice
 /// and Pires, Computers & Operations Research 21, 1994), which ends. Friction by load makes it
 /// nonlinear; then the end is not certain, and few coordinates are tried out.
 ///
 /// # Errors
 ///
-/// [`Cause::Friction`] where no modes agree, or none is found; those of [`balance`].
+/// [`Cause::Friction`] if no modes agree, or none is found; those of [`balance`].
 pub(crate) fn chosen(
     friction: &dyn DryFriction,
     state: &State,

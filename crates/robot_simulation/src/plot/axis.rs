@@ -22,7 +22,7 @@ impl Axis {
             (low, high) = (0.0, 0.0);
         }
         let size = low.abs().max(high.abs());
-        // What is flat gets some room.
+        // A constant curve gets some room.
         let room = if high - low > 1e-9 * size { 0.06 * (high - low) } else { 0.1 * size };
         let room = if room > 0.0 { room } else { 1.0 };
         let exponent = match size.log10().floor() {

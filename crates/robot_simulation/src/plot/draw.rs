@@ -15,7 +15,7 @@ use super::axis::{Axis, label};
 use super::simplify::simplified;
 use super::{Curve, Figure, Panel, SCALE};
 
-/// The width of a figure, and what its parts take, px.
+/// The width of a figure, and the sizes of its parts, px.
 const WIDTH: u32 = 900;
 const TITLE: u32 = 44;
 const PANEL: u32 = 190;
@@ -29,7 +29,7 @@ const TITLE_SIZE: u32 = 18;
 const TEXT_SIZE: u32 = 14;
 
 /// The palette of Okabe and Ito (Color Universal Design, 2008) but for its black, which is that
-/// of sums, and its yellow, which is hard to see on white: readers who are blind to some colors tell them apart.
+/// of sums, and its yellow, which is hard to see on white: color-blind readers can distinguish them.
 const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -131,7 +131,7 @@ fn draw_panel<D: DrawingBackend>(
     draw_legend(&panel.curves, &right)
 }
 
-/// What a curve looks like: its line, and the length of its dashes, px.
+/// The style of a curve: its line, and the length of its dashes, px.
 fn line(number: usize, curve: &Curve) -> (ShapeStyle, Option<u32>) {
     if curve.is_sum {
         return (BLACK.stroke_width(2 * SCALE), None);

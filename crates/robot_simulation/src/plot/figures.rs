@@ -7,7 +7,7 @@ use super::{Curve, Figure, Panel};
 use crate::contributions::TorqueContributions;
 use crate::motion::{Energies, Motion};
 
-/// Positions, velocities, joint torques and energies of a motion. Where `conserved`, a last panel
+/// Positions, velocities, joint torques and energies of a motion. If `conserved`, a last panel
 /// shows by how much the energy has changed since the start: the error of the integration.
 #[must_use]
 pub fn motion_figure(
@@ -47,7 +47,7 @@ pub fn motion_figure(
     Figure { title: format!("Motion of {}", robot.name), t: motion.t.clone(), panels }
 }
 
-/// The joint torques along a trajectory by their shares, a panel for each coordinate.
+/// The joint torques along a trajectory by their contributions, a panel for each coordinate.
 #[must_use]
 pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) -> Figure {
     let panel = |(index, kind): (usize, JointKind)| {

@@ -8,7 +8,7 @@ use plotters_backend::{
 /// Plotters puts the letters of its own fonts above their place, by this part of their size.
 const RISE: f64 = 0.2;
 
-/// A bitmap on which letters stand lower than plotters puts them.
+/// A bitmap that draws letters lower than plotters does.
 pub(super) struct Lowered<B>(pub(super) B);
 
 type Done<B> = Result<(), DrawingErrorKind<<B as DrawingBackend>::ErrorType>>;

@@ -21,7 +21,7 @@ pub use figures::{contributions_figure, motion_figure};
 /// Panels one below the other over a common time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// What stands above the panels.
+    /// The title above the panels.
     pub title: String,
     /// t, s, rising.
     pub t: Vec<f64>,
@@ -32,7 +32,7 @@ pub struct Figure {
 /// A panel: curves of one unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
-    /// What is shown, such as `q`.
+    /// The quantity shown, such as `q`.
     pub quantity: String,
     /// Its unit, such as `rad`.
     pub unit: String,
@@ -51,10 +51,10 @@ pub struct Curve {
     pub is_sum: bool,
 }
 
-/// Figures are drawn this many times larger than they are shown, for coordinates are whole numbers.
+/// Figures are drawn this many times larger than they are shown, because coordinates are whole numbers.
 const SCALE: u32 = 4;
 
-/// Pixels of a PNG to a side of a unit of the figure.
+/// Pixels of a PNG per unit of the figure.
 const DENSITY: u32 = 2;
 
 impl Figure {

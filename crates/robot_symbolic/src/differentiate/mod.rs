@@ -1,8 +1,8 @@
-//! Jacobian matrices of many expressions by many symbols, in two ways that share differently.
+//! Jacobian matrices of many expressions by many symbols, in two modes that reuse different intermediate results.
 //!
-//! [`forward`] carries the slopes by every symbol from operands to results: cheap where few symbols
+//! [`forward`] carries the slopes by every symbol from operands to results: cheap if few symbols
 //! reach a node. [`reverse`] carries, for every root, the weights of nodes from results to operands:
-//! cheap where few roots see a node. Both give the same values; which expressions are cheaper is
+//! cheap if few roots see a node. Both give the same values; which expressions are cheaper is
 //! found by counting.
 //!
 //! As everywhere, |x| has the derivative sgn x, and sgn x the derivative 0.

@@ -1,21 +1,21 @@
-//! What is wrong with a text, and where.
+//! Parse errors and their places.
 
 use std::ops::Range;
 
-/// A text that is no formula.
+/// A text that is not a formula.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct ParseError {
     /// The offending bytes of the text; empty at a place where something is missing.
     pub span: Range<usize>,
-    /// What was found and what was expected.
+    /// The problem and what was expected.
     pub message: String,
-    /// What to write instead.
+    /// The replacement to write.
     pub help: Option<String>,
 }
 
 impl ParseError {
-    /// What is wrong at a place.
+    /// A problem at a place.
     #[must_use]
     pub fn new(span: Range<usize>, message: impl Into<String>) -> ParseError {
         ParseError { span, message: message.into(), help: None }

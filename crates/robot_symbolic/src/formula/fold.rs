@@ -34,7 +34,7 @@ pub enum Step<'f, T> {
 }
 
 impl Formula {
-    /// What `step` gives for the whole formula, operands before operations; `None` if it gives
+    /// The result of `step` for the whole formula, operands before operations; `None` if it gives
     /// nothing for one of the steps.
     pub fn fold<T>(&self, mut step: impl FnMut(Step<'_, T>) -> Option<T>) -> Option<T> {
         let mut stack: Vec<T> = vec![];

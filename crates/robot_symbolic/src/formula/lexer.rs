@@ -5,12 +5,12 @@ use std::ops::Range;
 use super::error::ParseError;
 use crate::rational::Rational;
 
-/// What a name may look like.
+/// The allowed form of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Names {
     /// `[A-Za-z_][A-Za-z0-9_]*`.
     Plain,
-    /// The same, in parts joined by dots.
+    /// Names in parts joined by dots.
     Dotted,
 }
 
@@ -113,7 +113,7 @@ impl<'t> Lexer<'t> {
         }
     }
 
-    /// Takes `e12`, `E-3` where digits follow, for otherwise the letter begins a name.
+    /// Takes `e12`, `E-3` if digits follow, for otherwise the letter begins a name.
     fn exponent(&mut self) -> bool {
         let mut end = self.position;
         if !matches!(self.byte(end), Some(b'e' | b'E')) {

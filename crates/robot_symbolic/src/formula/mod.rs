@@ -69,7 +69,7 @@ impl Formula {
     ///
     /// # Errors
     ///
-    /// The first thing that is no formula, with its place and a remedy.
+    /// The first error, with its place and a remedy.
     pub fn parse(text: &str) -> Result<Formula, ParseError> {
         parser::parse(text, lexer::Names::Plain)
     }
@@ -79,7 +79,7 @@ impl Formula {
     ///
     /// # Errors
     ///
-    /// The first thing that is no formula, with its place and a remedy.
+    /// The first error, with its place and a remedy.
     pub fn parse_with_dots(text: &str) -> Result<Formula, ParseError> {
         parser::parse(text, lexer::Names::Dotted)
     }
@@ -121,7 +121,7 @@ impl Formula {
         self.symbols().next().is_none()
     }
 
-    /// The value of a formula without names where it is a [`Number`] (`pi/2` is none, `sin(pi/2)`
+    /// The value of a formula without names if it is a [`Number`] (`pi/2` is not, `sin(pi/2)`
     /// and `sqrt(4)` are).
     ///
     /// A division by zero gives a NaN, which the reader should refuse.
@@ -206,7 +206,7 @@ impl Graph {
     ///
     /// # Errors
     ///
-    /// The first thing that is no formula, with its place and a remedy.
+    /// The first error, with its place and a remedy.
     pub fn parse(&self, text: &str) -> Result<Expr<'_>, ParseError> {
         Ok(Formula::parse(text)?.lower(self, &mut |name| self.symbol(name)))
     }
@@ -218,7 +218,7 @@ pub fn is_reserved(name: &str) -> bool {
     name == "pi" || name == "tan" || Function::ALL.iter().any(|f| f.name() == name)
 }
 
-/// Whether `name` can stand for a symbol: `[A-Za-z_][A-Za-z0-9_]*` and not reserved.
+/// Whether `name` can be a symbol: `[A-Za-z_][A-Za-z0-9_]*` and not reserved.
 #[must_use]
 pub fn is_symbol_name(name: &str) -> bool {
     let mut bytes = name.bytes();

@@ -9,7 +9,7 @@ use super::{Formula, MAX_DEPTH, MAX_EXPONENT, MAX_TOKENS, Op};
 use crate::graph::Function;
 use crate::spelling::nearest_word;
 
-/// What waits on the stack of operators.
+/// An entry that waits on the stack of operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pending {
     Open,
@@ -20,7 +20,7 @@ enum Pending {
 }
 
 impl Pending {
-    /// How tightly it binds; parentheses never yield to an operator.
+    /// Its precedence; parentheses never yield to an operator.
     const fn strength(self) -> u8 {
         match self {
             Pending::Open | Pending::Call(_) | Pending::Tan => 0,
@@ -314,13 +314,13 @@ impl Parser<'_> {
             .integer
             .filter(|_| value >= 0)
             .and_then(|base| base.checked_pow(value.unsigned_abs() as u32));
-        // The exponent's own steps give way to the one number.
+        // The exponent's own steps are replaced by the one number.
         self.ops.truncate(exponent.start);
         self.ops.push(Op::Power(value as i32));
         Ok(())
     }
 
-    /// The text of a span, its middle left out where it is long.
+    /// The text of a span, its middle left out if it is long.
     fn quote(&self, span: &Range<usize>) -> String {
         shorten(self.text.get(span.clone()).unwrap_or_default())
     }

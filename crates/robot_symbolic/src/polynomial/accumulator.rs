@@ -15,7 +15,7 @@ pub(crate) type Term = (Monomial, Number);
 /// Terms sorted by monomial, each monomial once, no coefficient 0.
 pub(super) type Terms = Vec<Term>;
 
-/// What a computation may still hold and do.
+/// The memory and work that a computation may still use.
 pub(super) struct Budget {
     max_terms: usize,
     products_left: u64,
@@ -87,7 +87,7 @@ pub(super) fn sum_of_products(
     }
 }
 
-/// The same, for monomials of any width and squares of any kind.
+/// A wider variant, for monomials of any width and squares of any kind.
 pub(super) fn sum_unpacked(
     graph: &Graph,
     budget: &mut Budget,

@@ -1,5 +1,5 @@
-//! What a polynomial is a polynomial in: symbols, π, functions of canonical arguments, and the sums
-//! that stand under fraction bars.
+//! The atoms of a polynomial: symbols, π, functions of canonical arguments, and the sums
+//! in denominators.
 
 use std::rc::Rc;
 
@@ -12,11 +12,11 @@ use crate::expr::{Expr, View};
 use crate::graph::{Function, Graph, Id, Node};
 use crate::number::Number;
 
-/// The terms that the square of an atom stands for.
+/// The terms that the square of an atom is replaced by.
 #[derive(Clone)]
 pub(super) struct Square(pub(super) Rc<[Term]>);
 
-/// What the polynomials of a graph know about its nodes as atoms.
+/// The nodes of a graph as atoms of polynomials.
 #[derive(Default)]
 pub(crate) struct AtomTable {
     squares: FxHashMap<Id, Square>,
@@ -116,7 +116,7 @@ impl Graph {
     }
 }
 
-/// `(c, x)` with the expression equal to `c x`, signs and constants taken out; no `x` where the
+/// `(c, x)` with the expression equal to `c x`, signs and constants taken out; no `x` if the
 /// expression is the number `c`.
 fn split_multiple(expr: Expr<'_>) -> (Number, Option<Id>) {
     if let Some(number) = expr.as_number() {

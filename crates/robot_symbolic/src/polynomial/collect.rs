@@ -47,7 +47,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where the result exceeds a limit of the options.
+    /// If the result exceeds a limit of the options.
     pub fn derivative(&self, symbol: Expr<'g>) -> Result<Polynomial<'g>, PolynomialError> {
         let atoms = self.atoms();
         let slopes = crate::walk::derivatives(&atoms, symbol);

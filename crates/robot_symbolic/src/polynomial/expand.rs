@@ -40,11 +40,11 @@ pub(super) struct Expander<'g> {
     pub(super) budget: Budget,
     /// Finished terms of nodes that are still to be used.
     memo: FxHashMap<Id, Rc<Terms>>,
-    /// How often each node is still to be used.
+    /// The number of uses of each node that are left.
     uses: FxHashMap<Id, u32>,
     /// Parts of sums, and products in sums, that are used once: the sum adds them up directly.
     inlined: FxHashSet<Id>,
-    /// Reciprocals of denominators, most of which stand under many numerators.
+    /// Reciprocals of denominators, most of which occur under many numerators.
     inverses: FxHashMap<Id, Rc<Terms>>,
     /// Sine and cosine of expanded angles, by the angle.
     pub(super) circles: FxHashMap<Id, [Rc<Terms>; 2]>,
@@ -186,7 +186,7 @@ impl<'g> Expander<'g> {
         self.sum_parts(&[Part { a: terms, b: None, factor: &Number::integer(1) }])
     }
 
-    /// √, | |, sgn and tanh of a canonical argument, with signs and, where they allow it, constant
+    /// √, | |, sgn and tanh of a canonical argument, with signs and, if they allow it, constant
     /// factors taken out.
     fn call(&self, function: Function, argument: &Terms) -> Terms {
         let negative = terms::leads_negative(argument);

@@ -1,8 +1,8 @@
 //! The canonical polynomial of an expression: equality, collection, and the form that people read.
 //!
 //! A [`Polynomial`] is a sum of [`Monomial`]s with exact coefficients in *atoms*: symbols, π, sines
-//! and cosines, the other functions, and (with negative exponents only) the sums that stand under
-//! fraction bars. Arguments of functions and denominators are canonical themselves, so that equal
+//! and cosines, the other functions, and (with negative exponents only) the sums in
+//! denominators. Arguments of functions and denominators are canonical themselves, so that equal
 //! ones are one atom. Squares reduce: s² = 1 − c² for each angle, (√x)² = x, |m|² = m² for a
 //! monomial m.
 //!
@@ -34,7 +34,7 @@ pub(crate) use atoms::AtomTable;
 pub(crate) use monomial::compare_powers;
 pub use monomial::{Factor, Monomial};
 
-/// What becomes of sines and cosines of sums and multiples of angles.
+/// The treatment of sines and cosines of sums and multiples of angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AngleSums {
     /// They are expanded into sines and cosines of single angles: sums always, integer multiples up
@@ -48,7 +48,7 @@ pub enum AngleSums {
 /// Sines and cosines of larger multiples of an angle are not expanded.
 pub const MAX_MULTIPLE: i64 = 32;
 
-/// How a polynomial is made, and what it may cost.
+/// The form of a polynomial, and limits of its cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PolynomialOptions {
     /// Expand angle sums, or keep them.
@@ -124,7 +124,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where the polynomial exceeds a limit of the options.
+    /// If the polynomial exceeds a limit of the options.
     pub fn of(
         expr: Expr<'g>,
         options: &PolynomialOptions,
@@ -138,7 +138,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where the polynomials together exceed a limit of the options.
+    /// If the polynomials together exceed a limit of the options.
     pub fn of_all(
         exprs: &[Expr<'g>],
         options: &PolynomialOptions,
@@ -207,7 +207,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where the result exceeds a limit of the options of `self`.
+    /// If the result exceeds a limit of the options of `self`.
     pub fn add(&self, other: &Polynomial<'g>) -> Result<Polynomial<'g>, PolynomialError> {
         self.combine(other, 1)
     }
@@ -216,7 +216,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where the result exceeds a limit of the options of `self`.
+    /// If the result exceeds a limit of the options of `self`.
     pub fn sub(&self, other: &Polynomial<'g>) -> Result<Polynomial<'g>, PolynomialError> {
         self.combine(other, -1)
     }
@@ -225,7 +225,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where the result exceeds a limit of the options of `self`.
+    /// If the result exceeds a limit of the options of `self`.
     pub fn mul(&self, other: &Polynomial<'g>) -> Result<Polynomial<'g>, PolynomialError> {
         self.sum_parts(&[Part {
             a: &self.terms,
@@ -306,7 +306,7 @@ impl fmt::Debug for Polynomial<'_> {
 ///
 /// # Errors
 ///
-/// Where the polynomial exceeds the default limits.
+/// If the polynomial exceeds the default limits.
 pub fn expands_to_zero(expr: Expr<'_>) -> Result<bool, PolynomialError> {
     Ok(Polynomial::of(expr, &PolynomialOptions::default())?.is_zero())
 }
@@ -315,7 +315,7 @@ pub fn expands_to_zero(expr: Expr<'_>) -> Result<bool, PolynomialError> {
 ///
 /// # Errors
 ///
-/// Where the polynomial of the difference exceeds the default limits.
+/// If the polynomial of the difference exceeds the default limits.
 pub fn equal<'g>(a: Expr<'g>, b: Expr<'g>) -> Result<bool, PolynomialError> {
     expands_to_zero(a - b)
 }

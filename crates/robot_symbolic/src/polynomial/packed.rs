@@ -32,7 +32,7 @@ struct Field {
 struct Range {
     low: [i32; 2],
     high: [i32; 2],
-    /// What reducing the square of the sine may add to the exponent of the cosine.
+    /// The most that reducing the square of the sine may add to the exponent of the cosine.
     raise: i64,
 }
 
@@ -58,7 +58,7 @@ struct Sine {
     cosine: usize,
 }
 
-/// Where each atom's exponent stands in the packed words. The fields are in order of the atoms from
+/// The position of each atom's exponent in the packed words. The fields are in order of the atoms from
 /// the highest bits down, so that larger words are monomials that are listed earlier.
 pub(super) struct Layout {
     fields: Vec<Field>,

@@ -8,7 +8,7 @@ use super::terms;
 use crate::number::Number;
 
 impl Expander<'_> {
-    /// `1 / divisor`: negative powers of the factors that all terms share, times the negative first
+    /// `1 / divisor`: negative powers of the common factors of all terms, times the negative first
     /// power of the rest, a sum that becomes an atom.
     pub(super) fn reciprocal(&mut self, divisor: &Terms) -> Result<Terms, PolynomialError> {
         match divisor.as_slice() {
@@ -33,7 +33,7 @@ impl Expander<'_> {
         }
     }
 
-    /// The terms divided by the denominators that they share: terms without denominators.
+    /// The terms divided by their common denominators: terms without denominators.
     fn clear(
         &mut self,
         divisor: &Terms,
@@ -112,7 +112,7 @@ impl Expander<'_> {
         Ok(result)
     }
 
-    /// The square of a root where that is one term. (Roots stand to the first power, for higher
+    /// The square of a root if that is one term. (Roots have the first power, for higher
     /// ones reduce.)
     fn square_term(&self, factor: Factor) -> Option<(Monomial, Number)> {
         if !factor.is_reducible() || factor.exponent() != 1 {

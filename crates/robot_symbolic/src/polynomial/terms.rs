@@ -20,7 +20,7 @@ pub(super) fn scaled(terms: &[Term], factor: &Number) -> Terms {
         .collect()
 }
 
-/// The number that the terms are, where they are one.
+/// The number that the terms are, if they are one.
 pub(super) fn as_number(terms: &[Term]) -> Option<Number> {
     match terms {
         [] => Some(Number::integer(0)),
@@ -41,7 +41,7 @@ pub(super) fn to_expr<'g>(terms: &[Term], graph: &'g Graph) -> Expr<'g> {
     })
 }
 
-/// The expression of a monomial, a quotient where it has negative powers.
+/// The expression of a monomial, a quotient if it has negative powers.
 pub(super) fn monomial_expr<'g>(monomial: &Monomial, graph: &'g Graph) -> Expr<'g> {
     let product = |positive: bool| {
         monomial.factors().iter().filter(|factor| (factor.exponent() > 0) == positive).fold(

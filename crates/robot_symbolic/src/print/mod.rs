@@ -39,7 +39,7 @@ pub struct TooLarge {
     pub limit: u64,
 }
 
-/// How tightly a piece of text binds.
+/// The precedence of a piece of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Level {
     Sum,
@@ -51,7 +51,7 @@ pub(crate) enum Level {
 /// A part of what an expression is printed as.
 pub(crate) enum Piece<'g> {
     Text(Cow<'static, str>),
-    /// An operand, in parentheses where it binds less tightly than the level.
+    /// An operand, in parentheses if it binds less tightly than the level.
     Operand(Expr<'g>, Level),
 }
 
@@ -85,7 +85,7 @@ pub(crate) fn write<'g>(
 ///
 /// # Errors
 ///
-/// Where it has more than `limit` operations, each shared one counted at every use.
+/// If it has more than `limit` operations, each shared one counted at every use.
 pub fn check_length(expr: Expr<'_>, limit: u64) -> Result<(), TooLarge> {
     let operations = written_operations(expr);
     if operations > limit { Err(TooLarge { operations, limit }) } else { Ok(()) }
@@ -108,13 +108,13 @@ fn written_operations(root: Expr<'_>) -> u64 {
 /// Powers up to the largest that the parser takes are printed as such.
 const MAX_POWER: u32 = crate::formula::MAX_EXPONENT as u32;
 
-/// `(x, n)` where the expression is the product that [`Expr::powi`] makes of `x` and `n`.
+/// `(x, n)` if the expression is the product that [`Expr::powi`] makes of `x` and `n`.
 #[must_use]
 pub fn as_power(expr: Expr<'_>) -> (Expr<'_>, u32) {
     power_within(expr, MAX_POWER)
 }
 
-/// As [`as_power`] for exponents up to `most`; halving bounds the recursion at six calls.
+/// [`as_power`] for exponents up to `most`; halving bounds the recursion at six calls.
 fn power_within(expr: Expr<'_>, most: u32) -> (Expr<'_>, u32) {
     let View::Mul(a, b) = expr.view() else {
         return (expr, 1);

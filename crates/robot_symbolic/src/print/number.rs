@@ -7,7 +7,7 @@ use crate::rational::Rational;
 /// Fractions of more decimal places than this are printed as quotients.
 const MAX_PLACES: usize = 40;
 
-/// The exact value: `7`, `-0.35` where the denominator divides a power of ten, else `2/3`.
+/// The exact value: `7`, `-0.35` if the denominator divides a power of ten, else `2/3`.
 #[must_use]
 pub fn exact_text(value: &Rational) -> String {
     let (numerator, denominator) = value.to_digits();
@@ -24,7 +24,7 @@ pub fn exact_text(value: &Rational) -> String {
 pub enum Magnitude {
     /// Digits, perhaps with a point: `7`, `0.35`.
     Decimal(String),
-    /// A quotient of integers, where the value is no decimal.
+    /// A quotient of integers, if the value is not a decimal.
     Quotient([String; 2]),
     /// Digits, and the power of ten that they are multiplied with: `1.5`, `-7`.
     Scientific([String; 2]),

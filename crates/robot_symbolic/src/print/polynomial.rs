@@ -22,7 +22,7 @@ pub struct ArrangedTerm<'g> {
     pub factors: Vec<(Expr<'g>, i32)>,
 }
 
-/// The order of atoms where the caller has none: symbols and π, then sines and cosines, then other
+/// The order of atoms if the caller has none: symbols and π, then sines and cosines, then other
 /// functions, then sums; among each, in order of first use in the graph.
 #[must_use]
 pub fn default_rank(atom: Expr<'_>) -> u8 {
@@ -83,7 +83,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where an argument of a function is too long to be written out.
+    /// If an argument of a function is too long to be written out.
     pub fn to_text(&self) -> Result<String, TooLarge> {
         self.to_text_by(default_rank)
     }
@@ -92,7 +92,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// # Errors
     ///
-    /// Where an argument of a function is too long to be written out.
+    /// If an argument of a function is too long to be written out.
     pub fn to_text_by<K: Ord>(&self, rank: impl Fn(Expr<'g>) -> K) -> Result<String, TooLarge> {
         let terms = self.arranged(rank);
         if terms.is_empty() {

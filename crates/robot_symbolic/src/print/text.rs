@@ -19,16 +19,16 @@ use crate::number::Number;
 ///
 /// # Errors
 ///
-/// Where the text would have more than [`MAX_OPERATIONS`] operations.
+/// If the text would have more than [`MAX_OPERATIONS`] operations.
 pub fn to_text(expr: Expr<'_>) -> Result<String, TooLarge> {
     to_text_limited(expr, MAX_OPERATIONS)
 }
 
-/// As [`to_text`], with a limit of the caller's.
+/// [`to_text`] with a limit of the caller's.
 ///
 /// # Errors
 ///
-/// Where the text would have more than `limit` operations.
+/// If the text would have more than `limit` operations.
 pub fn to_text_limited(expr: Expr<'_>, limit: u64) -> Result<String, TooLarge> {
     write(expr, limit, notation)
 }
@@ -78,7 +78,7 @@ fn product<'g>(expr: Expr<'g>, a: Expr<'g>, b: Expr<'g>) -> (Level, Vec<Piece<'g
     (Level::Product, infix(a, Level::Product, "*", b, Level::Power))
 }
 
-/// `n` of `1/n` where that is printed as a fraction.
+/// `n` of `1/n` if that is printed as a fraction.
 fn unit_fraction(number: &Number) -> Option<String> {
     let (text, level) = number::magnitude_text(number);
     text.strip_prefix("1/").filter(|_| level == Level::Product).map(str::to_owned)

@@ -28,7 +28,7 @@ impl Evaluator {
     #[must_use]
     pub fn new(roots: &[Expr<'_>]) -> Evaluator {
         let nodes = super::reachable(roots);
-        // All operands are among the nodes, which stand in the order of their ids.
+        // All operands are among the nodes, which are in the order of their ids.
         let place = |expr: Expr<'_>| {
             nodes.binary_search_by_key(&expr.id(), |node| node.id()).unwrap_or_default()
         };
@@ -55,7 +55,7 @@ impl Evaluator {
         self.values_by(value, Function::apply)
     }
 
-    /// As [`Evaluator::values`], with the values of functions that `apply` gives.
+    /// [`Evaluator::values`] with the values of functions that `apply` gives.
     #[must_use]
     pub fn values_by(
         &self,

@@ -74,7 +74,7 @@ pub fn rebuild<'h>(
 }
 
 /// `roots` rebuilt in `graph`, every expression for which `replace` gives another one replaced by
-/// that; what stands below it is not looked at. The local rules apply anew.
+/// that; nothing below it is visited. The local rules apply anew.
 ///
 /// ```
 /// use robot_symbolic::{Graph, print, walk};

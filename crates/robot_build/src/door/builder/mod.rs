@@ -38,15 +38,15 @@ pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
 /// }
 /// ```
 ///
-/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. Where the
+/// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. If the
 /// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` has the same module in
 /// `lift.rs` too, unless another robot or robot file is called so. Several robots have an index `robots.rs`
 /// beside them, which includes them all. Paths are relative to the package.
 ///
-/// Cargo is told to run the build script again where a robot file or the plan pinned beside it changes; with
-/// that, it no longer watches the other files of the package, as it does where a build script tells nothing.
+/// Cargo runs the build script again if a robot file or the plan pinned beside it changes; with
+/// that, it no longer watches the other files of the package, as it does if a build script prints no such line.
 /// `robot-symbolic search` sets the robot file's time, so that a first plan is seen; after a plan came in
-/// another way, such as a checkout, touch the robot file. [`Builder::compile_folder`] sees plans by itself.
+/// another way, such as a checkout, touch the robot file. [`Builder::compile_folder`] notices plans by itself.
 #[derive(Clone, Debug, Default)]
 #[must_use]
 pub struct Builder {
@@ -68,7 +68,7 @@ impl Builder {
     /// The functions to generate, by name; `"all"` for all that the robot has, `"jacobian_tool"` for the
     /// function of one frame or moving link.
     ///
-    /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; where it
+    /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; if it
     /// chooses none, those of [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that the robot has.
     pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
         self.functions = Some(names.into_iter().map(Into::into).collect());
@@ -96,7 +96,7 @@ impl Builder {
     }
 
     /// Whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
-    /// `f32` and `Lanes` of either. Without this there is none.
+    /// `f32` and `Lanes` of either. If not called, there is none.
     pub fn generic(mut self, generic: bool) -> Builder {
         self.options.generic = generic;
         self
@@ -104,14 +104,14 @@ impl Builder {
 
     /// Gives each function a form `…_batch` over slices of states, computed in blocks of so many
     /// states, which LLVM turns into vectors; [`DEFAULT_BATCH`](crate::DEFAULT_BATCH) is a good
-    /// number. Without this there is none.
+    /// number. If not called, there is none.
     pub fn batch(mut self, states: usize) -> Builder {
         self.options.batch = Some(states);
         self
     }
 
     /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`,
-    /// on which the package must depend. Without this there is none.
+    /// which the package must depend on. If not called, there is none.
     pub fn parallel(mut self, parallel: bool) -> Builder {
         self.options.parallel = parallel;
         self
@@ -125,7 +125,7 @@ impl Builder {
         self
     }
 
-    /// Where sines and cosines come from; the runtime's polynomials without this.
+    /// The source of sines and cosines; if not called, the runtime's polynomials.
     pub fn trigonometry(mut self, trigonometry: Trigonometry) -> Builder {
         self.options.trigonometry = trigonometry;
         self
@@ -188,7 +188,7 @@ impl Builder {
         self
     }
 
-    /// Whether figures that no body can have are taken, with a warning: masses that are negative, tensors
+    /// Whether values that no body can have are accepted, with a warning: masses that are negative, tensors
     /// with a negative principal moment or one that exceeds the sum of the others.
     pub fn allow_unphysical(mut self, allow: bool) -> Builder {
         self.options.allow_unphysical = allow;
@@ -207,8 +207,8 @@ impl Builder {
         self
     }
 
-    /// Whether Cargo is told, on standard output, of the files that were read and of warnings; it
-    /// is, without this.
+    /// Whether Cargo is informed, on standard output, of the files that were read and of warnings;
+    /// if not called, it is.
     pub fn emit_directives(mut self, emit: bool) -> Builder {
         self.silent = !emit;
         self
@@ -219,7 +219,7 @@ impl Builder {
     /// # Errors
     ///
     /// Everything that is wrong with any of the files or with the options. A `main` that returns it
-    /// shows the robot files' own errors. Cargo is told of each in a line (`cargo::error=`) and fails the
+    /// shows the robot files' own errors. Cargo gets each in a line (`cargo::error=`) and fails the
     /// build, whatever becomes of the result.
     pub fn compile(&self, paths: &[impl AsRef<Path>]) -> Result<(), Errors> {
         let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
@@ -228,16 +228,16 @@ impl Builder {
 
     /// Generates the modules of all robot files `*.toml` of a folder, in the order of their names.
     ///
-    /// Cargo is told to run the build script again where a file comes or goes.
+    /// Cargo runs the build script again if a file is added or removed.
     ///
     /// # Errors
     ///
-    /// As [`Builder::compile`]; a folder that cannot be read or has no robot files.
+    /// The errors of [`Builder::compile`]; a folder that cannot be read or has no robot files.
     pub fn compile_folder(&self, folder: impl AsRef<Path>) -> Result<(), Errors> {
         self.telling_cargo(|directives| self.run_folder(folder.as_ref(), directives))
     }
 
-    /// Does the work and tells Cargo what it has to know of it.
+    /// Does the work and gives Cargo the lines that it needs.
     fn telling_cargo(
         &self,
         work: impl FnOnce(&mut Directives) -> Result<(), Errors>,

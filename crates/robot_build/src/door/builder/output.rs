@@ -31,7 +31,7 @@ impl Module {
         Path::new(&self.path).file_stem().and_then(OsStr::to_str)
     }
 
-    /// What keeps the file of the module from being made somewhere.
+    /// Why the module's file cannot be created on some systems, if so.
     pub(super) fn unportable(&self) -> Option<String> {
         let (path, name) = (&self.path, self.name());
         is_device(name).then(|| {
@@ -107,9 +107,9 @@ fn output<'a>(folder: &Path, name: &str, code: &'a str) -> Output<'a> {
     }
 }
 
-/// The robot file's name, where it is not the module's and no other file's.
+/// The robot file's name, if it is not the module's and no other file's.
 ///
-/// The text is that of the module's own file: where case makes no difference both are one file.
+/// The text is that of the module's own file: if case makes no difference both are one file.
 fn second_name<'m>(module: &'m Module, modules: &[Module]) -> Option<&'m str> {
     let stem = module.stem().filter(|stem| *stem != module.name())?;
     let is_stem = |name: &str| name.eq_ignore_ascii_case(stem);

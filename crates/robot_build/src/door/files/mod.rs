@@ -1,7 +1,7 @@
 //! Output files: what may be written where, and how.
 //!
 //! Builder and command write through [`Writer`] alone. It never replaces an input, replaces a file of
-//! somebody else only where it is told to, and replaces a file as a whole or not at all.
+//! somebody else only if asked to, and replaces a file as a whole or not at all.
 
 mod marker;
 mod place;
@@ -15,10 +15,10 @@ pub use writer::{Output, Ownership, Writer};
 
 use crate::error::Error;
 
-/// How a file on disk differs from what would be generated.
+/// The difference between a file on disk and the text that would be generated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Staleness {
-    /// There is no such file.
+    /// The file does not exist.
     Missing,
     /// The texts differ from this line on, counted from 1.
     Differs {
@@ -27,7 +27,7 @@ pub enum Staleness {
     },
 }
 
-/// How the file on disk differs from `text`, line ends apart; `None` if it does not.
+/// Compares the file on disk with `text`, line ends apart; `None` if they are equal.
 ///
 /// # Errors
 ///

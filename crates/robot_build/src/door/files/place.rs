@@ -1,4 +1,4 @@
-//! What lies at the path of an output, symbolic links followed.
+//! What exists at the path of an output, symbolic links followed.
 
 use std::fs::{self, Metadata};
 use std::io::{Error, ErrorKind, Result};
@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 /// More links in a row are a circle.
 const MAX_LINKS: usize = 40;
 
-/// What lies at a path.
+/// What exists at a path.
 pub(super) enum Place {
     /// Nothing yet; this is the path with symbolic links followed.
     Free(PathBuf),
     /// A regular file, at the path with symbolic links followed.
     Regular(PathBuf, Metadata),
-    /// A device, a pipe or an open stream of the process: it is written as it stands.
+    /// A device, a pipe or an open stream of the process: it is written to directly.
     Stream,
     /// A folder, at the path with symbolic links followed.
     Folder(PathBuf),
 }
 
-/// What lies at the path.
+/// Finds what exists at the path.
 pub(super) fn place(path: &Path) -> Result<Place> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
@@ -51,7 +51,7 @@ fn is_stream(path: &Path) -> bool {
         })
 }
 
-/// Whether a file is the system's view of itself, which looks like a file and is none that could be replaced.
+/// Whether a file is the system's view of itself, which looks like a file but cannot be replaced.
 pub(super) fn is_of_system(path: &Path) -> bool {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     cfg!(target_os = "linux") && ["/proc", "/sys"].iter().any(|folder| path.starts_with(folder))
@@ -85,7 +85,7 @@ fn is_same_node(_: &Path, _: &Path) -> bool {
     false
 }
 
-/// The canonical path of a file, there or not; none of streams, of which two may have one name.
+/// The canonical path of a file, existing or not; `None` for streams, two of which may have one name.
 fn location(path: &Path) -> Option<PathBuf> {
     match place(path).ok()? {
         Place::Stream => None,

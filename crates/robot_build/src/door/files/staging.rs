@@ -1,6 +1,6 @@
 //! Files and folders written beside their place and then put there in one step.
 //!
-//! What is being written is hidden, bears the name of its target and is locked, so that what a killed
+//! A file being written is hidden, has the name of its target and is locked, so that what a killed
 //! process left behind is known from what another one is writing: the next write of the target removes it.
 
 use std::ffi::OsStr;
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::place::folder_of;
 
-/// What stands in the name of a temporary file after that of its target.
+/// The part of a temporary file's name after the name of its target.
 const INFIX: &str = ".robot-symbolic-tmp-";
 /// The longest part of a target's name in that of its temporary file: systems allow 255 bytes for all.
 const MAX_NAME: usize = 180;
@@ -75,7 +75,7 @@ impl Staged {
         Err(std::io::Error::other("no temporary file could be created beside it"))
     }
 
-    /// Gives it the permissions and, where the system lets us, the owner of the file that is there.
+    /// Gives it the permissions and, if the system lets us, the owner of the file that is there.
     fn keep_access(&self, present: &Metadata) -> Result<()> {
         keep_owner(&self.temporary, present);
         if fs::metadata(&self.temporary)?.permissions() == present.permissions() {
@@ -84,7 +84,7 @@ impl Staged {
         fs::set_permissions(&self.temporary, present.permissions())
     }
 
-    /// Where it lies now.
+    /// Its present path.
     pub(super) fn path(&self) -> &Path {
         &self.temporary
     }
@@ -105,7 +105,7 @@ impl Drop for Staged {
     }
 }
 
-/// Files are replaced by new ones, which belong to whoever writes them; where he may, he gives them back.
+/// Files are replaced by new ones, which belong to whoever writes them; if he may, he gives them back.
 #[cfg(unix)]
 fn keep_owner(path: &Path, present: &Metadata) {
     use std::os::unix::fs::{MetadataExt, chown};
@@ -119,7 +119,7 @@ fn keep_owner(path: &Path, present: &Metadata) {
 #[cfg(not(unix))]
 fn keep_owner(_: &Path, _: &Metadata) {}
 
-/// How the temporary names of a target begin.
+/// The beginning of the temporary names of a target.
 fn prefix(target: &Path) -> String {
     let name = target.file_name().unwrap_or(OsStr::new("")).to_string_lossy();
     let end = (0..=MAX_NAME.min(name.len())).rev().find(|end| name.is_char_boundary(*end));
@@ -149,7 +149,7 @@ pub(super) fn remove_leftovers(target: &Path) {
     }
 }
 
-/// Removes a temporary file or folder; it may stay where the system will not.
+/// Removes a temporary file or folder; it may stay if the system will not.
 fn remove(path: &Path) {
     let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
 }

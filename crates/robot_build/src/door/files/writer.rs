@@ -1,4 +1,4 @@
-//! What may be written where.
+//! The rules of writing: which path may be written with which content.
 
 use std::fs::{self, Metadata, OpenOptions};
 use std::io::Write;
@@ -10,7 +10,7 @@ use super::staging::{Staged, remove_leftovers};
 use crate::driver::file::File;
 use crate::error::{Error, Errors};
 
-/// How an existing file shows that this program wrote it, so that it may be replaced.
+/// The evidence that this program wrote an existing file, so that it may be replaced.
 #[derive(Clone, Copy, Debug)]
 pub enum Ownership {
     /// By the [`MARKER`](super::MARKER), or that of generated Rust, near its start.
@@ -24,9 +24,9 @@ pub enum Ownership {
 /// A file to write.
 #[derive(Clone, Debug)]
 pub struct Output<'a> {
-    /// Where.
+    /// The path.
     pub path: PathBuf,
-    /// What.
+    /// The content.
     pub bytes: &'a [u8],
     /// Which files it may replace.
     pub ownership: Ownership,
@@ -77,7 +77,7 @@ impl Writer {
         self
     }
 
-    /// What a message advises where a file is not replaced.
+    /// The advice of a message about a file that is not replaced.
     pub fn remedy(mut self, remedy: &'static str) -> Writer {
         self.remedy = remedy;
         self
@@ -87,7 +87,7 @@ impl Writer {
     ///
     /// # Errors
     ///
-    /// As [`Writer::write`]; two outputs of one name.
+    /// The errors of [`Writer::write`]; two outputs of one name.
     pub fn check(&self, outputs: &[(&Path, Ownership)]) -> Result<(), Errors> {
         let mut errors = vec![];
         for (index, (path, ownership)) in outputs.iter().enumerate() {
@@ -156,7 +156,7 @@ impl Writer {
     ///
     /// # Errors
     ///
-    /// As [`Writer::write`]; a folder that is a file.
+    /// The errors of [`Writer::write`]; a folder that is a file.
     pub fn write_folder(&self, folder: &Path, files: &[File]) -> Result<usize, Errors> {
         let failed = |error| cannot_write(folder, &error);
         let target = match place(folder).map_err(failed)? {
@@ -193,7 +193,7 @@ impl Writer {
         Ok(files.len())
     }
 
-    /// What an output shall replace; `None` if it is there already.
+    /// The work to do for an output; `None` if the file is up to date.
     fn change(&self, output: &Output<'_>) -> Result<Option<Target>, Error> {
         let target = self.target(&output.path)?;
         let Target::Regular(path, metadata) = &target else { return Ok(Some(target)) };
@@ -204,13 +204,13 @@ impl Writer {
             return Ok(None);
         }
         self.check_owner(&output.path, path, output.ownership)?;
-        // Where the file itself may not be written, it may not be replaced.
+        // A file that may not be written may not be replaced either.
         let writable = OpenOptions::new().write(true).open(path);
         writable.map_err(|error| cannot_write(&output.path, &error))?;
         Ok(Some(target))
     }
 
-    /// What lies at the path of an output; inputs and folders are refused.
+    /// Looks at the path of an output; inputs and folders are rejected.
     fn target(&self, path: &Path) -> Result<Target, Error> {
         if let Some(input) = self.inputs.iter().find(|input| is_same(path, input)) {
             return Err(Error::IsInput { path: path.to_owned(), input: input.clone() });
@@ -262,7 +262,7 @@ impl Writer {
     }
 }
 
-/// Where an output goes, symbolic links followed.
+/// The target of an output, symbolic links followed.
 enum Target {
     Free(PathBuf),
     Regular(PathBuf, Metadata),
@@ -295,7 +295,7 @@ fn write_stream(output: &Output<'_>) -> Result<(), Error> {
     written.map_err(|error| cannot_write(&output.path, &error))
 }
 
-/// Folders that are made for outputs; those still empty go again where the outputs fail.
+/// Folders that are made for outputs; those still empty go again if the outputs fail.
 #[derive(Default)]
 struct Folders(Vec<PathBuf>);
 

@@ -11,11 +11,11 @@ use super::{DEFAULT_BATCH, Options};
 pub struct OptionSpec {
     /// The name of the builder's setter and the macro's key; the flag of the command line has `-` for `_`.
     pub name: &'static str,
-    /// What it is about, for tables.
+    /// Its subject, for tables.
     pub title: &'static str,
-    /// What it does, as the command line's help has it.
+    /// Its effect, as in the command line's help.
     pub help: &'static str,
-    /// What it is for.
+    /// Its purpose.
     pub group: Group,
     /// Its values.
     pub kind: Kind,
@@ -23,34 +23,34 @@ pub struct OptionSpec {
     pub example: &'static str,
     /// Which commands take it.
     pub commands: Commands,
-    /// Where a robot file says it for all doors.
+    /// The key of a robot file that sets it for all doors.
     pub in_file: Option<&'static str>,
     set: fn(&mut Options, Value<'_>) -> Option<()>,
 }
 
-/// What an option is for.
+/// The subject of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// How the robot file is read.
+    /// Reading the robot file.
     Read,
-    /// What is derived.
+    /// Choosing what is derived.
     Derive,
-    /// How programs are optimized.
+    /// Optimizing programs.
     Optimize,
-    /// How they are printed for a target.
+    /// Printing them for a target.
     Print,
-    /// What they may cost.
+    /// Limiting their cost.
     Limit,
 }
 
 /// Which commands take an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Commands {
-    /// Those that read a robot.
+    /// The commands that read a robot.
     Robot,
-    /// Those that make code.
+    /// The commands that make code.
     Code,
-    /// That which makes a module for a crate of the user's own.
+    /// The command that makes a module for a crate of the user's own.
     Module,
     /// None: the robot file says it, or it has no meaning there.
     None,
@@ -61,14 +61,14 @@ pub enum Commands {
 pub enum Kind {
     /// Yes or no.
     Flag,
-    /// A whole number; on the command line that which stands for the flag alone, if there is one.
+    /// A whole number; on the command line the value of the flag alone, if there is one.
     Count {
         /// See [`Kind::Count`].
         default: Option<usize>,
     },
     /// An angle, rad.
     Angle,
-    /// A word of several; with each what it means, where its name does not say it. The first is the default.
+    /// A word of several; with each what it means, if its name does not say it. The first is the default.
     Choice(&'static [(&'static str, &'static str)]),
     /// A path of Rust.
     Path,
@@ -156,7 +156,7 @@ impl OptionSpec {
     }
 }
 
-/// What options have in common.
+/// The common properties of options.
 const PLAIN: OptionSpec = OptionSpec {
     name: "",
     title: "",
@@ -369,7 +369,7 @@ mod tests {
 
     #[test]
     fn each_example_changes_one_thing() {
-        // A robot for which they are to be known, a place of files, and the value that is there anyhow.
+        // A robot that knows them, a place of files, and the value that is set in any case.
         const SAME: [&str; 4] = ["functions", "bundles", "allow_outside", "runtime"];
         for option in OPTIONS {
             assert_eq!(OptionSpec::named(option.name).unwrap().title, option.title);

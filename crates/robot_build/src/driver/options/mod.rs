@@ -1,4 +1,4 @@
-//! What is generated, and how.
+//! The options of generation.
 
 mod declared;
 
@@ -17,7 +17,7 @@ use robot_model::snap;
 use crate::driver::singular::unsolvable;
 use crate::error::{Error, Errors};
 
-/// The functions that are generated where none are chosen, as far as the robot has them.
+/// The functions that are generated if none are chosen, as far as the robot has them.
 pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::InverseDynamics(Effects::WRENCH),
@@ -26,20 +26,20 @@ pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::LinkWrenches,
 ];
 
-/// The states that a block of a batch holds where no other number is given: two or four vector
+/// The states that a block of a batch holds if no other number is given: two or four vector
 /// registers of `f64` on most processors.
 pub const DEFAULT_BATCH: usize = 8;
 
 /// The most states that a block of a batch holds: its arrays lie on the stack.
 const MAX_BATCH: usize = 64;
 
-/// What is generated, and how.
+/// The options of generation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The functions, each by itself. [`Functions::Usual`] without bundles means what the robot file
-    /// chooses with `[code]`, and where that chooses nothing, [`DEFAULT_FUNCTIONS`].
+    /// chooses with `[code]`, and if that chooses nothing, [`DEFAULT_FUNCTIONS`].
     pub functions: Functions,
-    /// Functions in one call that shares their work; where [`Options::functions`] are the usual
+    /// Functions in one call that compute common expressions once; if [`Options::functions`] are the usual
     /// ones, there are bundles alone.
     pub bundles: Vec<Bundle>,
     /// The number type of the functions.
@@ -57,15 +57,15 @@ pub struct Options {
     /// instruction (the runtime's `FUSED`) and are a product and a sum elsewhere. Without this the
     /// code gives the same bits on every target.
     pub fused: bool,
-    /// Where sines and cosines come from.
+    /// The source of sines and cosines.
     pub trigonometry: Trigonometry,
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
-    /// for what the robot file says, which is 10⁻⁹ where it says nothing.
+    /// for what the robot file says, which is 10⁻⁹ if it says nothing.
     pub snap: Option<f64>,
     /// Over which parameters of links the base parameters are; `None` for what the robot file says,
-    /// which is the file's frames where it says nothing.
+    /// which is the file's frames if it says nothing.
     pub base_frames: Option<BaseFrames>,
-    /// Whether figures that no body can have are taken, with a warning.
+    /// Whether values that no body can have are accepted, with a warning.
     pub allow_unphysical: bool,
     /// Whether moving links without mass are taken, with a warning.
     pub allow_massless: bool,
@@ -112,7 +112,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// With the functions that a robot file chooses, where these options choose none.
+    /// With the functions that a robot file chooses, if these options choose none.
     pub(crate) fn or_of_file(&self, code: &Code) -> Options {
         if self.functions != Functions::Usual || !self.bundles.is_empty() {
             return self.clone();
@@ -158,7 +158,7 @@ impl Options {
         Errors::check(missing.collect(), (functions, bundles))
     }
 
-    /// What is wrong with bundles, whatever the robot.
+    /// Errors in bundles that do not depend on the robot.
     fn wrong_bundles(&self) -> Vec<Error> {
         let mut errors = vec![];
         for (index, bundle) in self.bundles.iter().enumerate() {
@@ -189,7 +189,7 @@ impl Options {
         errors
     }
 
-    /// What is wrong with the options, whatever the robot.
+    /// Errors in the options that do not depend on the robot.
     pub(crate) fn check(&self) -> Result<(), Errors> {
         let mut errors = self.wrong_bundles();
         let snap = self.snap.map(snap::check);
@@ -203,7 +203,7 @@ impl Options {
         Errors::check(errors, ())
     }
 
-    /// How a robot file is read.
+    /// The options of reading a robot file.
     #[must_use]
     pub fn reading(&self) -> description::Options {
         description::Options {
@@ -213,7 +213,7 @@ impl Options {
         }
     }
 
-    /// How expressions become programs.
+    /// The options of making programs of expressions.
     pub(crate) fn codegen(&self) -> robot_codegen::Options {
         let options = robot_codegen::Options::default();
         if self.fused {
@@ -227,13 +227,13 @@ impl Options {
         }
     }
 
-    /// How the robot becomes expressions.
+    /// The options of making expressions of the robot.
     pub(crate) fn mechanism(&self, robot: &Robot) -> MechanismOptions {
         MechanismOptions::ROUNDED.with_snap(self.snap, robot)
     }
 }
 
-/// The functions in their order, each once; that of a frame is left out where all frames' are there.
+/// The functions in their order, each once; that of a frame is left out if all frames' are there.
 fn once<'f>(
     functions: impl IntoIterator<Item = &'f FunctionKind>,
     robot: &Robot,
@@ -253,7 +253,7 @@ fn once<'f>(
 ///
 /// # Errors
 ///
-/// Each name that is no function's, and an empty list.
+/// Each name that is not a function's, and an empty list.
 pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Errors> {
     if names.is_empty() {
         return Err(Errors::from(Error::NoFunctions));
@@ -268,7 +268,7 @@ pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Err
 ///
 /// # Errors
 ///
-/// Each name that is no function's.
+/// Each name that is not a function's.
 pub fn kinds_named(names: &[String], robot: &Robot) -> Result<Vec<FunctionKind>, Errors> {
     let (mut kinds, mut errors) = (vec![], vec![]);
     for name in names {

@@ -52,7 +52,7 @@ pub(super) fn test(parts: &Parts<'_>, check: &CheckValue) -> String {
     text
 }
 
-/// How far a result may be from a check value, as a fraction of the largest entry.
+/// The tolerance of a result against a check value, as a fraction of the largest entry.
 pub(super) fn tolerance(options: &Options) -> f64 {
     match options.scalar {
         Scalar::F64 => 1e-12,

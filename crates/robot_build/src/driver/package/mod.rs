@@ -32,7 +32,7 @@ pub fn package(source: &Source, options: &Options) -> Result<Vec<File>, Errors> 
     package_of(&programs, source, options)
 }
 
-/// As [`package`], for programs that are there already; whatever they cost.
+/// [`package`] for existing programs, whatever they cost.
 ///
 /// # Errors
 ///
@@ -76,19 +76,19 @@ fn checks(
     let checks = functions
         .map(|function| check_value(&source.name, programs, &function.name, options.trigonometry));
     let checks: Vec<CheckValue> = checks.collect::<Result<_, _>>()?;
-    // At stand-in values of parameters a root or a quotient may have no value.
+    // At placeholder values of parameters a root or a quotient may have no value.
     let is_finite = |check: &CheckValue| {
         check.outputs.iter().flat_map(|output| &output.values).all(|value| value.is_finite())
     };
     Ok(checks.into_iter().filter(is_finite).collect())
 }
 
-/// What the files are made of.
+/// The ingredients of the files.
 struct Parts<'a> {
     source: &'a Source,
     options: &'a Options,
     programs: &'a Programs,
-    /// What the printed items are called.
+    /// The names of the printed items.
     names: Names,
     checks: &'a [CheckValue],
 }
@@ -170,7 +170,7 @@ impl Parts<'_> {
 
     fn model(&self) -> Result<String, Errors> {
         let code = rust_text(self.programs, self.source, self.options, Wrapping::Items)?;
-        // An inner attribute stands before all items and after the comment at the top.
+        // An inner attribute comes before all items and after the comment at the top.
         let (comment, items) = code.split_once("\n\n").unwrap_or(("", &code));
         let lints: Vec<String> =
             rust::allowed_lints().iter().map(|lint| format!("    {lint},\n")).collect();

@@ -40,7 +40,7 @@ const OTHER_FONTS: [&str; 6] = ["text", "textrm", "rm", "bm", "mathnormal", "tex
 /// Accents of papers, beside those that formulas of this project have.
 const OTHER_ACCENTS: [&str; 2] = ["dddot", "overrightarrow"];
 
-/// Whether a token sets what follows in a font; fonts tell no symbols apart.
+/// Whether a token sets the font of the next piece; fonts do not distinguish symbols.
 pub(super) fn is_font(token: &str) -> bool {
     let known = |command| Font::of_latex(command).is_some() || OTHER_FONTS.contains(&command);
     token.strip_prefix('\\').is_some_and(known)
@@ -58,7 +58,7 @@ pub(super) fn is_letter(token: &str) -> bool {
     letter.is_some_and(Letter::is_in_symbols)
 }
 
-/// The function in infix text that a command stands for.
+/// The function in infix text that a command means.
 pub(super) fn function(token: &str) -> Option<&'static str> {
     match token {
         r"\tan" => Some("tan"),

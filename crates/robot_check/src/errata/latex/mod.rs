@@ -1,6 +1,6 @@
 //! LaTeX of published formulas, put into the infix text that [`Formula`](robot_symbolic::Formula) reads.
 //!
-//! What is read is what papers print and what `robot_document` writes: symbols with indices
+//! It reads the LaTeX of papers and of `robot_document`: symbols with indices
 //! and accents, products by juxtaposition, fractions, roots, brackets, and sines and cosines in
 //! three spellings: `\sin q_2`, `s_2` or `c_{23}`, and `sq_2` or `c^2q_5`.
 
@@ -14,14 +14,14 @@ use std::ops::Range;
 
 use robot_symbolic::ParseError;
 
-/// Which name a symbol's LaTeX stands for, given its [`symbol_key`].
+/// The lookup of a symbol's name by its LaTeX, given its [`symbol_key`].
 pub(super) type Names<'a> = dyn Fn(&str) -> Option<String> + 'a;
 
-/// A formula as infix text, and where its parts stand in the LaTeX.
+/// A formula as infix text, and the places of its parts in the LaTeX.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Infix {
     text: String,
-    /// Where each piece of the text begins, and the bytes of the LaTeX that it comes from.
+    /// The start of each piece of the text, and the bytes of the LaTeX that it comes from.
     pieces: Vec<(usize, Range<usize>)>,
     /// The end of the LaTeX.
     end: usize,
@@ -50,8 +50,8 @@ impl Infix {
 /// The infix text of a formula in LaTeX.
 ///
 /// `names` gives the name of a symbol by its [`symbol_key`]. A symbol that it does not know has the
-/// letters and digits of its LaTeX for a name. An upper index is part of a symbol where `names` knows
-/// it so, and a power where it is an integer. A repeated sign at a line break, as in `a + \\ + b`,
+/// letters and digits of its LaTeX for a name. An upper index is part of a symbol if `names` knows
+/// it so, and a power if it is an integer. A repeated sign at a line break, as in `a + \\ + b`,
 /// counts once.
 ///
 /// # Errors

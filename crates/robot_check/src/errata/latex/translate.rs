@@ -31,7 +31,7 @@ pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseEr
     Ok(translator.infix)
 }
 
-/// What is read, and what has been written of it.
+/// The LaTeX being read, and the text written so far.
 pub(super) struct Translator<'t, 'n> {
     tokens: &'t [Token<'t>],
     pub(super) place: usize,
@@ -77,7 +77,7 @@ impl<'t> Translator<'t, '_> {
         }
     }
 
-    /// A sum up to what closes it, which is taken; up to the end where that is `None`.
+    /// A sum up to what closes it, which is taken; up to the end if that is `None`.
     fn sum(&mut self, close: Option<&str>) -> Result<(), ParseError> {
         self.deeper()?;
         let open = self.here();
@@ -253,7 +253,7 @@ impl<'t> Translator<'t, '_> {
         self.power()
     }
 
-    /// `^2`, where it follows.
+    /// `^2`, if it follows.
     fn power(&mut self) -> Result<(), ParseError> {
         let here = self.here();
         if !self.take("^") {
@@ -316,7 +316,7 @@ impl<'t> Translator<'t, '_> {
                 self.depth -= 1;
                 Ok(if is_font(text) { inside } else { format!("{text}{inside}") })
             }
-            // Without braces one digit is an argument: more are a slip that print shows.
+            // Without braces one digit is an argument: more are a mistake that print shows.
             text => match first_digit(text) {
                 Some(_) if text.len() > 1 => self.fault(
                     format!("`{text}` without braces: LaTeX takes only its first digit"),

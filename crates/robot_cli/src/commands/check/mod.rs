@@ -1,4 +1,4 @@
-//! `check`: what is wrong with robot files, and what is likely a slip.
+//! `check`: errors and likely mistakes in robot files.
 
 mod json;
 
@@ -101,7 +101,7 @@ impl Arguments {
                 with_pin(examination, &file)
             }
             Err(errors) => match errors.as_slice() {
-                // Bytes that are no text.
+                // Bytes that are not text.
                 [Error::Robot(found)] => Examination::refused((**found).clone()),
                 others => {
                     let file = path.to_string_lossy().into_owned();

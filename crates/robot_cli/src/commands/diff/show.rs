@@ -27,7 +27,7 @@ pub(super) fn text(found: &Difference, most: usize) -> String {
 
 const TORQUES: &str = "largest differences of the joint torques";
 
-/// The parts but for the torques, each with its title; empty where nothing differs.
+/// The parts but for the torques, each with its title; empty if nothing differs.
 pub(crate) fn parts(found: &Difference, most: usize) -> [(&'static str, String); 3] {
     let operations = match &found.operations {
         Ok(found) => found

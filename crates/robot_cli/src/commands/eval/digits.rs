@@ -1,4 +1,4 @@
-//! How many digits the accelerations of states have.
+//! The number of digits of the accelerations of states.
 
 use robot_build::{Options, Pivot, Pivots, Programs, Trigonometry};
 use robot_model::variable::JointVariable;
@@ -7,7 +7,7 @@ use crate::Terminal;
 use crate::failure::Failure;
 use crate::states::State;
 
-/// The pivots of the mass matrix, where functions solve with it.
+/// The pivots of the mass matrix, if functions solve with it.
 pub(super) struct Digits(Option<Pivots>);
 
 impl Digits {
@@ -44,7 +44,7 @@ impl Digits {
         self.0.is_some()
     }
 
-    /// Why a state has no accelerations, where the mass matrix is the reason.
+    /// Why a state has no accelerations, if the mass matrix is the reason.
     pub(super) fn singular(&self, state: &State) -> Option<String> {
         let pivot = self.smallest(state).filter(Pivot::is_wrong)?;
         Some(format!("forward dynamics has no solution: {pivot}"))

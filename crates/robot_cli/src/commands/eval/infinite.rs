@@ -25,8 +25,8 @@ pub(super) fn messages(
     if wrong.is_empty() {
         return vec![];
     }
-    // The eigenvectors of a singular matrix tell every coordinate; where it is not quite singular, its
-    // pivots tell one.
+    // The eigenvectors of a singular matrix show every coordinate; if it is not quite singular, its
+    // pivots show one.
     let of_matrix = || digits.matter().then(|| singular(robot, settings, state)).flatten();
     let angle = state
         .array(JointVariable::Position.name())
@@ -60,7 +60,7 @@ fn entries(robot: &Robot, output: &OutputValues) -> String {
     }
 }
 
-/// The coordinates whose accelerations no forces determine, where the mass matrix is singular at the state.
+/// The coordinates whose accelerations no forces determine, if the mass matrix is singular at the state.
 fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<String> {
     let value = |name: &str| {
         let set = settings.iter().find(|(set, _)| *set == name).map(|(_, value)| *value);

@@ -1,4 +1,4 @@
-//! When a robot file and its pin are saved.
+//! Detects when a robot file and its pin are saved.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,13 +16,13 @@ use super::state::Look;
 const PAUSE: Duration = Duration::from_millis(20);
 /// The looks that must agree before a text counts as saved: editors write in pieces.
 const SETTLED: usize = 2;
-/// The same where the file is away or empty: between two steps of a save it is, on a busy disk for long.
+/// The wait if the file is missing or empty: between two steps of a save it is, on a busy disk for long.
 const SETTLED_AWAY: usize = 50;
 
 /// The looks at a file that show something new, the first one at once, until it is over.
 pub(super) struct Files<'a> {
     path: &'a Path,
-    /// What is taken of the file, without which a pin of it cannot be read.
+    /// The options of reading the file, without which a pin of it cannot be read.
     options: Options,
     is_over: &'a AtomicBool,
     settling: Settling,
@@ -59,7 +59,7 @@ pub(super) struct Settling {
 }
 
 impl Settling {
-    /// The look, where it is new and was seen often enough.
+    /// The look, if it is new and was seen often enough.
     pub(super) fn after(&mut self, look: Look) -> Option<Look> {
         let times = match self.seen.take() {
             Some((earlier, times)) if earlier == look => times + 1,
@@ -84,7 +84,7 @@ fn needed(look: &Look) -> usize {
     }
 }
 
-/// What the files say now.
+/// The present contents of the files.
 fn look(path: &Path, options: &Options) -> Look {
     let file = RobotFile::read(path);
     let plan = match &file {

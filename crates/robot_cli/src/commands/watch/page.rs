@@ -10,14 +10,14 @@ use robot_report::{Compiled, Error, Input, Reloading, reloading};
 use crate::commands::report::judge;
 use crate::failure::Failure;
 
-/// A page that reloads itself, and the picture beside it that tells it when.
+/// A page that reloads itself, and the image beside it that triggers the reload.
 pub(super) struct Page {
     path: PathBuf,
     writer: Writer,
     last: Option<Last>,
 }
 
-/// What was last written.
+/// The last text written.
 struct Last {
     /// The page without what reloads it.
     still: String,
@@ -52,7 +52,7 @@ impl Page {
         reloading(&Input { source, options, compiled: &compiled, judge })
     }
 
-    /// What is at the path where no page can be made.
+    /// The state of the path if no page can be made.
     pub(super) fn standing(&self) -> String {
         let path = shown(&self.path);
         match self.last {

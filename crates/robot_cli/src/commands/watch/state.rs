@@ -1,4 +1,4 @@
-//! What is known of a robot that is watched, and what a look at its file changes. Pure.
+//! The state of a watched robot, and its changes with each look at the file. Pure.
 
 use std::fmt::Write as _;
 
@@ -13,35 +13,35 @@ use crate::failure::in_command_words;
 use crate::options::in_flags;
 use crate::reading::ReadingArguments;
 
-/// What the files say at a moment.
+/// The contents of the files at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Look {
-    /// The robot file, or why there is none.
+    /// The robot file, or why it cannot be read.
     pub(super) source: Result<Source, Errors>,
     /// The plan pinned beside it, or why it does not hold.
     pub(super) plan: Result<Option<Plan>, Errors>,
 }
 
-/// How changes are shown.
+/// The options of showing changes.
 pub(super) struct Settings {
     /// The tolerance for angles, rad, if one is given.
     pub(super) snap: Option<f64>,
-    /// What is taken of a file with a warning.
+    /// The reading options that turn errors into warnings.
     pub(super) reading: ReadingArguments,
-    /// How many terms of each equation are shown at most.
+    /// The most terms of each equation that are shown.
     pub(super) terms: usize,
-    /// How errors and warnings are shown.
+    /// The style of errors and warnings.
     pub(super) style: Style,
 }
 
-/// What is known after a look.
+/// The state after a look.
 #[derive(Default)]
 pub(super) struct State {
-    /// How many looks there were before.
+    /// The number of looks before.
     number: usize,
-    /// What last gave a robot.
+    /// The last look with a valid robot.
     valid: Option<ValidRobot>,
-    /// What is wrong now; `None` if the file gives a robot.
+    /// The present errors; `None` if the file describes a robot.
     wrong: Option<Vec<Problem>>,
 }
 
@@ -64,13 +64,13 @@ struct Problem {
     text: String,
 }
 
-/// What is to be shown of a look.
+/// The output of a look.
 pub(super) struct Shown {
     /// Which look it is.
     pub(super) title: String,
     /// Errors and warnings.
     pub(super) problems: String,
-    /// What changed.
+    /// The changes.
     pub(super) changes: String,
 }
 
@@ -80,13 +80,13 @@ impl State {
         self.valid.is_some() && self.wrong.is_none()
     }
 
-    /// How code is made of the last robot.
+    /// The options of making code of the last robot.
     pub(super) fn options(&self, settings: &Settings) -> Options {
         let plan = self.valid.as_ref().and_then(|valid| valid.plan.clone());
         Options { snap: settings.snap, plan, ..settings.reading.options() }
     }
 
-    /// The state after a look, and what is to be shown of the way there.
+    /// The state after a look, and the output.
     pub(super) fn after(&self, look: &Look, settings: &Settings) -> (State, Shown) {
         let number = self.number;
         let read = look.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
@@ -102,7 +102,7 @@ impl State {
         }
     }
 
-    /// What is shown of a robot.
+    /// The output for a valid robot.
     fn after_valid(&self, now: &ValidRobot, settings: &Settings) -> Shown {
         let before = self.valid.iter().flat_map(|valid| &valid.problems);
         let before: Vec<&Problem> = before.chain(self.wrong.iter().flatten()).collect();
@@ -124,7 +124,7 @@ impl State {
         Shown { title, problems, changes: format!("{gone}{differences}{none}") }
     }
 
-    /// What is shown of a file that gives no robot.
+    /// The output for a file that does not describe a robot.
     fn after_errors(&self, wrong: &[Problem]) -> Shown {
         let gone = gone(self.wrong.iter().flatten().collect(), wrong);
         let stands = match &self.valid {
@@ -199,7 +199,7 @@ fn line(severity: Severity, code: &str, message: &str) -> String {
     format!("{severity}[{code}]: {message}")
 }
 
-/// Those that are not among others.
+/// The problems that are not among others.
 fn absent<'p>(problems: &'p [Problem], among: &[&Problem]) -> Vec<&'p Problem> {
     let is_new = |one: &&Problem| among.iter().all(|other| other.line != one.line);
     problems.iter().filter(is_new).collect()
@@ -209,10 +209,10 @@ fn texts(problems: Vec<&Problem>) -> String {
     problems.into_iter().map(|one| format!("{}\n\n", one.text.trim_end())).collect()
 }
 
-/// A line for each problem that is no more.
+/// A line for each problem that is gone.
 fn gone(before: Vec<&Problem>, now: &[Problem]) -> String {
     let is_gone = |one: &&Problem| now.iter().all(|other| other.line != one.line);
-    // What a parser says of a pin is several lines.
+    // A parser's message about a pin has several lines.
     let first = |one: &Problem| one.line.lines().next().unwrap_or_default().to_owned();
     before.into_iter().filter(is_gone).map(|one| format!("gone: {}\n", first(one))).collect()
 }
@@ -234,8 +234,8 @@ fn title(number: usize, from: Option<usize>) -> String {
     }
 }
 
-/// Under which plans two robots are compared: their own, where both have one; a pin goes stale with each
-/// change of its file, and the default plan beside it would tell of the plan, not of the robot.
+/// Under which plans two robots are compared: their own, if both have one; a pin goes stale with each
+/// change of its file, and the default plan beside it would show the plan, not the robot.
 fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings) -> DifferenceOptions {
     let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;
     let code = [before, now].map(|one| Options {

@@ -3,7 +3,7 @@
 use crate::module::Function;
 use crate::program::{Operation, Program, Source};
 
-/// Where the source `Input(index)` of a function stands: the number of the input and that of the entry in it.
+/// The place that the source `Input(index)` of a function reads: the number of the input and of its entry.
 #[must_use]
 pub fn input_entry(function: &Function, index: u32) -> (usize, usize) {
     let mut rest = index as usize;

@@ -1,4 +1,4 @@
-//! What a caller adds to a module: constants, and setters of several parameters.
+//! Items that a caller adds to a module: constants, and setters of several parameters.
 
 /// A function that gives a copy of the parameters with several of them set.
 #[derive(Clone, Debug, PartialEq)]
@@ -7,7 +7,7 @@ pub struct Setter {
     pub name: String,
     /// Its meaning in Markdown, a paragraph or line each.
     pub doc: Vec<String>,
-    /// What it takes.
+    /// Its value.
     pub arguments: Vec<SetterArgument>,
 }
 

@@ -30,7 +30,7 @@ impl Namer {
         name
     }
 
-    /// An identifier for each of several texts. A text that can stand as it is keeps its name, whatever the others
+    /// An identifier for each of several texts. A text that is a valid identifier keeps its name, whatever the others
     /// are: beside `match_` the reserved word `match` becomes `match__2`, in any order.
     pub fn names<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>) -> Vec<String> {
         let texts = texts.into_iter().map(|text| {
@@ -96,7 +96,7 @@ pub fn field_names(module: &Module, namer: &mut Namer) -> Vec<String> {
     let copies: Vec<Option<&str>> = fields
         .map(|field| module.field_parameter(field).map(|parameter| parameter.name.as_str()))
         .collect();
-    // Copies first, so that none of them has to give way to a number.
+    // Copies first, so that none of them has to yield to a number.
     let mut names = namer.names(copies.iter().copied().flatten()).into_iter();
     let mut count = 0;
     let name = |copy: Option<&str>| {

@@ -35,7 +35,7 @@ pub fn markdown_line(text: &str) -> String {
     line.trim_end().to_owned()
 }
 
-/// Lines of the caller's Markdown; the name of what is documented if there are none.
+/// Lines of the caller's Markdown; the name of the documented item if there are none.
 #[must_use]
 pub fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
     let lines: Vec<String> = texts.iter().flat_map(|text| text.lines()).map(comment_line).collect();
@@ -46,7 +46,7 @@ pub fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
     }
 }
 
-/// `meaning, in unit; 3 rows of 4.` The meaning is Markdown; the name stands if there is none.
+/// `meaning, in unit; 3 rows of 4.` The meaning is Markdown; the name is used if there is none.
 #[must_use]
 pub fn quantity(meaning: &str, name: &str, unit: &str, shape: &[usize]) -> String {
     let mut line = if meaning.is_empty() { markdown_line(name) } else { comment_line(meaning) };

@@ -54,7 +54,7 @@ impl Methods<'_, '_> {
     /// function that needs no inputs.
     ///
     /// The loops of the two are the only ones of generated code. The last states are filled up to a
-    /// block with zeros, so that all go one way; nothing is indexed, so that nothing can panic.
+    /// block with zeros, so that all take the same path; nothing is indexed, so that nothing can panic.
     pub(super) fn batch(&mut self, lanes: usize) -> Vec<ImplItem> {
         let slices = self.slices(lanes);
         if slices.used().next().is_none() {
@@ -339,7 +339,7 @@ fn zip(mut items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
     zipped([(first, parse_quote!(#value.iter()))].into_iter().chain(items))
 }
 
-/// `((q, qd), tau)` and `q.zip(qd).zip(tau)`, where all are iterators.
+/// `((q, qd), tau)` and `q.zip(qd).zip(tau)`, if all are iterators.
 fn zipped(items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
     let all = items.reduce(|(pattern, zipped), (next, value)| {
         (parse_quote!((#pattern, #next)), parse_quote!(#zipped.zip(#value)))

@@ -14,7 +14,7 @@ pub(super) struct Body<'a> {
     program: &'a Program,
     layout: Layout,
     number: &'a Number,
-    /// What the program's loads print as.
+    /// The printed form of the program's loads.
     load: &'a dyn Fn(Source) -> Expr,
     /// The names of the named values.
     names: Vec<Option<Ident>>,
@@ -26,7 +26,7 @@ pub(super) struct PartFunction {
     pub(super) entering: Vec<Ident>,
     /// The names that it gives.
     pub(super) leaving: Vec<Ident>,
-    /// What it does.
+    /// Its kind.
     pub(super) statements: Vec<Stmt>,
 }
 
@@ -50,7 +50,7 @@ impl<'a> Body<'a> {
         Body { program, layout, number, load, names }
     }
 
-    /// The results as expressions, to stand after the statements.
+    /// The results as expressions, to be placed after the statements.
     pub(super) fn results(&self) -> Vec<Expr> {
         self.program.results().iter().map(|value| self.operand(*value)).collect()
     }
@@ -79,7 +79,7 @@ impl<'a> Body<'a> {
         self.layout.parts.iter().map(part).collect()
     }
 
-    /// Where the statements of a part read, each once, in the order of sources.
+    /// The sources that the statements of a part read, each once, in the order of sources.
     fn part_sources(&self, part: &Part) -> Vec<Source> {
         let statements = part.blocks.iter().flat_map(|block| &block.statements);
         let mut pending: Vec<Value> = statements.copied().collect();

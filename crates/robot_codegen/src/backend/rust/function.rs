@@ -103,7 +103,7 @@ impl<'s, 'a> Methods<'s, 'a> {
 
     /// Whether the arithmetic stays out of line where single states are computed, on x86-64 with
     /// multiply-adds: after calls of the library's sine and cosine, over which LLVM can keep nothing in
-    /// registers, it comes out 3 to 7 % slower inlined, where it has more inputs than them. Without
+    /// registers, it comes out 3 to 7 % slower inlined, if it has more inputs than them. Without
     /// multiply-adds LLVM makes vectors of sines that were stored a moment ago, and waits for them
     /// (`docs/performance.md`).
     fn is_out_of_line(&self) -> bool {
@@ -178,7 +178,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         (vec![], parse_quote!(&self.#method(#(#arguments),*)))
     }
 
-    /// The angles where they are more than entries of inputs.
+    /// The angles if they are more than entries of inputs.
     fn angles(&mut self) -> Vec<ImplItem> {
         let (function, name) = (self.function, self.names.angles.clone());
         let mut variables = Variables::new(self.scope, function);
@@ -369,7 +369,7 @@ fn out_of_line(elsewhere: &TokenStream) -> TokenStream {
     }
 }
 
-/// The same function outside of the model, for modules without parameters.
+/// The function as a free function, for modules without parameters.
 fn free_function(scope: &Scope<'_>, function: &Function, name: &Ident) -> Item {
     let ty = scope.number.ty();
     let inputs = Variables::new(scope, function).inputs;

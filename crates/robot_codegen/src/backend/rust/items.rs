@@ -45,7 +45,7 @@ pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
     items.collect()
 }
 
-/// `pub struct Parameters` where the module has any.
+/// `pub struct Parameters` if the module has any.
 pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
     if !scope.has_parameters() {
         return vec![];
@@ -204,7 +204,7 @@ fn constructor_doc(scope: &Scope<'_>) -> Vec<String> {
     ]
 }
 
-/// `Model::NOMINAL` where the constructor is `const` and all nominal values are known.
+/// `Model::NOMINAL` if the constructor is `const` and all nominal values are known.
 fn nominal_model(scope: &Scope<'_>, is_const: bool) -> Option<ImplItem> {
     let mut specs = scope.module.parameters.iter();
     let known = specs.all(|spec| spec.nominal.is_some());

@@ -1,6 +1,6 @@
 //! Words that names of printed Rust keep clear of.
 
-/// The words that cannot be identifiers, or mean something else in the places where names stand; then crates and
+/// The words that cannot be identifiers, or mean something else where names occur; then crates and
 /// types that a module of the name would hide from the code around it.
 pub(super) const RESERVED: &[&str] = &[
     "Self",

@@ -76,7 +76,7 @@ const ALLOWED_LINTS: [&str; 17] = [
     "clippy::excessive_precision",
     "clippy::large_types_passed_by_value",
     "clippy::many_single_char_names",
-    // The code of a macro stands on one line.
+    // A macro's code is on one line.
     "clippy::possible_missing_comma",
     "clippy::similar_names",
     "clippy::suboptimal_flops",
@@ -127,7 +127,7 @@ impl RustModule {
 ///
 /// # Errors
 ///
-/// A runtime path that is no path; constants beyond the range of `f32` if that is asked for.
+/// A runtime path that is not a path; constants beyond the range of `f32` if that is asked for.
 pub fn generate(module: &Module, options: &RustOptions) -> Result<RustModule, Errors> {
     let mut scope = Scope::new(module, options)?;
     let mut items = items::constants(&mut scope);

@@ -27,7 +27,7 @@ impl Namer {
         ident(&self.0.name(text))
     }
 
-    /// An identifier for each of several texts, of which those that can stand as they are stay.
+    /// An identifier for each of several texts; valid identifiers stay as they are.
     pub(super) fn names<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>) -> Vec<Ident> {
         self.0.names(texts).iter().map(|name| ident(name)).collect()
     }

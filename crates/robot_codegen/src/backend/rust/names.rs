@@ -45,7 +45,7 @@ pub fn names(module: &Module, setters: &[Setter]) -> Names {
     Names::new(module, setters).0
 }
 
-/// The fields of the type that holds a function's outputs, where it has several.
+/// The fields of the type that holds a function's outputs, if it has several.
 #[must_use]
 pub fn output_names(function: &Function) -> Vec<String> {
     let outputs = function.outputs.iter().map(|output| output.name.as_str());

@@ -38,7 +38,7 @@ impl Number {
         }
     }
 
-    /// The same for any scalar of the runtime.
+    /// The literal for any scalar of the runtime.
     pub(super) fn generic(&self) -> Number {
         Number { kind: Kind::Generic, ..self.clone() }
     }
@@ -68,7 +68,7 @@ impl Number {
         }
     }
 
-    /// What the type must fulfil beyond being a scalar.
+    /// The bounds on the type beyond being a scalar.
     pub(super) fn where_clause(&self) -> Option<syn::WhereClause> {
         let runtime = &self.runtime;
         (self.is_generic() && self.trigonometry == Trigonometry::Standard)

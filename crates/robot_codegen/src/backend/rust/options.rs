@@ -1,18 +1,18 @@
-//! How a module is printed as Rust.
+//! Options for printing a module as Rust.
 
 use super::LANGUAGE;
 use crate::backend::common::{ConstantItem, Scalar, Setter};
 use crate::program::Limits;
 use crate::trigonometry::Trigonometry;
 
-/// How a module is printed as Rust.
+/// Options for printing a module as Rust.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RustOptions {
     /// Lines of the comment at the top of the text.
     pub header: Vec<String>,
     /// The path of the runtime crate or module, such as `::robot_runtime` or `crate::runtime`.
     pub runtime: String,
-    /// Where sines and cosines come from.
+    /// The source of sines and cosines.
     pub trigonometry: Trigonometry,
     /// The number type of the functions.
     pub scalar: Scalar,
@@ -24,12 +24,12 @@ pub struct RustOptions {
     pub batch: Option<usize>,
     /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`.
     pub parallel: Parallel,
-    /// What stands around the items.
+    /// The wrapping of the items.
     pub wrapping: Wrapping,
     /// Further constants of the module, before its types.
     pub constants: Vec<ConstantItem>,
     /// Methods of `Parameters` that set several parameters together, and associated functions of `Model` of the
-    /// same names for the nominal parameters, where all of them have nominal values.
+    /// same names for the nominal parameters, if all of them have nominal values.
     pub setters: Vec<Setter>,
     /// Limits of expressions, blocks and functions.
     pub limits: Limits,
@@ -62,15 +62,15 @@ pub enum Parallel {
     No,
     /// By those of `rayon`, which the crate around the code depends on.
     Yes,
-    /// The same where the crate around the code has its feature `rayon`.
+    /// Adds parallel forms if the crate around the code has its feature `rayon`.
     WithFeature,
 }
 
-/// What stands around the items of a module.
+/// The wrapping of the items of a module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrapping {
     /// `pub mod name { … }` that allows the lints generated code cannot keep: for text that is
-    /// included somewhere, where an inner attribute may not stand.
+    /// included somewhere, where an inner attribute is not allowed.
     #[default]
     Module,
     /// Nothing: the text is a module's or crate's own file, which should allow [`allowed_lints`].

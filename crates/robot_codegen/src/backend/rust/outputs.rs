@@ -1,4 +1,4 @@
-//! What functions return.
+//! Return types and values of functions.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -13,7 +13,7 @@ use super::syntax;
 use crate::backend::common;
 use crate::module::{Function, Output};
 
-/// The type that holds several outputs; generic where the function has a generic form.
+/// The type that holds several outputs; generic if the function has a generic form.
 pub(super) fn type_item(scope: &Scope<'_>, function: &Function, generic: bool) -> Option<Item> {
     let name = scope.output_type(function)?;
     let title = common::markdown_line(&function.name);

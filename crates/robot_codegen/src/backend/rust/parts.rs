@@ -24,7 +24,7 @@ pub(super) struct CutFunction<'f> {
     pub(super) source_name: &'f dyn Fn(Source) -> Option<Ident>,
 }
 
-/// The statements of a body, and the functions of its parts where it is long.
+/// The statements of a body, and the functions of its parts if it is long.
 pub(super) fn statements(
     scope: &mut Scope<'_>,
     body: &Body<'_>,

@@ -30,7 +30,7 @@ pub(super) struct Scope<'a> {
     pub(super) functions: Vec<Ident>,
     /// For each function with several outputs, the type that holds them.
     output_types: Vec<Option<Ident>>,
-    /// What variables must not be called: a pattern would mean the constant or type.
+    /// The names that variables must not have: a pattern would mean the constant or type.
     values: Namer,
     /// The functions of `Model`.
     pub(super) methods: Namer,

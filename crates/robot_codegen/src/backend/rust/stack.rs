@@ -1,14 +1,14 @@
-//! How much stack generated code takes, as far as that is known without a compiler.
+//! An estimate of the stack that generated code takes, without a compiler.
 
 use super::LANGUAGE;
 use crate::module::Function;
 use crate::program::{Layout, Program, Value};
 
-/// What a function takes apart from its values: return addresses, saved registers, places of
+/// The stack of a function apart from its values: return addresses, saved registers, places of
 /// arguments, an expression's values while it is computed.
 const FIXED: usize = 256;
 
-/// An estimate, from above, of the bytes of stack that a call of a function takes where nothing is
+/// An estimate, from above, of the bytes of stack that a call of a function takes if nothing is
 /// optimized, sines and cosines themselves apart. `scalar` is the size of a number, 8 or 4 bytes.
 ///
 /// Without optimization rustc gives every named value a place of its own. There are the statements
@@ -16,7 +16,7 @@ const FIXED: usize = 256;
 /// the entries of inputs, angles, sines and cosines, each twice: in its array and
 /// where a pattern takes it; the outputs four times: as numbers, as rows, as arrays and as the
 /// result; and one in four of the values that wait inside an expression for another one, for the rest
-/// of which registers last. Optimized code takes less. This is no proof: tests hold it against what the compiler
+/// while registers last. Optimized code takes less. This is not a proof: tests compare it with what the compiler
 /// makes of every robot of the project, and `robot-symbolic prove` measures.
 #[must_use]
 pub fn estimate(function: &Function, scalar: usize) -> usize {

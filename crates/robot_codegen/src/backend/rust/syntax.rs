@@ -26,7 +26,7 @@ pub(super) fn negative(operand: Expr) -> Expr {
     })
 }
 
-/// `name: value` in a struct expression; `name` where the value is the variable of that name.
+/// `name: value` in a struct expression; `name` if the value is the variable of that name.
 pub(super) fn field_value(name: &Ident, value: &Expr) -> syn::FieldValue {
     match value {
         Expr::Path(path) if path.path.is_ident(name) => parse_quote!(#name),
@@ -169,7 +169,7 @@ pub(super) fn float(value: f64) -> Expr {
     constant(Scalar::F64, value)
 }
 
-/// What a load prints as that has no variable, which no program of a checked module has.
+/// A placeholder for a load without a variable, which no program of a checked module contains.
 pub(super) fn nothing() -> Expr {
     parse_quote!(f64::NAN)
 }

@@ -58,7 +58,7 @@ impl Variables {
         inputs.filter(|(_, chosen)| **chosen).map(|(input, _)| input).collect()
     }
 
-    /// `let [q1, _, q3] = *q;` for each input of which the program loads entries.
+    /// `let [q1, _, q3] = *q;` for each input whose entries the program loads.
     pub(super) fn take_entries(&self, function: &Function, program: &Program) -> Vec<Stmt> {
         let sources = program.sources();
         let mut entries = self.entries.iter().zip(0..);
@@ -86,7 +86,7 @@ impl Variables {
         [take(&self.sines, sines.collect()), take(&self.cosines, cosines.collect())]
     }
 
-    /// Takes inputs that are not used apart into nothing, so that they are no unused variables.
+    /// Binds inputs that are not used otherwise to nothing, so that they are not unused variables.
     pub(super) fn ignore(&self, used: &[bool]) -> Vec<Stmt> {
         let unused: Vec<bool> = used.iter().map(|used| !used).collect();
         let inputs = self.chosen(&unused).into_iter();
@@ -94,7 +94,7 @@ impl Variables {
     }
 }
 
-/// A name where the source is loaded, `_` where it is not.
+/// A name if the source is loaded, `_` if it is not.
 fn pattern(name: &Ident, loaded: &[Source], source: Source) -> Pat {
     syntax::optional_binding(loaded.binary_search(&source).is_ok().then_some(name))
 }

@@ -3,7 +3,7 @@
 //! A sum that one other sum alone uses is part of it, and so with products; what several values use
 //! stays a node of its own, for the sharing is what makes a program cheap. So does what depends on
 //! parameters alone: it costs nothing, and left as it is, it is the same in every function of a
-//! module. Signs stand at the terms.
+//! module. Signs belong to the terms.
 
 use robot_symbolic::Function;
 use rustc_hash::FxHashMap;
@@ -30,7 +30,7 @@ impl Term {
     }
 }
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Node {
     /// A constant, not negative, or a load.
@@ -78,7 +78,7 @@ impl Nary {
         &self.nodes[id as usize]
     }
 
-    /// When a node is known.
+    /// The cycle at which a node is known.
     pub(super) fn stage(&self, id: Id) -> Stage {
         self.stages[id as usize]
     }
@@ -119,7 +119,7 @@ impl Nary {
         uses
     }
 
-    /// The program again: what is known early first, then the terms and factors as they stand.
+    /// Builds the program again: early values first, then the terms and factors in their order.
     pub(super) fn program(&self) -> Program {
         let mut builder = Builder::new();
         let mut built: Vec<Option<Signed>> = vec![None; self.nodes.len()];
@@ -188,7 +188,7 @@ impl Nary {
         }
     }
 
-    /// The sum of terms, of which some may be taken apart.
+    /// The sum of terms, some of which may be taken apart.
     fn sum(&mut self, parts: [(Term, bool); 2]) -> Term {
         let mut terms: Vec<Term> = vec![];
         for (term, inline) in parts {
@@ -321,7 +321,7 @@ impl Signed {
     }
 }
 
-/// What a term was built as. Operands are built before what uses them.
+/// The value that a term was built as. Operands are built before their users.
 fn signed(built: &[Option<Signed>], term: Term) -> Signed {
     let Signed(value, negative) = built[term.node as usize].unwrap_or(Signed(Value(0), false));
     Signed(value, negative != term.negative)

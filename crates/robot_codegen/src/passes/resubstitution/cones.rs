@@ -1,15 +1,15 @@
-//! How many operations depend on a value alone.
+//! The number of operations that depend on one value alone.
 
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
 
 use crate::program::{Operation, Program, Stage, Value};
 
-/// How many values the queries may visit, after which nothing gains: each query on a sum of n terms may
+/// The most values that the queries may visit, after which nothing gains: each query on a sum of n terms may
 /// visit all of them, and n queries n² values. Robots of 64 joints stay far below.
 const MAX_VISITS: u64 = 30_000_000;
 
-/// What a value is computed from: at most three values, in place, for there are many of these lists.
+/// The values that a value is computed from: at most three, stored inline because there are many of these lists.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Operands {
     values: [Value; 3],
@@ -40,13 +40,13 @@ pub(super) struct Cones {
     operands: Vec<Operands>,
     costs: Vec<usize>,
     early: Vec<bool>,
-    /// How often what is needed uses each value. The queries change it and change it back.
+    /// The number of needed uses of each value. The queries change it and change it back.
     uses: RefCell<Vec<usize>>,
     /// The values that queries have visited.
     visits: Cell<u64>,
     /// For each value the last query of [`Cones::depend_on`] that met it.
     met: RefCell<Vec<u64>>,
-    /// How many of these queries there were.
+    /// The number of these queries.
     queries: Cell<u64>,
 }
 
@@ -73,7 +73,7 @@ impl Cones {
         self.early[value.index()]
     }
 
-    /// What a value is computed from.
+    /// The values that a value is computed from.
     pub(super) fn operands(&self, value: Value) -> &[Value] {
         &self.operands[value.index()]
     }
@@ -214,7 +214,7 @@ mod tests {
         cost
     }
 
-    /// What a query says is what a count of everything says, also after replacements.
+    /// A query gives the same result as a count of everything, also after replacements.
     #[test]
     fn gains_are_differences_of_counts() {
         let mut gained = 0;
@@ -251,7 +251,7 @@ mod tests {
         assert!(gained > 100, "{gained}");
     }
 
-    /// What nothing needs gains nothing, and a value depends on itself and what it is made of.
+    /// A value that nothing needs gains nothing, and a value depends on itself and its operands.
     #[test]
     fn dependence_is_along_operands() {
         let mut b = Builder::new();
@@ -273,7 +273,7 @@ mod tests {
         }
     }
 
-    /// One use of two is no reason for a value to go.
+    /// One use of two is not a reason for a value to be removed.
     #[test]
     fn shared_values_stay() {
         let mut b = Builder::new();

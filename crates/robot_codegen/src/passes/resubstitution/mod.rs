@@ -10,9 +10,9 @@
 //! A replacement must agree with what it replaces, at every point, to within the rounding of the
 //! evaluation that it replaces. That is evidence, no proof. Two numbers near 1 that have nothing to do
 //! with each other agree to within such a tolerance by a chance of some 10⁻¹⁵; there are six points, of
-//! which pairs share the values of parameters, so that even where parameters alone decide three are
-//! left: 10⁻⁴⁵, times the millions of pairs that are compared. Where that rounding may be large, as in
-//! long recursions, whose bounds grow with each joint, agreement is no evidence, and nothing is replaced.
+//! which pairs share the values of parameters, so that even if parameters alone decide, three are
+//! left: 10⁻⁴⁵, times the millions of pairs that are compared. If that rounding may be large, as in
+//! long recursions, whose bounds grow with each joint, agreement is not evidence, and nothing is replaced.
 //! But the points are fixed, the same for every program, and values of one program are not unrelated; no
 //! bound follows for them. The results are therefore compared once more at other points, and what code
 //! computes is held against independent solvers by the tests.
@@ -35,11 +35,11 @@ use crate::program::{Builder, Operation, Program, Value};
 
 /// Rounds after which the search ends, improved or not.
 const ROUNDS: usize = 8;
-/// How much larger the rounding of a sum may be than that of what it replaces.
+/// The largest rounding of a sum relative to that of the value it replaces.
 const GROWTH: f64 = 4.0;
 
 /// Replaces values by multiples of others, and with [`Resubstitution::Pairs`] by sums and products
-/// of two, where that saves operations. Reassociates.
+/// of two, if that saves operations. Reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) -> Program {
     let mut found = super::dead_code::run(program);
@@ -53,7 +53,7 @@ pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) 
     if samples.agree(program, &found) { found } else { program.clone() }
 }
 
-/// What a value can be computed as.
+/// A form that a value can be computed in.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     /// A constant.
@@ -127,7 +127,7 @@ struct Search<'p> {
     operands: Vec<Value>,
     /// They by their size at the first point.
     by_size: FxHashMap<u64, Vec<Value>>,
-    /// Those known at calls by the quotient of their first two points, which multiples share.
+    /// The values known at calls, by the quotient of their first two points, which multiples have in common.
     by_direction: FxHashMap<u64, Vec<Value>>,
 }
 
@@ -278,7 +278,7 @@ impl<'p> Search<'p> {
         })
     }
 
-    /// Takes a form where it saves more than the best so far and does not need the value itself.
+    /// Takes a form if it saves more than the best so far and does not need the value itself.
     fn offer(&self, value: Value, form: Form, best: &mut Best) {
         let operands = form.operands();
         let gain = self.cones.gain(value, &operands, form.cost());
@@ -332,7 +332,7 @@ fn has_near(table: &FxHashMap<u64, Vec<Value>>, key: u64) -> bool {
     near(table, key).next().is_some()
 }
 
-/// What a table has under a key and its neighbors, for rounding may cross the border.
+/// The entries of a table under a key and its neighbors, because rounding may cross the border.
 fn near(table: &FxHashMap<u64, Vec<Value>>, key: u64) -> impl Iterator<Item = Value> + '_ {
     let keys = [key, key.wrapping_sub(1), key.wrapping_add(1)];
     keys.into_iter().filter_map(|key| table.get(&key)).flatten().copied()

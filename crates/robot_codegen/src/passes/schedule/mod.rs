@@ -12,7 +12,7 @@ pub enum Schedule {
     /// Depth first from the results, of two operands first the one that needs more registers, so
     /// that values live briefly.
     DepthFirst,
-    /// What the results wait for longest comes first, as far as registers last, so that a processor
+    /// The value that the results wait for longest comes first, while registers last, so that a processor
     /// finds work while it waits (`schedule/throughput.rs`). Programs too long for one function are ordered
     /// depth first, so that few values pass from one function to the next.
     #[default]
@@ -130,7 +130,7 @@ mod tests {
         assert!(after * 10 < before * 9, "{before} became {after}");
     }
 
-    /// Two where a chain takes up loads, one more for each level of a tree.
+    /// Two if a chain takes up loads, one more for each level of a tree.
     #[test]
     fn registers_are_those_of_sethi_and_ullman() {
         let mut b = Builder::new();
@@ -145,7 +145,7 @@ mod tests {
         let registers = registers(&program);
         let of = |value: Value| registers[value.index()];
         assert_eq!([loads[0], pairs[3], fours[1], tree, chain, root].map(of), [1, 2, 3, 4, 2, 3]);
-        // Two pairs, of which the first is held meanwhile, and a load beside both.
+        // Two pairs, the first of which is kept meanwhile, and a load beside both.
         assert_eq!(of(three), 3);
     }
 

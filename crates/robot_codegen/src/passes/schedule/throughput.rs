@@ -1,13 +1,13 @@
 //! List scheduling (Graham 1969): the order in which a simple processor would start the operations.
 //!
 //! A call waits for chains of dependent operations: without the sines and cosines some 100 cycles for
-//! an arm of six joints, twice the time that its operations need where they overlap. A processor looks
+//! an arm of six joints, twice the time that its operations need if they overlap. A processor looks
 //! a few hundred instructions ahead, so that work from the other end of a function is out of its
 //! sight. Here the operation whose results are waited for longest starts first.
 //!
 //! The processor of the model starts two products and two sums a cycle, as current x86-64 and 64-bit ARM
 //! cores do. An operation takes it half of what it takes them (`latency.rs`): they work on the next call while this one
-//! waits. Over the arms of `docs/performance.md` other figures make up to 2 % in the time of a call. While
+//! waits. Over the arms of `docs/performance.md` other numbers make up to 2 % in the time of a call. While
 //! more values than registers are alive, operations that end the life of others go first.
 
 use std::cmp::Reverse;
@@ -131,7 +131,7 @@ impl<'p> List<'p> {
         let (mut products, mut sums) = (PRODUCTS, SUMS);
         while let Some(value) = self.choose(products > 0, sums > 0) {
             let operation = self.program.operation(value);
-            // Registers are short and nothing frees one: what is under way may.
+            // Registers are short and nothing frees one: operations under way may.
             let under_way = products + sums < PRODUCTS + SUMS || !self.waiting.is_empty();
             if under_way && self.alive >= REGISTERS && self.growth(value) > 0 {
                 break;
@@ -159,12 +159,12 @@ impl<'p> List<'p> {
         Some(candidates.find(|value| self.growth(*value) <= 0).unwrap_or(first))
     }
 
-    /// By how much the number of values alive grows where an operation starts.
+    /// By how much the number of values alive grows if an operation starts.
     fn growth(&self, value: Value) -> isize {
         1 - self.ends[value.index()]
     }
 
-    /// Tells the users of a value where but one still needs it; for those that have started it is the same.
+    /// Tells the users of a value if but one still needs it; for those that have started it is the same.
     fn note_end(&mut self, value: Value) {
         if self.needed[value.index()] == 1 && !self.program.operation(value).is_leaf() {
             for user in &self.users[value.index()] {
@@ -264,7 +264,7 @@ mod tests {
             values.filter(|(value, _)| value.index() <= at && last[value.index()] > at).count()
         };
         let most = (0..last.len()).map(alive).max().unwrap();
-        // What is under way comes on top of 24; 32 registers hold them.
+        // Operations under way come on top of 24; 32 registers are enough.
         assert!(most <= 26, "{most}");
     }
 
@@ -334,7 +334,7 @@ mod tests {
         (there.into_iter().max().unwrap_or(0), (0..last.len()).map(alive).max().unwrap_or(0))
     }
 
-    /// As built and as ordered: the figures of this model, another has others.
+    /// As built and as ordered: the numbers of this model; another model has others.
     #[test]
     fn time_and_registers_of_dense_matrices() {
         let costs = [2, 4, 6].map(|size| {
@@ -344,7 +344,7 @@ mod tests {
         assert_eq!(costs, [((24, 6), (22, 7)), ((218, 20), (82, 26)), ((776, 42), (632, 62))]);
     }
 
-    /// The same over many random programs: the sums of cycles, and of values alive.
+    /// The sums over many random programs: of cycles, and of values alive.
     #[test]
     fn time_and_registers_of_random_programs() {
         let (mut before, mut after) = ((0, 0), (0, 0));
@@ -373,7 +373,7 @@ mod tests {
         assert_eq!(heights(&program), [28, 28, 28, 3, 26, 16, 9, 2]);
     }
 
-    /// Where both users of a value take it as both of their operands, it is one operand.
+    /// If both users of a value take it as both of their operands, it is one operand.
     #[test]
     fn operands_are_told_once() {
         let (x, y) = (Value(3), Value(5));

@@ -9,7 +9,7 @@ use crate::document::{Block, Document, Inline, Table};
 use crate::error::Error;
 use crate::width::{text_width, width};
 
-/// How a document is laid out.
+/// The layout of a document.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Page {
     /// Columns on a page, 1 or 2.
@@ -22,7 +22,7 @@ pub struct Page {
 const GAP: f64 = 0.6;
 /// Rows of a table on one page.
 const ROWS: usize = 40;
-/// What keeps the first row below a rule, and the last row above one, apart from it.
+/// The struts that separate the first row from a rule above it, and the last row from one below.
 const STRUTS: [&str; 2] = [r"\rule{0pt}{2.7ex}", r"\rule[-1.1ex]{0pt}{0pt}"];
 /// Between the columns of a table, pt, in any size.
 const COLUMN_GAP: f64 = 12.5;
@@ -121,7 +121,7 @@ impl Writer {
         let available = Layout::of_centimeters(self.page.width).width - 20.0;
         let one = |inline: &Inline| match inline {
             Inline::Math(math) if width(math) > available => {
-                // What cannot be broken is printed as it is.
+                // A formula that cannot be broken is printed unbroken.
                 let lines =
                     broken(math, available, available).unwrap_or_else(|_| vec![math.clone()]);
                 let lines: Vec<String> =

@@ -19,7 +19,7 @@ pub struct Layout {
 const LONGEST: usize = 40;
 /// The number of an equation, pt.
 const NUMBER: f64 = 36.0;
-/// What estimates may be wrong by, pt.
+/// The error of estimates, pt.
 const MARGIN: f64 = 2.0;
 
 impl Layout {

@@ -7,13 +7,13 @@ use crate::math::{Fence, Math, Script};
 /// Groups nested deeper than this are refused.
 const MAX_DEPTH: usize = 200;
 
-/// LaTeX that is no formula of this project.
+/// LaTeX that is not a formula of this project.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("at byte {place}: {message}")]
 pub struct ReadError {
     /// The byte of the text.
     pub place: usize,
-    /// What is wrong.
+    /// The problem.
     pub message: &'static str,
 }
 
@@ -38,7 +38,7 @@ struct Reader<'t> {
     fences: bool,
 }
 
-/// What ends a row.
+/// The end of a row.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     Text,

@@ -8,7 +8,7 @@ use crate::math::Math;
 ///
 /// # Errors
 ///
-/// The first side that is no formula.
+/// The first side that is not a formula.
 pub fn read_equations(latex: &str) -> Result<Vec<[Math; 2]>, ReadError> {
     let mut equations: Vec<[String; 2]> = vec![];
     for line in latex.lines() {
@@ -21,7 +21,7 @@ pub fn read_equations(latex: &str) -> Result<Vec<[Math; 2]>, ReadError> {
         let line = line.split_once(r" \label{").map_or(line, |(formula, _)| formula);
         match (line.split_once("&= "), line.split_once(r"&\quad"), equations.last_mut()) {
             (Some((left, right)), _, _) => equations.push([left.to_owned(), right.to_owned()]),
-            // What stands before the mark of a further line is there for its width.
+            // The piece before the mark of a further line is there for its width.
             (None, Some((_, more)), Some([_, right])) => {
                 right.push(' ');
                 right.push_str(more);

@@ -10,7 +10,7 @@ const ACCENTED: &[(&str, &str)] = &[
     ("ÄËÏÖÜäëöüÿ", "\""),
     ("ÃÑÕãñõ", "~"),
 ];
-/// What their letters are without the accents, in the same order.
+/// Their letters without the accents, in the same order.
 const BARE: &[&str] = &["AEIOUaeou", "AEIOUYaeouyCcNnSsZz", "AEIOUaeou", "AEIOUaeouy", "ANOano"];
 
 /// Other characters.

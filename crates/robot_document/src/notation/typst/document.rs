@@ -9,7 +9,7 @@ use crate::width::width;
 
 /// The number of an equation and its distance from the equation, pt.
 const NUMBER: f64 = 44.0;
-/// What estimates may be wrong by, pt.
+/// The error of estimates, pt.
 const MARGIN: f64 = 4.0;
 /// Between the columns of a table with the padding of the cells, pt.
 const CELL_GAP: f64 = 7.0;

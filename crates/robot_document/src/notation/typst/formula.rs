@@ -67,7 +67,7 @@ fn row(pieces: &[Math]) -> String {
     if typst.is_empty() { "\"\"".to_owned() } else { typst }
 }
 
-/// A power of a symbol with an index stands above the index: `attach` sees to that.
+/// A power of a symbol with an index is above the index: `attach` sees to that.
 fn with_indices(script: &Script) -> String {
     let base = formula(&script.base);
     let places = [("b", "_", &script.lower), ("t", "^", &script.upper)];

@@ -107,9 +107,9 @@ pub enum Origin {
     ZeroXz,
     /// Where the regrouped Σyz vanishes.
     ZeroYz,
-    /// At the link's center of mass: for translation joints, whose axis has a direction only.
+    /// At the link's center of mass: for prismatic joints, whose axis has a direction only.
     CenterOfMass,
-    /// At the parent's origin at joint position 0: for translation joints.
+    /// At the parent's origin at joint position 0: for prismatic joints.
     Parent,
 }
 

@@ -96,7 +96,7 @@ fn index<'n>(
     unique.then(|| found.into_iter().map(|(name, (index, _))| (name, index)).collect())
 }
 
-/// Parent and child of each joint, where all of them are links and no link is a child twice.
+/// Parent and child of each joint, if all of them are links and no link is a child twice.
 fn ends(
     reader: &mut Reader<'_>,
     joints: &[UrdfJoint<'_>],
@@ -154,8 +154,8 @@ fn link(
     found
 }
 
-/// The one link that is no child; `Some(None)` where every link is one, so that there are circles,
-/// which are told later.
+/// The one link that is not a child; `Some(None)` if every link is one, so that there are cycles,
+/// which are reported later.
 #[allow(clippy::type_complexity)]
 fn root<'l, 'a>(
     reader: &mut Reader<'_>,

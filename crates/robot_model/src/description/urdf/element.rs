@@ -1,4 +1,4 @@
-//! Elements of URDF, read attribute by attribute; what URDF does not know is told.
+//! Elements of URDF, read attribute by attribute; everything that URDF does not define is reported.
 
 use roxmltree::Node;
 
@@ -7,7 +7,7 @@ use super::super::table::list;
 use super::xml::template;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 
-/// What an element may hold.
+/// The allowed content of an element.
 pub(super) struct Kind {
     pub(super) name: &'static str,
     attributes: &'static [&'static str],
@@ -157,7 +157,7 @@ impl<'a, 'i> Element<'a, 'i> {
         self.node.children().filter(move |node| named(*node, name))
     }
 
-    /// How many elements of that name stand here and one level below.
+    /// The number of elements of that name here and one level below.
     pub(super) fn count(&self, name: &str) -> usize {
         let below = self.node.children().flat_map(|child| child.children());
         self.node.children().chain(below).filter(|node| named(*node, name)).count()
@@ -243,7 +243,7 @@ impl Kind {
     }
 }
 
-/// An error where a word is near or nothing else is allowed, else a warning.
+/// An error if a word is near or nothing else is allowed, else a warning.
 fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> Diagnostic {
     match near {
         Some(near) => Diagnostic::error(code::UNKNOWN_KEY, message)

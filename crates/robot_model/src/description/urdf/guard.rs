@@ -1,4 +1,4 @@
-//! What is refused before the text is parsed: the parser takes time or memory in the square of these.
+//! Rejections before the text is parsed: the parser takes time or memory in the square of these.
 
 use super::super::limits::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES};
 use crate::diagnostic::{Diagnostic, Span, code};

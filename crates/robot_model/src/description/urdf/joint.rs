@@ -55,7 +55,7 @@ pub(super) struct Dynamics {
 }
 
 impl Dynamics {
-    /// The figures in a line.
+    /// The numbers in a line.
     pub(super) fn figures(&self) -> String {
         format!("damping {}, friction {}", self.damping, self.friction)
     }
@@ -148,7 +148,7 @@ fn end<'a>(
     element.require(reader, "link", "name of a link")
 }
 
-/// What a moving joint has.
+/// The properties of a moving joint.
 struct Moving<'a> {
     axis: [Formula; 3],
     of_axis: Option<Span>,
@@ -204,7 +204,7 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
     moving
 }
 
-/// What a limit says of forces and rates, which have no part in the motion; a negative one is a slip.
+/// Reads the limits of forces and rates, which have no effect on the motion; a negative one is a mistake.
 fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
     const NAMES: [&str; 5] = ["effort", "velocity", "acceleration", "deceleration", "jerk"];
     let mut unread = Vec::new();
@@ -227,7 +227,7 @@ fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
 
 /// An axis of any length but 0.
 fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Formula; 3]> {
-    /// Rounded figures, 0.707 for √½, are of unit length.
+    /// Rounded values, 0.707 for √½, are of unit length.
     const ROUNDED: f64 = 1e-3;
     let numbers = numbers::<3>(reader, attribute, "a joint axis", "0 0 1")?;
     if numbers.iter().all(Rational::is_zero) {
@@ -256,7 +256,7 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     Some(numbers.each_ref().map(Formula::number))
 }
 
-/// Lower and upper limit, 0 if one is left out, as URDF says; none where both are the same.
+/// Lower and upper limit, 0 if one is left out, as URDF says; none if both are the same.
 fn limits(
     reader: &mut Reader<'_>,
     element: &Element<'_, '_>,

@@ -22,7 +22,7 @@ pub(super) struct UrdfLink<'a> {
     pub(super) is_spoilt: bool,
 }
 
-/// An `<inertial>`, every figure known.
+/// An `<inertial>`, all values known.
 pub(super) struct Inertial {
     /// Placed in the link's frame.
     pub(super) body: Body,

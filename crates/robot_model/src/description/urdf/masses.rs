@@ -1,12 +1,12 @@
 //! Masses and inertias: what no body can be, and how grave it is.
 //!
-//! A file that was not written for this program cannot say that a figure is meant as it is. What
-//! cannot be is an error all the same, with two exceptions, which published figures need:
+//! A file that was not written for this program cannot say that a value is intended. Impossible
+//! values are an error all the same, with two exceptions, which published values need:
 //!
 //! - principal moments that break the triangle inequality by no more than [`PUBLISHED`] of the
 //!   largest are a warning: measured moments are so;
-//! - a massless link with a moment of inertia about its joint axis alone is a warning where the joint
-//!   stands on the base and turns about a vertical axis: nothing else of the link acts.
+//! - a massless link with a moment of inertia about its joint axis alone is a warning if the joint
+//!   is carried by the base and turns about a vertical axis: nothing else of the link acts.
 
 use robot_symbolic::Formula;
 
@@ -35,7 +35,7 @@ pub(super) fn add(
     options: &Options,
 ) {
     let mut carriers: Vec<Option<usize>> = vec![None; draft.links.len()];
-    // What moves with each link that moves: whether there is any mass or inertia.
+    // The bodies that move with each link: whether there is any mass or inertia.
     let mut moved = vec![false; draft.links.len()];
     for index in order {
         let (Some(link), Some(source)) = (draft.links.get(*index), sources.get(*index)) else {
@@ -183,7 +183,7 @@ fn alone_acts(of_mass: &Span, moment: f64) -> Diagnostic {
         )
 }
 
-/// The joint axis of a link, in its frame, where it stands on the base and is along gravity.
+/// The joint axis of a link, in its frame, if the base carries it and it is along gravity.
 fn vertical_axis(draft: &Draft, index: usize) -> Option<Vector> {
     let link = draft.links.get(index)?;
     if link.joint.kind != Some(JointKind::Revolute) {

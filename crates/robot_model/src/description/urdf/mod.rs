@@ -32,7 +32,7 @@ use element::{Element, JOINT, ROBOT};
 use joint::UrdfJoint;
 use link::UrdfLink;
 
-/// The acceleration of gravity in the base frame, of which URDF says nothing, in cm/s².
+/// The acceleration of gravity in the base frame, which URDF does not have, in cm/s².
 const GRAVITY: i64 = -981;
 
 /// Lowers the text of a file; what is wrong with it, and the choices made, are reported.
@@ -43,7 +43,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
     let name = name.and_then(|attribute| name::identifier(reader, &attribute));
     let (links, joints) = parts(reader, &root)?;
     let connected = connect::connect(reader, &links, &joints, options.friction)?;
-    // A stand-in, so that the rest is checked all the same.
+    // A placeholder, so that the rest is checked all the same.
     let named = name.clone().unwrap_or(Named { name: String::new(), span: root.tag() });
     let down = Rational::new(GRAVITY, 100).unwrap_or(Rational::ZERO);
     let mut draft = Draft {
@@ -67,7 +67,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
     Some(Lowered { draft, order, parameters, wanted: Wanted::default(), budgets: Vec::new() })
 }
 
-/// The root element, where it is that of URDF.
+/// The root element, if it is that of URDF.
 fn root<'a, 'i>(reader: &mut Reader<'_>, node: Node<'a, 'i>) -> Option<Element<'a, 'i>> {
     let name = node.tag_name().name();
     let place = element::tag(node);

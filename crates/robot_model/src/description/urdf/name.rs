@@ -35,7 +35,7 @@ pub(super) fn label<'a>(
 }
 
 impl Name<'_> {
-    /// Tells that the name has changed, where it has.
+    /// Tells that the name has changed, if it has.
     pub(super) fn tell(&self, reader: &mut Reader<'_>) {
         tell(reader, self.written, &self.named);
     }

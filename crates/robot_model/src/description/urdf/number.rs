@@ -61,7 +61,7 @@ pub(super) fn formulas<const N: usize>(
 /// The words of an attribute with their places in the file.
 pub(super) fn words<'t>(reader: &Reader<'t>, attribute: &Attribute<'t>) -> Vec<(&'t str, Span)> {
     let raw = reader.text.get(attribute.span.clone()).unwrap_or_default();
-    // Behind references to characters nothing stands where it is read.
+    // Character references have no place of their own in the text.
     let followed = !raw.contains('&');
     let text = if followed { raw } else { attribute.text };
     let mut words = Vec::new();

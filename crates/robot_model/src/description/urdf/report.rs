@@ -9,7 +9,7 @@ use super::unread;
 use crate::diagnostic::{Diagnostic, code};
 use crate::variable::JointVariable;
 
-/// What says nothing of the motion, and its plural.
+/// Elements without effect on the motion, and their plural.
 const IGNORED: &[(&str, &str)] = &[
     ("visual", "visuals"),
     ("collision", "collisions"),
@@ -45,7 +45,7 @@ pub(super) fn choices(
     unread::notes(reader, root, joints, options);
 }
 
-/// What concerns the file as a whole.
+/// Reports that concern the file as a whole.
 fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: &[usize]) {
     let gravity = draft.gravity.each_ref().map(|entry| entry.text().to_owned()).join(", ");
     reader.report(

@@ -1,6 +1,6 @@
-//! What a URDF file says and the reader does not use, a line for each kind of thing.
+//! Content of a URDF file that the reader does not use, a line for each kind of thing.
 //!
-//! What bears on the dynamics is told to the reader in words besides, so that every command can say it.
+//! Content that affects the dynamics is also returned in words, so that every command can report it.
 
 use roxmltree::Node;
 
@@ -90,7 +90,7 @@ fn drives(reader: &mut Reader<'_>, places: &[Span]) {
     reader.left_out.push(format!("the drives of {count}"));
 }
 
-/// What Gazebo is told of gravity, springs and damping.
+/// Gazebo's settings of gravity, springs and damping.
 fn simulated(reader: &mut Reader<'_>, places: &[Span]) {
     let Some(first) = places.first() else { return };
     let count = counted(places.len(), "Gazebo element");
@@ -108,7 +108,7 @@ fn any(node: Node<'_, '_>, is: fn(&str, &str) -> bool) -> bool {
     within.any(|one| is(one.tag_name().name(), one.text().unwrap_or_default().trim()))
 }
 
-/// Whether a figure of a transmission bears on the dynamics.
+/// Whether a value of a transmission affects the dynamics.
 fn has_gear(name: &str, text: &str) -> bool {
     let figure = text.parse::<f64>().ok();
     match name {
@@ -118,7 +118,7 @@ fn has_gear(name: &str, text: &str) -> bool {
     }
 }
 
-/// Whether what Gazebo is told bears on the dynamics.
+/// Whether a setting of Gazebo affects the dynamics.
 fn has_force(name: &str, text: &str) -> bool {
     let is_true = text == "1" || text.eq_ignore_ascii_case("true");
     let is_some = text.parse::<f64>().ok() != Some(0.0);

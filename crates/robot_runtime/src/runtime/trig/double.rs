@@ -2,7 +2,7 @@
 //!
 //! Method: Cody & Waite, *Software Manual for the Elementary Functions* (1980), chapter 8. The
 //! angle x is brought to r = x − k·π/2 with k the integer nearest to 2x/π, |k| < 2³⁰, and π/2 held
-//! in parts. Where multiply-adds are [`FUSED`] these are three of 53 bits: the first step is exact,
+//! in parts. If multiply-adds are [`FUSED`] these are three of 53 bits: the first step is exact,
 //! the second rounds once. Elsewhere they are four: the first two have 23 bits, so that their
 //! products with k are exact; the third has 36, its product is exact for |k| < 2¹⁷ and off by less
 //! than 2⁻⁶⁹ beyond. What the last part gives is added to the sine alone, behind its polynomial,
@@ -33,7 +33,7 @@ const SHIFT: f64 = 6755399441055744.0;
 const HALF_PI: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33];
 
-/// The same in parts for multiply-adds that round twice.
+/// π/2 in shorter parts, for multiply-adds that round twice.
 const SHORT_HALF_PI: [f64; 4] =
     [1.570796251296997, 7.549790836947068e-08, -8.820551857060331e-15, 1.6446256936324258e-26];
 
@@ -84,7 +84,7 @@ fn compute<const ONCE: bool>(angle: f64) -> (f64, f64) {
     select(shifted.to_bits(), sine, mul_add::<ONCE>(z, cosine, 1.0))
 }
 
-/// `angle`, and NaN where it is not below the limit, by a mask that waits for nothing but the angle. The
+/// `angle`, and NaN if it is not below the limit, by a mask that waits for nothing but the angle. The
 /// sum's sign is the carry: LLVM turns what it sees to be a comparison into a jump.
 #[inline(always)]
 fn nan_beyond_limit(angle: f64) -> f64 {
@@ -94,7 +94,7 @@ fn nan_beyond_limit(angle: f64) -> f64 {
     f64::from_bits(angle.to_bits() | beyond as u64)
 }
 
-/// `angle` less `k` right angles, as a number less a rest that counts where the number is tiny.
+/// `angle` less `k` right angles, as a number less a rest that counts if the number is tiny.
 #[inline(always)]
 fn reduce<const ONCE: bool>(angle: f64, k: f64) -> (f64, f64) {
     if ONCE {

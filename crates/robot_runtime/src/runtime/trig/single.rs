@@ -1,6 +1,6 @@
 //! Sine and cosine in single precision, without a single double-precision operation.
 //!
-//! The method is that of [`double`](super::double) with |k| < 2¹⁷: where multiply-adds are
+//! The method is that of [`double`](super::double) with |k| < 2¹⁷: if multiply-adds are
 //! [`FUSED`], π/2 in three parts of 24 bits; elsewhere in four, the first three of at most 7 bits,
 //! exact in products with k. S and C are of degree 2 with polynomial errors 4.0e-9 (relative, sine)
 //! and 1.1e-10 (absolute, cosine).
@@ -40,7 +40,7 @@ pub fn sin_cos(angle: f32) -> (f32, f32) {
     select(shifted.to_bits(), sine, cosine)
 }
 
-/// `angle`, and NaN where it is not below the limit, by a mask that waits for nothing but the angle. The
+/// `angle`, and NaN if it is not below the limit, by a mask that waits for nothing but the angle. The
 /// sum's sign is the carry: LLVM turns what it sees to be a comparison into a jump.
 #[inline(always)]
 fn nan_beyond_limit(angle: f32) -> f32 {

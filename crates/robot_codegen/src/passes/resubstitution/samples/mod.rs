@@ -4,7 +4,7 @@ use robot_symbolic::Function;
 
 use crate::program::{DoubleDouble, Operation, Program, Source, Value};
 
-/// Points that share the values of parameters.
+/// The number of points that have the same values of parameters.
 const POINTS_PER_SET: usize = 2;
 /// Sets of values of parameters.
 const SETS: usize = 3;
@@ -14,7 +14,7 @@ const POINTS: usize = SETS * POINTS_PER_SET;
 /// The unit of rounding of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// How far an evaluation may round, in the measure of what it adds up, for agreement to within that
+/// The largest rounding of an evaluation, relative to the terms it adds up, for agreement to within that
 /// rounding to be evidence: beyond it, as after dozens of joints, everything would agree.
 const TRUST: f64 = 1e-9;
 
@@ -55,7 +55,7 @@ impl Samples {
     }
 
     /// Whether two programs have the same results at points that were not compared, as far as there are
-    /// results: the root of a number below 0 is none.
+    /// results: the root of a number below 0 is not.
     pub(super) fn agree(&self, before: &Program, after: &Program) -> bool {
         let results = |program: &Program| -> Vec<Sample> {
             let samples = self.checked.of(program);
@@ -74,7 +74,7 @@ impl Samples {
     }
 }
 
-/// What points are for.
+/// The purpose of points.
 #[derive(Clone, Copy, PartialEq)]
 enum Use {
     /// To find values that agree. The values of functions are unrelated numbers here: see the first
@@ -84,7 +84,7 @@ enum Use {
     Check,
 }
 
-/// What loads read at the points: parameters and inputs of either sign and sizes near 1, and the
+/// The values that loads read at the points: parameters and inputs of either sign and sizes near 1, and the
 /// sines and cosines of a function's angles, which may depend on each other.
 struct Points {
     used: Use,
@@ -166,7 +166,7 @@ fn unrelated_numbers(kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble;
 pub(super) struct Sample {
     values: [DoubleDouble; POINTS],
     errors: [f64; POINTS],
-    /// Whether the bounds are far below what the evaluation adds up, all the way.
+    /// Whether the bounds are far below the terms of the evaluation at every step.
     is_trusted: bool,
 }
 
@@ -189,7 +189,7 @@ impl Sample {
         sum.trusted_as_sum_of(self, other)
     }
 
-    /// The difference, or the sum where the sign of the other is changed.
+    /// The difference, or the sum if the sign of the other is changed.
     pub(super) fn minus(&self, other: &Sample, negative: bool) -> Sample {
         let sign = if negative { -1.0 } else { 1.0 };
         let difference = Sample::new(
@@ -301,7 +301,7 @@ impl Sample {
         steady.then_some(Sample { errors, ..ratio })
     }
 
-    /// How far off a factor of another value may be before this value leaves its own rounding.
+    /// The largest error of a factor of another value before this value leaves its own rounding.
     fn relative_errors(&self, other: &Sample) -> [f64; POINTS] {
         std::array::from_fn(|point| self.errors[point] / other.value(point).abs())
     }
