@@ -91,7 +91,7 @@ pub mod planar_arm {
         /// - `qd`: joint qd, in rad/s.
         /// - `qdd`: joint qdd, in rad/s^2.
         ///
-        /// Returns tau, in N m.
+        /// Returns: tau, in N m.
         ///
         /// 12 multiplications, 13 additions, 1 sine, 3 cosines.
         #[inline(always)]
@@ -197,7 +197,7 @@ pub mod planar_arm {
         /// - `qd`: joint qd, in rad/s.
         /// - `qdd`: joint qdd, in rad/s^2.
         ///
-        /// Returns tau, in N m.
+        /// Returns: tau, in N m.
         ///
         /// 12 multiplications, 13 additions, 1 sine, 3 cosines.
         #[inline]

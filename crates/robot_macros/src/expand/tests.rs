@@ -57,7 +57,7 @@ fn all_wrong_options_are_named() {
         allow_outside = 1, runtime = 3, trigonometry = "none", scalar = "f32", batch = 2.5
     });
     for part in [
-        "there is no option `snapp` (did you mean `snap`?); there are functions, bundles",
+        "there is no option `snapp` (did you mean `snap`?); the options are functions, bundles",
         "expected a number",
         "expected one of \\\"inverse_dynamics\\\"",
         "\\\"all\\\" (did you mean `inverse_dynamics`?)",

@@ -180,7 +180,7 @@ pub mod blocks {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
@@ -335,7 +335,7 @@ pub mod blocks {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]

@@ -113,7 +113,7 @@ pub mod generic {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
@@ -183,7 +183,7 @@ pub mod generic {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
@@ -260,7 +260,7 @@ pub mod generic {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
@@ -334,7 +334,7 @@ pub mod generic {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]

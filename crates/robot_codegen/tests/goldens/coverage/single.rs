@@ -113,7 +113,7 @@ pub mod single {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline(always)]
@@ -218,7 +218,7 @@ pub mod single {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline(always)]

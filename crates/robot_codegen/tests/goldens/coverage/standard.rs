@@ -109,7 +109,7 @@ pub mod standard {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
@@ -180,7 +180,7 @@ pub mod standard {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
@@ -264,7 +264,7 @@ pub mod standard {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
@@ -339,7 +339,7 @@ pub mod standard {
         ///
         /// - `q`: two numbers.
         ///
-        /// Returns all results.
+        /// Returns: all results.
         ///
         /// 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
