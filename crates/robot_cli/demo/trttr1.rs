@@ -246,7 +246,7 @@ pub mod trttr1 {
         /// - `qd`: Joint velocities, in rad/s; m/s for the prismatic joints at \[0\], \[2\], \[3\].
         /// - `qdd`: Joint accelerations, in rad/s²; m/s² for the prismatic joints at \[0\], \[2\], \[3\].
         ///
-        /// Returns Joint torques, in N m; N for the prismatic joints at \[0\], \[2\], \[3\].
+        /// Returns: Joint torques, in N m; N for the prismatic joints at \[0\], \[2\], \[3\].
         ///
         /// 32 multiplications, 20 additions, 2 sines, 2 cosines.
         #[inline]
