@@ -42,7 +42,7 @@ fn every_fault_of_a_link_is_named() {
     assert_eq!(reason(|l| l.joint.offset = f64::INFINITY), format!("link 0: joint{finite}"));
     assert_eq!(
         reason(|l| l.center_of_mass.x = f64::NAN),
-        format!("link 0: centre of mass{finite}")
+        format!("link 0: center of mass{finite}")
     );
     assert_eq!(reason(|l| l.inertia[(0, 1)] = f64::NAN), format!("link 0: inertia{finite}"));
     assert_eq!(reason(|l| l.rotor_inertia = f64::NAN), format!("link 0: rotor inertia{finite}"));
