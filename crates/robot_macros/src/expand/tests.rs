@@ -65,7 +65,7 @@ fn all_wrong_options_are_named() {
         "expected true or false",
         "expected a whole number",
         "expected a string literal",
-        "expected one of \\\"standard\\\", \\\"polynomial\\\"",
+        "expected one of \\\"polynomial\\\", \\\"standard\\\"",
         "`scalar` is given twice",
     ] {
         assert!(shown.contains(part), "{part} is not in {shown}");
