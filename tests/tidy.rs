@@ -285,11 +285,7 @@ const SYSTEM: [(&[&str], &[&str]); 3] = [
     (
         &["std::fs", "std::env", "std::io::std", "io::stdin", "io::stdout", "io::stderr"],
         &[
-            "robot_build/src/builder",
-            "robot_build/src/cargo.rs",
-            "robot_build/src/files/",
-            "robot_build/src/paths.rs",
-            "robot_build/src/pin.rs",
+            "robot_build/src/door/",
             "robot_macros/",
             "robot_evidence/src/compile.rs",
             "robot_cli/",

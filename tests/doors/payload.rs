@@ -144,7 +144,7 @@ fn a_pin_made_without_the_payload_is_stale() {
     std::fs::write(&path, source("ur5", None).text).unwrap();
     std::fs::write(path.with_extension("plan"), robot_file("ur5.plan")).unwrap();
     let error = RobotFile::read(&path).unwrap().with_pin(&options()).unwrap_err().to_string();
-    assert!(error.contains("stale") && error.contains("robot-symbolic search"), "{error}");
+    assert!(error.contains("stale") && error.contains("search for a plan again"), "{error}");
 }
 
 /// Models with the body, and calls at the states, in `f64` and `f32`.

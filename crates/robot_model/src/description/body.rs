@@ -101,6 +101,6 @@ fn not_positive(value: f64, moving: bool) -> Diagnostic {
         (false, _) => "correct the value",
     };
     Diagnostic::error(code::MASS, format!("the mass is {value} kg"))
-        .because("a body cannot have such a mass: the equations become singular or unstable")
+        .because("no body has such a mass: the equations become singular or unstable")
         .help(help)
 }

@@ -98,7 +98,7 @@ fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
 
 fn negative_mass(mass: f64) -> Diagnostic {
     Diagnostic::error(code::MASS, format!("the mass is {mass} kg"))
-        .because("a body cannot have such a mass: the equations become singular or unstable")
+        .because("no body has such a mass: the equations become singular or unstable")
         .help("correct the value")
 }
 
@@ -126,10 +126,7 @@ fn judge_body(
             Diagnostic::error(code::MASS, "a body of mass 0 has moments of inertia")
                 .at(&of_mass, "the mass is 0")
                 .because("a moment of inertia is a sum of mass times distance squared")
-                .help(
-                    "correct the mass; if the values are intended, read it with the option \
-                     `allow_massless`",
-                );
+                .help("correct the mass, or read the file with the option `allow_massless`");
         if options.allow_massless || !own {
             diagnostic.severity = Severity::Warning;
         }
