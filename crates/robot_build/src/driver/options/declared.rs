@@ -205,7 +205,6 @@ pub const OPTIONS: &[OptionSpec] = &[
         commands: Commands::Robot,
         in_file: Some("[robot] snap"),
         set: |options, value| value.number().map(|angle| options.snap = Some(angle)),
-        ..PLAIN
     },
     OptionSpec {
         name: "base_frames",
@@ -222,7 +221,6 @@ pub const OPTIONS: &[OptionSpec] = &[
             options.base_frames = Some(BaseFrames::from_name(value.word()?)?);
             Some(())
         },
-        ..PLAIN
     },
     OptionSpec {
         name: "scalar",
@@ -303,7 +301,6 @@ pub const OPTIONS: &[OptionSpec] = &[
         commands: Commands::None,
         in_file: Some("[[budget]] max_operations"),
         set: |options, value| value.count().map(|limit| options.max_operations = Some(limit)),
-        ..PLAIN
     },
     OptionSpec {
         name: "max_stack",
@@ -315,7 +312,6 @@ pub const OPTIONS: &[OptionSpec] = &[
         commands: Commands::None,
         in_file: Some("[[budget]] max_stack"),
         set: |options, value| value.count().map(|limit| options.max_stack = Some(limit)),
-        ..PLAIN
     },
     OptionSpec {
         name: "runtime",
@@ -369,7 +365,7 @@ mod tests {
             let mut options = Options::default();
             match option.value(option.example) {
                 Some(value) => {
-                    assert_eq!(option.set(&mut options, value), Some(()), "{}", option.name)
+                    assert_eq!(option.set(&mut options, value), Some(()), "{}", option.name);
                 }
                 None => assert!(matches!(option.kind, Kind::Functions | Kind::Bundles)),
             }
