@@ -42,7 +42,7 @@ impl<'g> SymmetricMatrix<'g> {
         self.order
     }
 
-    /// An entry.
+    /// The entry in a row and column.
     #[must_use]
     pub fn at(&self, row: usize, column: usize) -> Expr<'g> {
         self.entries[Self::place(row, column)]

@@ -31,7 +31,7 @@ pub(crate) enum Flow {
     Call(i64),
     /// A function that a register or memory names in the same way, then the next one.
     IndirectCall(usize),
-    /// The caller.
+    /// Returns to the caller.
     Return,
     /// Nothing: the processor traps.
     Trap,

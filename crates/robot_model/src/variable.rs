@@ -22,7 +22,7 @@ pub enum JointVariable {
 use JointVariable::{Acceleration, Position, Torque, Velocity};
 
 impl JointVariable {
-    /// All, in the order in which functions take them.
+    /// All variables, in the order in which functions take them.
     pub const ALL: [JointVariable; 4] = [Position, Velocity, Acceleration, Torque];
     /// The motion of a joint: its position and the time derivatives of it.
     pub const MOTION: [JointVariable; 3] = [Position, Velocity, Acceleration];

@@ -59,7 +59,7 @@ pub(crate) fn holding(name: &'static str, child: impl Into<Node>) -> Element {
 }
 
 impl Element {
-    /// With an attribute.
+    /// Adds an attribute.
     pub(crate) fn attribute(mut self, name: &'static str, value: impl Into<String>) -> Element {
         self.attributes.push((name, value.into()));
         self

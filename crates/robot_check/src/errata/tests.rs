@@ -12,7 +12,7 @@ fn compared(robot: &Robot, text: &str) -> Result<Comparison, Diagnostics> {
     compare(robot, &source, &Options::default())
 }
 
-/// The second equation of the plane arm, one term a line.
+/// The second equation of the planar arm, one term a line.
 const TERMS: [&str; 7] = [
     "- m2*g*r2*sin(q1)*sin(q2)",
     "+ m2*g*r2*cos(q1)*cos(q2)",

@@ -111,8 +111,8 @@ pub enum Fused {
     WhereTarget,
 }
 
-/// Runs the passes that save operations on a program that loads parameters, and reports what is
-/// left after each, also of those that save nothing. `angles` are the arguments of its sines and cosines.
+/// Runs the passes that save operations on a program that loads parameters, and reports the
+/// counts after each, including those that save nothing. `angles` are the arguments of its sines and cosines.
 pub(crate) fn run(
     program: &Program,
     angles: &Program,

@@ -10,7 +10,7 @@ use super::scalar::Scalar;
 use crate::body::{Body, ENTRIES, Moments, TENSOR};
 use crate::economical::WorkingFrame;
 
-/// Per tensor of six entries by place: those on the diagonal.
+/// Whether a place among the six entries of a tensor is on the diagonal.
 fn is_diagonal(place: usize) -> bool {
     ENTRIES.get(place).is_some_and(|(row, column)| row == column)
 }

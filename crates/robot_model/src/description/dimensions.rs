@@ -166,7 +166,7 @@ fn in_units(dimension: Dimension) -> String {
 }
 
 impl Reader<'_> {
-    /// Reports an expression whose dimension does not fit its place; whether it can be kept.
+    /// Reports an expression whose dimension does not fit its place; returns whether it can be kept.
     pub(super) fn fits(&mut self, formula: &Formula, quantity: Quantity, span: &Span) -> bool {
         let found = match self.dimension(formula) {
             Ok(found) => found,

@@ -101,7 +101,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         methods
     }
 
-    /// Whether the arithmetic stays out of line where single states are computed, on x86-64 with
+    /// Whether the arithmetic stays out of line if single states are computed, on x86-64 with
     /// multiply-adds: after calls of the library's sine and cosine, over which LLVM can keep nothing in
     /// registers, it comes out 3 to 7 % slower inlined, if it has more inputs than them. Without
     /// multiply-adds LLVM makes vectors of sines that were stored a moment ago, and waits for them
