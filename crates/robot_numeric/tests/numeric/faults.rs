@@ -42,14 +42,14 @@ fn every_fault_of_a_link_is_named() {
     assert_eq!(reason(|l| l.joint.offset = f64::INFINITY), format!("link 0: joint{finite}"));
     assert_eq!(
         reason(|l| l.center_of_mass.x = f64::NAN),
-        format!("link 0: centre of mass{finite}")
+        format!("link 0: center of mass{finite}")
     );
     assert_eq!(reason(|l| l.inertia[(0, 1)] = f64::NAN), format!("link 0: inertia{finite}"));
     assert_eq!(reason(|l| l.rotor_inertia = f64::NAN), format!("link 0: rotor inertia{finite}"));
     assert_eq!(reason(|l| l.friction.viscous = f64::NAN), format!("link 0: friction{finite}"));
     assert_eq!(
         reason(|l| l.friction = Friction { sign: Sign::Smooth(0.0), ..l.friction }),
-        "link 0: the width of a smooth sign must be positive"
+        "link 0: the smoothing width must be positive"
     );
     assert_eq!(reason(|l| l.inertia[(0, 1)] = 0.1), "link 0: the inertia tensor must be symmetric");
     let rotation = "link 0: the rotation must be an orthonormal matrix of determinant +1";
