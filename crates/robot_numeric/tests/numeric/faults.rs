@@ -49,7 +49,7 @@ fn every_fault_of_a_link_is_named() {
     assert_eq!(reason(|l| l.friction.viscous = f64::NAN), format!("link 0: friction{finite}"));
     assert_eq!(
         reason(|l| l.friction = Friction { sign: Sign::Smooth(0.0), ..l.friction }),
-        "link 0: the width of a smooth sign must be positive"
+        "link 0: the smoothing width must be positive"
     );
     assert_eq!(reason(|l| l.inertia[(0, 1)] = 0.1), "link 0: the inertia tensor must be symmetric");
     let rotation = "link 0: the rotation must be an orthonormal matrix of determinant +1";
