@@ -15,7 +15,7 @@
 //! | batches, which take slices | shown, nothing claimed | a loop over the states, no panic |
 //!
 //! This is the one part of the project that starts another program. Everything but [`prove`] works
-//! on bytes: [`Module::of`] reads an object file wherever it comes from.
+//! on bytes: [`Module::read`] reads an object file wherever it comes from.
 
 mod claim;
 mod compile;
