@@ -6,7 +6,8 @@ use robot_model::diagnostic::Diagnostics;
 use robot_check::doctor::{Examination, examine};
 use robot_document::{SymbolTable, Trigonometry, latex};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_dynamics::newton_euler::{Effects, newton_euler};
+use robot_dynamics::newton_euler::newton_euler;
+use robot_model::functions::Effects;
 use robot_symbolic::{Graph, print};
 
 /// Robots of more moving links than this are read, but not derived.
@@ -44,7 +45,7 @@ pub fn follow(text: &str, described: &Described) {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::EXACT);
     let effects = Effects { wrench: true, friction: true };
-    let equations = newton_euler(&mechanism, effects).driving_forces;
+    let equations = newton_euler(&mechanism, effects).generalized_forces;
     assert_eq!(equations.len(), robot.degrees_of_freedom());
     let table = SymbolTable::spelled(Trigonometry::Named);
     for equation in equations {
