@@ -198,8 +198,7 @@ fn frame(robot: &Robot, frame: &Frame) -> Item {
         named("placement", placement(&frame.placement)),
     ];
     properties.extend(frame.wrench.as_ref().map(|wrench| {
-        let names: Vec<&str> =
-            wrench.force.iter().chain(&wrench.moment).map(String::as_str).collect();
+        let names: Vec<&str> = wrench.components().collect();
         named("wrench", names.join(", "))
     }));
     Item { kind: ItemKind::Frame, name: frame.name.clone(), properties }

@@ -145,7 +145,7 @@ fn joint_force<'g>(
 
 fn wrench_names(writer: &Writer<'_, '_>) -> Vec<String> {
     let names = |(_, wrench): (_, &robot_model::robot::Wrench)| {
-        wrench.force.iter().chain(&wrench.moment).cloned().collect::<Vec<_>>()
+        wrench.components().map(str::to_owned).collect::<Vec<_>>()
     };
     writer.robot.tips().flat_map(names).collect()
 }
