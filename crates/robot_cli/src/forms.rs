@@ -21,10 +21,14 @@ pub(crate) struct EquationArguments {
     /// Sines and cosines in LaTeX, Typst and MathML [default: named]
     #[arg(long, value_enum)]
     trig: Option<TrigonometryStyle>,
-    /// Sines and cosines of sums of angles, as of parallel joints, in the joint torques of all forms
-    /// except recursive [default: expand]
+    /// Sines and cosines of sums of angles of parallel joints, in all forms except recursive [default: expand in
+    /// the form expanded, else keep]
     #[arg(long, value_enum)]
     angle_sums: Option<AngleSumStyle>,
+    /// In the forms grouped and regrouped, multiply the coefficients out instead of taking common factors out of
+    /// brackets
+    #[arg(long)]
+    expand: bool,
     /// In the grouped form, print Christoffel symbols instead of Coriolis and centrifugal coefficients
     #[arg(long)]
     christoffel: bool,
@@ -38,6 +42,8 @@ pub(crate) struct EquationArguments {
 pub(crate) enum FormName {
     /// Sums of products, with like terms merged
     Expanded,
+    /// Common factors in front of brackets, sums of angles
+    Collected,
     /// Mass matrix, Coriolis and centrifugal terms, gravity terms
     Grouped,
     /// Link by link, each quantity from the previous ones
@@ -52,6 +58,7 @@ impl From<FormName> for Form {
     fn from(name: FormName) -> Form {
         match name {
             FormName::Expanded => Form::Expanded,
+            FormName::Collected => Form::Collected,
             FormName::Grouped => Form::Grouped,
             FormName::Recursive => Form::Recursive,
             FormName::Compact => Form::Compact,
@@ -94,6 +101,13 @@ impl EquationArguments {
                     .to_owned(),
             );
         }
+        let has_coefficients = |form: &Form| matches!(form, Form::Grouped | Form::Regrouped);
+        if self.expand && !forms.iter().any(has_coefficients) {
+            wrong.push(
+                "--expand has no effect in this form; add --form grouped or regrouped, or leave it out"
+                    .to_owned(),
+            );
+        }
         if self.trig.is_some() && !typeset {
             wrong.push(no_effect("--trig"));
         }
@@ -125,10 +139,11 @@ impl EquationArguments {
                 TrigonometryStyle::Short => Trigonometry::Short,
                 TrigonometryStyle::Paper => Trigonometry::Paper,
             },
-            angle_sums: match self.angle_sums.unwrap_or(AngleSumStyle::Expand) {
+            angle_sums: self.angle_sums.map(|style| match style {
                 AngleSumStyle::Expand => AngleSums::Expand,
                 AngleSumStyle::Keep => AngleSums::Keep,
-            },
+            }),
+            expand: self.expand,
             christoffel: self.christoffel,
         })
     }

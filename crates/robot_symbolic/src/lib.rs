@@ -37,6 +37,7 @@
 //! # Ok::<(), robot_symbolic::PolynomialError>(())
 //! ```
 
+pub mod collected;
 pub mod differentiate;
 mod expr;
 pub mod formula;

@@ -101,9 +101,13 @@ fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
     for (side, expr) in pair.into_iter().enumerate() {
         let Some(expr) = expr else { continue };
         for term in Polynomial::of(expr, &LIMITS)?.arranged(print::default_rank) {
-            let key = term.factors.iter().map(|(atom, exponent)| (atom.id(), *exponent)).collect();
+            let factors = term.factors.iter();
+            let factors: Vec<(Expr<'_>, i32)> = factors
+                .filter_map(|(factor, exponent)| Some((factor.as_atom()?, *exponent)))
+                .collect();
+            let key = factors.iter().map(|(atom, exponent)| (atom.id(), *exponent)).collect();
             let coefficient = if term.negative { -&term.coefficient } else { term.coefficient };
-            let found = texts.entry(key).or_insert_with(|| (powers(&term.factors), [None, None]));
+            let found = texts.entry(key).or_insert_with(|| (powers(&factors), [None, None]));
             if let Some(place) = found.1.get_mut(side) {
                 *place = Some(coefficient);
             }

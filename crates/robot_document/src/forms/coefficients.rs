@@ -1,6 +1,8 @@
 //! Coefficients with names, and the joint torques as sums of their products.
 
 use robot_model::variable::JointVariable;
+use robot_symbolic::collected::length;
+use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
@@ -8,12 +10,14 @@ use super::{Equation, Group, Writer, generalized_force, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
-/// Coefficients are expanded if that takes no more than this; else what they have in common gets
-/// names.
+/// A coefficient is written out if its expansion takes no more than this; else what it has in common with others
+/// gets names.
 const LIMITS: PolynomialOptions =
-    PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 60_000, max_products: 600_000 };
-/// The terms of all coefficients together, beyond which names make them shorter.
-const MAX_TERMS: usize = 1_500;
+    PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 200_000 };
+/// The most terms of an expansion that is collected.
+const MAX_TERMS: usize = 160;
+/// The most printed symbols of a coefficient, some six lines; names make longer ones shorter.
+const MAX_LENGTH: usize = 200;
 
 /// Coefficients of a kind.
 pub(super) struct Section<'g> {
@@ -37,50 +41,68 @@ impl<'g> Coefficient<'g> {
     }
 }
 
-/// The joint torques as sums of products of coefficients that have names, and the coefficients:
-/// expanded if that is short, else what they have in common gets names too.
+/// How a coefficient is printed.
+pub(super) enum Shown<'g> {
+    /// Not at all: what is 0 only once it is expanded is left out as well.
+    Zero,
+    /// By its terms.
+    Short(Vec<ArrangedTerm<'g>>),
+    /// By names of parts.
+    Long,
+}
+
+/// How the coefficients are printed, by section.
+pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<Vec<Shown<'g>>> {
+    let coefficient =
+        |coefficient: &Coefficient<'g>| match Polynomial::of(coefficient.value, &LIMITS) {
+            Ok(polynomial) if polynomial.is_zero() => Shown::Zero,
+            Ok(polynomial) if polynomial.len() <= MAX_TERMS => {
+                let terms = writer.collected(&polynomial);
+                match length(&terms) <= MAX_LENGTH {
+                    true => Shown::Short(terms),
+                    false => Shown::Long,
+                }
+            }
+            _ => Shown::Long,
+        };
+    sections.iter().map(|section| section.coefficients.iter().map(coefficient).collect()).collect()
+}
+
+/// The joint torques as sums of products of coefficients that have names, and the coefficients: written out if
+/// they are short, else what they have in common gets names too.
 pub(super) fn by_name<'g>(
     writer: &mut Writer<'_, 'g>,
     title: &str,
     introduction: String,
     sections: &[Section<'g>],
-    expanded: Option<Vec<Vec<Polynomial<'g>>>>,
+    shown: &[Vec<Shown<'g>>],
     sums: Vec<Sum<'g>>,
 ) -> Result<Vec<Group>, Error> {
-    let zeros = define_all(writer, sections, expanded.as_deref().unwrap_or_default())?;
+    let zeros = define_all(writer, sections, shown)?;
     let mut groups = vec![Group {
         title: title.to_owned(),
         introduction,
         definitions: false,
         equations: generalized_forces(writer, sums, &zeros)?,
     }];
-    match expanded {
-        Some(polynomials) => groups.extend(as_polynomials(writer, sections, &polynomials)?),
-        None => groups.extend(as_expressions(writer, sections)?),
-    }
+    groups.extend(definitions_of(writer, sections, shown)?);
     Ok(groups)
 }
 
-/// Defines the coefficients but those whose polynomials are 0: what is 0 only once it is expanded is
-/// left out as well. Gives the names of these.
+/// Defines the coefficients but those that are 0. Gives the names of these.
 pub(super) fn define_all(
     writer: &mut Writer<'_, '_>,
     sections: &[Section<'_>],
-    polynomials: &[Vec<Polynomial<'_>>],
+    shown: &[Vec<Shown<'_>>],
 ) -> Result<Vec<String>, Error> {
-    let zeros = zeros(sections, polynomials);
-    for coefficient in all(sections) {
-        if !zeros.contains(&coefficient.name) {
-            writer.define(&coefficient.name, coefficient.shape.clone())?;
+    let mut zeros = vec![];
+    for (coefficient, shown) in all(sections).zip(shown.iter().flatten()) {
+        match shown {
+            Shown::Zero => zeros.push(coefficient.name.clone()),
+            _ => writer.define(&coefficient.name, coefficient.shape.clone())?,
         }
     }
     Ok(zeros)
-}
-
-/// The coefficients whose polynomials are 0.
-fn zeros(sections: &[Section<'_>], polynomials: &[Vec<Polynomial<'_>>]) -> Vec<String> {
-    let zero = all(sections).zip(polynomials.iter().flatten()).filter(|(_, value)| value.is_zero());
-    zero.map(|(coefficient, _)| coefficient.name.clone()).collect()
 }
 
 /// The summands of a joint torque: a coefficient's name and its multiplier.
@@ -111,68 +133,38 @@ pub(super) fn motions<'g>(writer: &Writer<'_, 'g>, variable: JointVariable) -> V
     symbols.iter().map(|symbol| writer.graph.symbol(symbol)).collect()
 }
 
-/// The polynomials of all coefficients but those of friction, if they are short enough.
-pub(super) fn expanded<'g>(
-    writer: &Writer<'_, 'g>,
-    sections: &[Section<'g>],
-) -> Option<Vec<Vec<Polynomial<'g>>>> {
-    let values: Vec<Expr<'g>> = all(sections).map(|coefficient| coefficient.value).collect();
-    let polynomials = writer.polynomials(&values, &LIMITS).ok()?;
-    let terms: usize = polynomials.iter().map(Polynomial::len).sum();
-    if terms > MAX_TERMS {
-        return None;
-    }
-    let mut polynomials = polynomials.into_iter();
-    let of_section =
-        |section: &Section<'g>| polynomials.by_ref().take(section.coefficients.len()).collect();
-    Some(sections.iter().map(of_section).collect())
-}
-
-pub(super) fn all<'s, 'g>(
-    sections: &'s [Section<'g>],
-) -> impl Iterator<Item = &'s Coefficient<'g>> {
+fn all<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = &'s Coefficient<'g>> {
     sections.iter().flat_map(|section| &section.coefficients)
 }
 
-pub(super) fn as_polynomials<'g>(
-    writer: &Writer<'_, 'g>,
+/// The definitions of coefficients, and of the names that the long ones need.
+pub(super) fn definitions_of<'g>(
+    writer: &mut Writer<'_, 'g>,
     sections: &[Section<'g>],
-    polynomials: &[Vec<Polynomial<'g>>],
+    shown: &[Vec<Shown<'g>>],
 ) -> Result<Vec<Group>, Error> {
-    let mut groups = vec![];
-    for (section, polynomials) in sections.iter().zip(polynomials) {
-        let mut equations = vec![];
-        for (coefficient, polynomial) in section.coefficients.iter().zip(polynomials) {
-            if !polynomial.is_zero() {
-                let left = coefficient.shape.clone();
-                equations.push(writer.of_polynomial(coefficient.name.clone(), left, polynomial)?);
-            }
-        }
-        groups.push(Group::of_definitions(section.title, equations));
-    }
-    Ok(groups)
-}
-
-fn as_expressions(
-    writer: &mut Writer<'_, '_>,
-    sections: &[Section<'_>],
-) -> Result<Vec<Group>, Error> {
-    let others = sections.iter().filter(|section| !section.by_symbols);
-    let roots: Vec<Expr<'_>> = others
-        .flat_map(|section| &section.coefficients)
-        .map(|coefficient| coefficient.value)
-        .collect();
+    let is_long = |(section, shown): (&Section<'g>, &Vec<Shown<'g>>)| {
+        let long = section.coefficients.iter().zip(shown);
+        let long = long.filter(|(_, shown)| !section.by_symbols && matches!(shown, Shown::Long));
+        long.map(|(coefficient, _)| coefficient.value).collect::<Vec<_>>()
+    };
+    let long: Vec<Expr<'g>> = sections.iter().zip(shown).flat_map(is_long).collect();
     let target = Graph::new();
-    let (mut groups, named) = definitions(writer, &roots, &target)?;
-    for section in sections {
+    let (mut groups, named) = definitions(writer, &long, &target)?;
+    for (section, shown) in sections.iter().zip(shown) {
         let mut equations = vec![];
-        for coefficient in &section.coefficients {
+        for (coefficient, shown) in section.coefficients.iter().zip(shown) {
             let (name, left) = (coefficient.name.clone(), coefficient.shape.clone());
-            let value = match section.by_symbols {
-                true => coefficient.value,
-                false => named.rewritten(coefficient.value),
-            };
-            equations.push(writer.of_expression(name, left, value)?);
+            equations.push(match shown {
+                Shown::Zero => continue,
+                Shown::Short(terms) => writer.of_terms(name, left, terms)?,
+                Shown::Long if section.by_symbols => {
+                    writer.of_expression(name, left, coefficient.value)?
+                }
+                Shown::Long => {
+                    writer.of_expression(name, left, named.rewritten(coefficient.value))?
+                }
+            });
         }
         groups.push(Group::of_definitions(section.title, equations));
     }

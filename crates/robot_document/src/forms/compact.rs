@@ -1,10 +1,10 @@
 //! The compact form: what is used again has a name.
 
-use robot_symbolic::{Expr, Graph, walk};
+use robot_symbolic::{AngleSums, Expr, Graph, walk};
 use rustc_hash::FxHashSet;
 
 use super::naming::{Named, worth_naming};
-use super::{Equation, Group, Writer, of_generalized_force, shapes};
+use super::{Equation, Group, Writer, angle_sums, of_generalized_force, shapes};
 use crate::error::Error;
 use crate::layout::is_motion;
 use crate::math::Math;
@@ -15,7 +15,10 @@ const STATE_LETTERS: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let mut quantities = writer.quantities(writer.options.friction);
-    let forces = writer.economical_forces(writer.options.friction);
+    let mut forces = writer.economical_forces(writer.options.friction);
+    if writer.angle_sums() == AngleSums::Keep {
+        forces = angle_sums::joined(&forces, writer.graph);
+    }
     for quantity in &mut quantities {
         quantity.value = of_generalized_force(quantity, &forces).unwrap_or(quantity.value);
     }

@@ -1,12 +1,12 @@
-//! The expanded form: products multiplied out, angle sums resolved or kept, s² replaced by 1 − c²,
-//! like terms merged.
+//! The expanded form: products multiplied out, s² replaced by 1 − c², like terms merged. And the collected one:
+//! the same sums with their common factors in front of brackets.
 
 use robot_dynamics::quantity::{Kind, Quantity};
 use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
 use super::loads::{friction_contributions, whole};
-use super::{Equation, Group, Writer, of_generalized_force};
+use super::{Equation, Form, Group, Writer, of_generalized_force};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -21,18 +21,10 @@ const MAX_TERMS: usize = 20_000;
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let mut quantities = writer.quantities(false);
-    if writer.options.angle_sums == AngleSums::Keep {
-        // Only the economical recursion has sines and cosines of sums.
-        let forces = writer.economical_forces(false);
-        for quantity in &mut quantities {
-            quantity.value = of_generalized_force(quantity, &forces).unwrap_or(quantity.value);
-        }
-    }
     let joints = with_friction(writer, &mut quantities)?;
     let mut values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     values.extend(joints.iter().map(|force| force.value));
-    let polynomials = writer
-        .polynomials(&values, &LIMITS)
+    let polynomials = Polynomial::of_all(&values, &LIMITS)
         .map_err(|error| Error::TooLong { reason: error.to_string() })?;
     let terms: usize = polynomials.iter().map(Polynomial::len).sum();
     if terms > MAX_TERMS {
@@ -45,16 +37,22 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (mut forces, mut equations): (Vec<Equation>, Vec<Equation>) = (vec![], vec![]);
     for (quantity, polynomial) in quantities.iter().zip(of_quantities) {
         let left = Math::quantity(quantity.symbol);
-        equations.push(writer.of_polynomial(quantity.symbol.to_string(), left, polynomial)?);
+        equations.push(writer.of_collected(quantity.symbol.to_string(), left, polynomial)?);
     }
     for (force, polynomial) in joints.into_iter().zip(of_joints) {
-        forces.push(writer.of_polynomial(force.name, force.shape, polynomial)?);
+        forces.push(writer.of_collected(force.name, force.shape, polynomial)?);
     }
-    let introduction =
-        "Products are multiplied out, even powers of sines are replaced by cosines, \
-                        and like terms are merged."
-            .to_owned();
-    let title = "Equations of motion, expanded".to_owned();
+    let (title, introduction) = match writer.options.form {
+        Form::Collected => (
+            "Equations of motion, collected",
+            "Common factors stand in front of brackets. Each equation is equal to its expanded form, term by term.",
+        ),
+        _ => (
+            "Equations of motion, expanded",
+            "Products are multiplied out, even powers of sines are replaced by cosines, and like terms are merged.",
+        ),
+    };
+    let (title, introduction) = (title.to_owned(), introduction.to_owned());
     Ok(vec![
         Group { title, introduction, definitions: false, equations },
         Group::of_definitions("Joint wrenches", forces),

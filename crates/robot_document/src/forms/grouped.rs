@@ -3,7 +3,7 @@
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Rational, walk};
 
-use super::coefficients::{Coefficient, Section, Sum, by_name, expanded, motions};
+use super::coefficients::{Coefficient, Section, Sum, by_name, motions, shown};
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::{Group, Writer};
 use crate::error::Error;
@@ -32,8 +32,8 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     ];
     sections.extend(frictions(writer, "Friction", whole, &mut sums));
     let introduction = introduction(writer);
-    let expanded = expanded(writer, &sections);
-    by_name(writer, "Equations of motion, grouped", introduction, &sections, expanded, sums)
+    let shown = shown(writer, &sections);
+    by_name(writer, "Equations of motion, grouped", introduction, &sections, &shown, sums)
 }
 
 fn introduction(writer: &Writer<'_, '_>) -> String {

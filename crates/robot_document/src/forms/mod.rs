@@ -7,6 +7,7 @@ mod expanded;
 mod grouped;
 mod loads;
 mod naming;
+mod parts;
 mod recursive;
 mod regrouped;
 mod shapes;
@@ -18,10 +19,12 @@ use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_model::snap;
-use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialError, PolynomialOptions};
+use robot_symbolic::collected::{Collector, ParallelAngles};
+use robot_symbolic::print::{ArrangedTerm, arranged_text};
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
 use crate::error::Error;
-use crate::layout::{Order, SymbolTable, Trigonometry};
+use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry};
 use crate::math::Math;
 
 /// The form of the equations.
@@ -30,6 +33,8 @@ pub enum Form {
     /// Sums of products, like terms merged: the paper's.
     #[default]
     Expanded,
+    /// As people write: common factors in front of brackets, complete squares, sums of angles.
+    Collected,
     /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Joint torques only.
     Grouped,
     /// The iterations link by link, each quantity by those before it. Joint torques only.
@@ -42,14 +47,21 @@ pub enum Form {
 
 impl Form {
     /// All forms.
-    pub const ALL: [Form; 5] =
-        [Form::Expanded, Form::Grouped, Form::Recursive, Form::Compact, Form::Regrouped];
+    pub const ALL: [Form; 6] = [
+        Form::Expanded,
+        Form::Collected,
+        Form::Grouped,
+        Form::Recursive,
+        Form::Compact,
+        Form::Regrouped,
+    ];
 
     /// The name, as the command has it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Form::Expanded => "expanded",
+            Form::Collected => "collected",
             Form::Grouped => "grouped",
             Form::Recursive => "recursive",
             Form::Compact => "compact",
@@ -73,9 +85,12 @@ pub struct EquationOptions {
     pub snap: Option<f64>,
     /// The notation of sines and cosines.
     pub trigonometry: Trigonometry,
-    /// Whether sines and cosines of sums of angles are kept, for joint torques in all forms but
-    /// [`Form::Recursive`].
-    pub angle_sums: AngleSums,
+    /// Whether sines and cosines of sums of angles of parallel joints are written, in all forms but
+    /// [`Form::Recursive`]; `None` for all but [`Form::Expanded`].
+    pub angle_sums: Option<AngleSums>,
+    /// Whether the coefficients of the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out rather
+    /// than collected.
+    pub expand: bool,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
 }
@@ -89,7 +104,8 @@ impl Default for EquationOptions {
             friction: false,
             snap: None,
             trigonometry: Trigonometry::Named,
-            angle_sums: AngleSums::Expand,
+            angle_sums: None,
+            expand: false,
             christoffel: false,
         }
     }
@@ -175,9 +191,13 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         graph: &graph,
         symbols: SymbolTable::new(robot, options.trigonometry)?,
         order: Order::new(robot),
+        parallel: vec![],
     };
+    if writer.angle_sums() == AngleSums::Keep {
+        writer.parallel = writer.derivation().mechanism.parallel_angles();
+    }
     let groups = match options.form {
-        Form::Expanded => expanded::groups(&mut writer),
+        Form::Expanded | Form::Collected => expanded::groups(&mut writer),
         Form::Grouped => grouped::groups(&mut writer),
         Form::Recursive => recursive::groups(&mut writer),
         Form::Compact => compact::groups(&mut writer),
@@ -197,6 +217,8 @@ struct Writer<'r, 'g> {
     graph: &'g Graph,
     symbols: SymbolTable,
     order: Order<'r>,
+    /// The groups of joints whose sums of angles are written.
+    parallel: Vec<ParallelAngles<'g>>,
 }
 
 impl<'g> Writer<'_, 'g> {
@@ -214,8 +236,15 @@ impl<'g> Writer<'_, 'g> {
         Derivation::new(self.robot, self.graph, &self.mechanism_options(), None)
     }
 
-    /// The joint torques by the economical recursion, the wrenches of the tips included, with sines of
-    /// sums of angles if the options want them.
+    /// Whether sines and cosines of sums of angles are written.
+    fn angle_sums(&self) -> AngleSums {
+        self.options.angle_sums.unwrap_or(match self.options.form {
+            Form::Expanded => AngleSums::Expand,
+            _ => AngleSums::Keep,
+        })
+    }
+
+    /// The joint torques by the economical recursion, the wrenches of the tips included.
     fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
         let kind = match friction {
             true => FunctionKind::InverseDynamics(Effects::BOTH),
@@ -223,15 +252,7 @@ impl<'g> Writer<'_, 'g> {
         };
         let functions = self.derivation().functions(kind);
         let outputs = functions.into_iter().flat_map(|function| function.outputs);
-        self.with_angle_sums(outputs.flat_map(|output| output.values).collect())
-    }
-
-    /// Values with sines and cosines of sums of angles if the options want them.
-    fn with_angle_sums(&self, values: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        match self.options.angle_sums {
-            AngleSums::Expand => values,
-            AngleSums::Keep => angle_sums::joined(&values, self.graph),
-        }
+        outputs.flat_map(|output| output.values).collect()
     }
 
     /// The quantities that are asked for, with friction or without.
@@ -265,22 +286,55 @@ impl<'g> Writer<'_, 'g> {
         Ok(Equation { name, text, left, right })
     }
 
+    /// An equation whose right side is a polynomial as the form writes it.
+    fn of_collected(
+        &self,
+        name: String,
+        left: Math,
+        value: &Polynomial<'g>,
+    ) -> Result<Equation, Error> {
+        self.of_terms(name, left, &self.collected(value))
+    }
+
+    /// The terms of a polynomial as the form writes it: collected, or multiplied out, in either case with the sums of
+    /// angles that make it shortest.
+    ///
+    /// In the form [`Form::Collected`] the parts of whole quantities are collected apart.
+    fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
+        let factors = !self.options.expand && self.options.form != Form::Expanded;
+        if !factors && self.parallel.is_empty() {
+            return value.arranged(|atom| self.order.rank(atom));
+        }
+        let collector = Collector { angles: &self.parallel, factors };
+        let collect = |part: &Polynomial<'g>| {
+            collector.collect(part, |atom| self.order.rank(atom), &BRACKETS)
+        };
+        match self.options.form {
+            Form::Collected => {
+                let parts = value.split_by(|factors| parts::of(factors, &self.order, self.graph));
+                parts.values().flat_map(collect).collect()
+            }
+            _ => collect(value),
+        }
+    }
+
+    /// An equation whose right side is a sum of terms.
+    fn of_terms(
+        &self,
+        name: String,
+        left: Math,
+        terms: &[ArrangedTerm<'g>],
+    ) -> Result<Equation, Error> {
+        let text = arranged_text(terms)?;
+        let right = self.symbols.terms(terms)?;
+        Ok(Equation { name, text, left, right })
+    }
+
     /// An equation whose right side is an expression as it is built.
     fn of_expression(&self, name: String, left: Math, value: Expr<'_>) -> Result<Equation, Error> {
         let text = robot_symbolic::print::to_text(value)?;
         let right = self.symbols.expression(value)?;
         Ok(Equation { name, text, left, right })
-    }
-
-    fn polynomials(
-        &self,
-        values: &[Expr<'g>],
-        limits: &PolynomialOptions,
-    ) -> Result<Vec<Polynomial<'g>>, PolynomialError> {
-        Polynomial::of_all(
-            values,
-            &PolynomialOptions { angle_sums: self.options.angle_sums, ..*limits },
-        )
     }
 }
 

@@ -3,16 +3,21 @@
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, StandardParameter};
 use robot_dynamics::mechanism::MechanismFriction;
 use robot_model::robot::BaseFrames;
-use robot_symbolic::{Expr, Polynomial};
+use robot_symbolic::collected::length;
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
+use robot_symbolic::{Expr, Number, Polynomial};
 
 use super::coefficients::{
-    Coefficient, Section, Sum, as_polynomials, by_name, define_all, expanded,
+    Coefficient, Section, Shown, Sum, by_name, define_all, definitions_of, shown,
 };
 use super::loads::{frictions, wrenches};
 use super::{Equation, Group, Writer, generalized_force, shapes};
-use crate::base_parameters::{self as base, Formulas, Term, Written};
+use crate::base_parameters::{self as base, Formulas, Written};
 use crate::error::Error;
-use crate::math::{Fence, Math};
+use crate::math::Math;
+
+/// The most printed symbols of all coefficients that are written into the joint torques.
+const MAX_LENGTH: usize = 4000;
 
 /// Letters of the coefficients of base parameters.
 const REGRESSOR: [&str; 4] = ["Y", "W", "A", "X"];
@@ -22,7 +27,6 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let found = base::found(&derivation)?;
     let outputs = derivation.regressor_over(&found).outputs;
     let columns: Vec<Expr<'_>> = outputs.into_iter().flat_map(|output| output.values).collect();
-    let columns = writer.with_angle_sums(columns);
     let (mut groups, parameters) = definitions(writer, &found)?;
     let forces = writer.economical_forces(false);
     let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
@@ -34,13 +38,22 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         sections.extend(frictions(writer, "Coulomb friction", dry, &mut sums));
     }
     let introduction = introduction(&found);
-    match expanded(writer, &sections) {
-        Some(polynomials) => {
-            groups.extend(inline(writer, introduction, &sections, &polynomials, sums)?);
-        }
-        None => groups.extend(by_name(writer, TITLE, introduction, &sections, None, sums)?),
-    }
+    let shown = shown(writer, &sections);
+    let lengths: Option<Vec<usize>> = shown.first().into_iter().flatten().map(length_of).collect();
+    groups.extend(match lengths.filter(|lengths| lengths.iter().sum::<usize>() <= MAX_LENGTH) {
+        Some(_) => inline(writer, introduction, &sections, &shown, sums)?,
+        None => by_name(writer, TITLE, introduction, &sections, &shown, sums)?,
+    });
     Ok(groups)
+}
+
+/// The printed symbols of a coefficient; `None` if it needs names.
+fn length_of(shown: &Shown<'_>) -> Option<usize> {
+    match shown {
+        Shown::Zero => Some(0),
+        Shown::Short(terms) => Some(length(terms)),
+        Shown::Long => None,
+    }
 }
 
 const TITLE: &str = "Equations of motion, regrouped";
@@ -230,57 +243,62 @@ fn inline<'g>(
     writer: &mut Writer<'_, 'g>,
     introduction: String,
     sections: &[Section<'g>],
-    polynomials: &[Vec<Polynomial<'g>>],
+    shown: &[Vec<Shown<'g>>],
     sums: Vec<Sum<'g>>,
 ) -> Result<Vec<Group>, Error> {
     let [own, others @ ..] = sections else { return Ok(vec![]) };
-    let [own_polynomials, other_polynomials @ ..] = polynomials else { return Ok(vec![]) };
-    let zeros = define_all(writer, others, other_polynomials)?;
+    let [own_shown, others_shown @ ..] = shown else { return Ok(vec![]) };
+    let zeros = define_all(writer, others, others_shown)?;
     let mut equations = vec![];
     for (index, sum) in sums.into_iter().enumerate() {
         let mut terms = vec![];
         for (name, parameter) in sum.into_iter().filter(|(name, _)| !zeros.contains(name)) {
-            let known = own.coefficients.iter().zip(own_polynomials);
+            let known = own.coefficients.iter().zip(own_shown);
             match known.filter(|(one, _)| one.name == name).map(|(_, value)| value).next() {
-                Some(value) if value.is_zero() => {}
-                Some(value) => terms.push(product(writer, parameter, value)?),
-                None => {
-                    let math = writer.symbols.look(&name);
-                    terms.push(Term { negative: false, written: Written { text: name, math } });
+                Some(Shown::Zero) => {}
+                Some(Shown::Short(value)) => terms.push(product(writer, parameter, value)),
+                Some(Shown::Long) | None => {
+                    terms.push(product(writer, writer.graph.symbol(&name), &[unit()]));
                 }
             }
         }
         let symbol = generalized_force(index);
-        let Written { text, math } = base::sum(&terms);
         let (name, left) = (symbol.to_string(), Math::quantity(symbol));
-        equations.push(Equation { name, text, left, right: math });
+        equations.push(writer.of_terms(name, left, &terms)?);
     }
     let title = TITLE.to_owned();
     let mut groups = vec![Group { title, introduction, definitions: false, equations }];
-    groups.extend(as_polynomials(writer, others, other_polynomials)?);
+    groups.extend(definitions_of(writer, others, others_shown)?);
     Ok(groups)
 }
 
-/// A base parameter times its coefficient, which does not start with a minus.
+fn unit<'g>() -> ArrangedTerm<'g> {
+    ArrangedTerm { negative: false, coefficient: Number::integer(1), factors: vec![] }
+}
+
+/// A symbol times its coefficient; a sum in brackets does not start with a minus.
 fn product<'g>(
     writer: &Writer<'_, 'g>,
-    parameter: Expr<'g>,
-    coefficient: &Polynomial<'g>,
-) -> Result<Term, Error> {
-    let formulas = Formulas { symbols: &writer.symbols, order: &writer.order };
-    if coefficient.len() == 1 {
-        let product = base::polynomials(&[parameter * coefficient.to_expr()])?;
-        let written = product.iter().map(|product| formulas.of_polynomial(product)).next();
-        return Ok(Term::of(written.transpose()?.unwrap_or_default()));
+    symbol: Expr<'g>,
+    coefficient: &[ArrangedTerm<'g>],
+) -> ArrangedTerm<'g> {
+    let factor = (ArrangedFactor::Atom(symbol), 1);
+    if let [single] = coefficient {
+        let rank = writer.order.rank(symbol);
+        let is_after = |(factor, _): &(ArrangedFactor<'g>, i32)| match factor {
+            ArrangedFactor::Atom(atom) => writer.order.rank(*atom) > rank,
+            ArrangedFactor::Sum(_) => true,
+        };
+        let place = single.factors.iter().position(is_after).unwrap_or(single.factors.len());
+        let mut product = single.clone();
+        product.factors.insert(place, factor);
+        return product;
     }
-    let mut sum = Term::of(formulas.of_polynomial(coefficient)?);
-    if sum.negative {
-        sum.written = formulas.of_polynomial(&coefficient.neg())?;
-    }
-    let symbol = parameter.as_symbol();
-    let name = symbol.map(|symbol| writer.graph.symbol_name(symbol)).unwrap_or_default();
-    let fenced = Math::Fenced(Fence::Parentheses, Box::new(sum.written.math));
-    let math = Math::Row(vec![writer.symbols.look(&name), fenced]);
-    let text = format!("{name}*({})", sum.written.text);
-    Ok(Term { negative: sum.negative, written: Written { text, math } })
+    let negative = coefficient.first().is_some_and(|first| first.negative);
+    let signed = |term: &ArrangedTerm<'g>| ArrangedTerm {
+        negative: term.negative != negative,
+        ..term.clone()
+    };
+    let sum = ArrangedFactor::Sum(coefficient.iter().map(signed).collect());
+    ArrangedTerm { negative, factors: vec![factor, (sum, 1)], ..unit() }
 }

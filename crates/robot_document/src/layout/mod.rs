@@ -14,6 +14,7 @@ mod tests;
 mod trigonometry;
 pub mod width;
 
+pub(crate) use order::BRACKETS;
 pub use order::{Order, Rank};
 pub(crate) use order::{is_motion, is_rate};
 pub use symbols::SymbolTable;

@@ -13,6 +13,9 @@ use rustc_hash::FxHashMap;
 /// The place of a factor: its group, its subgroup, its number.
 pub type Rank = (u8, u8, usize);
 
+/// Where sums in brackets stand in a product: after parameters, before sines and cosines.
+pub(crate) const BRACKETS: Rank = (1, 0, 0);
+
 /// The order for a robot.
 #[derive(Clone, Debug)]
 pub struct Order<'r> {
@@ -41,6 +44,27 @@ impl<'r> Order<'r> {
     pub fn define_parameter(&mut self, name: &str) {
         let rank = (0, 0, self.defined.len());
         self.defined.insert(name.to_owned(), rank);
+    }
+
+    /// Whether a symbol is neither a parameter nor a joint's variable nor defined by a form: a component of a wrench.
+    #[must_use]
+    pub(crate) fn is_wrench(&self, atom: Expr<'_>) -> bool {
+        let View::Symbol(symbol) = atom.view() else { return false };
+        let name = atom.graph().symbol_name(symbol);
+        !self.parameters.contains_key(name.as_str())
+            && !self.defined.contains_key(&name)
+            && motion(&name).is_none()
+    }
+
+    /// The number of times that a symbol is a derivative by time: 1 for a velocity, 2 for an acceleration.
+    #[must_use]
+    pub(crate) fn rate(&self, atom: Expr<'_>) -> u32 {
+        let View::Symbol(symbol) = atom.view() else { return 0 };
+        match motion(&atom.graph().symbol_name(symbol)) {
+            Some((JointVariable::Velocity, _)) => 1,
+            Some((JointVariable::Acceleration, _)) => 2,
+            _ => 0,
+        }
     }
 
     /// The place of a factor.

@@ -1,7 +1,7 @@
 //! The layout of polynomials as sums of terms.
 
 use robot_model::signs::FunctionName;
-use robot_symbolic::print::ArrangedTerm;
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 use robot_symbolic::{Expr, Function, Id, View};
 use rustc_hash::FxHashMap;
 
@@ -13,20 +13,7 @@ use crate::error::Error;
 
 /// The sum of arranged terms; 0 if there are none.
 pub(super) fn sum(terms: &[ArrangedTerm<'_>], table: &SymbolTable) -> Result<Math, Error> {
-    let mut setter = Terms { table, powers: FxHashMap::default() };
-    let mut pieces = vec![];
-    for (place, term) in terms.iter().enumerate() {
-        match (place, term.negative) {
-            (0, false) => {}
-            (_, true) => pieces.push(Math::Sign('-')),
-            (_, false) => pieces.push(Math::Sign('+')),
-        }
-        pieces.extend(setter.term(term)?);
-    }
-    if terms.is_empty() {
-        pieces.push(Math::integer(0));
-    }
-    Ok(Math::row(pieces))
+    Terms { table, powers: FxHashMap::default() }.sum(terms)
 }
 
 struct Terms<'t> {
@@ -35,6 +22,22 @@ struct Terms<'t> {
 }
 
 impl Terms<'_> {
+    fn sum(&mut self, terms: &[ArrangedTerm<'_>]) -> Result<Math, Error> {
+        let mut pieces = vec![];
+        for (place, term) in terms.iter().enumerate() {
+            match (place, term.negative) {
+                (0, false) => {}
+                (_, true) => pieces.push(Math::Sign('-')),
+                (_, false) => pieces.push(Math::Sign('+')),
+            }
+            pieces.extend(self.term(term)?);
+        }
+        if terms.is_empty() {
+            pieces.push(Math::integer(0));
+        }
+        Ok(Math::row(pieces))
+    }
+
     /// `c x y²`, over its denominator if it has one.
     fn term(&mut self, term: &ArrangedTerm<'_>) -> Result<Vec<Math>, Error> {
         let above = self.factors(term, |exponent| exponent > 0)?;
@@ -70,17 +73,22 @@ impl Terms<'_> {
     ) -> Result<Vec<Math>, Error> {
         let mut pieces = vec![];
         let mut open = false;
-        for (atom, exponent) in term.factors.iter().filter(|(_, exponent)| side(*exponent)) {
+        for (factor, exponent) in term.factors.iter().filter(|(_, exponent)| side(*exponent)) {
             // A factor after an angle without parentheses would seem to belong to it.
-            if open && !is_circular(*atom) {
+            if open && !is_circular(factor) {
                 pieces.push(Math::Sign('·'));
             }
-            pieces.extend(if is_alone_below(term, *atom) {
-                Expressions(self.table).pieces(*atom)?
-            } else {
-                self.power(*atom, exponent.unsigned_abs())?
+            let exponent = exponent.unsigned_abs();
+            pieces.extend(match factor {
+                ArrangedFactor::Atom(atom) if is_alone_below(term, factor) => {
+                    Expressions(self.table).pieces(*atom)?
+                }
+                ArrangedFactor::Atom(atom) => self.power(*atom, exponent)?,
+                ArrangedFactor::Sum(terms) => {
+                    power_of(vec![fenced(vec![self.sum(terms)?])], exponent)
+                }
             });
-            open = is_circular(*atom) && self.table.trigonometry() == Trigonometry::Named;
+            open = is_circular(factor) && self.table.trigonometry() == Trigonometry::Named;
         }
         Ok(pieces)
     }
@@ -119,14 +127,20 @@ fn fenced(pieces: Vec<Math>) -> Math {
     Math::Fenced(Fence::Parentheses, Box::new(Math::row(pieces)))
 }
 
-/// Whether an atom is a sum that is alone below its fraction bar.
-fn is_alone_below(term: &ArrangedTerm<'_>, atom: Expr<'_>) -> bool {
+/// Whether a factor is a sum that is alone below its fraction bar.
+fn is_alone_below(term: &ArrangedTerm<'_>, factor: &ArrangedFactor<'_>) -> bool {
     let mut below = term.factors.iter().filter(|(_, exponent)| *exponent < 0);
-    below.next() == Some(&(atom, -1))
+    let is_sum = match factor {
+        ArrangedFactor::Atom(atom) => matches!(atom.view(), View::Add(..) | View::Sub(..)),
+        ArrangedFactor::Sum(_) => true,
+    };
+    is_sum
+        && below.next().is_some_and(|(known, exponent)| known == factor && *exponent == -1)
         && below.next().is_none()
-        && matches!(atom.view(), View::Add(..) | View::Sub(..))
 }
 
-fn is_circular(atom: Expr<'_>) -> bool {
-    matches!(atom.view(), View::Call(Function::Sin | Function::Cos, _))
+fn is_circular(factor: &ArrangedFactor<'_>) -> bool {
+    let is_circular =
+        |atom: Expr<'_>| matches!(atom.view(), View::Call(Function::Sin | Function::Cos, _));
+    factor.as_atom().is_some_and(is_circular)
 }

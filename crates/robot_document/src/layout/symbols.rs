@@ -3,6 +3,7 @@
 use robot_model::robot::Robot;
 use robot_model::signs::check_latex;
 use robot_model::variable::JointVariable;
+use robot_symbolic::print::{self, ArrangedTerm};
 use robot_symbolic::{Expr, Polynomial, walk};
 use rustc_hash::FxHashMap;
 
@@ -144,8 +145,17 @@ impl SymbolTable {
     ///
     /// A symbol that looks like a sine; an argument that is too long to be written out.
     pub fn polynomial(&self, value: &Polynomial<'_>, order: &Order<'_>) -> Result<Math, Error> {
-        self.check(&value.atoms())?;
-        polynomial::sum(&value.arranged(|atom| order.rank(atom)), self)
+        self.terms(&value.arranged(|atom| order.rank(atom)))
+    }
+
+    /// A sum of terms.
+    ///
+    /// # Errors
+    ///
+    /// A symbol that looks like a sine; an argument that is too long to be written out.
+    pub fn terms(&self, terms: &[ArrangedTerm<'_>]) -> Result<Math, Error> {
+        self.check(&print::atoms(terms))?;
+        polynomial::sum(terms, self)
     }
 
     /// An expression as it is built.

@@ -2,6 +2,7 @@
 
 mod direction;
 mod lower;
+mod parallel;
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::snap;

@@ -1,5 +1,7 @@
 //! Collection by symbols, and derivatives.
 
+use std::collections::BTreeMap;
+
 use indexmap::IndexMap;
 use rustc_hash::FxBuildHasher;
 
@@ -33,6 +35,16 @@ impl<'g> Polynomial<'g> {
                 (monomial, self.with_terms(terms))
             })
             .collect()
+    }
+
+    /// The polynomials that add up to this one, each of the terms whose monomials have a key in common.
+    #[must_use]
+    pub fn split_by<K: Ord>(&self, key: impl Fn(&Monomial) -> K) -> BTreeMap<K, Polynomial<'g>> {
+        let mut parts: BTreeMap<K, Terms> = BTreeMap::new();
+        for term in &self.terms {
+            parts.entry(key(&term.0)).or_default().push(term.clone());
+        }
+        parts.into_iter().map(|(key, terms)| (key, self.with_terms(terms))).collect()
     }
 
     /// The polynomial of one monomial.

@@ -20,7 +20,9 @@ use crate::expr::{Expr, View};
 use crate::walk;
 
 pub use number::{Magnitude, exact_text};
-pub use polynomial::{ArrangedTerm, default_rank};
+pub use polynomial::{
+    ArrangedFactor, ArrangedTerm, arranged_text, arranged_value, atoms, default_rank,
+};
 pub use text::{to_text, to_text_limited};
 
 /// Expressions of more operations, each shared one counted at every use, are not printed.

@@ -6,20 +6,75 @@ use rustc_hash::FxHashMap;
 
 use super::{MAX_OPERATIONS, MAX_POWER, TooLarge, number, written_operations};
 use crate::expr::{Expr, View};
-use crate::graph::{Function, Id};
+use crate::graph::{Function, Graph, Id};
 use crate::number::Number;
 use crate::polynomial::{Polynomial, compare_powers};
 use crate::print::to_text;
 
-/// A term of a polynomial as it is to be printed.
+/// A term of a sum as it is to be printed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArrangedTerm<'g> {
     /// Whether the term is subtracted.
     pub negative: bool,
     /// The absolute value of the coefficient.
     pub coefficient: Number,
-    /// Atoms with their exponents (not 0), in order.
-    pub factors: Vec<(Expr<'g>, i32)>,
+    /// Factors with their exponents (not 0), in order.
+    pub factors: Vec<(ArrangedFactor<'g>, i32)>,
+}
+
+/// A factor of a term.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ArrangedFactor<'g> {
+    /// A symbol, π, a function, or a sum in a denominator.
+    Atom(Expr<'g>),
+    /// A sum in brackets, of two terms or more, as [`crate::collected`] makes them.
+    Sum(Vec<ArrangedTerm<'g>>),
+}
+
+impl<'g> ArrangedFactor<'g> {
+    /// The atom, if the factor is one; those of [`Polynomial::arranged`] all are.
+    #[must_use]
+    pub const fn as_atom(&self) -> Option<Expr<'g>> {
+        match self {
+            ArrangedFactor::Atom(atom) => Some(*atom),
+            ArrangedFactor::Sum(_) => None,
+        }
+    }
+}
+
+/// The value of a sum of terms as an expression.
+#[must_use]
+pub fn arranged_value<'g>(terms: &[ArrangedTerm<'g>], graph: &'g Graph) -> Expr<'g> {
+    terms.iter().fold(graph.zero(), |sum, term| {
+        let factors = term.factors.iter().map(|(factor, exponent)| match factor {
+            ArrangedFactor::Atom(atom) => atom.powi(*exponent),
+            ArrangedFactor::Sum(terms) => arranged_value(terms, graph).powi(*exponent),
+        });
+        let product = factors.fold(graph.number(term.coefficient.clone()), |a, b| a * b);
+        if term.negative { sum - product } else { sum + product }
+    })
+}
+
+/// The atoms of a sum of terms, in the order in which they stand.
+#[must_use]
+pub fn atoms<'g>(terms: &[ArrangedTerm<'g>]) -> Vec<Expr<'g>> {
+    let factors = terms.iter().flat_map(|term| &term.factors);
+    factors
+        .flat_map(|(factor, _)| match factor {
+            ArrangedFactor::Atom(atom) => vec![*atom],
+            ArrangedFactor::Sum(terms) => atoms(terms),
+        })
+        .collect()
+}
+
+/// A sum of arranged terms as infix text.
+///
+/// # Errors
+///
+/// If an argument of a function is too long to be written out.
+pub fn arranged_text(terms: &[ArrangedTerm<'_>]) -> Result<String, TooLarge> {
+    let mut atoms = AtomTexts::default();
+    atoms.sum(terms)
 }
 
 /// The order of atoms if the caller has none: symbols and π, then sines and cosines, then other
@@ -56,8 +111,9 @@ impl<'g> Polynomial<'g> {
         let mut terms: Vec<(Vec<(u32, i32)>, &Number)> =
             self.terms().map(|(monomial, number)| (powers(monomial), number)).collect();
         terms.sort_by(|(a, _), (b, _)| listed(a, b));
-        let atom =
-            |(place, exponent): &(u32, i32)| Some((atoms.get(*place as usize)?.1, *exponent));
+        let atom = |(place, exponent): &(u32, i32)| {
+            Some((ArrangedFactor::Atom(atoms.get(*place as usize)?.1), *exponent))
+        };
         terms
             .into_iter()
             .map(|(powers, number)| ArrangedTerm {
@@ -94,30 +150,7 @@ impl<'g> Polynomial<'g> {
     ///
     /// If an argument of a function is too long to be written out.
     pub fn to_text_by<K: Ord>(&self, rank: impl Fn(Expr<'g>) -> K) -> Result<String, TooLarge> {
-        let terms = self.arranged(rank);
-        if terms.is_empty() {
-            return Ok("0".to_owned());
-        }
-        let mut atoms = FxHashMap::default();
-        let mut operations: u64 = 0;
-        for atom in self.atoms() {
-            operations = operations.saturating_add(written_operations(atom));
-            if operations > MAX_OPERATIONS {
-                return Err(TooLarge { operations, limit: MAX_OPERATIONS });
-            }
-            atoms.insert(atom.id(), atom_text(atom)?);
-        }
-        let mut text = String::new();
-        for (place, term) in terms.iter().enumerate() {
-            text.push_str(match (place, term.negative) {
-                (0, false) => "",
-                (0, true) => "-",
-                (_, false) => " + ",
-                (_, true) => " - ",
-            });
-            push_term(&mut text, term, &atoms);
-        }
-        Ok(text)
+        arranged_text(&self.arranged(rank))
     }
 }
 
@@ -134,31 +167,65 @@ fn atom_text(atom: Expr<'_>) -> Result<String, TooLarge> {
     })
 }
 
-/// `c*x*y^2/(z*w)`.
-fn push_term(text: &mut String, term: &ArrangedTerm<'_>, atoms: &FxHashMap<Id, String>) {
-    let (coefficient, _) = number::magnitude_text(&term.coefficient);
-    let mut numerator: Vec<String> = vec![];
-    let mut denominator: Vec<String> = vec![];
-    for (atom, exponent) in &term.factors {
-        let name = atoms.get(&atom.id()).map(String::as_str).unwrap_or_default();
-        let side = if *exponent > 0 { &mut numerator } else { &mut denominator };
-        push_power(side, name, exponent.unsigned_abs());
-    }
-    if !term.coefficient.is_one() || numerator.is_empty() {
-        numerator.insert(0, coefficient);
-    }
-    text.push_str(&numerator.join("*"));
-    match denominator.as_slice() {
-        [] => {}
-        [single] => {
-            text.push('/');
-            text.push_str(single);
+/// The texts of atoms, each made once.
+#[derive(Default)]
+struct AtomTexts {
+    known: FxHashMap<Id, String>,
+    operations: u64,
+}
+
+impl AtomTexts {
+    fn sum(&mut self, terms: &[ArrangedTerm<'_>]) -> Result<String, TooLarge> {
+        if terms.is_empty() {
+            return Ok("0".to_owned());
         }
-        several => {
-            text.push_str("/(");
-            text.push_str(&several.join("*"));
-            text.push(')');
+        let mut text = String::new();
+        for (place, term) in terms.iter().enumerate() {
+            text.push_str(match (place, term.negative) {
+                (0, false) => "",
+                (0, true) => "-",
+                (_, false) => " + ",
+                (_, true) => " - ",
+            });
+            text.push_str(&self.term(term)?);
         }
+        Ok(text)
+    }
+
+    /// `c*x*y^2/(z*w)`.
+    fn term(&mut self, term: &ArrangedTerm<'_>) -> Result<String, TooLarge> {
+        let mut numerator: Vec<String> = vec![];
+        let mut denominator: Vec<String> = vec![];
+        for (factor, exponent) in &term.factors {
+            let name = match factor {
+                ArrangedFactor::Atom(atom) => self.atom(*atom)?,
+                ArrangedFactor::Sum(terms) => format!("({})", self.sum(terms)?),
+            };
+            let side = if *exponent > 0 { &mut numerator } else { &mut denominator };
+            push_power(side, &name, exponent.unsigned_abs());
+        }
+        if !term.coefficient.is_one() || numerator.is_empty() {
+            numerator.insert(0, number::magnitude_text(&term.coefficient).0);
+        }
+        let above = numerator.join("*");
+        Ok(match denominator.as_slice() {
+            [] => above,
+            [single] => format!("{above}/{single}"),
+            several => format!("{above}/({})", several.join("*")),
+        })
+    }
+
+    fn atom(&mut self, atom: Expr<'_>) -> Result<String, TooLarge> {
+        if let Some(known) = self.known.get(&atom.id()) {
+            return Ok(known.clone());
+        }
+        self.operations = self.operations.saturating_add(written_operations(atom));
+        if self.operations > MAX_OPERATIONS {
+            return Err(TooLarge { operations: self.operations, limit: MAX_OPERATIONS });
+        }
+        let text = atom_text(atom)?;
+        self.known.insert(atom.id(), text.clone());
+        Ok(text)
     }
 }
 

@@ -1,0 +1,97 @@
+//! Groups of revolute joints with parallel axes, whose angles add up.
+
+use robot_model::robot::JointKind;
+use robot_symbolic::collected::{ParallelAngles, Turn};
+use robot_symbolic::polynomial::expands_to_zero;
+use robot_symbolic::{Expr, Polynomial, PolynomialOptions};
+
+use super::Mechanism;
+use crate::vector::Vector;
+
+/// Where a joint stands in its group.
+#[derive(Clone, Copy)]
+struct Member {
+    group: usize,
+    place: usize,
+    /// Whether its axis points against that of the group's first joint.
+    opposite: bool,
+}
+
+impl<'g> Mechanism<'g> {
+    /// The groups of two and more revolute joints with parallel axes that follow each other along the mechanism,
+    /// prismatic joints between them or not.
+    ///
+    /// A joint whose position is not its coordinate or minus that, as that of a geared mimic joint, belongs to no
+    /// group.
+    #[must_use]
+    pub fn parallel_angles(&self) -> Vec<ParallelAngles<'g>> {
+        let mut groups: Vec<ParallelAngles<'g>> = vec![];
+        let mut members: Vec<Option<Member>> = vec![];
+        for (index, link) in self.links.iter().enumerate() {
+            members.push(None);
+            let Some(reversed) = self.reversed(index) else { continue };
+            let coordinate = self.coordinate(link.coordinate);
+            let before = self.parallel_parent(index).and_then(|(parent, opposite)| {
+                let member = members.get(parent).copied().flatten()?;
+                let turns = &groups.get(member.group)?.turns;
+                let is_new = turns.iter().all(|turn| turn.coordinate != coordinate);
+                is_new.then_some((member, opposite != member.opposite))
+            });
+            let (group, opposite) = match before {
+                Some((member, opposite)) => (member.group, opposite),
+                None => {
+                    groups.push(ParallelAngles { turns: vec![] });
+                    (groups.len() - 1, false)
+                }
+            };
+            let turns = &mut groups[group].turns;
+            members[index] = Some(Member { group, place: turns.len(), opposite });
+            let parent = before.map(|(member, _)| member.place);
+            turns.push(Turn { coordinate, negative: opposite != reversed, parent });
+        }
+        groups.retain(|group| group.turns.len() > 1);
+        groups
+    }
+
+    /// Whether a revolute joint turns by minus its coordinate; `None` if it turns by anything but the coordinate, up
+    /// to its sign and a constant, or does not turn.
+    fn reversed(&self, index: usize) -> Option<bool> {
+        let link = self.links.get(index)?;
+        match link.kind {
+            JointKind::Revolute => link.ratio.as_number()?.as_rational()?.to_integer(),
+            JointKind::Prismatic => None,
+        }
+        .and_then(|ratio| match ratio {
+            1 => Some(false),
+            -1 => Some(true),
+            _ => None,
+        })
+    }
+
+    /// The next revolute joint towards the base if its axis is parallel, and whether it points the other way.
+    fn parallel_parent(&self, index: usize) -> Option<(usize, bool)> {
+        let link = self.links.get(index)?;
+        let mut axis = link.axis_in_parent();
+        let mut parent = link.parent?;
+        loop {
+            let link = self.links.get(parent)?;
+            match link.kind {
+                JointKind::Revolute => return Some((parent, opposite(link.axis, axis)?)),
+                JointKind::Prismatic => {
+                    axis = link.rotation * axis;
+                    parent = link.parent?;
+                }
+            }
+        }
+    }
+}
+
+/// Whether two parallel unit vectors point in opposite directions; `None` if they are not parallel.
+fn opposite<'g>(a: Vector<'g>, b: Vector<'g>) -> Option<bool> {
+    let is_zero = |value: Expr<'g>| expands_to_zero(value).unwrap_or(false);
+    if !a.cross(b).0.into_iter().all(is_zero) {
+        return None;
+    }
+    let product = Polynomial::of(a.dot(b), &PolynomialOptions::default()).ok()?;
+    Some(product.as_number()?.is_negative())
+}

@@ -1,0 +1,298 @@
+//! Nested sums of products: factors are taken out recursively, the best of a few ways at each step.
+
+use std::cmp::Ordering;
+use std::rc::Rc;
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::divisors::{Candidate, candidates};
+use super::terms::{Powers, Term, Terms, Variable, is_unit};
+use crate::rational::Rational;
+
+/// The ways that are followed at each depth; one beyond.
+const WIDTHS: [usize; 3] = [4, 3, 2];
+
+/// Brackets within brackets: sums deeper than this stay as they are.
+const MAX_DEPTH: usize = 16;
+
+/// The work, in squares of numbers of terms, after which only the best way is followed.
+const MAX_WORK: usize = 400_000;
+
+/// A sum of products.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Formula {
+    pub(super) products: Vec<Product>,
+}
+
+/// A coefficient, powers of variables, and powers of sums.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Product {
+    pub(super) coefficient: Rational,
+    pub(super) powers: Powers,
+    pub(super) sums: Vec<(Rc<Formula>, u16)>,
+}
+
+impl Product {
+    fn single(powers: Powers, coefficient: Rational) -> Product {
+        Product { coefficient, powers, sums: vec![] }
+    }
+
+    fn times(&mut self, other: &Product) {
+        self.coefficient = &self.coefficient * &other.coefficient;
+        self.powers = self.powers.product(&other.powers);
+        for (sum, exponent) in &other.sums {
+            match self.sums.iter_mut().find(|known| known.0 == *sum) {
+                Some(known) => known.1 += exponent,
+                None => self.sums.push((Rc::clone(sum), *exponent)),
+            }
+        }
+    }
+
+    /// The product of a variable and a sum as people write it if both ways have the same length: not in brackets if
+    /// it is a parameter before a sum of sines and cosines that have coefficients in brackets themselves.
+    fn opened(self, early: usize) -> Vec<Product> {
+        let is_early = |(variable, _): (Variable, u16)| usize::from(variable) < early;
+        let variable = Product { sums: vec![], ..self.clone() };
+        let is_parameter = variable.length() == 1 && variable.powers.iter().all(is_early);
+        let is_late = |product: &Product| !product.powers.iter().all(is_early);
+        match self.sums.as_slice() {
+            [(sum, 1)]
+                if is_parameter
+                    && sum.products.len() == 2
+                    && sum.depth() > 0
+                    && sum.products.iter().all(is_late) =>
+            {
+                let multiplied = |product: &Product| {
+                    let mut multiplied = product.clone();
+                    multiplied.times(&variable);
+                    multiplied
+                };
+                sum.products.iter().map(multiplied).collect()
+            }
+            _ => vec![self],
+        }
+    }
+
+    /// The variables that stand both before and within brackets.
+    fn split_powers(&self) -> usize {
+        let within = |variable: Variable| {
+            let products = self.sums.iter().flat_map(|(sum, _)| &sum.products);
+            products.filter(|product| product.powers.exponent(variable) > 0).count()
+        };
+        let inside = self.sums.iter().flat_map(|(sum, _)| &sum.products).map(Product::split_powers);
+        self.powers.iter().map(|(variable, _)| within(variable)).sum::<usize>()
+            + inside.sum::<usize>()
+    }
+
+    /// The variables from `early` on that are in brackets.
+    fn late_in_brackets(&self, early: usize) -> usize {
+        let sums = self.sums.iter();
+        sums.map(|(sum, _)| sum.products.iter().map(|it| it.late(early)).sum::<usize>()).sum()
+    }
+
+    fn late(&self, early: usize) -> usize {
+        let own =
+            self.powers.iter().filter(|(variable, _)| usize::from(*variable) >= early).count();
+        own + self.late_in_brackets(early)
+    }
+
+    /// The printed symbols without the sign.
+    fn length(&self) -> usize {
+        let alone = self.powers.is_one() && self.sums.is_empty();
+        let number = usize::from(alone || !is_unit(&self.coefficient));
+        let sums = self.sums.iter();
+        let sums = sums.map(|(sum, exponent)| sum.length() + 1 + usize::from(*exponent > 1));
+        number + self.powers.length() + sums.sum::<usize>()
+    }
+
+    fn depth(&self) -> usize {
+        self.sums.iter().map(|(sum, _)| 1 + sum.depth()).max().unwrap_or_default()
+    }
+
+    /// The first term of the product once it is multiplied out, by which products are listed.
+    fn first(&self) -> Powers {
+        self.sums.iter().fold(self.powers.clone(), |first, (sum, exponent)| {
+            let own = sum.products.iter().map(Product::first).min().unwrap_or_default();
+            (0..*exponent).fold(first, |first, _| first.product(&own))
+        })
+    }
+}
+
+impl Formula {
+    /// The printed symbols.
+    pub(super) fn length(&self) -> usize {
+        let products: usize = self.products.iter().map(Product::length).sum();
+        let leading = self.products.first().is_some_and(|first| first.coefficient.is_negative());
+        products + self.products.len().saturating_sub(1) + usize::from(leading)
+    }
+
+    /// What makes a formula harder to read: its printed symbols, then brackets within brackets, then squares that are
+    /// taken apart (x (x + y)), then sines, cosines and motions within brackets, then the number of its products.
+    ///
+    /// A common factor in front of brackets reads better than in every term, but not in brackets again.
+    fn measure(&self, early: usize, is_within: bool) -> [usize; 5] {
+        let late = match self.depth() {
+            0 if is_within => 1,
+            0 => usize::MAX,
+            _ => self.products.iter().map(|product| product.late_in_brackets(early)).sum(),
+        };
+        let split = self.products.iter().map(Product::split_powers).sum();
+        [self.length(), self.depth().saturating_sub(1), split, late, self.products.len()]
+    }
+
+    /// The depth of brackets within brackets.
+    fn depth(&self) -> usize {
+        self.products.iter().map(Product::depth).max().unwrap_or_default()
+    }
+
+    /// The terms as they are.
+    pub(super) fn flat(terms: &Terms) -> Formula {
+        let products = terms.as_slice().iter();
+        let products =
+            products.map(|(powers, number)| Product::single(powers.clone(), number.clone()));
+        Formula::sorted(products.collect(), |_| false)
+    }
+
+    /// A sum in the order in which products are listed, those that are late after the others, but that it begins
+    /// with a minus sign only if all have one.
+    fn sorted(mut products: Vec<Product>, is_late: impl Fn(&Powers) -> bool) -> Formula {
+        products.sort_by_cached_key(|product| {
+            let first = product.first();
+            (is_late(&first), first)
+        });
+        let positive = products.iter().position(|product| !product.coefficient.is_negative());
+        if let Some(positive) = positive {
+            products[..=positive].rotate_right(1);
+        }
+        Formula { products }
+    }
+
+    /// The sum as it stands in brackets, where sines, cosines and motions come last, times 1 or −1.
+    fn in_brackets(&self, sign: &Rational, early: usize) -> Formula {
+        let signed = |product: &Product| Product {
+            coefficient: &product.coefficient * sign,
+            ..product.clone()
+        };
+        let is_late =
+            |first: &Powers| first.iter().any(|(variable, _)| usize::from(variable) >= early);
+        Formula::sorted(self.products.iter().map(signed).collect(), is_late)
+    }
+
+    /// Whether the sum reads better with its signs changed: most of them are minus.
+    fn is_rather_negative(&self) -> bool {
+        let is_negative = |product: &&Product| product.coefficient.is_negative();
+        let negative = self.products.iter().filter(is_negative).count();
+        let first = self.products.iter().min_by_key(|product| product.first());
+        match (2 * negative).cmp(&self.products.len()) {
+            Ordering::Less => false,
+            Ordering::Equal => first.is_some_and(|first| first.coefficient.is_negative()),
+            Ordering::Greater => true,
+        }
+    }
+}
+
+/// The short forms of the parts of one sum.
+pub(super) struct Factoring {
+    /// The absolute values of its coefficients: other numbers are not made.
+    figures: FxHashSet<Rational>,
+    known: FxHashMap<Terms, Rc<Formula>>,
+    work: usize,
+    /// The number of variables that stand before brackets.
+    early: usize,
+}
+
+impl Factoring {
+    pub(super) fn new(terms: &Terms, early: usize) -> Factoring {
+        let figures = terms.as_slice().iter().map(|(_, number)| number.abs()).collect();
+        Factoring { figures, known: FxHashMap::default(), work: 0, early }
+    }
+
+    /// The shortest form that is found.
+    pub(super) fn formula(&mut self, terms: &Terms) -> Formula {
+        (*self.best(terms, 0)).clone()
+    }
+
+    fn best(&mut self, terms: &Terms, depth: usize) -> Rc<Formula> {
+        if terms.len() < 2 || depth > MAX_DEPTH {
+            return Rc::new(Formula::flat(terms));
+        }
+        if let Some(known) = self.known.get(terms) {
+            return Rc::clone(known);
+        }
+        let content = common_factor(terms);
+        let formula = match &content {
+            (powers, number) if powers.is_one() && number.is_one() => {
+                self.without_content(terms, depth)
+            }
+            (powers, number) => {
+                let inner = divided(terms, &content);
+                let factor = Terms::single(powers.clone(), number.clone());
+                Formula { products: self.product(&[&factor, &inner], depth).opened(self.early) }
+            }
+        };
+        let formula = Rc::new(formula);
+        self.known.insert(terms.clone(), Rc::clone(&formula));
+        formula
+    }
+
+    /// The best form of terms that have no common factor.
+    fn without_content(&mut self, terms: &Terms, depth: usize) -> Formula {
+        self.work += terms.len() * terms.len();
+        let width = match self.work > MAX_WORK {
+            true => 1,
+            false => WIDTHS.get(depth).copied().unwrap_or(1),
+        };
+        let mut best = Formula::flat(terms);
+        let mut least = best.measure(self.early, depth > 0);
+        for candidate in candidates(terms, &self.figures).into_iter().take(width) {
+            let formula = self.of_candidate(&candidate, depth);
+            let measure = formula.measure(self.early, depth > 0);
+            if measure < least {
+                (best, least) = (formula, measure);
+            }
+        }
+        best
+    }
+
+    fn of_candidate(&mut self, candidate: &Candidate, depth: usize) -> Formula {
+        let Candidate { factor, quotient, rest, .. } = candidate;
+        let product = self.product(&[factor, quotient], depth);
+        let mut products = vec![product];
+        products.extend(self.best(rest, depth + 1).products.iter().cloned());
+        Formula::sorted(products, |_| false)
+    }
+
+    /// The product of sums, each in its best form, with the sign that has fewer minus signs.
+    fn product(&mut self, factors: &[&Terms], depth: usize) -> Product {
+        let mut product = Product::single(Powers::default(), Rational::ONE);
+        for factor in factors {
+            let formula = self.best(factor, depth + 1);
+            if let [single] = formula.products.as_slice() {
+                product.times(single);
+                continue;
+            }
+            let sign = Rational::integer(if formula.is_rather_negative() { -1 } else { 1 });
+            product.coefficient = &product.coefficient * &sign;
+            let sums = vec![(Rc::new(formula.in_brackets(&sign, self.early)), 1)];
+            product.times(&Product { sums, ..Product::single(Powers::default(), Rational::ONE) });
+        }
+        product.sums.sort_by_cached_key(|(sum, _)| sum.products.iter().map(Product::first).min());
+        product
+    }
+}
+
+/// The powers that divide all terms, and the number if it is the same in all but for the sign.
+fn common_factor(terms: &Terms) -> Term {
+    let mut numbers = terms.as_slice().iter().map(|(_, number)| number.abs());
+    let first = numbers.next().unwrap_or(Rational::ONE);
+    let is_common = numbers.all(|number| number == first);
+    (terms.content(), if is_common { first } else { Rational::ONE })
+}
+
+/// The terms divided by a product that divides all of them.
+fn divided(terms: &Terms, (powers, number): &Term) -> Terms {
+    let inverse = number.recip().unwrap_or(Rational::ONE);
+    let quotient =
+        |(own, coefficient): &Term| Some((own.quotient(powers)?, coefficient * &inverse));
+    Terms::sum(terms.as_slice().iter().filter_map(quotient))
+}

@@ -1,0 +1,119 @@
+//! Short formulas: sums of products with what they have in common taken out of brackets, and sines
+//! and cosines of sums of angles where these are shorter.
+//!
+//! [`collect`] turns a canonical [`Polynomial`](crate::Polynomial) into a nested sum of products. Its steps:
+//!
+//! 1. in every group of parallel joints, each coefficient is written in the angles between links that make it
+//!    shortest (`angles`, `addition`);
+//! 2. of the squares of a sine and a cosine the shorter one is chosen (`squares`);
+//! 3. common factors are taken out, recursively: products of powers, sums that occur several times, and
+//!    complete squares (`divisors`, `factoring`), after the weak division of R. Brayton and C. McMullen, "The
+//!    decomposition and factorization of Boolean expressions", 1982, and the two-term divisors of
+//!    J. Rajski and J. Vasudevamurthy, 1992.
+//!
+//! The length of a formula is the number of its printed symbols: a symbol with its index, a number, a sign, an
+//! exponent, a pair of brackets, and the sine or cosine of a sum of angles count one each. Numbers do not
+//! change: no coefficient is printed that is neither in the polynomial nor an integer. The result is proved equal
+//! to the polynomial by expanding it again; what cannot be proved is left as the sum that it was.
+
+mod addition;
+mod angles;
+mod divisors;
+mod factoring;
+mod squares;
+mod terms;
+#[cfg(test)]
+mod tests;
+mod variables;
+
+use crate::expr::Expr;
+use crate::polynomial::{Polynomial, PolynomialOptions};
+use crate::print::{ArrangedFactor, ArrangedTerm};
+
+pub use angles::{ParallelAngles, Turn};
+
+use factoring::{Factoring, Formula};
+use variables::Variables;
+
+/// Polynomials of more terms are not collected: the time grows with the third power.
+pub const MAX_TERMS: usize = 400;
+
+/// Makes short forms of the polynomials of one graph.
+#[derive(Clone, Copy, Debug)]
+pub struct Collector<'g, 'a> {
+    /// Groups of parallel joints, whose sums of angles may be written; none if these are to be resolved.
+    pub angles: &'a [ParallelAngles<'g>],
+    /// Whether common factors are taken out of brackets.
+    pub factors: bool,
+}
+
+impl<'g> Collector<'g, '_> {
+    /// The terms of the short form of a polynomial in which angle sums are expanded, with the factors in the
+    /// order of the ranks that `rank` gives to atoms; sums in brackets have the rank `brackets`.
+    ///
+    /// A polynomial that has floating-point numbers or more than [`MAX_TERMS`] terms is arranged as it is.
+    #[must_use]
+    pub fn collect<K: Ord>(
+        &self,
+        polynomial: &Polynomial<'g>,
+        rank: impl Fn(Expr<'g>) -> K,
+        brackets: &K,
+    ) -> Vec<ArrangedTerm<'g>> {
+        let collected = self.collected(polynomial, &rank, brackets).filter(|terms| {
+            let proved = is_equal(terms, polynomial);
+            debug_assert!(proved, "a collected formula differs from its polynomial");
+            proved
+        });
+        collected.unwrap_or_else(|| polynomial.arranged(&rank))
+    }
+
+    fn collected<K: Ord>(
+        &self,
+        polynomial: &Polynomial<'g>,
+        rank: &impl Fn(Expr<'g>) -> K,
+        brackets: &K,
+    ) -> Option<Vec<ArrangedTerm<'g>>> {
+        if polynomial.len() > MAX_TERMS {
+            return None;
+        }
+        let variables = Variables::new(polynomial, self.angles, rank);
+        let terms = variables.read(polynomial)?;
+        let groups = variables.groups().iter();
+        let terms = groups.fold(terms, |terms, group| group.shortest(&terms, &variables));
+        let terms = squares::chosen(&terms, &variables);
+        let early = variables.before(|atom| rank(atom) < *brackets);
+        let formula = match self.factors {
+            true => Factoring::new(&terms, early).formula(&terms),
+            false => Formula::flat(&terms),
+        };
+        Some(variables.written(&formula, early))
+    }
+}
+
+/// The length of a sum: the number of its printed symbols.
+#[must_use]
+pub fn length(terms: &[ArrangedTerm<'_>]) -> usize {
+    let signs =
+        terms.len().saturating_sub(1) + usize::from(terms.first().is_some_and(|it| it.negative));
+    signs + terms.iter().map(term_length).sum::<usize>()
+}
+
+fn term_length(term: &ArrangedTerm<'_>) -> usize {
+    let factor = |(factor, exponent): &(ArrangedFactor<'_>, i32)| {
+        let raised = usize::from(exponent.unsigned_abs() > 1);
+        match factor {
+            ArrangedFactor::Atom(_) => 1 + raised,
+            ArrangedFactor::Sum(terms) => length(terms) + 1 + raised,
+        }
+    };
+    let bar = usize::from(term.factors.iter().any(|(_, exponent)| *exponent < 0));
+    let number = usize::from(term.factors.is_empty() || !term.coefficient.is_one());
+    number + bar + term.factors.iter().map(factor).sum::<usize>()
+}
+
+/// Whether terms, multiplied out, are the polynomial.
+fn is_equal<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> bool {
+    let value = crate::print::arranged_value(terms, polynomial.graph());
+    let expanded = Polynomial::of(value, &PolynomialOptions::default());
+    expanded.is_ok_and(|expanded| expanded == *polynomial)
+}

@@ -1,0 +1,59 @@
+//! Short forms of small polynomials, and random ones proved equal.
+
+use crate::collected::{Collector, ParallelAngles, Turn};
+use crate::print::{arranged_text, default_rank};
+use crate::{Graph, Polynomial, PolynomialOptions};
+
+/// The short form of text, with the angles of parallel joints `q1`, `q2`, … in a chain.
+fn collected(source: &str, joints: usize) -> String {
+    let graph = Graph::new();
+    let turns = (0..joints).map(|joint| Turn {
+        coordinate: graph.symbol(&format!("q{}", joint + 1)),
+        negative: false,
+        parent: joint.checked_sub(1),
+    });
+    let angles = [ParallelAngles { turns: turns.collect() }];
+    let value = graph.parse(source).unwrap();
+    let polynomial = Polynomial::of(value, &PolynomialOptions::default()).unwrap();
+    let terms = Collector { angles: &angles, factors: true }.collect(&polynomial, default_rank, &1);
+    arranged_text(&terms).unwrap()
+}
+
+#[test]
+fn common_factors_leave_brackets() {
+    for (source, expected) in [
+        ("a*b + a*c", "a*(b + c)"),
+        ("a*c + a*d + b*c + b*d", "(a + b)*(c + d)"),
+        ("M*(l + q)^2 + N*(l + k + q)^2", "M*(l + q)^2 + N*(l + q + k)^2"),
+        ("a - a*cos(q9)^2", "a*sin(q9)^2"),
+        ("a - b", "a - b"),
+        ("-a*x - b*x", "-x*(a + b)"),
+        ("2*a*b + 2*a*c", "2*a*(b + c)"),
+        ("0", "0"),
+    ] {
+        assert_eq!(collected(source, 0), expected, "{source}");
+    }
+}
+
+#[test]
+fn sums_of_angles_act() {
+    for (source, expected) in [
+        ("m*sin(q1 + q2) + m*l*cos(q2)", "m*(l*cos(q2) + sin(q1 + q2))"),
+        ("cos(q1)*cos(q2 + q1) + sin(q1)*sin(q1 + q2)", "cos(q2)"),
+        ("sin(q2)*cos(q1 + q2) - cos(q2)*sin(q1 + q2)", "-sin(q1)"),
+    ] {
+        assert_eq!(collected(source, 2), expected, "{source}");
+    }
+    assert_eq!(
+        collected("a*cos(q1 + q2 + q3) - b*sin(q2 + q3)", 3),
+        "a*cos(q1 + q2 + q3) - b*sin(q2 + q3)"
+    );
+}
+
+#[test]
+fn coefficients_of_sines_are_in_brackets() {
+    assert_eq!(
+        collected("-2*l1*(m2*r2*sin(q2) + m3*l2*sin(q2) + m3*r3*sin(q2 + q3))", 3),
+        "-2*l1*((m2*r2 + m3*l2)*sin(q2) + m3*r3*sin(q2 + q3))"
+    );
+}
