@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use robot_build::Programs;
+use robot_document::markup::{Node, holding};
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
 use robot_simulation::{Trajectory, torque_contributions};
 
-use crate::html::{Node, holding};
 use crate::plot::{self, Plot};
 use crate::table::Table;
 use crate::text;

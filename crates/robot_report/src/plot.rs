@@ -1,9 +1,9 @@
 //! Curves over time as SVG, in the colors of the page.
 
 use nalgebra::Vector2;
+use robot_document::markup::{Element, element, holding};
 
 use crate::drawing::{coordinate, path};
-use crate::html::{Element, element, holding};
 use crate::text;
 
 /// A picture of curves of one unit.

@@ -1,5 +1,6 @@
 //! The contents of the robot file, in tables: joints, masses, parameters.
 
+use robot_document::markup::{Element, Node, element, holding};
 use robot_document::robot::words;
 use robot_model::robot::{Body, Inertia, Link, Parameter, Robot};
 use robot_model::variable::JointVariable;
@@ -7,7 +8,6 @@ use robot_symbolic::Formula;
 use robot_symbolic::print::exact_text;
 
 use crate::formula::Symbols;
-use crate::html::{Element, Node, element, holding};
 use crate::parts;
 use crate::table::Table;
 use crate::text;
