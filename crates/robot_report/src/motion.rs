@@ -37,10 +37,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     let mut table = Table::new("The largest magnitudes along the trajectory", columns);
     let mut body = vec![Node::from(holding("p", WORDS))];
     for (index, coordinate) in robot.coordinates.iter().enumerate() {
-        let unit = match coordinate.kind {
-            JointKind::Revolute => "N m",
-            JointKind::Prismatic => "N",
-        };
+        let unit = JointVariable::Torque.unit(coordinate.kind);
         let of = |samples: &[Vec<f64>]| -> Vec<f64> {
             samples.iter().filter_map(|sample| sample.get(index).copied()).collect()
         };
