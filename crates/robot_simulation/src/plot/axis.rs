@@ -27,7 +27,10 @@ impl Axis {
         let room = if high - low > 1e-9 * size { 0.06 * (high - low) } else { 0.1 * size };
         let room = if room > 0.0 { room } else { 1.0 };
         let exponent = match size.log10().floor() {
-            exponent if size > 0.0 && !(-2.0..5.0).contains(&exponent) => exponent as i32,
+            // Smaller powers of ten are zero.
+            exponent if size > 0.0 && !(-2.0..5.0).contains(&exponent) => {
+                exponent.max(-300.0) as i32
+            }
             _ => 0,
         };
         let unit = 10_f64.powi(exponent);
@@ -130,6 +133,8 @@ mod tests {
         assert!(tiny.low < tiny.scaled(-3e-9) && tiny.scaled(1e-9) < tiny.high);
         let large = Axis::of([0.0, 123_456.0].into_iter());
         assert_eq!(large.unit("N"), "10⁵ N");
+        let least = Axis::of([0.0, 5e-324].into_iter());
+        assert!(least.low < least.high && least.high.is_finite(), "{least:?}");
         for flat in [[0.0, 0.0], [5.0, 5.0], [-1e9, -1e9 - 1e-3]] {
             let axis = Axis::of(flat.into_iter());
             assert!(axis.high - axis.low > 0.1, "{axis:?}");
