@@ -4,7 +4,7 @@
 //! [`math::Math`], a layout of pieces that no notation owns, made of expressions by a [`SymbolTable`]. A
 //! [`document::Document`] holds headings, text, tables and equations, still in no notation; [`robot`] fills
 //! one from a robot. Each notation is a printer of its own: [`latex`], [`mathml`], [`typst`]; [`html`] makes
-//! a page. The infix text beside each formula is that of `robot_symbolic`, which reads back.
+//! a page. HTML and MathML are trees of [`markup`], which escapes all text. The infix text beside each formula is that of `robot_symbolic`, which reads back.
 //!
 //! [`latex::read`] and [`meaning`] go the way back, from LaTeX to layout and to the expression that it stands
 //! for, so that tests can prove what was printed.
@@ -14,6 +14,7 @@ pub mod document;
 mod error;
 pub mod forms;
 mod layout;
+pub mod markup;
 mod notation;
 pub mod robot;
 

@@ -185,6 +185,9 @@ pub struct Inertia {
 }
 
 impl Inertia {
+    /// The names of the entries, in the order of [`Inertia::entries`].
+    pub const NAMES: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
+
     /// The entries (1, 1), (2, 2), (3, 3), (1, 2), (1, 3), (2, 3).
     #[must_use]
     pub fn entries(&self) -> [&Formula; 6] {

@@ -79,7 +79,7 @@ pub fn parameterized(robot: &Robot) -> Robot {
             }
             let Inertia { xx, yy, zz, xy, xz, yz } = &mut body.inertia;
             let entries = [xx, yy, zz, xy, xz, yz];
-            for (formula, axes) in entries.into_iter().zip(["xx", "yy", "zz", "xy", "xz", "yz"]) {
+            for (formula, axes) in entries.into_iter().zip(Inertia::NAMES) {
                 replace(formula, format!("I{axes}{suffix}"));
             }
         }

@@ -2,8 +2,8 @@
 
 use robot_build::ablation::Ablation;
 use robot_codegen::{Counts, Module};
+use robot_document::markup::{Element, holding};
 
-use crate::html::{Element, holding};
 use crate::table::Table;
 
 const COLUMNS: [&str; 6] = ["×", "+ −", "÷", "√", "sin, cos", "× + ÷ together"];

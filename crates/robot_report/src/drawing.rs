@@ -1,8 +1,7 @@
 //! Lines of drawings.
 
 use nalgebra::Vector2;
-
-use crate::html::{Element, element};
+use robot_document::markup::{Element, element};
 
 /// `12.3` without needless digits, so that the same drawing is the same bytes.
 pub(crate) fn coordinate(value: f64) -> String {

@@ -2,13 +2,13 @@
 //! they come from.
 
 use robot_document::breaking::terms;
+use robot_document::markup::{Element, Node, element, holding};
 use robot_document::math::Math;
 use robot_document::{Equation, EquationOptions, Equations, Form, Group, equations};
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, Variable};
 
 use crate::formula::{self, math};
-use crate::html::{Element, Node, element, holding};
 use crate::parts;
 
 /// Forms of more terms than this are not shown: pages would be slow, and nobody reads so far.

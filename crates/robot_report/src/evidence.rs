@@ -1,8 +1,8 @@
 //! The evidence for the code: from the compiler, and from the numeric solver.
 
+use robot_document::markup::{Element, Node, element, holding};
 use robot_evidence::{Evidence, Module};
 
-use crate::html::{Element, Node, element, holding};
 use crate::table::Table;
 
 /// The evidence from the compiler.

@@ -1,35 +1,24 @@
 //! Formulas on the page, as MathML.
 
+use robot_document::markup::{Element, holding};
 use robot_document::math::Math;
-use robot_document::mathml::{self, Content, Markup};
+use robot_document::mathml;
 use robot_document::{SymbolTable, Trigonometry};
 use robot_model::robot::Robot;
 use robot_symbolic::{Formula, Graph};
 
-use crate::html::{Element, element, holding};
 use crate::text;
 
 /// A formula in a line.
 pub(crate) fn math(formula: &Math) -> Element {
-    holding("math", of_markup(mathml::formula(formula)))
+    holding("math", mathml::formula(formula))
 }
 
 /// A term of a sum: a sign before it is between it and the term before.
 pub(crate) fn term(pieces: &[Math], is_first: bool) -> Element {
     let term = Math::Row(pieces.to_vec());
-    let markup = if is_first { mathml::formula(&term) } else { mathml::continued(&term) };
-    holding("math", of_markup(markup))
-}
-
-/// The printer's tree as a part of the page.
-fn of_markup(markup: Markup) -> Element {
-    let Markup { name, attributes, content } = markup;
-    let start = element(name);
-    let start = attributes.into_iter().fold(start, |all, (name, value)| all.attribute(name, value));
-    match content {
-        Content::Text(text) => start.with(text),
-        Content::Elements(elements) => start.with_all(elements.into_iter().map(of_markup)),
-    }
+    let shown = if is_first { mathml::formula(&term) } else { mathml::continued(&term) };
+    holding("math", shown)
 }
 
 /// The layout of the robot's symbols.

@@ -2,7 +2,7 @@
 //!
 //! [`report`] is pure: a robot file and what the compiler made of its code go in, the text of the page
 //! comes out, the same bytes for the same input. Everything that comes from the robot file is text by
-//! construction (`html.rs` is the one place where text becomes markup), and the page's policy lets a
+//! construction ([`robot_document::markup`] is the one place where text becomes markup), and the page's policy lets a
 //! browser run and load nothing but the page's own style and script, by their hashes.
 
 mod costs;
@@ -11,7 +11,6 @@ mod equations;
 mod error;
 mod evidence;
 mod formula;
-mod html;
 mod motion;
 mod page;
 mod parts;
@@ -31,10 +30,10 @@ use robot_build::{
     Effects, Errors, FunctionKind, Functions, Options, Programs, Source, Unsolvable, programs,
     unsolvable,
 };
+use robot_document::markup::{Node, element, holding};
 use robot_model::robot::Robot;
 
 use formula::Symbols;
-use html::{Node, element, holding};
 use page::{Section, page};
 use reload::Stamp;
 use structure::Structure;

@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use robot_build::Programs;
+use robot_document::markup::{Node, holding};
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
 use robot_simulation::{Trajectory, torque_contributions};
 
-use crate::html::{Node, holding};
 use crate::plot::{self, Plot};
 use crate::table::Table;
 use crate::text;
@@ -37,10 +37,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     let mut table = Table::new("The largest magnitudes along the trajectory", columns);
     let mut body = vec![Node::from(holding("p", WORDS))];
     for (index, coordinate) in robot.coordinates.iter().enumerate() {
-        let unit = match coordinate.kind {
-            JointKind::Revolute => "N m",
-            JointKind::Prismatic => "N",
-        };
+        let unit = JointVariable::Torque.unit(coordinate.kind);
         let of = |samples: &[Vec<f64>]| -> Vec<f64> {
             samples.iter().filter_map(|sample| sample.get(index).copied()).collect()
         };

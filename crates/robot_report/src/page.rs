@@ -2,9 +2,10 @@
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
+use robot_build::MARKER;
+use robot_document::markup::{Element, Node, element, holding};
 use robot_model::robot::Robot;
 
-use crate::html::{Element, Node, element, holding};
 use crate::reload::Stamp;
 
 const STYLE: &str = include_str!("style.css");
@@ -45,17 +46,18 @@ pub(crate) fn page(robot: &Robot, sections: Vec<Section>, stamp: Option<Stamp>) 
         .with(contents)
         .with(element("main").attribute("id", "content").with_all(main))
         .with(footer())
-        .with(element("script").with(Node::Own(SCRIPT)));
+        .with(element("script").with(Node::Verbatim(SCRIPT)));
     let html =
         element("html").attribute("xmlns", "http://www.w3.org/1999/xhtml").attribute("lang", "en");
     let (html, body) = match stamp {
         None => (html, body),
         Some(stamp) => (
             html.attribute("data-page", stamp.words()),
-            body.with(element("script").with(Node::Own(RELOAD))),
+            body.with(element("script").with(Node::Verbatim(RELOAD))),
         ),
     };
-    html.with(head(robot, stamp.is_some())).with(body).to_document()
+    let html = html.with(head(robot, stamp.is_some())).with(body);
+    format!("<!DOCTYPE html>\n<!-- {MARKER} -->\n{html}\n")
 }
 
 fn head(robot: &Robot, reloads: bool) -> Element {
@@ -72,7 +74,7 @@ fn head(robot: &Robot, reloads: bool) -> Element {
         .with(meta("color-scheme", "light dark"))
         .with(meta("referrer", "no-referrer"))
         .with(holding("title", format!("{}: equations of motion", robot.name)))
-        .with(element("style").with(Node::Own(STYLE)))
+        .with(element("style").with(Node::Verbatim(STYLE)))
 }
 
 /// The page's own style and scripts, by their hashes, and nothing else; of a page that reloads itself the

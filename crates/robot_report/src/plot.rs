@@ -1,9 +1,10 @@
 //! Curves over time as SVG, in the colors of the page.
 
 use nalgebra::Vector2;
+use robot_document::markup::{Element, element, holding};
+use robot_simulation::plot::{Axis, label};
 
 use crate::drawing::{coordinate, path};
-use crate::html::{Element, element, holding};
 use crate::text;
 
 /// A picture of curves of one unit.
@@ -25,10 +26,14 @@ const SIZE: [f64; 2] = [760.0, 210.0];
 const MARGINS: [f64; 4] = [74.0, 108.0, 26.0, 34.0];
 const LETTERS: f64 = 12.0;
 
-/// From values to places on the page.
+/// The most ticks of each axis.
+const TIME_TICKS: usize = 9;
+const VALUE_TICKS: usize = 8;
+
+/// From times and values to places on the page.
 struct Scale {
-    time: [f64; 2],
-    values: [f64; 2],
+    time: Axis,
+    values: Axis,
 }
 
 impl Plot<'_> {
@@ -37,7 +42,7 @@ impl Plot<'_> {
         let [width, height] = SIZE;
         let anchors = ["title", "desc"].map(|part| format!("plot-{}-{part}", self.number));
         let values = self.curves.iter().flat_map(|(_, values)| values.iter().copied());
-        let scale = Scale { time: range(self.t.iter().copied()), values: range(values) };
+        let scale = Scale { time: Axis::of_times(self.t), values: Axis::of(values) };
         element("svg")
             .attribute("xmlns", "http://www.w3.org/2000/svg")
             .class("plot")
@@ -65,35 +70,31 @@ impl Plot<'_> {
     /// Lines at round values, with the values.
     fn grid(&self, scale: &Scale) -> Vec<Element> {
         let mut drawn = vec![];
-        let [low, high] = scale.values;
-        for value in ticks(low, high, 5) {
-            let ends = scale.time.map(|time| scale.place(time, value));
+        let Scale { time, values } = scale;
+        for value in values.ticks(VALUE_TICKS) {
+            let ends = [time.low, time.high].map(|time| scale.place(time, value));
             let class = if value == 0.0 { "zero" } else { "tick" };
             drawn.push(path(&ends, false).class(class));
             let place = [ends[0].x - 6.0, ends[0].y + 4.0];
-            drawn.push(words(&text::number(rounded(value)), place, "end"));
+            drawn.push(words(&label(value), place, "end"));
         }
-        let [from, to] = scale.time;
-        for time in ticks(from, to, 8) {
-            let ends = scale.values.map(|value| scale.place(time, value));
+        for time in time.ticks(TIME_TICKS) {
+            let ends = [values.low, values.high].map(|value| scale.place(time, value));
             drawn.push(path(&ends, false).class("tick"));
-            drawn.push(words(
-                &text::number(rounded(time)),
-                [ends[0].x, ends[0].y + 15.0],
-                "middle",
-            ));
+            drawn.push(words(&label(time), [ends[0].x, ends[0].y + 15.0], "middle"));
         }
         let [width, height] = SIZE;
         drawn.push(words("t, s", [width - MARGINS[1], height - 4.0], "end"));
-        drawn.push(words(self.unit, [8.0, 16.0], "start"));
+        drawn.push(words(&values.unit(self.unit), [8.0, 16.0], "start"));
         drawn
     }
 
     fn lines(&self, scale: &Scale) -> Vec<Element> {
         let line = |(index, (_, values)): (usize, &(&str, Vec<f64>))| {
             let pairs = self.t.iter().zip(values).filter(|(_, value)| value.is_finite());
-            let points: Vec<Vector2<f64>> =
-                pairs.map(|(time, value)| scale.place(*time, *value)).collect();
+            let points: Vec<Vector2<f64>> = pairs
+                .map(|(time, value)| scale.place(*time, scale.values.scaled(*value)))
+                .collect();
             path(&points, false).class(self.class(index))
         };
         self.curves.iter().enumerate().map(line).collect()
@@ -120,40 +121,15 @@ impl Plot<'_> {
 }
 
 impl Scale {
+    /// The place of a value in the units of its axis.
     fn place(&self, time: f64, value: f64) -> Vector2<f64> {
-        let share = |[low, high]: [f64; 2], at: f64| (at - low) / (high - low);
+        let share = |axis: &Axis, at: f64| (at - axis.low) / (axis.high - axis.low);
         let [left, right, top, bottom] = MARGINS;
         let [width, height] = SIZE;
-        let x = left + share(self.time, time) * (width - left - right);
-        let y = height - bottom - share(self.values, value) * (height - top - bottom);
+        let x = left + share(&self.time, time) * (width - left - right);
+        let y = height - bottom - share(&self.values, value) * (height - top - bottom);
         Vector2::new(x, y)
     }
-}
-
-/// The range of values, with some room if they are all the same.
-fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let finite = values.filter(|value| value.is_finite());
-    let [low, high] = finite
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], one| [low.min(one), high.max(one)]);
-    let flat = 1e-9 * low.abs().max(high.abs());
-    if high - low > flat {
-        [low, high]
-    } else if low <= high {
-        [low - 1.0, high + 1.0]
-    } else {
-        [0.0, 1.0]
-    }
-}
-
-/// Round values within a range, about so many.
-fn ticks(low: f64, high: f64, count: u32) -> Vec<f64> {
-    let raw = (high - low) / f64::from(count);
-    let power = 10f64.powf(raw.log10().floor());
-    let step = [1.0, 2.0, 5.0].into_iter().map(|step| step * power).find(|step| *step >= raw);
-    let step = step.unwrap_or(10.0 * power);
-    let first = (low / step).ceil() as i64;
-    let all = (first..).map(|index| index as f64 * step);
-    all.take_while(|value| *value <= high + 1e-9 * step).take(50).collect()
 }
 
 /// The largest magnitude.
@@ -179,21 +155,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_are_round_and_within() {
-        assert_eq!(ticks(0.0, 4.0, 8), [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0]);
-        assert_eq!(ticks(-7.0, 12.0, 5), [-5.0, 0.0, 5.0, 10.0]);
-        for (low, high) in [(-1.0, 1.0), (-3e-7, 4e-7), (1e5, 1.2e5)] {
-            let found = ticks(low, high, 5);
-            assert!((2..=10).contains(&found.len()), "{found:?}");
-        }
-    }
-
-    #[test]
     fn curves_stay_in_their_field() {
-        let scale = Scale { time: [0.0, 2.0], values: range([-3.0, 5.0, f64::NAN].into_iter()) };
-        assert_eq!(scale.place(0.0, 5.0), Vector2::new(MARGINS[0], MARGINS[2]));
+        let values = Axis::of([-3.0, 5.0, f64::NAN].into_iter());
+        let scale = Scale { time: Axis::of_times(&[0.0, 2.0]), values };
+        assert_eq!(scale.place(0.0, values.high), Vector2::new(MARGINS[0], MARGINS[2]));
         let corner = Vector2::new(SIZE[0] - MARGINS[1], SIZE[1] - MARGINS[3]);
-        assert_eq!(scale.place(2.0, -3.0), corner);
-        assert_eq!((range([2.0].into_iter()), range([].into_iter())), ([1.0, 3.0], [0.0, 1.0]));
+        assert_eq!(scale.place(2.0, values.low), corner);
+        let [top, bottom] = [5.0, -3.0].map(|value| scale.place(1.0, value).y);
+        assert!(MARGINS[2] < top && top < bottom && bottom < corner.y);
     }
 }

@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 
+use robot_document::markup::{Element, element, holding};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler::newton_euler;
 use robot_model::functions::Effects;
@@ -15,7 +16,6 @@ use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Graph, Random, SymbolId, walk};
 
-use crate::html::{Element, element, holding};
 use crate::text;
 
 /// States at which entries are tried.

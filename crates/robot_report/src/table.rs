@@ -1,6 +1,6 @@
 //! Tables with headings that screen readers find.
 
-use crate::html::{Element, Node, element, holding};
+use robot_document::markup::{Element, Node, element, holding};
 
 /// A table: what it shows, its columns, its rows. The first cell of a row is its heading.
 pub(crate) struct Table {

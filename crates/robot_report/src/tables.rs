@@ -1,13 +1,12 @@
 //! The contents of the robot file, in tables: joints, masses, parameters.
 
+use robot_document::markup::{Element, Node, element, holding};
+use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
 use robot_document::robot::words;
-use robot_model::robot::{Body, Inertia, Link, Parameter, Robot};
-use robot_model::variable::JointVariable;
-use robot_symbolic::Formula;
-use robot_symbolic::print::exact_text;
+use robot_model::robot::{Body, Inertia, Robot};
+use robot_symbolic::{Formula, Rational};
 
 use crate::formula::Symbols;
-use crate::html::{Element, Node, element, holding};
 use crate::parts;
 use crate::table::Table;
 use crate::text;
@@ -18,17 +17,15 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     let caption = "Links and joints. A pose is a sequence of displacements in the parent frame, \
         each in the frame reached by the preceding ones; lengths in m, angles in rad.";
     let mut table = Table::new(caption, columns);
-    for (index, link) in robot.links.iter().enumerate() {
-        let motion = words::motion(link.joint.kind);
-        let coordinate = robot.coordinates.get(link.joint.coordinate);
-        let limits = coordinate.and_then(|coordinate| coordinate.limits.as_ref());
-        let limits = limits.map(|limits| limits.each_ref().map(robot_symbolic::Rational::to_f64));
+    for (index, row) in rows::links(robot).enumerate() {
+        let LinkRow { link, parent, kind, limits, .. } = &row;
+        let limits = limits.map(|limits| limits.each_ref().map(Rational::to_f64));
         let cells: [Node; 6] = [
-            words::carrier(robot, link.parent).into(),
+            (*parent).into(),
             link.joint.name.as_str().into(),
-            format!("{motion}, {}", position(robot, link)).into(),
+            format!("{kind}, {}", position(robot, &row)).into(),
             vector(&link.joint.axis).into(),
-            text::moves(robot, &link.placement).into(),
+            text::pose(robot, &link.placement).into(),
             limits
                 .map_or_else(String::new, |[low, high]| {
                     format!("{} … {}", text::number(low), text::number(high))
@@ -45,13 +42,9 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
     let caption = "Frames. A tip exerts the wrench with these components on its surroundings; \
         the external wrench, which acts on the tip, is its negative.";
     let mut table = Table::new(caption, ["Frame", "Fixed to", "Pose", "Wrench"]);
-    for frame in &robot.frames {
-        let wrench = frame.wrench.as_ref().map_or_else(String::new, |wrench| {
-            let names = wrench.force.iter().chain(&wrench.moment);
-            names.map(String::as_str).collect::<Vec<_>>().join(", ")
-        });
-        let carrier = words::carrier(robot, frame.link).to_owned();
-        let cells = [carrier, text::moves(robot, &frame.placement), wrench];
+    for FrameRow { frame, link, wrench } in rows::frames(robot) {
+        let pose = text::pose(robot, &frame.placement);
+        let cells = [link.to_owned(), pose, wrench.unwrap_or_default()];
         let part = frame.link.map_or_else(String::new, parts::link);
         table.row(&part, frame.name.as_str(), cells);
     }
@@ -60,21 +53,20 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
 
 /// Masses and inertias, the paper's Table 1.
 pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
-    let columns =
-        ["Body", "Mass, kg", "Center of mass and axes, m, rad", "xx", "yy", "zz", "xy", "xz", "yz"];
+    let columns = ["Body", "Mass, kg", "Center of mass and axes, m, rad"];
+    let columns = columns.into_iter().chain(Inertia::NAMES);
     let caption = "Masses and moments of inertia, kg m². The moments are about the center of \
         mass, in the axes given; products of inertia are entries of the tensor, xy = −∫xy dm.";
     let mut table = Table::new(caption, columns);
     for (index, link) in robot.links.iter().enumerate() {
         for Body { name, mass, placement, inertia } in &link.bodies {
-            let Inertia { xx, yy, zz, xy, xz, yz } = inertia;
-            let place = match text::moves(robot, placement) {
+            let place = match text::pose(robot, placement) {
                 none if none == "none" => "at the link frame's origin".to_owned(),
-                moves => moves,
+                pose => pose,
             };
             let cells = [value_cell(robot, symbols, mass), holding("span", place)]
                 .into_iter()
-                .chain([xx, yy, zz, xy, xz, yz].map(|entry| value_cell(robot, symbols, entry)));
+                .chain(inertia.entries().map(|entry| value_cell(robot, symbols, entry)));
             table.row(&parts::link(index), name.as_str(), cells);
         }
     }
@@ -85,14 +77,14 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
 pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     let caption = "Parameters: symbols in the equations, fields of the generated code.";
     let mut table = Table::new(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);
-    for parameter in &robot.parameters {
-        let Parameter { name, value, unit, doc, .. } = parameter;
+    for ParameterRow { parameter, value, unit, meaning } in rows::parameters(robot) {
+        let name = &parameter.name;
         let links = parts::links_of_parameter(robot, name).into_iter();
         let links = links.filter_map(|index| robot.links.get(index));
         let words = [
-            value.as_ref().map_or_else(|| "none".to_owned(), exact_text).replace('-', "−"),
-            unit.as_ref().map_or_else(String::new, |unit| unit.text.clone()),
-            doc.clone().unwrap_or_default(),
+            value.unwrap_or_else(|| "none".to_owned()).replace('-', "−"),
+            unit.unwrap_or_default().to_owned(),
+            meaning.unwrap_or_default().to_owned(),
             links.map(|link| link.name.as_str()).collect::<Vec<_>>().join(", "),
         ];
         let cells = std::iter::once(Node::from(symbols.symbol(name)));
@@ -121,9 +113,9 @@ fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
 }
 
 /// The joint's position by its coordinate: `q2`, `−0.5 q2 + 0.1`.
-fn position(robot: &Robot, link: &Link) -> String {
-    let joint = &link.joint;
-    let coordinate = text::symbol(&JointVariable::Position.symbol(joint.coordinate));
+fn position(robot: &Robot, row: &LinkRow<'_>) -> String {
+    let joint = &row.link.joint;
+    let coordinate = text::symbol(&row.coordinate);
     let is_one = joint.ratio.as_number().is_some_and(|number| number.is_one());
     let turned = match is_one {
         true => coordinate,
@@ -140,6 +132,6 @@ fn vector(components: &[Formula; 3]) -> String {
     let texts = components.each_ref().map(Formula::text);
     match known.iter().find(|(_, unit)| *unit == texts) {
         Some((name, _)) => (*name).to_owned(),
-        None => format!("({})", components.each_ref().map(text::plain).join(", ")),
+        None => words::vector(components, text::plain),
     }
 }

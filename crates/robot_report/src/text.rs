@@ -1,7 +1,7 @@
 //! Values of robot files in words and numbers.
 
 use robot_document::robot::words;
-use robot_model::robot::{Move, Placement, Robot};
+use robot_model::robot::{Placement, Robot};
 use robot_symbolic::Formula;
 
 /// The nominal value of a formula; NaN if a parameter of it has none.
@@ -47,19 +47,9 @@ pub(crate) fn number(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// The moves of a placement, those by nothing left out: `move (l4, 0, l3)`, `turn z by π/2`.
-pub(crate) fn moves(robot: &Robot, placement: &Placement) -> String {
-    let one = |step: &Move| match step {
-        Move::Translate(by) => {
-            let parts = by.each_ref().map(|part| with_value(robot, part));
-            format!("move ({})", parts.join(", "))
-        }
-        Move::Rotate(axis, angle) => {
-            format!("rotate {} by {}", words::axis(*axis), with_value(robot, angle))
-        }
-    };
-    let moves: Vec<String> = words::moves(placement).map(one).collect();
-    if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
+/// A pose: `to (l4, 0, l3), rotated about z by π/2`, with the nominal values of parameters.
+pub(crate) fn pose(robot: &Robot, placement: &Placement) -> String {
+    words::pose(placement, |formula| with_value(robot, formula))
 }
 
 /// A name with the number at its end below the line: `l₄`.

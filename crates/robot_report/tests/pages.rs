@@ -227,7 +227,7 @@ fn a_page_that_reloads_itself_is_the_same_page() {
     assert_eq!(scripts.count(), 2);
     let policy = words(&document, "content").filter(|word| word.starts_with("'sha256-"));
     assert_eq!(policy.count(), 3);
-    assert!(found.page.contains("; img-src &#39;self&#39; file:;"));
+    assert!(found.page.contains("; img-src 'self' file:;"));
     // The page's own stamp is the size of the picture beside it.
     let own = document.root_element().attribute("data-page").unwrap();
     let picture = parsed(&found.stamp);

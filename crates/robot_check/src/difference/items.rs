@@ -1,8 +1,8 @@
 //! The contents of the files of two robots: parameters, links, joints and frames.
 
+use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
 use robot_document::robot::words;
-use robot_model::robot::{Body, Frame, Joint, Link, Move, Parameter, Payload, Placement, Robot};
-use robot_model::variable::JointVariable;
+use robot_model::robot::{Body, Inertia, Joint, Link, Payload, Placement, Robot};
 use robot_symbolic::{Formula, print};
 
 /// The kind of an item.
@@ -105,10 +105,10 @@ fn items(robot: &Robot) -> Vec<Item> {
     // The name of the robot is nothing that may differ.
     let whole = Item { kind: ItemKind::Robot, name: String::new(), properties: of_robot(robot) };
     let mut all = vec![whole];
-    all.extend(robot.parameters.iter().map(parameter));
-    all.extend(robot.links.iter().map(|one| link(robot, one)));
-    all.extend(robot.links.iter().map(|one| joint(robot, one)));
-    all.extend(robot.frames.iter().map(|one| frame(robot, one)));
+    all.extend(rows::parameters(robot).map(parameter));
+    all.extend(rows::links(robot).map(link));
+    all.extend(rows::links(robot).map(joint));
+    all.extend(rows::frames(robot).map(frame));
     all
 }
 
@@ -128,18 +128,16 @@ fn of_robot(robot: &Robot) -> Vec<(String, String)> {
     properties
 }
 
-fn parameter(parameter: &Parameter) -> Item {
-    let value = parameter.value.as_ref().map(|value| named("value", print::exact_text(value)));
-    let unit = parameter.unit.as_ref().map(|unit| named("unit", unit.text.clone()));
+fn parameter(ParameterRow { parameter, value, unit, .. }: ParameterRow<'_>) -> Item {
+    let value = value.map(|value| named("value", value));
+    let unit = unit.map(|unit| named("unit", unit.to_owned()));
     let properties = value.into_iter().chain(unit).collect();
     Item { kind: ItemKind::Parameter, name: parameter.name.clone(), properties }
 }
 
-fn link(robot: &Robot, link: &Link) -> Item {
-    let mut properties = vec![
-        named("parent", words::carrier(robot, link.parent).to_owned()),
-        named("placement", placement(&link.placement)),
-    ];
+fn link(LinkRow { link, parent, .. }: LinkRow<'_>) -> Item {
+    let mut properties =
+        vec![named("parent", parent.to_owned()), named("placement", placement(&link.placement))];
     for body in &link.bodies {
         let prefix =
             if body.name == link.name { String::new() } else { format!("{}: ", body.name) };
@@ -150,27 +148,23 @@ fn link(robot: &Robot, link: &Link) -> Item {
 }
 
 fn body_properties(body: &Body) -> Vec<(String, String)> {
-    let inertia = &body.inertia;
-    vec![
+    let mut properties = vec![
         named("mass", formula(&body.mass)),
         named("centre of mass", placement(&body.placement)),
-        named("Ixx", formula(&inertia.xx)),
-        named("Iyy", formula(&inertia.yy)),
-        named("Izz", formula(&inertia.zz)),
-        named("Ixy", formula(&inertia.xy)),
-        named("Ixz", formula(&inertia.xz)),
-        named("Iyz", formula(&inertia.yz)),
-    ]
+    ];
+    let entries = Inertia::NAMES.into_iter().zip(body.inertia.entries());
+    properties.extend(entries.map(|(name, entry)| (format!("I{name}"), formula(entry))));
+    properties
 }
 
-fn joint(robot: &Robot, link: &Link) -> Item {
+fn joint(LinkRow { link, kind, coordinate, limits, .. }: LinkRow<'_>) -> Item {
     let Link { joint, friction, drive, .. } = link;
-    let Joint { kind, axis, coordinate, ratio, offset, .. } = joint;
+    let Joint { axis, ratio, offset, .. } = joint;
     let mut properties = vec![
         named("moves", link.name.clone()),
-        named("kind", words::motion(*kind).to_owned()),
+        named("kind", kind.to_owned()),
         named("axis", vector(axis)),
-        named("coordinate", JointVariable::Position.symbol(*coordinate)),
+        named("coordinate", coordinate),
         named("ratio", formula(ratio)),
         named("offset", formula(offset)),
         named("viscous friction", formula(&friction.viscous)),
@@ -185,22 +179,16 @@ fn joint(robot: &Robot, link: &Link) -> Item {
         named("gyroscopic rotor", drive.gyroscopic.to_string()),
     ];
     properties.extend(friction.smoothing.as_ref().map(|width| named("smoothing", formula(width))));
-    let limits = robot.coordinates.get(*coordinate).and_then(|one| one.limits.as_ref());
     properties.extend(limits.map(|[low, high]| {
         named("limits", format!("{} to {}", print::exact_text(low), print::exact_text(high)))
     }));
     Item { kind: ItemKind::Joint, name: joint.name.clone(), properties }
 }
 
-fn frame(robot: &Robot, frame: &Frame) -> Item {
-    let mut properties = vec![
-        named("link", words::carrier(robot, frame.link).to_owned()),
-        named("placement", placement(&frame.placement)),
-    ];
-    properties.extend(frame.wrench.as_ref().map(|wrench| {
-        let names: Vec<&str> = wrench.components().collect();
-        named("wrench", names.join(", "))
-    }));
+fn frame(FrameRow { frame, link, wrench }: FrameRow<'_>) -> Item {
+    let mut properties =
+        vec![named("link", link.to_owned()), named("placement", placement(&frame.placement))];
+    properties.extend(wrench.map(|names| named("wrench", names)));
     Item { kind: ItemKind::Frame, name: frame.name.clone(), properties }
 }
 
@@ -212,17 +200,9 @@ fn formula(formula: &Formula) -> String {
 }
 
 fn vector(entries: &[Formula; 3]) -> String {
-    format!("({})", entries.each_ref().map(formula).join(", "))
+    words::vector(entries, formula)
 }
 
-/// The moves that move anything.
 fn placement(placement: &Placement) -> String {
-    let one = |step: &Move| match step {
-        Move::Translate(by) => format!("to {}", vector(by)),
-        Move::Rotate(axis, angle) => {
-            format!("rotated about {} by {}", words::axis(*axis), formula(angle))
-        }
-    };
-    let moves: Vec<String> = words::moves(placement).map(one).collect();
-    if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
+    words::pose(placement, formula)
 }

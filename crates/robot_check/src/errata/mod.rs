@@ -156,8 +156,7 @@ pub fn compare(
 
 /// Whether any equation has a symbol of a tip's wrench.
 fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
-    let tips = robot.tips().flat_map(|(_, wrench)| wrench.force.iter().chain(&wrench.moment));
-    let names: BTreeSet<&str> = tips.map(String::as_str).collect();
+    let names: BTreeSet<&str> = robot.tips().flat_map(|(_, wrench)| wrench.components()).collect();
     let terms = printed.iter().flat_map(|equation| &equation.terms);
     terms.flat_map(robot_symbolic::Formula::symbols).any(|(name, _)| names.contains(name))
 }

@@ -2,9 +2,9 @@
 
 use clap::Args;
 use robot_build::{FrameRef, FunctionKind, Options, functions, snapping, unsolvable};
+use robot_document::robot::rows::{self, LinkRow, ParameterRow};
 use robot_document::robot::words;
 use robot_model::robot::{JointKind, Robot};
-use robot_model::variable::JointVariable;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -48,21 +48,19 @@ fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
 
 fn joints(robot: &Robot) -> Vec<Vec<String>> {
     let mut rows = vec![row(["link", "parent", "joint", "type", "coordinate", "bodies"])];
-    for link in &robot.links {
-        let axis: Vec<&str> = link.joint.axis.iter().map(robot_symbolic::Formula::text).collect();
+    for LinkRow { link, parent, kind, coordinate, .. } in rows::links(robot) {
+        let axis = words::vector(&link.joint.axis, |formula| formula.text().to_owned());
         let direction = match link.joint.kind {
             JointKind::Revolute => "about",
             JointKind::Prismatic => "along",
         };
-        let motion = words::motion(link.joint.kind);
-        let motion = format!("{motion} {direction} ({})", axis.join(", "));
         let bodies: Vec<&str> = link.bodies.iter().map(|body| body.name.as_str()).collect();
         rows.push(vec![
             link.name.clone(),
-            words::carrier(robot, link.parent).to_owned(),
+            parent.to_owned(),
             link.joint.name.clone(),
-            motion,
-            JointVariable::Position.symbol(link.joint.coordinate),
+            format!("{kind} {direction} {axis}"),
+            coordinate,
             bodies.join(", "),
         ]);
     }
@@ -71,13 +69,12 @@ fn joints(robot: &Robot) -> Vec<Vec<String>> {
 
 fn parameters(robot: &Robot) -> Vec<Vec<String>> {
     let mut rows = vec![row(["parameter", "nominal", "unit", "meaning"])];
-    for parameter in &robot.parameters {
-        let nominal = parameter.value.as_ref().map(|value| value.to_f64().to_string());
+    for ParameterRow { parameter, value, unit, meaning } in rows::parameters(robot) {
         rows.push(vec![
             parameter.name.clone(),
-            nominal.unwrap_or_default(),
-            parameter.unit.as_ref().map(|unit| unit.text.clone()).unwrap_or_default(),
-            parameter.doc.clone().unwrap_or_default(),
+            value.unwrap_or_default(),
+            unit.unwrap_or_default().to_owned(),
+            meaning.unwrap_or_default().to_owned(),
         ]);
     }
     rows

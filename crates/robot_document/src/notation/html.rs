@@ -4,8 +4,9 @@ use crate::breaking::right_side;
 use crate::error::Error;
 use crate::forms::{Equation, Group};
 use crate::latex::Layout;
+use crate::markup::{Element, Node, element, holding};
 use crate::math::Math;
-use crate::mathml::{self, Content, Markup};
+use crate::mathml;
 use crate::width::width;
 
 /// The number of an equation and its distance from the equation, pt.
@@ -31,33 +32,41 @@ pub fn page(
     layout: Layout,
     numbered: bool,
 ) -> Result<String, Error> {
-    let mut body = vec![text("h1", title)];
+    let mut body = vec![holding("h1", title)];
     let mut numbers = numbered.then_some(1);
     for group in groups {
-        body.push(text("h2", &group.title));
+        body.push(holding("h2", group.title.as_str()));
         if !group.introduction.is_empty() {
-            body.push(text("p", &group.introduction));
+            body.push(holding("p", group.introduction.as_str()));
         }
         let mut rows = vec![];
         for equation in &group.equations {
             rows.extend(self::rows(equation, layout, numbers)?);
             numbers = numbers.map(|number| number + 1);
         }
-        let table = holding("mtable", rows)
-            .with("columnalign", "right left right")
-            .with("displaystyle", "true");
-        body.push(holding("math", vec![table]).with("display", "block"));
+        let table = element("mtable")
+            .with_all(rows)
+            .attribute("columnalign", "right left right")
+            .attribute("displaystyle", "true");
+        body.push(holding("math", table).attribute("display", "block"));
     }
-    let title = text("title", title);
-    let body: String = body.iter().map(|part| format!("{part}\n")).collect();
-    Ok(format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{title}\n<style>\n{STYLE}\n\
-         </style>\n</head>\n<body>\n{body}</body>\n</html>\n"
-    ))
+    let style = element("style").with("\n").with(Node::Verbatim(STYLE)).with("\n");
+    let head = [element("meta").attribute("charset", "utf-8"), holding("title", title), style];
+    let html = element("html").attribute("lang", "en").with("\n");
+    let html = [lines("head", head), lines("body", body)]
+        .into_iter()
+        .fold(html, |html, part| html.with(part).with("\n"));
+    Ok(format!("<!DOCTYPE html>\n{html}\n"))
+}
+
+/// An element with each child on a line of its own.
+fn lines(name: &'static str, children: impl IntoIterator<Item = Element>) -> Element {
+    let start = element(name).with("\n");
+    children.into_iter().fold(start, |all, child| all.with(child).with("\n"))
 }
 
 /// The lines of an equation, the number at the last one.
-fn rows(equation: &Equation, layout: Layout, number: Option<usize>) -> Result<Vec<Markup>, Error> {
+fn rows(equation: &Equation, layout: Layout, number: Option<usize>) -> Result<Vec<Element>, Error> {
     let apart = if number.is_some() { NUMBER } else { 0.0 };
     let lines = right_side(equation, layout.width - width(&equation.left) - apart)?;
     let last = lines.len().saturating_sub(1);
@@ -65,29 +74,21 @@ fn rows(equation: &Equation, layout: Layout, number: Option<usize>) -> Result<Ve
     for (place, line) in lines.iter().enumerate() {
         let (left, right) = match place {
             0 => {
-                let equals = mathml::formula(&Math::Sign('=')).with("form", "infix");
+                let equals = mathml::formula(&Math::Sign('=')).attribute("form", "infix");
                 (mathml::formula(&equation.left), vec![equals, mathml::formula(line)])
             }
             _ => {
-                let indent = holding("mspace", vec![]).with("width", "2em");
-                (holding("mrow", vec![]), vec![indent, mathml::continued(line)])
+                let indent = element("mspace").attribute("width", "2em");
+                (element("mrow"), vec![indent, mathml::continued(line)])
             }
         };
-        let mut cells = vec![holding("mtd", vec![left]), holding("mtd", right)];
+        let mut cells = vec![holding("mtd", left), element("mtd").with_all(right)];
         if let Some(number) = number.filter(|_| place == last) {
-            cells.push(holding("mtd", vec![text("mtext", &format!("({number})"))]));
+            cells.push(holding("mtd", holding("mtext", format!("({number})"))));
         }
-        rows.push(holding("mtr", cells));
+        rows.push(element("mtr").with_all(cells));
     }
     Ok(rows)
-}
-
-fn holding(name: &'static str, elements: Vec<Markup>) -> Markup {
-    Markup { name, attributes: vec![], content: Content::Elements(elements) }
-}
-
-fn text(name: &'static str, text: &str) -> Markup {
-    Markup { name, attributes: vec![], content: Content::Text(text.to_owned()) }
 }
 
 #[cfg(test)]

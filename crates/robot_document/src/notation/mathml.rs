@@ -3,69 +3,49 @@
 //! Only what MathML Core has is used, so that browsers set it: fonts are characters of their own, and
 //! there are no attributes of style.
 
-use std::fmt;
-
 use robot_model::signs::{Accent, Font};
 
+use crate::markup::{Element, element, holding};
 use crate::math::{Fence, Math, Script};
-
-/// An element of MathML.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Markup {
-    /// Its name, such as `mrow`.
-    pub name: &'static str,
-    /// Its attributes.
-    pub attributes: Vec<(&'static str, &'static str)>,
-    /// Its content.
-    pub content: Content,
-}
-
-/// The content of an element.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// Text, as it is to be read.
-    Text(String),
-    /// Elements.
-    Elements(Vec<Markup>),
-}
 
 /// The MathML of a formula, without the element `math` around it.
 #[must_use]
-pub fn formula(math: &Math) -> Markup {
+pub fn formula(math: &Math) -> Element {
     match math {
-        Math::Number(digits) => leaf("mn", digits),
-        Math::Letter(letter) => leaf("mi", &letter.to_string()),
+        Math::Number(digits) => holding("mn", digits.as_str()),
+        Math::Letter(letter) => holding("mi", letter.to_string()),
         Math::Word(word) => upright(word),
         Math::Sign(sign) => operator(*sign),
-        Math::Function(name) => leaf("mi", name.text()),
+        Math::Function(name) => holding("mi", name.text()),
         Math::Symbol(symbol) => formula(&symbol.shape),
         Math::Row(pieces) => row(pieces),
         Math::Script(script) => with_indices(script),
         Math::Accent(Accent::Underline, inside) => {
-            let line = leaf("mo", Accent::Underline.sign());
-            inner("munder", vec![formula(inside), line]).with("accentunder", "true")
+            let line = holding("mo", Accent::Underline.sign());
+            element("munder").with_all([formula(inside), line]).attribute("accentunder", "true")
         }
         Math::Accent(accent, inside) => marked(*accent, inside).unwrap_or_else(|| {
             let stretches = if accent.stretches() { "true" } else { "false" };
-            let sign = leaf("mo", accent.sign()).with("stretchy", stretches);
-            let whole = inner("mover", vec![formula(inside), sign]);
+            let sign = holding("mo", accent.sign()).attribute("stretchy", stretches);
+            let whole = element("mover").with_all([formula(inside), sign]);
             // As accents, dots touch what is below in Chromium.
             match accent {
                 Accent::Dot | Accent::DoubleDot => whole,
-                _ => whole.with("accent", "true"),
+                _ => whole.attribute("accent", "true"),
             }
         }),
         Math::Styled(font, inside) => styled(*font, inside),
-        Math::Fraction(parts) => inner("mfrac", parts.iter().map(formula).collect()),
-        Math::Root(inside) => inner("msqrt", vec![formula(inside)]),
+        Math::Fraction(parts) => element("mfrac").with_all(parts.iter().map(formula)),
+        Math::Root(inside) => element("msqrt").with(formula(inside)),
         Math::Fenced(fence, inside) => {
             let [open, close] = match fence {
                 Fence::Parentheses => ["(", ")"],
                 Fence::Bars => ["|", "|"],
             };
-            let [open, close] = [(open, "prefix"), (close, "postfix")]
-                .map(|(sign, form)| leaf("mo", sign).with("fence", "true").with("form", form));
-            inner("mrow", vec![open, formula(inside), close])
+            let [open, close] = [(open, "prefix"), (close, "postfix")].map(|(sign, form)| {
+                holding("mo", sign).attribute("fence", "true").attribute("form", form)
+            });
+            element("mrow").with_all([open, formula(inside), close])
         }
         Math::Matrix(rows) => matrix(rows),
     }
@@ -74,49 +54,30 @@ pub fn formula(math: &Math) -> Markup {
 /// The MathML of a line or a term that goes on with a sum: the sign that it starts with stands between
 /// it and what is before.
 #[must_use]
-pub fn continued(math: &Math) -> Markup {
+pub fn continued(math: &Math) -> Element {
     let mut markup = formula(math);
-    if let Content::Elements(parts) = &mut markup.content
-        && let Some(sign) = parts.first_mut().filter(|part| part.name == "mo")
-    {
-        sign.attributes.push(("form", "infix"));
+    if let Some(sign) = markup.first_mut().filter(|first| first.name() == "mo") {
+        sign.set("form", "infix");
     }
     markup
 }
 
-fn leaf(name: &'static str, text: &str) -> Markup {
-    Markup { name, attributes: vec![], content: Content::Text(text.to_owned()) }
-}
-
-fn inner(name: &'static str, elements: Vec<Markup>) -> Markup {
-    Markup { name, attributes: vec![], content: Content::Elements(elements) }
-}
-
-impl Markup {
-    /// The element with one more attribute.
-    #[must_use]
-    pub fn with(mut self, name: &'static str, value: &'static str) -> Markup {
-        self.attributes.push((name, value));
-        self
-    }
-}
-
 /// A single letter would be italic.
-fn upright(word: &str) -> Markup {
-    let text = leaf("mi", word);
-    if word.chars().count() == 1 { text.with("mathvariant", "normal") } else { text }
+fn upright(word: &str) -> Element {
+    let text = holding("mi", word);
+    if word.chars().count() == 1 { text.attribute("mathvariant", "normal") } else { text }
 }
 
-fn operator(sign: char) -> Markup {
+fn operator(sign: char) -> Element {
     match sign {
-        '-' => leaf("mo", "−"),
-        '(' | ')' => leaf("mo", &sign.to_string()).with("stretchy", "false"),
-        _ => leaf("mo", &sign.to_string()),
+        '-' => holding("mo", "−"),
+        '(' | ')' => holding("mo", sign.to_string()).attribute("stretchy", "false"),
+        _ => holding("mo", sign.to_string()),
     }
 }
 
 /// Pieces side by side, with a thin space around functions and words.
-fn row(pieces: &[Math]) -> Markup {
+fn row(pieces: &[Math]) -> Element {
     let mut elements = vec![];
     for (place, piece) in pieces.iter().enumerate() {
         let before = place.checked_sub(1).and_then(|place| pieces.get(place));
@@ -127,25 +88,27 @@ fn row(pieces: &[Math]) -> Markup {
             Some(_) => piece.is_function(),
         };
         if is_apart {
-            elements.push(inner("mspace", vec![]).with("width", "0.167em"));
+            elements.push(element("mspace").attribute("width", "0.167em"));
         }
         elements.push(formula(piece));
     }
-    inner("mrow", elements)
+    element("mrow").with_all(elements)
 }
 
-fn with_indices(script: &Script) -> Markup {
+fn with_indices(script: &Script) -> Element {
     // The power of a symbol with an index is above the index.
     if let (None, Some(upper), Some(own)) = (&script.lower, &script.upper, own_index(&script.base))
         && let (Some(lower), None) = (&own.lower, &own.upper)
     {
-        return inner("msubsup", vec![formula(&own.base), formula(lower), formula(upper)]);
+        return element("msubsup").with_all([formula(&own.base), formula(lower), formula(upper)]);
     }
     let base = formula(&script.base);
     match (&script.lower, &script.upper) {
-        (Some(lower), Some(upper)) => inner("msubsup", vec![base, formula(lower), formula(upper)]),
-        (Some(lower), None) => inner("msub", vec![base, formula(lower)]),
-        (None, Some(upper)) => inner("msup", vec![base, formula(upper)]),
+        (Some(lower), Some(upper)) => {
+            element("msubsup").with_all([base, formula(lower), formula(upper)])
+        }
+        (Some(lower), None) => element("msub").with_all([base, formula(lower)]),
+        (None, Some(upper)) => element("msup").with_all([base, formula(upper)]),
         (None, None) => base,
     }
 }
@@ -161,13 +124,13 @@ fn own_index(base: &Math) -> Option<&Script> {
 
 /// A letter and a mark on it as characters: the font knows where the mark belongs. Above a letter that is
 /// an element of its own, browsers set marks without a gap, and left of where a slanted letter has them.
-fn marked(accent: Accent, inside: &Math) -> Option<Markup> {
+fn marked(accent: Accent, inside: &Math) -> Option<Element> {
     let letter = match inside {
         Math::Symbol(symbol) => return marked(accent, &symbol.shape),
         Math::Letter(letter) => italic(*letter)?,
         _ => return None,
     };
-    Some(leaf("mi", &String::from_iter([letter, accent.mark()?])))
+    Some(holding("mi", String::from_iter([letter, accent.mark()?])))
 }
 
 /// The italic character of a letter, as browsers show an `mi` of one letter.
@@ -184,18 +147,16 @@ fn italic(letter: char) -> Option<char> {
     char::from_u32(italic + u32::from(letter) - u32::from(first))
 }
 
-fn styled(font: Font, inside: &Math) -> Markup {
+fn styled(font: Font, inside: &Math) -> Element {
     let text = match inside {
         Math::Letter(letter) => letter.to_string(),
         Math::Word(text) | Math::Number(text) => text.clone(),
         Math::Row(pieces) => {
-            return inner("mrow", pieces.iter().map(|piece| styled(font, piece)).collect());
+            return element("mrow").with_all(pieces.iter().map(|piece| styled(font, piece)));
         }
         Math::Script(script) => {
             let mut whole = with_indices(script);
-            if let Content::Elements(parts) = &mut whole.content
-                && let Some(base) = parts.first_mut()
-            {
+            if let Some(base) = whole.first_mut() {
                 *base = styled(font, &script.base);
             }
             return whole;
@@ -206,46 +167,19 @@ fn styled(font: Font, inside: &Math) -> Markup {
         Font::Upright => upright(&text),
         // Letters run together in italics.
         Font::Italic => {
-            inner("mrow", text.chars().map(|letter| leaf("mi", &letter.to_string())).collect())
+            element("mrow").with_all(text.chars().map(|letter| holding("mi", letter.to_string())))
         }
         _ => upright(&text.chars().map(|letter| font.character(letter)).collect::<String>()),
     }
 }
 
-fn matrix(rows: &[Vec<Math>]) -> Markup {
-    let cell = |entry: &Math| inner("mtd", vec![formula(entry)]);
-    let rows = rows.iter().map(|row| inner("mtr", row.iter().map(cell).collect()));
-    let table = inner("mtable", rows.collect());
+fn matrix(rows: &[Vec<Math>]) -> Element {
+    let cell = |entry: &Math| element("mtd").with(formula(entry));
+    let rows = rows.iter().map(|row| element("mtr").with_all(row.iter().map(cell)));
+    let table = element("mtable").with_all(rows);
     let [open, close] = [("[", "prefix"), ("]", "postfix")]
-        .map(|(sign, form)| leaf("mo", sign).with("fence", "true").with("form", form));
-    inner("mrow", vec![open, table, close])
-}
-
-/// Well-formed XML, which is HTML too.
-impl fmt::Display for Markup {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "<{}", self.name)?;
-        for (name, value) in &self.attributes {
-            write!(formatter, " {name}=\"{value}\"")?;
-        }
-        formatter.write_str(">")?;
-        match &self.content {
-            Content::Text(text) => {
-                for character in text.chars() {
-                    match character {
-                        '&' => formatter.write_str("&amp;")?,
-                        '<' => formatter.write_str("&lt;")?,
-                        '>' => formatter.write_str("&gt;")?,
-                        plain => write!(formatter, "{plain}")?,
-                    }
-                }
-            }
-            Content::Elements(elements) => {
-                elements.iter().try_for_each(|element| write!(formatter, "{element}"))?;
-            }
-        }
-        write!(formatter, "</{}>", self.name)
-    }
+        .map(|(sign, form)| holding("mo", sign).attribute("fence", "true").attribute("form", form));
+    element("mrow").with_all([open, table, close])
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The document of a robot: its tables, its equations, its symbols, a check value.
 
 mod check_value;
+pub mod rows;
 mod symbols;
 mod tables;
 pub mod words;

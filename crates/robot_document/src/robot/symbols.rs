@@ -1,13 +1,13 @@
 //! The list of symbols with their units and values.
 
-use robot_model::robot::{JointKind, Parameter, Robot};
+use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
-use robot_symbolic::print::exact_text;
 
 use super::heading;
 use crate::document::{Block, Inline};
 use crate::forms::{Equations, Form};
 use crate::math::Math;
+use crate::robot::rows::{self, ParameterRow};
 
 /// The meaning of the robot's symbols.
 pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
@@ -15,18 +15,19 @@ pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
     let symbols = &first.symbols;
     let mut items = vec![];
     for (index, coordinate) in robot.coordinates.iter().enumerate() {
-        let (position, unit) = match coordinate.kind {
-            JointKind::Revolute => ("angle", "rad"),
-            JointKind::Prismatic => ("displacement", "m"),
+        let position = match coordinate.kind {
+            JointKind::Revolute => "angle",
+            JointKind::Prismatic => "displacement",
         };
+        let unit = JointVariable::Position.unit(coordinate.kind);
         let name = JointVariable::Position.symbol(index);
         items.push(vec![
             Inline::Math(symbols.look(&name)),
             Inline::text(format!(" \u{2014} {position} of the joint {}, {unit}", coordinate.joint)),
         ]);
     }
-    for parameter in &robot.parameters {
-        items.push(parameter_item(symbols.look(&parameter.name), parameter));
+    for row in rows::parameters(robot) {
+        items.push(parameter_item(symbols.look(&row.parameter.name), &row));
     }
     for (frame, wrench) in robot.tips() {
         let [force, moment] = [(&wrench.force, "force", "N"), (&wrench.moment, "moment", "N m")]
@@ -49,14 +50,14 @@ pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
     vec![heading("Symbols"), Block::List(items)]
 }
 
-fn parameter_item(symbol: Math, parameter: &Parameter) -> Vec<Inline> {
+fn parameter_item(symbol: Math, row: &ParameterRow<'_>) -> Vec<Inline> {
     let mut item = vec![Inline::Math(symbol)];
-    if let Some(doc) = &parameter.doc {
-        item.push(Inline::Text(format!(" \u{2014} {}", doc.trim())));
+    if let Some(meaning) = row.meaning {
+        item.push(Inline::Text(format!(" \u{2014} {}", meaning.trim())));
     }
-    let unit = parameter.unit.as_ref().map(|unit| unit.text.as_str()).filter(|text| *text != "1");
-    let gap = match &parameter.value {
-        Some(value) => format!(": {}", exact_text(value)),
+    let unit = row.unit.filter(|text| *text != "1");
+    let gap = match &row.value {
+        Some(value) => format!(": {value}"),
         None if unit.is_some() => ":".to_owned(),
         None => return item,
     };

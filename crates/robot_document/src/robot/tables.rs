@@ -1,8 +1,7 @@
 //! The tables of links and masses.
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_model::robot::{Move, Placement, Robot};
-use robot_model::variable::JointVariable;
+use robot_model::robot::{Inertia, Move, Placement, Robot};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use super::{heading, paragraph};
@@ -10,6 +9,7 @@ use crate::document::{Block, Inline, Table};
 use crate::error::Error;
 use crate::layout::SymbolTable;
 use crate::math::Math;
+use crate::robot::rows::{self, FrameRow, LinkRow};
 use crate::robot::words;
 
 type Cell = Vec<Inline>;
@@ -87,21 +87,17 @@ fn heads(names: &[&str]) -> Vec<Cell> {
     names.iter().map(|name| vec![Inline::text(*name)]).collect()
 }
 
-fn carrier(robot: &Robot, link: Option<usize>) -> Cell {
-    vec![Inline::text(words::carrier(robot, link))]
-}
-
 fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     let mut rows = vec![];
-    for (index, link) in robot.links.iter().enumerate() {
-        let name = JointVariable::Position.symbol(link.joint.coordinate);
+    for (index, row) in rows::links(robot).enumerate() {
+        let LinkRow { link, parent, kind, coordinate, .. } = row;
         rows.push(vec![
             vec![Inline::Math(Math::integer(index + 1))],
             vec![Inline::text(&link.name)],
-            carrier(robot, link.parent),
-            vec![Inline::text(words::motion(link.joint.kind))],
+            vec![Inline::text(parent)],
+            vec![Inline::text(kind)],
             formulas.vector(&link.joint.axis)?,
-            vec![Inline::Math(formulas.symbols.look(&name))],
+            vec![Inline::Math(formulas.symbols.look(&coordinate))],
             formulas.placement(&link.placement)?,
         ]);
     }
@@ -112,10 +108,10 @@ fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
 
 fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     let mut rows = vec![];
-    for frame in &robot.frames {
+    for FrameRow { frame, link, .. } in rows::frames(robot) {
         rows.push(vec![
             vec![Inline::text(&frame.name)],
-            carrier(robot, frame.link),
+            vec![Inline::text(link)],
             formulas.placement(&frame.placement)?,
         ]);
     }
@@ -144,7 +140,7 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     let graph = Graph::new();
     let options = MechanismOptions::EXACT.with_snap(None, robot);
     let mechanism = Mechanism::new(robot, &graph, &options);
-    let names = ["Mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz"];
+    let names: Vec<&str> = ["Mass", "x", "y", "z"].into_iter().chain(Inertia::NAMES).collect();
     let places = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
     let mut values = vec![];
     for link in &mechanism.links {

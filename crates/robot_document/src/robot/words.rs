@@ -34,10 +34,43 @@ pub fn is_zero(formula: &Formula) -> bool {
     formula.as_number().is_some_and(|number| number.is_zero())
 }
 
+/// Three components: `(0, 0, l3)`, each formula as `text` writes it.
+pub fn vector(components: &[Formula; 3], text: impl FnMut(&Formula) -> String) -> String {
+    format!("({})", components.each_ref().map(text).join(", "))
+}
+
+/// A pose, its moves one after the other: `to (l4, 0, l3), rotated about z by pi/2`, each formula as `text`
+/// writes it; `none` if nothing is moved.
+pub fn pose(placement: &Placement, mut text: impl FnMut(&Formula) -> String) -> String {
+    let one = |step: &Move| match step {
+        Move::Translate(by) => format!("to {}", vector(by, &mut text)),
+        Move::Rotate(about, angle) => format!("rotated about {} by {}", axis(*about), text(angle)),
+    };
+    let moves: Vec<String> = moves(placement).map(one).collect();
+    if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
+}
+
 /// The moves of a placement but for those by nothing.
 pub fn moves(placement: &Placement) -> impl Iterator<Item = &Move> {
     placement.0.iter().filter(|step| match step {
         Move::Translate(by) => !by.iter().all(is_zero),
         Move::Rotate(_, angle) => !is_zero(angle),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn poses_leave_out_what_moves_nothing() {
+        let formula = |text: &str| Formula::parse(text).unwrap();
+        let by = |components: [&str; 3]| Move::Translate(components.map(formula));
+        let turn = |about, angle: &str| Move::Rotate(about, formula(angle));
+        let shown = |moves: Vec<Move>| pose(&Placement(moves), |part| part.text().to_owned());
+        let none = [by(["0", "0.0", "0"]), turn(Axis::X, "0")];
+        assert_eq!(shown(none.to_vec()), "none");
+        let all = [turn(Axis::Z, "pi/2"), none[0].clone(), by(["l4", "0", "-l3"])];
+        assert_eq!(shown(all.to_vec()), "rotated about z by pi/2, to (l4, 0, -l3)");
+    }
 }

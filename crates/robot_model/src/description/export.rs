@@ -11,7 +11,7 @@ use super::placement::zeros;
 use super::reader::Reader;
 use crate::diagnostic::quote;
 use crate::physics::{Verdict, judge};
-use crate::robot::{Axis, Body, Friction, JointKind, Move, Placement};
+use crate::robot::{Axis, Body, Friction, Inertia, JointKind, Move, Placement};
 
 /// The draft as text. Frames of the draft must be placed by `xyz` and `rpy`, as those of URDF are.
 pub(super) fn to_toml(lowered: &Lowered, name: &str) -> String {
@@ -101,9 +101,8 @@ fn push_body(text: &mut String, body: Option<&Body>, moving: bool) {
     }
     let [center, rpy] = xyz_rpy(&body.placement);
     line(text, &format!("center_of_mass = {}", vector(&center.unwrap_or_else(zeros))));
-    let names = ["xx", "yy", "zz", "xy", "xz", "yz"];
     let entries = &body.inertia.entries();
-    let mut inertia: Vec<String> = names
+    let mut inertia: Vec<String> = Inertia::NAMES
         .iter()
         .zip(entries)
         .enumerate()

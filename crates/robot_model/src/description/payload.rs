@@ -92,7 +92,7 @@ fn names() -> Payload {
     Payload {
         mass: named("mass"),
         center_of_mass: ["x", "y", "z"].map(named),
-        inertia: ["xx", "yy", "zz", "xy", "xz", "yz"].map(named),
+        inertia: Inertia::NAMES.map(named),
     }
 }
 

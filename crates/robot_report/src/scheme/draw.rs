@@ -1,6 +1,7 @@
 //! The drawing of a layout.
 
 use nalgebra::Vector2;
+use robot_document::markup::{Element, element, holding};
 use robot_document::robot::words;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
@@ -11,7 +12,6 @@ use super::layout::{BASE, Layout, Place, Segment};
 use super::symbols;
 use super::view::View;
 use crate::drawing::{arrow, coordinate, path};
-use crate::html::{Element, element, holding};
 use crate::parts;
 use crate::text;
 

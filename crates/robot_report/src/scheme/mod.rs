@@ -10,9 +10,9 @@ mod layout;
 mod symbols;
 mod view;
 
+use robot_document::markup::Element;
 use robot_model::robot::Robot;
 
-use crate::html::Element;
 use layout::{Layout, confusion, layout};
 use view::View;
 

@@ -1,10 +1,10 @@
 //! The signs of the scheme: joints, frames, the ground.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
+use robot_document::markup::{Element, element};
 
 use super::view::View;
 use crate::drawing::{arrow, coordinate, path};
-use crate::html::{Element, element};
 
 /// Half the length of a joint's sign along its axis.
 pub(crate) const HALF: f64 = 20.0;

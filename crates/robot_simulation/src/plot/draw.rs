@@ -1,9 +1,12 @@
 //! Drawing figures with plotters.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use plotters::chart::ChartBuilder;
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
+use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::DrawingArea;
 use plotters::element::{PathElement, Text};
 use plotters::prelude::{BLACK, DrawingBackend, IntoFont, LineSeries, RGBColor, WHITE};
@@ -23,6 +26,10 @@ const TIME_LABELS: u32 = 42;
 const VALUE_LABELS: u32 = 76;
 const LEGEND: u32 = 110;
 const MARGIN: u32 = 12;
+
+/// The most ticks of each axis.
+const TIME_TICKS: usize = 11;
+const VALUE_TICKS: usize = 6;
 
 /// Sizes of letters, px.
 const TITLE_SIZE: u32 = 18;
@@ -88,12 +95,7 @@ fn draw_panel<D: DrawingBackend>(
 ) -> Drawn<D> {
     let (left, right) = area.split_horizontally((WIDTH - LEGEND) * SCALE);
     let axis = Axis::of(panel.curves.iter().flat_map(|curve| curve.values.iter().copied()));
-    let time = match (t.first(), t.last()) {
-        (Some(first), Some(last)) if first < last => *first..*last,
-        (Some(first), _) => *first..first + 1.0,
-        _ => 0.0..1.0,
-    };
-    let span = time.end - time.start;
+    let time = Axis::of_times(t);
     let mut chart = ChartBuilder::on(&left)
         .margin_top(MARGIN / 2 * SCALE)
         .margin_bottom(MARGIN / 2 * SCALE)
@@ -101,15 +103,12 @@ fn draw_panel<D: DrawingBackend>(
         .margin_right(MARGIN * SCALE)
         .y_label_area_size(VALUE_LABELS * SCALE)
         .x_label_area_size(if last { TIME_LABELS * SCALE } else { 0 })
-        .build_cartesian_2d(time.clone(), axis.low..axis.high)?;
+        .build_cartesian_2d(Ticked::of(&time, TIME_TICKS), Ticked::of(&axis, VALUE_TICKS))?;
     let value_label = format!("{} ({})", panel.quantity, axis.unit(&panel.unit));
     chart
         .configure_mesh()
         .bold_line_style(GRID.stroke_width(SCALE))
-        .light_line_style(WHITE.mix(0.0))
         .axis_style(INK.stroke_width(SCALE))
-        .x_labels(11)
-        .y_labels(6)
         .x_label_formatter(&|value| label(*value))
         .y_label_formatter(&|value| label(*value))
         .label_style(style(TEXT_SIZE))
@@ -119,7 +118,8 @@ fn draw_panel<D: DrawingBackend>(
         .draw()?;
     let width = f64::from(WIDTH - LEGEND - VALUE_LABELS);
     for (number, curve) in panel.curves.iter().enumerate() {
-        let (across, up) = (width / span, f64::from(PANEL) / (axis.high - axis.low));
+        let (across, up) =
+            (width / (time.high - time.low), f64::from(PANEL) / (axis.high - axis.low));
         let points = points(t, curve, &axis, across, up);
         match line(number, curve) {
             (line, None) => chart.draw_series(LineSeries::new(points, line))?,
@@ -129,6 +129,36 @@ fn draw_panel<D: DrawingBackend>(
         };
     }
     draw_legend(&panel.curves, &right)
+}
+
+/// The coordinates of an axis, with its ticks.
+struct Ticked {
+    coordinates: RangedCoordf64,
+    ticks: Vec<f64>,
+}
+
+impl Ticked {
+    fn of(axis: &Axis, most: usize) -> Ticked {
+        Ticked { coordinates: (axis.low..axis.high).into(), ticks: axis.ticks(most) }
+    }
+}
+
+impl Ranged for Ticked {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        self.coordinates.map(value, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        // There are no light lines between the ticks.
+        if hint.weight().allow_light_points() { vec![] } else { self.ticks.clone() }
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.coordinates.range()
+    }
 }
 
 /// The style of a curve: its line, and the length of its dashes, px.

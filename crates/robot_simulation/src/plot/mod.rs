@@ -16,6 +16,7 @@ use robot_build::MARKER;
 use crate::error::Error;
 use letters::Lowered;
 
+pub use axis::{Axis, label};
 pub use figures::{contributions_figure, motion_figure};
 
 /// Panels one below the other over a common time.
