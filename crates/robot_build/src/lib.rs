@@ -25,14 +25,10 @@
 //! environment and no terminal, so that the builder, the macro `include_robot!` and the command
 //! `robot-symbolic` give the same code.
 
-mod door;
 mod driver;
+mod entry;
 mod error;
 
-pub use door::builder::{Builder, compile};
-pub use door::files::{MARKER, Output, Ownership, Staleness, Writer, staleness};
-pub use door::paths::RobotFile;
-pub use door::pin::{pin_path, pin_text, robot_inputs};
 pub use driver::angles::too_large_angle;
 pub use driver::conventions::CONVENTIONS;
 pub use driver::file::File;
@@ -47,6 +43,10 @@ pub use driver::programs::{Programs, planned, programs, programs_of, read, read_
 pub use driver::singular::{Unsolvable, unsolvable};
 pub use driver::snapping::{Snapping, snapping};
 pub use driver::{ablation, budget, check, package, snapping};
+pub use entry::builder::{Builder, compile};
+pub use entry::files::{MARKER, Output, Ownership, Staleness, Writer, staleness};
+pub use entry::paths::RobotFile;
+pub use entry::pin::{pin_path, pin_text, robot_inputs};
 pub use error::{Error, Errors, shown};
 pub use robot_codegen::backend::rust::{Names, check_runtime_path, identifier};
 pub use robot_codegen::{Scalar, Trigonometry};

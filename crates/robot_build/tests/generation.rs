@@ -52,7 +52,7 @@ fn the_code_does_not_say_where_the_file_lies() {
 #[test]
 fn parameters_are_documented() {
     let code = generate(&source("trttr1.toml"), &Options::default()).unwrap().code;
-    for line in ["/// mass of element 5, in kg; nominally 3.2.", "pub M5: f64"] {
+    for line in ["/// mass of link 5, in kg; nominally 3.2.", "pub M5: f64"] {
         assert!(code.contains(line), "{line}");
     }
 }

@@ -9,6 +9,11 @@ pub(crate) fn help(name: &str) -> &'static str {
     OptionSpec::named(name).map_or("", |option| option.help)
 }
 
+/// What the help calls the value of an option.
+pub(crate) fn value_name(name: &str) -> &'static str {
+    OptionSpec::named(name).map_or("", |option| option.value_name)
+}
+
 /// What messages of libraries say of options that are not in the table and of work that commands do, and how the
 /// command says it.
 const OTHERS: [(&str, &str); 4] = [
@@ -77,12 +82,15 @@ fn listed() -> impl Iterator<Item = &'static OptionSpec> {
 }
 
 fn argument(option: &'static OptionSpec) -> Arg {
-    let argument = Arg::new(option.name)
+    let mut argument = Arg::new(option.name)
         .long(option.flag().trim_start_matches('-').to_owned())
         .help(option.help);
+    if let Some(required) = option.requires {
+        argument = argument.requires(required);
+    }
     match option.kind {
         Kind::Count { default } => {
-            let argument = argument.value_name("STATES").value_parser(value_parser!(u64));
+            let argument = argument.value_name(option.value_name).value_parser(value_parser!(u64));
             match default {
                 Some(number) => argument
                     .num_args(0..=1)
@@ -101,11 +109,7 @@ fn argument(option: &'static OptionSpec) -> Arg {
 
 impl Args for CodeOptions {
     fn augment_args(command: Command) -> Command {
-        let arguments = listed().map(argument).map(|argument| match argument.get_id().as_str() {
-            "parallel" => argument.requires("batch"),
-            _ => argument,
-        });
-        command.args(arguments)
+        command.args(listed().map(argument))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -137,7 +141,7 @@ mod tests {
     use super::*;
 
     #[derive(clap::Parser)]
-    struct Door {
+    struct Arguments {
         #[command(flatten)]
         code: CodeOptions,
     }
@@ -146,27 +150,32 @@ mod tests {
     fn flags_set_what_the_table_sets() {
         for option in listed() {
             let value = option.example.trim_matches('"');
-            let mut arguments = vec!["door".to_owned()];
+            let mut arguments = vec!["name".to_owned()];
             match option.kind {
                 Kind::Flag => arguments.push(option.flag()),
                 _ => arguments.push(format!("{}={value}", option.flag())),
             }
-            if option.name == "parallel" {
-                arguments.push("--batch=16".to_owned());
+            let required = option.requires.and_then(OptionSpec::named);
+            if let Some(required) = required {
+                arguments.push(format!("{}={}", required.flag(), required.example));
             }
-            let door = <Door as clap::Parser>::try_parse_from(&arguments).unwrap();
+            let parsed = <Arguments as clap::Parser>::try_parse_from(&arguments).unwrap();
             let (mut found, mut expected) = (Options::default(), Options::default());
-            door.code.set(&mut found);
+            parsed.code.set(&mut found);
             option.set(&mut expected, option.value(option.example).unwrap()).unwrap();
-            if option.name == "parallel" {
-                expected.batch = Some(16);
+            if let Some(required) = required {
+                required.set(&mut expected, required.value(required.example).unwrap()).unwrap();
+                assert!(
+                    <Arguments as clap::Parser>::try_parse_from(&arguments[..2]).is_err(),
+                    "{arguments:?}"
+                );
             }
             assert_eq!(found, expected, "{arguments:?}");
         }
-        let alone = <Door as clap::Parser>::try_parse_from(["door", "--batch"]).unwrap();
+        let alone = <Arguments as clap::Parser>::try_parse_from(["name", "--batch"]).unwrap();
         let mut found = Options::default();
         alone.code.set(&mut found);
         assert_eq!(found.batch, Some(robot_build::DEFAULT_BATCH));
-        assert!(<Door as clap::Parser>::try_parse_from(["door", "--parallel"]).is_err());
+        assert!(<Arguments as clap::Parser>::try_parse_from(["name", "--parallel"]).is_err());
     }
 }

@@ -15,7 +15,7 @@ use robot_model::snap;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::function::{FunctionName, bundles, functions};
-use crate::options::{CodeOptions, choice, help};
+use crate::options::{CodeOptions, choice, help, value_name};
 use crate::plan::pinned_or_searched;
 use crate::reading::ReadingArguments;
 use crate::text;
@@ -25,9 +25,9 @@ use crate::text;
 pub(crate) struct RobotArgument {
     /// The robot file
     file: PathBuf,
-    #[arg(long, value_name = "RAD", help = help("snap"), value_parser = snap, allow_hyphen_values = true)]
+    #[arg(long, value_name = value_name("snap"), help = help("snap"), value_parser = snap, allow_hyphen_values = true)]
     snap: Option<f64>,
-    #[arg(long, value_name = "FRAMES", help = help("base_frames"), value_parser = base_frames())]
+    #[arg(long, value_name = value_name("base_frames"), help = help("base_frames"), value_parser = base_frames())]
     base_frames: Option<BaseFrames>,
     #[command(flatten)]
     pub(crate) reading: ReadingArguments,
@@ -136,7 +136,7 @@ impl OpenRobot<'_> {
 /// What code is made.
 #[derive(Args)]
 pub(crate) struct CodeArguments {
-    #[arg(long = "function", help = help("functions"), value_name = "NAME", value_delimiter = ',',
+    #[arg(long = "function", help = help("functions"), value_name = value_name("functions"), value_delimiter = ',',
           value_parser = FunctionName { all: true })]
     functions: Vec<String>,
     #[command(flatten)]
@@ -148,7 +148,7 @@ pub(crate) struct CodeArguments {
 /// Functions in one call.
 #[derive(Args)]
 pub(crate) struct BundleArguments {
-    #[arg(long = "bundle", help = help("bundles"), value_name = "NAME=FUNCTION,…", value_parser = bundle)]
+    #[arg(long = "bundle", help = help("bundles"), value_name = value_name("bundles"), value_parser = bundle)]
     bundles: Vec<(String, Vec<String>)>,
 }
 

@@ -3,7 +3,7 @@
 use robot_symbolic::Function as Call;
 
 use crate::module::Function;
-use crate::program::{Layout, Limits, Operation, Program, Source, Stage, Value};
+use crate::program::{Limits, Operation, Program, Source, Stage, Statements, Value};
 
 /// The operations of a program.
 ///
@@ -123,7 +123,7 @@ impl FunctionCounts {
     /// These counts with the named values of the function's arithmetic in a text within such limits.
     #[must_use]
     pub fn laid_out(mut self, function: &Function, limits: &Limits) -> FunctionCounts {
-        self.call.temporaries = Layout::new(&function.core, limits).statements();
+        self.call.temporaries = Statements::new(&function.core, limits).count();
         self
     }
 }

@@ -68,7 +68,10 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
     let mut kinds = vec![JointKind::Revolute; mechanism.degrees_of_freedom];
     for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
         // (2): the wrench projected on the joint axis, with the drive's own inertia.
-        let contact = if link.is_revolute() { wrench.moment } else { wrench.force };
+        let contact = match link.kind {
+            JointKind::Revolute => wrench.moment,
+            JointKind::Prismatic => wrench.force,
+        };
         let mut force = contact.dot(link.axis)
             + link.reflected_inertia * link.acceleration
             + rotor_torque(link, &motions);

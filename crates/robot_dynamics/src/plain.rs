@@ -2,6 +2,7 @@
 //! parameters, for which the economical recursion cannot be set up.
 
 use robot_model::functions::Effects;
+use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, walk};
 
@@ -60,9 +61,9 @@ pub(crate) fn jacobian<'g>(
     while let Some(index) = next {
         let (link, pose) = (&mechanism.links[index], &poses[index]);
         let axis = pose.rotation * link.axis;
-        let (linear, angular) = match link.is_revolute() {
-            true => (axis.cross(point - pose.position), axis),
-            false => (axis, Vector::zero(mechanism.graph)),
+        let (linear, angular) = match link.kind {
+            JointKind::Revolute => (axis.cross(point - pose.position), axis),
+            JointKind::Prismatic => (axis, Vector::zero(mechanism.graph)),
         };
         for (row, entry) in linear.0.into_iter().chain(angular.0).enumerate() {
             rows[row][link.coordinate] += entry * link.ratio;
@@ -164,7 +165,10 @@ fn column<'g>(
     let mut next = link;
     while let Some(here) = next {
         let (link, motion) = (&mechanism.links[here], &motions[here]);
-        let load = if link.is_revolute() { wrench.moment } else { wrench.force };
+        let load = match link.kind {
+            JointKind::Revolute => wrench.moment,
+            JointKind::Prismatic => wrench.force,
+        };
         column[link.coordinate] += load.dot(link.axis) * link.ratio;
         let turned = Wrench {
             force: motion.rotation * wrench.force,

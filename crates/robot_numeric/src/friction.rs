@@ -69,7 +69,10 @@ impl Friction {
         velocity: f64,
         force: &Vector3<f64>,
     ) -> f64 {
-        let lever = if kind == JointKind::Revolute { self.spindle_diameter / 2.0 } else { 1.0 };
+        let lever = match kind {
+            JointKind::Revolute => self.spindle_diameter / 2.0,
+            JointKind::Prismatic | JointKind::Fixed => 1.0,
+        };
         let sign = self.sign_of(velocity);
         let [forward, backward] = self.constant;
         self.viscous * velocity

@@ -98,10 +98,10 @@ impl Mechanism {
                 continue;
             };
             let axis = pose.rotation * link.joint.axis * link.joint.ratio;
-            let column = if link.joint.kind == JointKind::Revolute {
-                rows(&axis.cross(&(point - pose.translation)), &axis)
-            } else {
-                rows(&axis, &Vector3::zeros())
+            let column = match link.joint.kind {
+                JointKind::Fixed => continue,
+                JointKind::Revolute => rows(&axis.cross(&(point - pose.translation)), &axis),
+                JointKind::Prismatic => rows(&axis, &Vector3::zeros()),
             };
             let sum = jacobian.column(coordinate) + column;
             jacobian.set_column(coordinate, &sum);

@@ -42,10 +42,10 @@ fn place<T: Number>(link: &Link, q: &[T]) -> Pose<T> {
     let mut motion = Pose::identity();
     if let Some(coordinate) = joint.driver() {
         let position = q[coordinate] * T::from_real(joint.ratio) + T::from_real(joint.offset);
-        if joint.kind == JointKind::Revolute {
-            motion.rotation = rotation_about(&joint.axis, position);
-        } else {
-            motion.translation = joint.axis.map(T::from_real) * position;
+        match joint.kind {
+            JointKind::Fixed => {}
+            JointKind::Revolute => motion.rotation = rotation_about(&joint.axis, position),
+            JointKind::Prismatic => motion.translation = joint.axis.map(T::from_real) * position,
         }
     }
     link.placement.cast().then(&motion)

@@ -195,8 +195,9 @@ impl Random {
         let n = mechanism.coordinates();
         let mut ranges = vec![PI; n];
         for joint in mechanism.links().iter().map(|link| &link.joint) {
-            if joint.kind == JointKind::Prismatic {
-                ranges[joint.coordinate] = 0.5;
+            match joint.kind {
+                JointKind::Prismatic => ranges[joint.coordinate] = 0.5,
+                JointKind::Revolute | JointKind::Fixed => {}
             }
         }
         let q = ranges.into_iter().map(|range| self.uniform(-range, range)).collect();

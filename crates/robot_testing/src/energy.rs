@@ -2,6 +2,7 @@
 
 use robot_dynamics::mechanism::Mechanism;
 use robot_dynamics::vector::{Matrix, Vector};
+use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, walk};
 
 /// The coordinates and their derivatives by time.
@@ -17,11 +18,15 @@ pub struct Motion<'g> {
 impl<'g> Motion<'g> {
     /// The symbols `q1`, `qd1`, `qdd1` and so on.
     pub fn new(mechanism: &Mechanism<'g>) -> Motion<'g> {
-        let symbols = |prefix: &str| {
-            let numbers = 1..=mechanism.degrees_of_freedom;
-            numbers.map(|n| mechanism.graph.symbol(&format!("{prefix}{n}"))).collect()
+        let symbols = |variable: JointVariable| {
+            let names = variable.symbols(mechanism.degrees_of_freedom);
+            names.iter().map(|name| mechanism.graph.symbol(name)).collect()
         };
-        Motion { q: symbols("q"), qd: symbols("qd"), qdd: symbols("qdd") }
+        Motion {
+            q: symbols(JointVariable::Position),
+            qd: symbols(JointVariable::Velocity),
+            qdd: symbols(JointVariable::Acceleration),
+        }
     }
 
     /// The derivative by time of functions of q and q̇.

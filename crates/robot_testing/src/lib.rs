@@ -16,6 +16,7 @@ use std::path::Path;
 
 use robot_model::description::read_toml;
 use robot_model::robot::{Parameter, Robot};
+use robot_model::variable::JointVariable;
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Rational, walk};
@@ -88,17 +89,20 @@ pub fn evaluate(
     })
 }
 
+/// The values of an array over the joints at a state.
+pub fn joint_values(state: &robot_numeric::random::State, variable: JointVariable) -> &[f64] {
+    match variable {
+        JointVariable::Position => &state.q,
+        JointVariable::Velocity => &state.qd,
+        JointVariable::Acceleration => &state.qdd,
+        JointVariable::Torque => &state.tau,
+    }
+}
+
 /// The value of a symbol at a state.
 pub fn value_of(robot: &Robot, name: &str, state: &robot_numeric::random::State) -> Option<f64> {
-    let coordinate = |prefix: &str, values: &[f64]| {
-        let number: usize = name.strip_prefix(prefix)?.parse().ok()?;
-        values.get(number - 1).copied()
-    };
-    let arrays = [("qdd", &state.qdd), ("qd", &state.qd), ("q", &state.q), ("tau", &state.tau)];
-    for (prefix, values) in arrays {
-        if let Some(value) = coordinate(prefix, values) {
-            return Some(value);
-        }
+    if let Some((variable, index)) = JointVariable::parse(name) {
+        return joint_values(state, variable).get(index).copied();
     }
     for (index, frame) in robot.frames.iter().enumerate() {
         let Some(wrench) = &frame.wrench else { continue };

@@ -4,8 +4,11 @@ use nalgebra::{DMatrix, Vector3};
 use robot_model::functions::{Effects, FrameRef, FunctionKind};
 use robot_model::robot::LINK_PARAMETERS;
 use robot_model::robot::{Friction, Robot};
+use robot_model::variable::JointVariable;
 use robot_numeric::random::{Random, State};
 use robot_numeric::{self, Loads, Mechanism};
+
+use crate::joint_values;
 
 /// A random state with wrenches on the tips only.
 pub fn state(random: &mut Random, solver: &Mechanism, robot: &Robot) -> State {
@@ -28,12 +31,9 @@ pub fn inputs(
     let tips = frames.filter(|(frame, _)| frame.wrench.is_some());
     let mut wrenches = tips.map(|(_, w)| w.force.iter().chain(&w.moment).copied().collect());
     let value = |name: String| {
-        let values = match name.as_str() {
-            "q" => state.q.clone(),
-            "qd" => state.qd.clone(),
-            "qdd" => state.qdd.clone(),
-            "tau" => state.tau.clone(),
-            _ => wrenches.next().unwrap(),
+        let values = match JointVariable::from_name(&name) {
+            Some(variable) => joint_values(state, variable).to_vec(),
+            None => wrenches.next().unwrap(),
         };
         (name, values)
     };

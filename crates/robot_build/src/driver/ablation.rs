@@ -32,7 +32,7 @@ type Change = fn(&mut Plan);
 type PassChange = fn(&mut robot_codegen::Options);
 
 /// The options of a [`Plan`] by their names: each as in [`LinkPlan::BASIC`], or the file's frames.
-const OPTIONS: [(&str, Change); 10] = [
+const PLAN_OPTIONS: [(&str, Change); 10] = [
     ("origin", |plan| each(plan, |link| link.origin = Origin::File)),
     ("turn", |plan| each(plan, |link| link.turn = Turn::File)),
     ("angle_sum", |plan| each(plan, |link| link.angle_sum = false)),
@@ -78,7 +78,7 @@ pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Err
     };
     let codegen = options.codegen();
     let mut found = vec![counted("none", plan.clone(), &codegen)?];
-    for (name, change) in OPTIONS {
+    for (name, change) in PLAN_OPTIONS {
         let mut changed = plan.clone();
         change(&mut changed);
         found.push(counted(name, changed, &codegen)?);

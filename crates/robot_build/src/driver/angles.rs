@@ -18,8 +18,11 @@ pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> 
     let beyond = "outside the range of the program's sines and cosines, which is below 2^30 rad";
     let mut sum = 0.0;
     for joint in robot.links.iter().map(|link| &link.joint) {
-        let Some(position) = q.get(joint.coordinate).filter(|_| joint.kind == JointKind::Revolute)
-        else {
+        match joint.kind {
+            JointKind::Revolute => {}
+            JointKind::Prismatic => continue,
+        }
+        let Some(position) = q.get(joint.coordinate) else {
             continue;
         };
         let value = |formula: &Formula| formula.evaluate(|name| robot.nominal_value(name));

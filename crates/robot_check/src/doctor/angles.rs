@@ -30,8 +30,10 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
     for link in &facts.links {
         let coordinate = facts.robot.coordinates.get(link.link.joint.coordinate);
-        let limits = coordinate.filter(|one| one.kind == JointKind::Revolute);
-        let limits = limits.and_then(|one| one.limits.as_ref());
+        let limits = coordinate.and_then(|one| match one.kind {
+            JointKind::Revolute => one.limits.as_ref(),
+            JointKind::Prismatic => None,
+        });
         let (Some(limits), Some(place)) = (limits, &link.place.limits) else { continue };
         let widest = limits.each_ref().map(|limit| limit.to_f64().abs());
         let widest = widest.iter().fold(0.0_f64, |a, b| a.max(*b));

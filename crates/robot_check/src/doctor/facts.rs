@@ -90,11 +90,9 @@ fn points(robot: &Robot, index: usize, at: &Evaluation<'_>) -> Vec<Vector3<f64>>
 
 fn travel(robot: &Robot, link: &Link) -> f64 {
     let limits = robot.coordinates.get(link.joint.coordinate);
-    match limits.and_then(|coordinate| coordinate.limits.as_ref()) {
-        Some([lower, upper]) if link.joint.kind == JointKind::Prismatic => {
-            upper.to_f64() - lower.to_f64()
-        }
-        _ => 0.0,
+    match (link.joint.kind, limits.and_then(|coordinate| coordinate.limits.as_ref())) {
+        (JointKind::Prismatic, Some([lower, upper])) => upper.to_f64() - lower.to_f64(),
+        (JointKind::Revolute, _) | (JointKind::Prismatic, None) => 0.0,
     }
 }
 

@@ -67,8 +67,9 @@ fn points(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
 fn rotates(facts: &RobotFacts<'_>, index: usize) -> bool {
     let mut next = Some(index);
     while let Some(link) = next.and_then(|index| facts.robot.links.get(index)) {
-        if link.joint.kind == JointKind::Revolute {
-            return true;
+        match link.joint.kind {
+            JointKind::Revolute => return true,
+            JointKind::Prismatic => {}
         }
         next = link.parent;
     }

@@ -18,7 +18,10 @@ impl Dimensions {
     pub(super) fn of(robot: &Robot) -> Dimensions {
         let mut symbols = BTreeMap::new();
         for (index, coordinate) in robot.coordinates.iter().enumerate() {
-            let length = i8::from(coordinate.kind == JointKind::Prismatic);
+            let length = match coordinate.kind {
+                JointKind::Revolute => 0,
+                JointKind::Prismatic => 1,
+            };
             for variable in JointVariable::MOTION {
                 let dimension = variable.order().map(|order| Dimension::new(0, length, -order));
                 symbols.insert(variable.symbol(index), dimension);

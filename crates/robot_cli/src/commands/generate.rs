@@ -6,7 +6,7 @@ use robot_build::{check_runtime_path, generate};
 use crate::Terminal;
 use crate::delivery::OutputArguments;
 use crate::failure::Failure;
-use crate::options::help;
+use crate::options::{help, value_name};
 use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument};
 
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     #[command(flatten)]
     code: CodeArguments,
-    #[arg(long, help = help("runtime"), value_name = "PATH", default_value = "::robot_runtime", value_parser = runtime)]
+    #[arg(long, help = help("runtime"), value_name = value_name("runtime"), default_value = "::robot_runtime", value_parser = runtime)]
     runtime: String,
     #[command(flatten)]
     output: OutputArguments,

@@ -47,7 +47,7 @@ fn a_search_does_not_make_things_worse() {
 #[test]
 fn a_robot_is_shown() {
     let shown = output(&["show", &robot("trttr1")], "");
-    for part in ["TRTTR1", "prismatic along (0, 1, 0)", "mass of element 5", "link_wrenches"] {
+    for part in ["TRTTR1", "prismatic along (0, 1, 0)", "mass of link 5", "link_wrenches"] {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }
 }

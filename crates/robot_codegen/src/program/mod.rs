@@ -6,13 +6,13 @@
 
 mod builder;
 mod constant;
-mod layout;
 mod print;
+mod statements;
 
 pub use builder::Builder;
 pub(crate) use constant::DoubleDouble;
-pub use layout::{Block, Layout, Limits, Part};
 use robot_symbolic::Function;
+pub use statements::{Block, Limits, Part, Statements};
 
 /// The value that an operation of a [`Program`] computes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

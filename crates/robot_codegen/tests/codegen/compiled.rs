@@ -7,7 +7,7 @@ use crate::support::{
     random::{ENTRIES, real},
 };
 use robot_codegen::backend::rust::{LANGUAGE, RustOptions, Wrapping, generate};
-use robot_codegen::program::{Layout, Limits};
+use robot_codegen::program::{Limits, Statements};
 use robot_codegen::spec::{Function, ModuleSpec, ParameterSpec};
 use robot_codegen::{Fused, Interpreter, Module, Options, Scalar, Trigonometry};
 use robot_symbolic::{Graph, Random};
@@ -95,7 +95,7 @@ fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
     let module = Module::compile(&spec, &Options::default()).unwrap();
     // A name for each operation: the most statements that the program can have.
     let limits = Limits { expression: 1, ..LANGUAGE.limits };
-    assert!(Layout::new(&module.functions[0].core, &limits).statements() > 20_000);
+    assert!(Statements::new(&module.functions[0].core, &limits).count() > 20_000);
     let states = states(&mut random);
     let options = RustOptions { limits, ..RustOptions::default() };
     let code = generate(&module, &options).unwrap().to_text();

@@ -1,5 +1,6 @@
 //! How twists and bodies change over a joint and the placement before it.
 
+use robot_model::robot::JointKind;
 use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::{Expr, Graph};
 
@@ -75,7 +76,7 @@ impl<'g> Joint<'g> {
     pub(super) fn new(link: &MechanismLink<'g>) -> Joint<'g> {
         let graph = link.mass.graph();
         let (axis, zero) = (link.axis, Vector::zero(graph));
-        let revolute = link.is_revolute();
+        let kind = link.kind;
         let of_unit = |place: usize| {
             let unit = |first: usize| {
                 Vector([0, 1, 2].map(|k| graph.integer(i64::from(place == first + k))))
@@ -87,21 +88,26 @@ impl<'g> Joint<'g> {
             let back = link.rotation.transpose();
             twist(back * omega, back * (velocity + omega.cross(link.translation)))
         };
-        let turning = |place: usize| match (of_unit(place), revolute) {
-            ((omega, velocity), true) => twist(omega.cross(axis), velocity.cross(axis)),
-            ((omega, _), false) => twist(zero, omega.cross(axis)),
+        let turning = |place: usize| match (of_unit(place), kind) {
+            ((omega, velocity), JointKind::Revolute) => {
+                twist(omega.cross(axis), velocity.cross(axis))
+            }
+            ((omega, _), JointKind::Prismatic) => twist(zero, omega.cross(axis)),
         };
         let carried = |place: usize| {
             Body::unit(graph, place).turned(link.rotation).about(link.translation).parameters()
         };
-        let own = if revolute { twist(axis, zero) } else { twist(zero, axis) };
+        let own = match kind {
+            JointKind::Revolute => twist(axis, zero),
+            JointKind::Prismatic => twist(zero, axis),
+        };
         Joint {
             twist: own.map(Scalar::new).to_vec(),
             axis: axis.0.map(Scalar::new).to_vec(),
             placement: Map::new(TWIST, placement),
             turning: Map::new(TWIST, turning),
             carried: Map::new(LINK_PARAMETERS, carried),
-            moving: Map::new(LINK_PARAMETERS, |place| moving(graph, revolute, axis, place)),
+            moving: Map::new(LINK_PARAMETERS, |place| moving(graph, kind, axis, place)),
         }
     }
 
@@ -154,19 +160,22 @@ fn twist<'g>(Vector([a, b, c]): Vector<'g>, Vector([x, y, z]): Vector<'g>) -> [E
 /// The rate of a unit of a parameter with the joint's motion.
 fn moving<'g>(
     graph: &'g Graph,
-    revolute: bool,
+    kind: JointKind,
     axis: Vector<'g>,
     place: usize,
 ) -> [Expr<'g>; LINK_PARAMETERS] {
     let Body { mass, first, tensor } = Body::unit(graph, place);
-    let rate = if revolute {
-        let cross = Matrix::skew(axis);
-        let tensor = cross * tensor - tensor * cross;
-        Body { mass: graph.zero(), first: axis.cross(first), tensor }
-    } else {
-        let mixed = Matrix::outer(first, axis) + Matrix::outer(axis, first);
-        let tensor = Matrix::identity(graph) * (first.dot(axis) * 2) - mixed;
-        Body { mass: graph.zero(), first: axis * mass, tensor }
+    let rate = match kind {
+        JointKind::Revolute => {
+            let cross = Matrix::skew(axis);
+            let tensor = cross * tensor - tensor * cross;
+            Body { mass: graph.zero(), first: axis.cross(first), tensor }
+        }
+        JointKind::Prismatic => {
+            let mixed = Matrix::outer(first, axis) + Matrix::outer(axis, first);
+            let tensor = Matrix::identity(graph) * (first.dot(axis) * 2) - mixed;
+            Body { mass: graph.zero(), first: axis * mass, tensor }
+        }
     };
     rate.parameters()
 }

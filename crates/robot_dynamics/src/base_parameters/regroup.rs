@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use robot_model::robot::JointKind;
 use robot_model::robot::LINK_PARAMETERS;
 
 use super::echelon::{Echelon, Row};
@@ -131,12 +132,15 @@ fn preference(link: &MechanismLink<'_>, second: bool) -> Vec<usize> {
     let first = |component: usize| FIRST_MOMENT + component;
     let (kept, left) = if second { (y, z) } else { (z, y) };
     let of_tensor = [tensor(kept, kept), tensor(x, x), tensor(x, y), tensor(x, z), tensor(y, z)];
-    let mut order = if link.is_revolute() {
-        let identifiable = of_tensor.into_iter().chain([first(x), first(y)]);
-        identifiable.chain([tensor(left, left), first(z), 0]).collect()
-    } else {
-        let moments = [0, first(0), first(1), first(2)].into_iter();
-        moments.chain(of_tensor).chain([tensor(left, left)]).collect::<Vec<usize>>()
+    let mut order = match link.kind {
+        JointKind::Revolute => {
+            let identifiable = of_tensor.into_iter().chain([first(x), first(y)]);
+            identifiable.chain([tensor(left, left), first(z), 0]).collect()
+        }
+        JointKind::Prismatic => {
+            let moments = [0, first(0), first(1), first(2)].into_iter();
+            moments.chain(of_tensor).chain([tensor(left, left)]).collect::<Vec<usize>>()
+        }
     };
     order.extend(DRIVE.map(Quantity::place));
     order

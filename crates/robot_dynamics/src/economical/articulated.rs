@@ -5,6 +5,7 @@
 //! without gravity: everything that moves and pulls it is in b. Each joint is eliminated on the way inward, from
 //! the inertia that its link and all that it carries show to its parent.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, Graph};
 
 use crate::economical::composite::symmetric;
@@ -183,14 +184,16 @@ impl<'g> Carried<'g> {
         let inertia = self.inertia.minus_product(asked, &scaled);
         // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ with the reflected inertia r and the rotor's k, which a
         // prismatic joint does not feel: 0 without a drive.
-        let own_coupling =
-            if link.is_revolute() { link.rotor_coupling } else { unit.graph().zero() };
+        let own_coupling = match link.kind {
+            JointKind::Revolute => link.rotor_coupling,
+            JointKind::Prismatic => unit.graph().zero(),
+        };
         let kept = (link.reflected_inertia - own_coupling) * *reciprocal;
         let mut along = Wrench { force: asked.force * kept, moment: asked.moment * kept };
         along.moment.0[2] -= link.rotor_coupling;
         let wrench = Wrench { force: scaled.force * *force, moment: scaled.moment * *force };
         Carried {
-            inertia: inertia.with_along_joint(&along, link.is_revolute(), unit),
+            inertia: inertia.with_along_joint(&along, link.kind, unit),
             wrench: self.wrench.plus(&wrench),
         }
     }
@@ -296,17 +299,20 @@ impl<'g> ArticulatedInertia<'g> {
     }
 
     /// Sets the wrench that a unit acceleration along the joint requires, which is known.
-    fn with_along_joint(mut self, along: &Wrench<'g>, revolute: bool, unit: Expr<'g>) -> Self {
+    fn with_along_joint(mut self, along: &Wrench<'g>, kind: JointKind, unit: Expr<'g>) -> Self {
         let Wrench { force, moment } = *along;
         for k in 0..3 {
-            if revolute {
-                (self.turning.0[k][2], self.turning.0[2][k]) = (moment.0[k], moment.0[k]);
-                self.coupling.0[2][k] = force.0[k];
-            } else {
-                // In the chain's unit of length a translation of one meter is 1/unit.
-                self.coupling.0[k][2] = moment.0[k] * unit;
-                let entry = force.0[k] * unit;
-                (self.mass.0[k][2], self.mass.0[2][k]) = (entry, entry);
+            match kind {
+                JointKind::Revolute => {
+                    (self.turning.0[k][2], self.turning.0[2][k]) = (moment.0[k], moment.0[k]);
+                    self.coupling.0[2][k] = force.0[k];
+                }
+                JointKind::Prismatic => {
+                    // In the chain's unit of length a translation of one meter is 1/unit.
+                    self.coupling.0[k][2] = moment.0[k] * unit;
+                    let entry = force.0[k] * unit;
+                    (self.mass.0[k][2], self.mass.0[2][k]) = (entry, entry);
+                }
             }
         }
         self

@@ -14,6 +14,7 @@
 //!
 //! The Christoffel form of the Coriolis matrix is half of ∂τ/∂q̇.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::Recursion;
@@ -60,7 +61,10 @@ impl<'g> Recursion<'g> {
         }
         let mut chain = self.chain.clone();
         for link in &mut chain.links {
-            let unit = if link.is_revolute() { chain.graph.one() } else { chain.unit };
+            let unit = match link.kind {
+                JointKind::Revolute => chain.graph.one(),
+                JointKind::Prismatic => chain.unit,
+            };
             link.motion.acceleration = accelerations[link.coordinate] * link.ratio / unit;
         }
         Some(self.torque_derivatives_of(&chain))
@@ -208,8 +212,9 @@ impl<'g> Motions<'g> {
                 home(acceleration),
             ));
             let mut velocity = joint_frame.turn.back(link.rotation.back(carried));
-            if !link.is_revolute() {
-                velocity.0[2] += link.motion.velocity * factor;
+            match link.kind {
+                JointKind::Revolute => {}
+                JointKind::Prismatic => velocity.0[2] += link.motion.velocity * factor,
             }
             let angular = states[index].angular_velocity * factor;
             twists.push(Twist { angular, linear: velocity });

@@ -23,6 +23,7 @@ mod recursion;
 mod regressor;
 mod spatial;
 
+use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, Graph};
 
 use crate::matrix::{Pivots, SymmetricMatrix};
@@ -138,9 +139,9 @@ impl<'g> Recursion<'g> {
             Solver::MassMatrix => self.mass_matrix().solve(excess, pivots),
         };
         for (link, state) in self.chain.links.iter().zip(&states) {
-            let rate = match link.is_revolute() {
-                true => state.rate,
-                false => state.rate * self.chain.unit,
+            let rate = match link.kind {
+                JointKind::Revolute => state.rate,
+                JointKind::Prismatic => state.rate * self.chain.unit,
             };
             if !rate.is_zero() {
                 accelerations[link.coordinate] += rate / link.ratio;

@@ -155,7 +155,10 @@ impl<'r, 'g> Derivation<'r, 'g> {
         let translations: Vec<String> = kinds
             .iter()
             .enumerate()
-            .filter(|(_, coordinate)| coordinate.kind == JointKind::Prismatic)
+            .filter(|(_, coordinate)| match coordinate.kind {
+                JointKind::Revolute => false,
+                JointKind::Prismatic => true,
+            })
             .map(|(index, _)| format!("[{index}]"))
             .collect();
         match translations.len() {
@@ -171,8 +174,14 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// The unit of a matrix over the coordinates, with the mixed and the translations' entries named
     /// if they differ.
     fn matrix_unit(&self, rotation: &str, mixed: &str, translation: &str) -> String {
-        let count = |kind| self.robot.coordinates.iter().filter(|c| c.kind == kind).count();
-        match (count(JointKind::Revolute), count(JointKind::Prismatic)) {
+        let (mut revolute, mut prismatic) = (0, 0);
+        for coordinate in &self.robot.coordinates {
+            match coordinate.kind {
+                JointKind::Revolute => revolute += 1,
+                JointKind::Prismatic => prismatic += 1,
+            }
+        }
+        match (revolute, prismatic) {
             (_, 0) => rotation.to_owned(),
             (0, _) => translation.to_owned(),
             _ => format!(

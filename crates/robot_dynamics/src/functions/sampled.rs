@@ -113,10 +113,12 @@ impl SampledMassMatrix {
             let mut arm = outer.arm;
             let mut next = Some(outer);
             while let Some(link) = next {
-                let slides = link.kind == JointKind::Prismatic;
-                let moved = if slides { outer.mass } else { outer.trace + outer.mass * arm * arm };
+                let (moved, own_travel) = match link.kind {
+                    JointKind::Revolute => (outer.trace + outer.mass * arm * arm, 0.0),
+                    JointKind::Prismatic => (outer.mass, travel),
+                };
                 most[link.coordinate] += link.ratio * link.ratio * moved;
-                arm += link.offset + if slides { travel } else { 0.0 };
+                arm += link.offset + own_travel;
                 next = link.parent.map(|parent| &self.links[parent]);
             }
         }

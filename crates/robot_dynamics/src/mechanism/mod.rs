@@ -171,21 +171,16 @@ impl<'g> Mechanism<'g> {
 }
 
 impl<'g> MechanismLink<'g> {
-    /// Whether the joint rotates.
-    #[must_use]
-    pub fn is_revolute(&self) -> bool {
-        self.kind == JointKind::Revolute
-    }
-
     /// The rotation of the link's frame, the joint's motion included: \[R\]ᵢⁱ⁻¹ of the paper, link
     /// components to parent components.
     #[must_use]
     pub fn joint_rotation(&self) -> Matrix<'g> {
-        if self.is_revolute() {
-            let motion = Matrix::rotation(self.axis, self.position.sin(), self.position.cos());
-            self.rotation * motion
-        } else {
-            self.rotation
+        match self.kind {
+            JointKind::Revolute => {
+                let motion = Matrix::rotation(self.axis, self.position.sin(), self.position.cos());
+                self.rotation * motion
+            }
+            JointKind::Prismatic => self.rotation,
         }
     }
 
@@ -198,10 +193,9 @@ impl<'g> MechanismLink<'g> {
     /// The origin of the link's frame, the joint's motion included, in parent components: r̄ᵢⁱ⁻¹.
     #[must_use]
     pub fn joint_translation(&self) -> Vector<'g> {
-        if self.is_revolute() {
-            self.translation
-        } else {
-            self.translation + self.rotation * (self.axis * self.position)
+        match self.kind {
+            JointKind::Revolute => self.translation,
+            JointKind::Prismatic => self.translation + self.rotation * (self.axis * self.position),
         }
     }
 }

@@ -138,7 +138,9 @@ fn spindle(
             "`spindle_diameter` has no effect on a prismatic joint",
             "remove it",
         ),
-        _ => {}
+        (JointKind::Revolute, Some(_), Some(_))
+        | (JointKind::Revolute, None, None)
+        | (JointKind::Prismatic, _, None) => {}
     }
 }
 

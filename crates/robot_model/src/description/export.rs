@@ -162,7 +162,7 @@ fn axis(axis: &[Formula; 3]) -> String {
 fn friction(friction: &Friction, kind: Option<JointKind>) -> String {
     let both = match kind {
         Some(JointKind::Prismatic) => "coulomb_force",
-        _ => "coulomb_torque",
+        Some(JointKind::Revolute) | None => "coulomb_torque",
     };
     let coefficients = [("viscous", &friction.viscous), (both, &friction.coulomb_positive)];
     let parts: Vec<String> = coefficients

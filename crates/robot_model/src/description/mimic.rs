@@ -39,12 +39,15 @@ fn check_ratio(reader: &mut Reader<'_>, links: &[&DraftLink], link: &DraftLink) 
     };
     let followed = links.iter().find(|other| other.joint.name.name == joint.name);
     let kinds = followed.and_then(|followed| link.joint.kind.zip(followed.joint.kind));
-    let length = match kinds {
-        Some((JointKind::Prismatic, JointKind::Revolute)) => 1,
-        Some((JointKind::Revolute, JointKind::Prismatic)) => -1,
-        Some(_) => 0,
-        None => return,
+    let Some((own, followed)) = kinds else {
+        return;
     };
+    // The power of the meter in a position.
+    let length = |kind| match kind {
+        JointKind::Revolute => 0,
+        JointKind::Prismatic => 1,
+    };
+    let length = length(own) - length(followed);
     reader.fits(ratio, quantity("the ratio", 0, length, 0), place);
 }
 

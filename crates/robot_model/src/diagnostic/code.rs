@@ -1,4 +1,19 @@
 //! The stable codes of diagnostics. Each has a page, `diagnostics/CODE.md` of this package.
+//!
+//! The first two digits are the subject; a new code takes the next number of its block:
+//!
+//! - R00: the file as a whole, before anything in it is read;
+//! - R01: keys, elements and entries: unknown, missing, of the wrong type or too many;
+//! - R02: names, symbols and texts;
+//! - R03: numbers, expressions, units and dimensions;
+//! - R04: the tree of links and joints;
+//! - R05: masses, inertias, friction and drives that no body can have;
+//! - R06: likely mistakes, and what is read but has no effect;
+//! - R07: what a reader decided, merged, renamed or left out;
+//! - R08: what is asked of generated code: functions, budgets, pinned plans.
+//!
+//! R00 to R05 are errors, except R0307 and what an option allows; R06 are warnings, R07 notes; R08 are errors, and a
+//! stale pin a warning.
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {
@@ -86,3 +101,7 @@ codes! {
     LACKING = "R0802", "A requested function is not available for the robot.";
     PIN = "R0803", "The pinned plan does not match the robot file.";
 }
+
+/// Numbers that no code may have again: those of codes that were removed, whose meaning users and their scripts may
+/// remember, and those that were skipped. Whoever removes a code adds its number.
+pub const RETIRED: &[&str] = &["R0616"];

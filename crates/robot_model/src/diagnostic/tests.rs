@@ -120,3 +120,28 @@ fn numbers_are_short_and_read_back() {
         assert_eq!(number(value), expected);
     }
 }
+
+/// The block and the number in it: R0616 is (6, 16).
+fn block(code: &str) -> (u32, u32) {
+    let digits = code.strip_prefix('R').filter(|digits| digits.len() == 4).unwrap();
+    let number: u32 = digits.parse().unwrap();
+    (number / 100, number % 100)
+}
+
+#[test]
+fn numbers_of_codes_are_used_once_and_gaps_are_retired() {
+    let declared: Vec<_> = code::TABLE.iter().map(|(code, _)| block(code)).collect();
+    assert!(declared.is_sorted_by(|a, b| a < b), "codes are in order, each once");
+    for retired in code::RETIRED {
+        assert!(!declared.contains(&block(retired)), "{retired} is retired: take the next number");
+        assert_eq!(code::page(retired), None, "{retired}");
+    }
+    let retired: Vec<_> = code::RETIRED.iter().map(|code| block(code)).collect();
+    for (block, last) in &declared {
+        for number in 1..*last {
+            let found = (*block, number);
+            let is_known = declared.contains(&found) || retired.contains(&found);
+            assert!(is_known, "R{block:02}{number:02} is neither declared nor retired");
+        }
+    }
+}

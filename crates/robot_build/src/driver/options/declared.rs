@@ -23,7 +23,11 @@ pub struct OptionSpec {
     pub example: &'static str,
     /// Which commands take it.
     pub commands: Commands,
-    /// The key of a robot file that sets it for all doors.
+    /// What the command line's help calls its value; nothing of flags, and of what has only the option's name.
+    pub value_name: &'static str,
+    /// The option without which it has no effect, if there is one.
+    pub requires: Option<&'static str>,
+    /// The key of a robot file that sets it for every entry point.
     pub in_file: Option<&'static str>,
     set: fn(&mut Options, Value<'_>) -> Option<()>,
 }
@@ -43,7 +47,8 @@ pub enum Group {
     Limit,
 }
 
-/// Which commands take an option.
+/// Which commands take an option. Only flags, counts and choices of [`Commands::Code`] become arguments from the
+/// table alone; others have an argument of their own in the command, which takes its words from here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Commands {
     /// The commands that read a robot.
@@ -165,6 +170,8 @@ const PLAIN: OptionSpec = OptionSpec {
     kind: Kind::Flag,
     example: "true",
     commands: Commands::Code,
+    value_name: "",
+    requires: None,
     in_file: None,
     set: |_, _| Some(()),
 };
@@ -180,6 +187,7 @@ pub const OPTIONS: &[OptionSpec] = &[
             and the joint wrenches]",
         group: Group::Derive,
         kind: Kind::Functions,
+        value_name: "NAME",
         example: "[\"mass_matrix\"]",
         in_file: Some("[code] functions"),
         ..PLAIN
@@ -191,6 +199,7 @@ pub const OPTIONS: &[OptionSpec] = &[
             be repeated",
         group: Group::Derive,
         kind: Kind::Bundles,
+        value_name: "NAME=FUNCTION,…",
         example: "{ dynamics = [\"mass_matrix\", \"bias\"] }",
         in_file: Some("[code] bundles"),
         ..PLAIN
@@ -202,10 +211,12 @@ pub const OPTIONS: &[OptionSpec] = &[
                1e-9]",
         group: Group::Derive,
         kind: Kind::Angle,
+        value_name: "RAD",
         example: "1e-6",
         commands: Commands::Robot,
         in_file: Some("[robot] snap"),
         set: |options, value| value.number().map(|angle| options.snap = Some(angle)),
+        ..PLAIN
     },
     OptionSpec {
         name: "base_frames",
@@ -215,6 +226,7 @@ pub const OPTIONS: &[OptionSpec] = &[
             the robot file's `base_frames`, else file]",
         group: Group::Derive,
         kind: Kind::Choice(&[("file", ""), ("denavit_hartenberg", "")]),
+        value_name: "FRAMES",
         example: "\"denavit_hartenberg\"",
         commands: Commands::Robot,
         in_file: Some("[robot] base_frames"),
@@ -222,6 +234,7 @@ pub const OPTIONS: &[OptionSpec] = &[
             options.base_frames = Some(BaseFrames::from_name(value.word()?)?);
             Some(())
         },
+        ..PLAIN
     },
     OptionSpec {
         name: "scalar",
@@ -253,6 +266,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         help: "Add a batch form `…_batch` to each function, for slices of states, computed in \
             blocks of this many states",
         kind: Kind::Count { default: Some(DEFAULT_BATCH) },
+        value_name: "STATES",
         example: "16",
         set: |options, value| value.size().map(|states| options.batch = Some(states)),
         ..PLAIN
@@ -262,6 +276,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         title: "batches over threads",
         help: "Add a parallel form `…_batch_parallel` to each batch, on the threads of the crate \
             rayon; needs batches",
+        requires: Some("batch"),
         set: |options, value| value.flag().map(|flag| options.parallel = flag),
         ..PLAIN
     },
@@ -311,6 +326,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         commands: Commands::None,
         in_file: Some("[[budget]] max_operations"),
         set: |options, value| value.count().map(|limit| options.max_operations = Some(limit)),
+        ..PLAIN
     },
     OptionSpec {
         name: "max_stack",
@@ -322,12 +338,14 @@ pub const OPTIONS: &[OptionSpec] = &[
         commands: Commands::None,
         in_file: Some("[[budget]] max_stack"),
         set: |options, value| value.count().map(|limit| options.max_stack = Some(limit)),
+        ..PLAIN
     },
     OptionSpec {
         name: "runtime",
         title: "path of the runtime",
         help: "Path of the runtime in the generated code",
         kind: Kind::Path,
+        value_name: "PATH",
         example: "\"::robot_runtime\"",
         commands: Commands::Module,
         set: |options, value| value.word().map(|path| options.runtime = path.to_owned()),
@@ -380,6 +398,15 @@ mod tests {
                 }
                 None => assert!(matches!(option.kind, Kind::Functions | Kind::Bundles)),
             }
+            let is_flag = option.kind == Kind::Flag;
+            assert!(!is_flag || option.value_name.is_empty(), "{}", option.name);
+            if let Kind::Count { .. } = option.kind
+                && option.commands == Commands::Code
+            {
+                assert!(!option.value_name.is_empty(), "{}", option.name);
+            }
+            let required = option.requires.map(OptionSpec::named);
+            assert!(required.is_none_or(|found| found.is_some()), "{}", option.name);
             let is_same = options == Options::default();
             assert_eq!(is_same, SAME.contains(&option.name), "{}", option.name);
         }

@@ -7,12 +7,12 @@ use syn::{Expr, Pat, Stmt, parse_quote, token};
 use super::namer::Namer;
 use super::number::Number;
 use super::syntax;
-use crate::program::{Block, Layout, Limits, Operation, Part, Program, Source, Value};
+use crate::program::{Block, Limits, Operation, Part, Program, Source, Statements, Value};
 
 /// Prints the statements of a program.
 pub(super) struct Body<'a> {
     program: &'a Program,
-    layout: Layout,
+    grouped: Statements,
     number: &'a Number,
     /// The printed form of the program's loads.
     load: &'a dyn Fn(Source) -> Expr,
@@ -38,16 +38,16 @@ impl<'a> Body<'a> {
         load: &'a dyn Fn(Source) -> Expr,
         namer: &mut Namer,
     ) -> Body<'a> {
-        let layout = Layout::new(program, limits);
+        let grouped = Statements::new(program, limits);
         let mut count = 0;
         let names = program.values().map(|(value, _)| {
-            layout.is_named(value).then(|| {
+            grouped.is_named(value).then(|| {
                 count += 1;
                 namer.name(&format!("t{count}"))
             })
         });
         let names = names.collect();
-        Body { program, layout, number, load, names }
+        Body { program, grouped, number, load, names }
     }
 
     /// The results as expressions, to be placed after the statements.
@@ -57,12 +57,12 @@ impl<'a> Body<'a> {
 
     /// Whether the program is so long that it is cut into functions.
     pub(super) fn is_cut(&self) -> bool {
-        self.layout.parts.len() > 1
+        self.grouped.parts.len() > 1
     }
 
     /// The statements of a program that is not cut.
     pub(super) fn statements(&self) -> Vec<Stmt> {
-        self.layout.parts.iter().flat_map(|part| self.part_statements(part)).collect()
+        self.grouped.parts.iter().flat_map(|part| self.part_statements(part)).collect()
     }
 
     /// The parts of a program that is cut. `source_name` names the variable that a load reads, for
@@ -76,7 +76,7 @@ impl<'a> Body<'a> {
             leaving: self.names_of(&part.leaving),
             statements: self.part_statements(part),
         };
-        self.layout.parts.iter().map(part).collect()
+        self.grouped.parts.iter().map(part).collect()
     }
 
     /// The sources that the statements of a part read, each once, in the order of sources.
@@ -89,7 +89,7 @@ impl<'a> Body<'a> {
             if let Operation::Load(source) = operation {
                 sources.push(source);
             }
-            pending.extend(operation.operands().filter(|value| !self.layout.is_named(*value)));
+            pending.extend(operation.operands().filter(|value| !self.grouped.is_named(*value)));
         }
         sources.sort_unstable();
         sources.dedup();
@@ -131,7 +131,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The operation of a value. The layout bounds how deep this goes.
+    /// The operation of a value. `Limits::expression` bounds how deep this goes.
     fn expression(&self, value: Value) -> Expr {
         let binary = |a, op, b| syntax::binary(self.operand(a), op, self.operand(b));
         match self.program.operation(value) {

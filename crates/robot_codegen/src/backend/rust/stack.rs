@@ -2,7 +2,7 @@
 
 use super::LANGUAGE;
 use crate::module::Function;
-use crate::program::{Layout, Program, Value};
+use crate::program::{Program, Statements, Value};
 
 /// The stack of a function apart from its values: return addresses, saved registers, places of
 /// arguments, an expression's values while it is computed.
@@ -21,7 +21,7 @@ const FIXED: usize = 256;
 #[must_use]
 pub fn estimate(function: &Function, scalar: usize) -> usize {
     let programs = [&function.core, &function.angles];
-    let statements: usize = programs.iter().map(|program| layout(program).statements()).sum();
+    let statements: usize = programs.iter().map(|program| statements(program).count()).sum();
     let inputs: usize = function.inputs.iter().map(|input| input.symbols.len()).sum();
     let angles = 3 * function.angles.results().len();
     let outputs = function.core.results().len();
@@ -34,9 +34,9 @@ pub fn estimate(function: &Function, scalar: usize) -> usize {
 
 /// The values without a name that wait for another operand of what uses them.
 fn live_values(program: &Program) -> usize {
-    let layout = layout(program);
+    let grouped = statements(program);
     let is_inside =
-        |value: &Value| !layout.is_named(*value) && !program.operation(*value).is_leaf();
+        |value: &Value| !grouped.is_named(*value) && !program.operation(*value).is_leaf();
     let inside =
         program.operations().iter().map(|operation| operation.operands().filter(is_inside));
     inside.map(|operands| operands.count().saturating_sub(1)).sum()
@@ -44,12 +44,12 @@ fn live_values(program: &Program) -> usize {
 
 /// The values that leave blocks, if there are several.
 fn leaving(program: &Program) -> usize {
-    let layout = layout(program);
-    let blocks = || layout.parts.iter().flat_map(|part| &part.blocks);
+    let grouped = statements(program);
+    let blocks = || grouped.parts.iter().flat_map(|part| &part.blocks);
     if blocks().count() < 2 { 0 } else { blocks().map(|block| block.leaving.len()).sum() }
 }
 
-/// The layout of a program as Rust.
-fn layout(program: &Program) -> Layout {
-    Layout::new(program, &LANGUAGE.limits)
+/// The statements of a program as Rust.
+fn statements(program: &Program) -> Statements {
+    Statements::new(program, &LANGUAGE.limits)
 }

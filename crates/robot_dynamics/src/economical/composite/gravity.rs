@@ -1,5 +1,6 @@
 //! The gravity terms of the joint torques.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::composite::composites;
@@ -27,10 +28,9 @@ pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>
         home.push(at_home);
         rising.push(frames.joint_frames[index].group_turn.back(at_home));
         let (mass, first) = (composites[index].mass, composites[index].first);
-        let torque = if link.is_revolute() {
-            first.cross(at_home).0[2]
-        } else {
-            mass * at_home.0[2] / chain.unit
+        let torque = match link.kind {
+            JointKind::Revolute => first.cross(at_home).0[2],
+            JointKind::Prismatic => mass * at_home.0[2] / chain.unit,
         };
         torques[link.coordinate] += torque * link.ratio;
     }

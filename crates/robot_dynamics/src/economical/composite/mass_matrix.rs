@@ -6,6 +6,7 @@ use crate::economical::frames::Frames;
 use crate::economical::frames::chain::Chain;
 use crate::economical::plan::LinkPlan;
 use crate::matrix::SymmetricMatrix;
+use robot_model::robot::JointKind;
 
 /// M(q), drives included.
 ///
@@ -22,8 +23,10 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
         let mut wrench = inertial_wrench(&composites[index], &frames.joint_twist(index));
         // The parent feels a gyroscopic rotor; the joint itself has its reflected inertia alone.
         wrench.moment.0[2] += link.rotor_coupling;
-        let own_coupling =
-            if link.is_revolute() { link.rotor_coupling } else { chain.graph.zero() };
+        let own_coupling = match link.kind {
+            JointKind::Revolute => link.rotor_coupling,
+            JointKind::Prismatic => chain.graph.zero(),
+        };
         let mut propagated = Propagated::from_home(index, wrench);
         for projection in projections(&frames, index, plans[index].projected_at) {
             propagated.propagate_to(&frames, projection.place);

@@ -73,11 +73,15 @@ pub(crate) struct ChainLink<'g> {
 }
 
 impl<'g> ChainLink<'g> {
-    pub(crate) fn is_revolute(&self) -> bool {
-        self.kind == JointKind::Revolute
+    /// Whether the joint turns the link about an axis of symmetry of its mass, which has no effect.
+    fn turns_idly(&self) -> bool {
+        match self.kind {
+            JointKind::Revolute => self.is_symmetric(),
+            JointKind::Prismatic => false,
+        }
     }
 
-    /// Whether the link's mass is axisymmetric about the joint axis, so that no turn about it has an effect.
+    /// Whether the link's mass is axisymmetric about the joint axis.
     fn is_symmetric(&self) -> bool {
         let Matrix(second) = self.inertia.second;
         let [x, y, _] = self.inertia.first.0;
@@ -171,7 +175,7 @@ impl<'g> Chain<'g> {
         for (index, link) in chain.links.iter_mut().enumerate() {
             let is_last = self.links.iter().all(|other| other.parent != Some(index));
             let is_loaded = tips.iter().any(|tip| tip.link == index);
-            if is_last && link.is_revolute() && link.is_symmetric() && !is_loaded {
+            if is_last && link.turns_idly() && !is_loaded {
                 link.motion.position = zero;
                 link.rotation.turn = (zero, one);
             }
@@ -214,13 +218,16 @@ fn move_inward<'g>(
     let link = &mechanism.links[index];
     let own = inertias[index];
     let zero = PseudoInertia::zero(graph);
-    let (moved, kept) = if link.is_revolute() {
-        let z = Matrix::identity(graph).column(2);
-        let moved = PseudoInertia::rod(own.along_z(), z);
-        (moved, own.with_along_z([graph.zero(); 3]))
-    } else {
-        let moved = PseudoInertia { second: own.second, ..zero };
-        (moved, PseudoInertia { second: zero.second, ..own })
+    let (moved, kept) = match link.kind {
+        JointKind::Revolute => {
+            let z = Matrix::identity(graph).column(2);
+            let moved = PseudoInertia::rod(own.along_z(), z);
+            (moved, own.with_along_z([graph.zero(); 3]))
+        }
+        JointKind::Prismatic => {
+            let moved = PseudoInertia { second: own.second, ..zero };
+            (moved, PseudoInertia { second: zero.second, ..own })
+        }
     };
     inertias[index] = kept;
     // The base comes after the links.
@@ -241,7 +248,11 @@ fn leave_residuals<'g>(
         let link = &mechanism.links[index];
         // Residuals of the children may have left something along this link's own axis.
         move_inward(mechanism, displacements, inertias, index);
-        let Some(parent) = link.parent.filter(|_| link.is_revolute()) else {
+        let parent = match link.kind {
+            JointKind::Revolute => link.parent,
+            JointKind::Prismatic => None,
+        };
+        let Some(parent) = parent else {
             continue;
         };
         let mut residual = [mechanism.graph.zero(); 3];
@@ -340,7 +351,10 @@ impl<'g> Chain<'g> {
 
     /// Converts a joint's position, velocity or acceleration from the unit of length to rad or m.
     pub(crate) fn in_meters(&self, link: &ChainLink<'g>, motion: Expr<'g>) -> Expr<'g> {
-        if link.is_revolute() { motion } else { motion * self.unit }
+        match link.kind {
+            JointKind::Revolute => motion,
+            JointKind::Prismatic => motion * self.unit,
+        }
     }
 
     /// Whether any link carries a gyroscopic rotor.
@@ -372,8 +386,9 @@ impl<'g> Chain<'g> {
             link.translation = link.translation.map(|entry| entry / length);
             link.inertia.first = link.inertia.first * length;
             link.inertia.mass = link.inertia.mass * length * length;
-            if link.kind == JointKind::Prismatic {
-                link.motion = link.motion.map(|value| value / length);
+            match link.kind {
+                JointKind::Revolute => {}
+                JointKind::Prismatic => link.motion = link.motion.map(|value| value / length),
             }
         }
     }

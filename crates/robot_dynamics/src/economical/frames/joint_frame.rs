@@ -1,5 +1,6 @@
 //! The links' working frames relative to each other: turns, origins, parallel groups.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, Number};
 
 use crate::economical::frames::chain::{Chain, ChainLink};
@@ -45,9 +46,9 @@ pub(crate) fn joint_frames<'g>(
             group,
             group_turn: Plane::z(angle.0, angle.1),
             turn: Plane::z(sine, cosine),
-            origin: match link.is_revolute() {
-                true => link.translation,
-                false => link.translation + link.axis * link.motion.position,
+            origin: match link.kind {
+                JointKind::Revolute => link.translation,
+                JointKind::Prismatic => link.translation + link.axis * link.motion.position,
             },
         });
     }
@@ -57,8 +58,9 @@ pub(crate) fn joint_frames<'g>(
 /// Sine and cosine of the joint's turn about z, the constant turn before it included.
 fn joint_angle<'g>(link: &ChainLink<'g>) -> (Expr<'g>, Expr<'g>) {
     let (sine, cosine) = link.rotation.turn;
-    if !link.is_revolute() {
-        return (sine, cosine);
+    match link.kind {
+        JointKind::Revolute => {}
+        JointKind::Prismatic => return (sine, cosine),
     }
     let graph = sine.graph();
     let position = link.motion.position;

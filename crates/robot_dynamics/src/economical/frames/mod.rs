@@ -10,6 +10,7 @@ use crate::economical::spatial::Twist;
 use crate::vector::Vector;
 use chain::Chain;
 use joint_frame::{JointFrame, joint_frames};
+use robot_model::robot::JointKind;
 
 /// The frames that a quantity passes on its way along the mechanism: each link has its
 /// home axes (before the joints of its parallel group turn) and its own axes, both about the
@@ -80,8 +81,10 @@ impl<'c, 'g> Frames<'c, 'g> {
         let (zero, one) = (self.chain.graph.zero(), self.chain.graph.one());
         let link = &self.chain.links[link];
         // In the chain's unit of length a translation of one meter is 1/unit.
-        let (angular, linear) =
-            if link.is_revolute() { (one, zero) } else { (zero, one / self.chain.unit) };
+        let (angular, linear) = match link.kind {
+            JointKind::Revolute => (one, zero),
+            JointKind::Prismatic => (zero, one / self.chain.unit),
+        };
         let along = |length| Vector([zero, zero, length]);
         Twist { angular: along(angular), linear: along(linear) }
     }

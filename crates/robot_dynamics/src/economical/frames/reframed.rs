@@ -4,6 +4,7 @@ use crate::economical::frames::chain::Limits;
 use crate::economical::frames::working::{WorkingFrame, axes_about, between, normal_with_parent};
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
+use robot_model::robot::JointKind;
 
 /// A mechanism with other link frames than the file's and the same motions.
 #[derive(Clone, Debug)]
@@ -26,7 +27,10 @@ impl<'g> Reframed<'g> {
         let mut frames: Vec<WorkingFrame<'g>> = vec![];
         for link in &mechanism.links {
             let axes = axes_about(link.axis)?;
-            let parent = link.parent.map(|parent| &frames[parent]).filter(|_| link.is_revolute());
+            let parent = match link.kind {
+                JointKind::Revolute => link.parent.map(|parent| &frames[parent]),
+                JointKind::Prismatic => None,
+            };
             let along = parent.and_then(|parent| {
                 normal_with_parent(link, axes, parent.axes, parent.origin, farthest)
             });

@@ -1,5 +1,6 @@
 //! Working frames: z along the joint axis, origin and turn as the plan says.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::plan::{LinkPlan, Origin, Turn};
@@ -130,13 +131,23 @@ pub(crate) fn place<'g>(
             frame.axes = frame.axes * Matrix::rotation(z, sine, cosine);
         }
         let previous = link.parent.map(|parent| (&file[parent], &placed[parent]));
-        let offset = if link.is_revolute() {
-            let along =
-                origin_along(plan.origin, link, &file[index], next, previous, &regrouped[index]);
-            let is_near = |t: &Expr<'g>| t.as_number().is_none_or(|t| t.to_f64().abs() <= farthest);
-            along.filter(is_near).map(|t| file[index].axes.column(2) * t)
-        } else {
-            free_origin(plan.origin, link, previous.map(|(_, placed)| placed))
+        let offset = match link.kind {
+            JointKind::Revolute => {
+                let along = origin_along(
+                    plan.origin,
+                    link,
+                    &file[index],
+                    next,
+                    previous,
+                    &regrouped[index],
+                );
+                let is_near =
+                    |t: &Expr<'g>| t.as_number().is_none_or(|t| t.to_f64().abs() <= farthest);
+                along.filter(is_near).map(|t| file[index].axes.column(2) * t)
+            }
+            JointKind::Prismatic => {
+                free_origin(plan.origin, link, previous.map(|(_, placed)| placed))
+            }
         };
         frame.origin = offset.unwrap_or(frame.origin);
         placed.push(frame);
@@ -228,7 +239,10 @@ impl<'g> Axis<'g> {
         Axis {
             direction: back * (link.rotation * own.axes.column(2)),
             point: back * link.translation,
-            has_place: link.is_revolute(),
+            has_place: match link.kind {
+                JointKind::Revolute => true,
+                JointKind::Prismatic => false,
+            },
         }
     }
 

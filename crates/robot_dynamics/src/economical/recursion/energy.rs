@@ -1,5 +1,6 @@
 //! Kinetic and potential energy.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::Recursion;
@@ -34,10 +35,13 @@ impl<'g> Recursion<'g> {
                 None => (zero, zero),
             };
             let mut velocity = joint_frame.turn.back(carried);
-            if link.is_revolute() {
-                at_home.0[2] += link.motion.velocity;
-            } else {
-                velocity.0[2] += link.motion.velocity;
+            match link.kind {
+                JointKind::Revolute => {
+                    at_home.0[2] += link.motion.velocity;
+                }
+                JointKind::Prismatic => {
+                    velocity.0[2] += link.motion.velocity;
+                }
             }
             let omega = joint_frame.group_turn.back(at_home);
             home.push(at_home);

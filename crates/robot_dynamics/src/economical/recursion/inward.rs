@@ -3,6 +3,7 @@
 //! Regrouping moves inertia between links, so that the forces between links here are not those of
 //! the robot: only their projections on the joint axes are.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::frames::chain::{Chain, ChainLink};
@@ -42,11 +43,12 @@ pub(crate) fn inward<'g>(
         let (force, moment) = own_wrench(chain, index, state, &plans[index]);
         forces[index] = force + forces[index];
         moments[index] = moment + moments[index];
-        let torque = if link.is_revolute() {
-            moments[index].0[2] + link.reflected_inertia * state.rate
-        } else {
-            let reflected = link.reflected_inertia * chain.unit * state.rate;
-            forces[index].0[2] / chain.unit + reflected
+        let torque = match link.kind {
+            JointKind::Revolute => moments[index].0[2] + link.reflected_inertia * state.rate,
+            JointKind::Prismatic => {
+                let reflected = link.reflected_inertia * chain.unit * state.rate;
+                forces[index].0[2] / chain.unit + reflected
+            }
         };
         let (rotor_torque, rotor_moment) = rotor(chain, link, states, state.rate);
         torques[link.coordinate] += (torque + rotor_torque) * link.ratio;

@@ -1,5 +1,6 @@
 //! Poses, Jacobians and velocity-product accelerations in base axes.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::Recursion;
@@ -101,9 +102,9 @@ impl<'g> Recursion<'g> {
         while let Some(index) = next {
             let link = &self.chain.links[index];
             let axis = axes[index].column(2);
-            let (linear, angular) = match link.is_revolute() {
-                true => (axis.cross(arm) * self.chain.unit, axis),
-                false => (axis, Vector::zero(self.chain.graph)),
+            let (linear, angular) = match link.kind {
+                JointKind::Revolute => (axis.cross(arm) * self.chain.unit, axis),
+                JointKind::Prismatic => (axis, Vector::zero(self.chain.graph)),
             };
             for (row, entry) in linear.0.into_iter().chain(angular.0).enumerate() {
                 rows[row][link.coordinate] += entry * link.ratio;

@@ -4,6 +4,7 @@
 //! point fixed to the link at r from its origin is a + U r, U = \[ε\]× + \[ω\]×². All in the link's
 //! working frame, z along its joint axis.
 
+use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::frames::chain::{Chain, ChainLink};
@@ -81,10 +82,9 @@ pub(crate) fn outward<'g>(
         };
         let carried = carried_acceleration(chain, index, joint_frame, parent);
         let next = chain.children(index).next().map(|child| (child, joint_frames[child].origin));
-        states.push(if link.is_revolute() {
-            turning.rotating(link, joint_frame, carried, free, next)
-        } else {
-            turning.translating(link, joint_frame, carried, free)
+        states.push(match link.kind {
+            JointKind::Revolute => turning.rotating(link, joint_frame, carried, free, next),
+            JointKind::Prismatic => turning.translating(link, joint_frame, carried, free),
         });
     }
     states
@@ -145,7 +145,10 @@ impl<'g> Turning<'g> {
         plan: &LinkPlan,
     ) -> Turning<'g> {
         let zero = link.ratio.graph().zero();
-        let speed = if link.is_revolute() { link.motion.velocity } else { zero };
+        let speed = match link.kind {
+            JointKind::Revolute => link.motion.velocity,
+            JointKind::Prismatic => zero,
+        };
         // About the common axis, rates add up along the group.
         let (omega_z, epsilon_z) = match before {
             Some(state) => (state.angular_velocity.0[2], state.angular_acceleration.0[2]),

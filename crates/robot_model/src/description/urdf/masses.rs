@@ -183,8 +183,9 @@ fn alone_acts(of_mass: &Span, moment: f64) -> Diagnostic {
 /// The joint axis of a link, in its frame, if the base carries it and it is along gravity.
 fn vertical_axis(draft: &Draft, index: usize) -> Option<Vector> {
     let link = draft.links.get(index)?;
-    if link.joint.kind != Some(JointKind::Revolute) {
-        return None;
+    match link.joint.kind {
+        Some(JointKind::Revolute) => {}
+        Some(JointKind::Prismatic) | None => return None,
     }
     let mut rotation = rotation(&link.before);
     let mut below: &DraftLink = link;

@@ -9,12 +9,12 @@ use robot_dynamics::economical::Plan;
 use robot_model::functions::Bundle;
 use robot_model::robot::BaseFrames;
 
-use crate::door::cargo::{self, Directives};
-use crate::door::paths::{RobotFile, robot_files};
-use crate::door::pin::{pin_path, robot_inputs};
 use crate::driver::generate::{Generated, generate};
 use crate::driver::options::{Options, functions_named, kinds_named};
 use crate::driver::programs::read_with;
+use crate::entry::cargo::{self, Directives};
+use crate::entry::paths::{RobotFile, robot_files};
+use crate::entry::pin::{pin_path, robot_inputs};
 use crate::error::{Error, Errors};
 use output::Module;
 

@@ -1,6 +1,6 @@
 //! The accuracy of inverse dynamics in `f32`: plain code and lanes against `f64`, for every robot.
 //!
-//! `cargo test -p robots --test doors single -- --nocapture` prints the table of
+//! `cargo test -p robots --test entry_points single -- --nocapture` prints the table of
 //! docs/performance.md.
 
 use std::fmt::Write as _;

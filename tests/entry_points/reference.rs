@@ -10,7 +10,7 @@ pub(crate) const Q: [f64; 5] = [0.1, -0.7, 0.2, 0.3, 1.1];
 pub(crate) const QD: [f64; 5] = [0.4, 1.2, -0.3, 0.6, -0.9];
 pub(crate) const QDD: [f64; 5] = [-1.0, 0.5, 0.8, -0.2, 2.0];
 
-/// The file with another mass of element 5.
+/// The file with another mass of link 5.
 pub(crate) fn edited() -> String {
     changed("M5 = { value = 3.2,", "M5 = { value = 4.7,")
 }

@@ -14,7 +14,7 @@ impl Package {
     /// The packages share a target folder, which keeps their dependencies between runs, and the
     /// versions of this workspace's lock file, so that nothing is downloaded.
     pub(crate) fn new(name: &str, tables: &str) -> Package {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("doors").join(name);
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("entry-points").join(name);
         let _ = std::fs::remove_dir_all(&folder);
         let package = Package { folder };
         let head = format!(
@@ -47,7 +47,7 @@ impl Package {
                 command.env_remove(&variable);
             }
         }
-        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("doors-target");
+        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("entry-points-target");
         command.env("CARGO_TARGET_DIR", target).env("RUSTFLAGS", flags).output().unwrap()
     }
 

@@ -1,4 +1,4 @@
-//! The layout of a program as text: which values have names, in what blocks.
+//! The statements of a program as text: which values have names, and where long programs are cut into blocks and functions.
 //!
 //! A backend prints each named value as a statement and every other value inside the one expression
 //! that uses it. Compilers do not take thousands of statements in one block well, so statements are grouped
@@ -42,18 +42,18 @@ pub struct Part {
     pub entering: Vec<Value>,
 }
 
-/// The layout of a program.
+/// The statements of a program, in blocks and parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layout {
+pub struct Statements {
     /// The parts in order; one but for very long programs. A program without statements has none.
     pub parts: Vec<Part>,
     named: Vec<bool>,
 }
 
-impl Layout {
-    /// Lays out a program.
+impl Statements {
+    /// Names the values of a program and groups its statements.
     #[must_use]
-    pub fn new(program: &Program, limits: &Limits) -> Layout {
+    pub fn new(program: &Program, limits: &Limits) -> Statements {
         let named = name_values(program, limits.expression.max(1));
         let statements: Vec<Value> =
             program.values().map(|(value, _)| value).filter(|value| named[value.index()]).collect();
@@ -68,7 +68,7 @@ impl Layout {
             leaving: part.leaving,
             entering: part.entering,
         });
-        Layout { parts: parts.collect(), named }
+        Statements { parts: parts.collect(), named }
     }
 
     /// Whether a value is a statement of its own; others print inside the expression that uses them.
@@ -79,7 +79,7 @@ impl Layout {
 
     /// The number of statements.
     #[must_use]
-    pub fn statements(&self) -> usize {
+    pub fn count(&self) -> usize {
         let blocks = self.parts.iter().flat_map(|part| &part.blocks);
         blocks.map(|block| block.statements.len()).sum()
     }

@@ -1,7 +1,7 @@
 //! Every function of every robot as compiled code: `f64` against the numeric solver, `f32` and lanes
 //! of `f64` and `f32` against `f64`.
 //!
-//! `cargo test -p robots --test doors kinds -- --nocapture` prints the worst errors.
+//! `cargo test -p robots --test entry_points kinds -- --nocapture` prints the worst errors.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -8,9 +8,9 @@ use robot_dynamics::economical::pin::Pin;
 use robot_dynamics::economical::search::Found;
 use robot_model::robot::Robot;
 
-use crate::door::files::MARKER;
-use crate::door::paths::RobotFile;
 use crate::driver::options::Options;
+use crate::entry::files::MARKER;
+use crate::entry::paths::RobotFile;
 use crate::error::{Error, Errors};
 
 /// Pins are a few kilobytes; anything larger is rejected.

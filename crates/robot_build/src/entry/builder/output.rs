@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::door::files::{Output, Ownership, Writer};
 use crate::driver::generate::{Generated, unnamed_header};
+use crate::entry::files::{Output, Ownership, Writer};
 use crate::error::{Error, Errors};
 
 /// The name of the index of several robots.
