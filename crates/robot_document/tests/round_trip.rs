@@ -198,6 +198,7 @@ fn every_style_reads_back() {
         for trigonometry in [Trigonometry::Short, Trigonometry::Paper] {
             for angle_sums in [AngleSums::Expand, AngleSums::Keep] {
                 for form in Form::ALL {
+                    let angle_sums = Some(angle_sums);
                     let options = EquationOptions { trigonometry, angle_sums, ..in_form(form) };
                     check(robot, &EquationOptions { christoffel: true, ..options }, &[8.2]);
                 }
