@@ -29,6 +29,9 @@ pub(crate) struct EquationArguments {
     /// brackets
     #[arg(long)]
     expand: bool,
+    /// In the grouped form, write every coefficient out, instead of some as multiples of earlier ones
+    #[arg(long)]
+    no_references: bool,
     /// In the grouped form, print Christoffel symbols instead of Coriolis and centrifugal coefficients
     #[arg(long)]
     christoffel: bool,
@@ -101,6 +104,12 @@ impl EquationArguments {
                     .to_owned(),
             );
         }
+        if self.no_references && !forms.contains(&Form::Grouped) {
+            wrong.push(
+                "--no-references has no effect in this form; add --form grouped, or leave it out"
+                    .to_owned(),
+            );
+        }
         let has_coefficients = |form: &Form| matches!(form, Form::Grouped | Form::Regrouped);
         if self.expand && !forms.iter().any(has_coefficients) {
             wrong.push(
@@ -144,6 +153,7 @@ impl EquationArguments {
                 AngleSumStyle::Keep => AngleSums::Keep,
             }),
             expand: self.expand,
+            references: !self.no_references,
             christoffel: self.christoffel,
         })
     }

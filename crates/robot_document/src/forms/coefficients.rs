@@ -6,7 +6,7 @@ use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
-use super::{Equation, Group, Writer, generalized_force, shapes};
+use super::{Equation, Group, Writer, generalized_force, references, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -45,8 +45,13 @@ impl<'g> Coefficient<'g> {
 pub(super) enum Shown<'g> {
     /// Not at all: what is 0 only once it is expanded is left out as well.
     Zero,
-    /// By its terms.
-    Short(Vec<ArrangedTerm<'g>>),
+    /// By terms that are equal to its value.
+    Short {
+        /// The value.
+        value: Polynomial<'g>,
+        /// The terms.
+        terms: Vec<ArrangedTerm<'g>>,
+    },
     /// By names of parts.
     Long,
 }
@@ -55,11 +60,11 @@ pub(super) enum Shown<'g> {
 pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<Vec<Shown<'g>>> {
     let coefficient =
         |coefficient: &Coefficient<'g>| match Polynomial::of(coefficient.value, &LIMITS) {
-            Ok(polynomial) if polynomial.is_zero() => Shown::Zero,
-            Ok(polynomial) if polynomial.len() <= MAX_TERMS => {
-                let terms = writer.collected(&polynomial);
+            Ok(value) if value.is_zero() => Shown::Zero,
+            Ok(value) if value.len() <= MAX_TERMS => {
+                let terms = writer.collected(&value);
                 match length(&terms) <= MAX_LENGTH {
-                    true => Shown::Short(terms),
+                    true => Shown::Short { value, terms },
                     false => Shown::Long,
                 }
             }
@@ -75,17 +80,20 @@ pub(super) fn by_name<'g>(
     title: &str,
     introduction: String,
     sections: &[Section<'g>],
-    shown: &[Vec<Shown<'g>>],
+    mut shown: Vec<Vec<Shown<'g>>>,
     sums: Vec<Sum<'g>>,
 ) -> Result<Vec<Group>, Error> {
-    let zeros = define_all(writer, sections, shown)?;
+    if writer.options.references {
+        references::refer(writer, sections, &mut shown);
+    }
+    let zeros = define_all(writer, sections, &shown)?;
     let mut groups = vec![Group {
         title: title.to_owned(),
         introduction,
         definitions: false,
         equations: generalized_forces(writer, sums, &zeros)?,
     }];
-    groups.extend(definitions_of(writer, sections, shown)?);
+    groups.extend(definitions_of(writer, sections, &shown)?);
     Ok(groups)
 }
 
@@ -157,7 +165,7 @@ pub(super) fn definitions_of<'g>(
             let (name, left) = (coefficient.name.clone(), coefficient.shape.clone());
             equations.push(match shown {
                 Shown::Zero => continue,
-                Shown::Short(terms) => writer.of_terms(name, left, terms)?,
+                Shown::Short { terms, .. } => writer.of_terms(name, left, terms)?,
                 Shown::Long if section.by_symbols => {
                     writer.of_expression(name, left, coefficient.value)?
                 }

@@ -33,7 +33,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     sections.extend(frictions(writer, "Friction", whole, &mut sums));
     let introduction = introduction(writer);
     let shown = shown(writer, &sections);
-    by_name(writer, "Equations of motion, grouped", introduction, &sections, &shown, sums)
+    by_name(writer, "Equations of motion, grouped", introduction, &sections, shown, sums)
 }
 
 fn introduction(writer: &Writer<'_, '_>) -> String {

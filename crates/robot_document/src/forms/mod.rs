@@ -9,6 +9,7 @@ mod loads;
 mod naming;
 mod parts;
 mod recursive;
+mod references;
 mod regrouped;
 mod shapes;
 
@@ -19,8 +20,9 @@ use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_model::snap;
+use robot_model::variable::JointVariable;
 use robot_symbolic::collected::{Collector, ParallelAngles};
-use robot_symbolic::print::{ArrangedTerm, arranged_text};
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
 use crate::error::Error;
@@ -91,6 +93,9 @@ pub struct EquationOptions {
     /// Whether the coefficients of the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out rather
     /// than collected.
     pub expand: bool,
+    /// Whether a coefficient of the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a rest, if
+    /// that is at most two thirds as long.
+    pub references: bool,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
 }
@@ -106,6 +111,7 @@ impl Default for EquationOptions {
             trigonometry: Trigonometry::Named,
             angle_sums: None,
             expand: false,
+            references: true,
             christoffel: false,
         }
     }
@@ -176,6 +182,10 @@ impl Equations {
 
 /// Equations of more expressions than this are not derived to the end: those of arms have some thousands.
 pub(crate) const MAX_NODES: usize = 300_000;
+
+/// Sums of more terms are collected by their coefficients of accelerations and velocities: the whole of the joint
+/// torque of a 6-joint arm has thousands.
+const MAX_WHOLE: usize = 200;
 
 /// The equations of a robot.
 ///
@@ -312,10 +322,39 @@ impl<'g> Writer<'_, 'g> {
         match self.options.form {
             Form::Collected => {
                 let parts = value.split_by(|factors| parts::of(factors, &self.order, self.graph));
-                parts.values().flat_map(collect).collect()
+                let part = |part: &Polynomial<'g>| match part.len() <= MAX_WHOLE {
+                    true => collect(part),
+                    false => self.by_rates(part, collect),
+                };
+                parts.values().flat_map(part).collect()
             }
             _ => collect(value),
         }
+    }
+
+    /// A long sum by its coefficients of accelerations and of products of velocities, each collected.
+    fn by_rates(
+        &self,
+        value: &Polynomial<'g>,
+        collect: impl Fn(&Polynomial<'g>) -> Vec<ArrangedTerm<'g>>,
+    ) -> Vec<ArrangedTerm<'g>> {
+        let rates = [JointVariable::Acceleration, JointVariable::Velocity];
+        let symbols: Vec<String> =
+            rates.iter().flat_map(|variable| self.robot.symbols(*variable)).collect();
+        let names: Vec<&str> = symbols.iter().map(String::as_str).collect();
+        let groups = value.collect(&names);
+        let terms = groups.iter().flat_map(|(monomial, coefficient)| {
+            let factors = monomial.factors().iter();
+            let rates = factors.map(|factor| {
+                (ArrangedFactor::Atom(self.graph.expr(factor.atom())), factor.exponent())
+            });
+            let rates: Vec<_> = rates.collect();
+            match rates.is_empty() {
+                true => collect(coefficient),
+                false => vec![ArrangedTerm::product(&collect(coefficient), rates)],
+            }
+        });
+        terms.collect()
     }
 
     /// An equation whose right side is a sum of terms.

@@ -42,7 +42,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let lengths: Option<Vec<usize>> = shown.first().into_iter().flatten().map(length_of).collect();
     groups.extend(match lengths.filter(|lengths| lengths.iter().sum::<usize>() <= MAX_LENGTH) {
         Some(_) => inline(writer, introduction, &sections, &shown, sums)?,
-        None => by_name(writer, TITLE, introduction, &sections, &shown, sums)?,
+        None => by_name(writer, TITLE, introduction, &sections, shown, sums)?,
     });
     Ok(groups)
 }
@@ -51,7 +51,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
 fn length_of(shown: &Shown<'_>) -> Option<usize> {
     match shown {
         Shown::Zero => Some(0),
-        Shown::Short(terms) => Some(length(terms)),
+        Shown::Short { terms, .. } => Some(length(terms)),
         Shown::Long => None,
     }
 }
@@ -256,7 +256,9 @@ fn inline<'g>(
             let known = own.coefficients.iter().zip(own_shown);
             match known.filter(|(one, _)| one.name == name).map(|(_, value)| value).next() {
                 Some(Shown::Zero) => {}
-                Some(Shown::Short(value)) => terms.push(product(writer, parameter, value)),
+                Some(Shown::Short { terms: own, .. }) => {
+                    terms.push(product(writer, parameter, own))
+                }
                 Some(Shown::Long) | None => {
                     terms.push(product(writer, writer.graph.symbol(&name), &[unit()]));
                 }
@@ -294,11 +296,7 @@ fn product<'g>(
         product.factors.insert(place, factor);
         return product;
     }
-    let negative = coefficient.first().is_some_and(|first| first.negative);
-    let signed = |term: &ArrangedTerm<'g>| ArrangedTerm {
-        negative: term.negative != negative,
-        ..term.clone()
-    };
-    let sum = ArrangedFactor::Sum(coefficient.iter().map(signed).collect());
-    ArrangedTerm { negative, factors: vec![factor, (sum, 1)], ..unit() }
+    let mut product = ArrangedTerm::product(coefficient, vec![]);
+    product.factors.insert(0, factor);
+    product
 }

@@ -31,6 +31,26 @@ pub enum ArrangedFactor<'g> {
     Sum(Vec<ArrangedTerm<'g>>),
 }
 
+impl<'g> ArrangedTerm<'g> {
+    /// A sum of terms times further factors, which stand after it: one term, with a sum of several in
+    /// brackets that do not begin with a minus sign.
+    #[must_use]
+    pub fn product(sum: &[ArrangedTerm<'g>], factors: Vec<(ArrangedFactor<'g>, i32)>) -> Self {
+        if let [single] = sum {
+            let own = single.factors.iter().cloned();
+            return ArrangedTerm { factors: own.chain(factors).collect(), ..single.clone() };
+        }
+        let negative = sum.first().is_some_and(|first| first.negative);
+        let signed = |term: &ArrangedTerm<'g>| ArrangedTerm {
+            negative: term.negative != negative,
+            ..term.clone()
+        };
+        let sum = ArrangedFactor::Sum(sum.iter().map(signed).collect());
+        let factors = std::iter::once((sum, 1)).chain(factors).collect();
+        ArrangedTerm { negative, coefficient: Number::integer(1), factors }
+    }
+}
+
 impl<'g> ArrangedFactor<'g> {
     /// The atom, if the factor is one; those of [`Polynomial::arranged`] all are.
     #[must_use]

@@ -1,0 +1,111 @@
+//! Coefficients by earlier ones: b₁₂₂ = ½ b₁₁₂.
+
+use robot_symbolic::collected::length;
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
+use robot_symbolic::{Monomial, Number, Polynomial, Rational};
+use rustc_hash::FxHashMap;
+
+use super::Writer;
+use super::coefficients::{Section, Shown};
+
+/// The factors of an earlier coefficient, as numerator and denominator.
+const FACTORS: [(i64, i64); 6] = [(1, 1), (-1, 1), (2, 1), (-2, 1), (1, 2), (-1, 2)];
+
+/// The most names that a reader follows from a coefficient to one that is written out.
+const MAX_DEPTH: usize = 2;
+
+/// The differences from earlier coefficients that are written out to find the shortest.
+const MAX_TRIED: usize = 3;
+
+/// A coefficient that others may be written by.
+struct Earlier<'g> {
+    name: String,
+    value: Polynomial<'g>,
+    numbers: FxHashMap<Monomial, Number>,
+    depth: usize,
+}
+
+/// A way to write a coefficient: the place of the earlier one, its factor, and the number of terms that are left.
+struct Way {
+    place: usize,
+    factor: Rational,
+    left: usize,
+}
+
+/// Writes a coefficient as a multiple of an earlier one of its section, plus a rest, if that is at most two thirds as
+/// long.
+pub(super) fn refer<'g>(
+    writer: &Writer<'_, 'g>,
+    sections: &[Section<'g>],
+    shown: &mut [Vec<Shown<'g>>],
+) {
+    for (section, shown) in sections.iter().zip(shown) {
+        if section.by_symbols {
+            continue;
+        }
+        let mut earlier: Vec<Earlier<'g>> = vec![];
+        for (coefficient, shown) in section.coefficients.iter().zip(shown) {
+            let Shown::Short { value, terms } = shown else { continue };
+            let mut depth = 0;
+            if let Some((by_earlier, below)) = shortest(writer, value, &earlier)
+                && 3 * length(&by_earlier) <= 2 * length(terms)
+            {
+                (*terms, depth) = (by_earlier, below + 1);
+            }
+            if depth < MAX_DEPTH {
+                let numbers =
+                    value.terms().map(|(monomial, number)| (monomial.clone(), number.clone()));
+                let numbers = numbers.collect();
+                let (name, value) = (coefficient.name.clone(), value.clone());
+                earlier.push(Earlier { name, value, numbers, depth });
+            }
+        }
+    }
+}
+
+/// The shortest way to write a value by an earlier one, and the depth of that.
+fn shortest<'g>(
+    writer: &Writer<'_, 'g>,
+    value: &Polynomial<'g>,
+    earlier: &[Earlier<'g>],
+) -> Option<(Vec<ArrangedTerm<'g>>, usize)> {
+    let mut ways: Vec<Way> = earlier
+        .iter()
+        .enumerate()
+        .filter_map(|(place, earlier)| best_way(place, value, earlier))
+        .collect();
+    ways.sort_by_key(|way| way.left);
+    let written = ways.into_iter().take(MAX_TRIED).filter_map(|way| {
+        let earlier = earlier.get(way.place)?;
+        let factor = Number::from(way.factor);
+        let rest = value.sub(&earlier.value.scale(&factor)).ok()?;
+        let mut terms = vec![ArrangedTerm {
+            negative: factor.is_negative(),
+            coefficient: if factor.is_negative() { -&factor } else { factor },
+            factors: vec![(ArrangedFactor::Atom(writer.graph.symbol(&earlier.name)), 1)],
+        }];
+        if !rest.is_zero() {
+            terms.extend(writer.collected(&rest));
+        }
+        Some((terms, earlier.depth))
+    });
+    written.min_by_key(|(terms, _)| length(terms))
+}
+
+/// The factor that leaves the fewest terms, fewer than the value has.
+fn best_way<'g>(place: usize, value: &Polynomial<'g>, earlier: &Earlier<'g>) -> Option<Way> {
+    let (mut common, mut matched) = (0, [0; FACTORS.len()]);
+    let factors: Vec<Rational> =
+        FACTORS.iter().filter_map(|(above, below)| Rational::new(*above, *below)).collect();
+    for (monomial, number) in value.terms() {
+        let Some(other) = earlier.numbers.get(monomial) else { continue };
+        common += 1;
+        for (factor, matched) in factors.iter().zip(&mut matched) {
+            *matched += usize::from(*number == other * &Number::from(factor.clone()));
+        }
+    }
+    let most = matched.iter().max()?;
+    let factor = factors.get(matched.iter().position(|count| count == most)?)?.clone();
+    let left = value.len() + earlier.value.len() - common - most;
+    (left < value.len()).then_some(Way { place, factor, left })
+}
