@@ -2,6 +2,7 @@
 //! equations from elsewhere.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
+mod collected;
 mod conformance;
 mod drives;
 mod identification;

@@ -14,6 +14,9 @@ const FACTORS: [(i64, i64); 6] = [(1, 1), (-1, 1), (2, 1), (-2, 1), (1, 2), (-1,
 /// The most names that a reader follows from a coefficient to one that is written out.
 const MAX_DEPTH: usize = 2;
 
+/// The printed symbols of the shortest coefficient that is written by another one.
+const MIN_LENGTH: usize = 3;
+
 /// The differences from earlier coefficients that are written out to find the shortest.
 const MAX_TRIED: usize = 3;
 
@@ -47,7 +50,8 @@ pub(super) fn refer<'g>(
         for (coefficient, shown) in section.coefficients.iter().zip(shown) {
             let Shown::Short { value, terms } = shown else { continue };
             let mut depth = 0;
-            if let Some((by_earlier, below)) = shortest(writer, value, &earlier)
+            if length(terms) >= MIN_LENGTH
+                && let Some((by_earlier, below)) = shortest(writer, value, &earlier)
                 && 3 * length(&by_earlier) <= 2 * length(terms)
             {
                 (*terms, depth) = (by_earlier, below + 1);

@@ -17,6 +17,9 @@ const MAX_KERNELS: usize = 48;
 /// Integers up to this may be made as coefficients though no term has them.
 const MAX_INTEGER: i64 = 16;
 
+/// Longer sums are not squared: their brackets could not be broken over lines.
+const MAX_SQUARED: usize = 8;
+
 /// A way to write a sum f as K Q + R.
 #[derive(Debug)]
 pub(super) struct Candidate {
@@ -265,6 +268,7 @@ impl<'t> Seeker<'t> {
             }
             let sum = Terms::sum(sum);
             if sum.len() > 1
+                && sum.length() <= MAX_SQUARED
                 && let Some(used) = self.places_of_square(&sum)
             {
                 found.push(self.candidate(sum.clone(), sum, used));

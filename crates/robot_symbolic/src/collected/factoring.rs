@@ -12,7 +12,10 @@ use crate::rational::Rational;
 /// The ways that are followed at each depth; one beyond.
 const WIDTHS: [usize; 3] = [4, 3, 2];
 
-/// Brackets within brackets: sums deeper than this stay as they are.
+/// Brackets within brackets within brackets, and no deeper.
+const MAX_BRACKETS: usize = 3;
+
+/// Sums of sums of sums: beyond this depth they stay as they are.
 const MAX_DEPTH: usize = 16;
 
 /// The work, in squares of numbers of terms, after which only the best way is followed.
@@ -191,11 +194,20 @@ impl Formula {
     }
 }
 
+/// Where a sum stands.
+#[derive(Clone, Copy)]
+struct Place {
+    /// The sums that it is a part of.
+    depth: usize,
+    /// The brackets that may be put into it within each other.
+    brackets: usize,
+}
+
 /// The short forms of the parts of one sum.
 pub(super) struct Factoring {
     /// The absolute values of its coefficients: other numbers are not made.
     figures: FxHashSet<Rational>,
-    known: FxHashMap<Terms, Rc<Formula>>,
+    known: FxHashMap<(Terms, usize), Rc<Formula>>,
     work: usize,
     /// The number of variables that stand before brackets.
     early: usize,
@@ -209,44 +221,44 @@ impl Factoring {
 
     /// The shortest form that is found.
     pub(super) fn formula(&mut self, terms: &Terms) -> Formula {
-        (*self.best(terms, 0)).clone()
+        (*self.best(terms, Place { depth: 0, brackets: MAX_BRACKETS })).clone()
     }
 
-    fn best(&mut self, terms: &Terms, depth: usize) -> Rc<Formula> {
-        if terms.len() < 2 || depth > MAX_DEPTH {
+    fn best(&mut self, terms: &Terms, place: Place) -> Rc<Formula> {
+        if terms.len() < 2 || place.depth > MAX_DEPTH || place.brackets == 0 {
             return Rc::new(Formula::flat(terms));
         }
-        if let Some(known) = self.known.get(terms) {
+        if let Some(known) = self.known.get(&(terms.clone(), place.brackets)) {
             return Rc::clone(known);
         }
         let content = common_factor(terms);
         let formula = match &content {
             (powers, number) if powers.is_one() && number.is_one() => {
-                self.without_content(terms, depth)
+                self.without_content(terms, place)
             }
             (powers, number) => {
                 let inner = divided(terms, &content);
                 let factor = Terms::single(powers.clone(), number.clone());
-                Formula { products: self.product(&[&factor, &inner], depth).opened(self.early) }
+                Formula { products: self.product(&[&factor, &inner], place).opened(self.early) }
             }
         };
         let formula = Rc::new(formula);
-        self.known.insert(terms.clone(), Rc::clone(&formula));
+        self.known.insert((terms.clone(), place.brackets), Rc::clone(&formula));
         formula
     }
 
     /// The best form of terms that have no common factor.
-    fn without_content(&mut self, terms: &Terms, depth: usize) -> Formula {
+    fn without_content(&mut self, terms: &Terms, place: Place) -> Formula {
         self.work += terms.len() * terms.len();
         let width = match self.work > MAX_WORK {
             true => 1,
-            false => WIDTHS.get(depth).copied().unwrap_or(1),
+            false => WIDTHS.get(place.depth).copied().unwrap_or(1),
         };
         let mut best = Formula::flat(terms);
-        let mut least = best.measure(self.early, depth > 0);
+        let mut least = best.measure(self.early, place.depth > 0);
         for candidate in candidates(terms, &self.figures).into_iter().take(width) {
-            let formula = self.of_candidate(&candidate, depth);
-            let measure = formula.measure(self.early, depth > 0);
+            let formula = self.of_candidate(&candidate, place);
+            let measure = formula.measure(self.early, place.depth > 0);
             if measure < least {
                 (best, least) = (formula, measure);
             }
@@ -254,19 +266,22 @@ impl Factoring {
         best
     }
 
-    fn of_candidate(&mut self, candidate: &Candidate, depth: usize) -> Formula {
+    fn of_candidate(&mut self, candidate: &Candidate, place: Place) -> Formula {
         let Candidate { factor, quotient, rest, .. } = candidate;
-        let product = self.product(&[factor, quotient], depth);
+        let product = self.product(&[factor, quotient], place);
         let mut products = vec![product];
-        products.extend(self.best(rest, depth + 1).products.iter().cloned());
+        products.extend(
+            self.best(rest, Place { depth: place.depth + 1, ..place }).products.iter().cloned(),
+        );
         Formula::sorted(products, |_| false)
     }
 
     /// The product of sums, each in its best form, with the sign that has fewer minus signs.
-    fn product(&mut self, factors: &[&Terms], depth: usize) -> Product {
+    fn product(&mut self, factors: &[&Terms], place: Place) -> Product {
         let mut product = Product::single(Powers::default(), Rational::ONE);
+        let within = Place { depth: place.depth + 1, brackets: place.brackets.saturating_sub(1) };
         for factor in factors {
-            let formula = self.best(factor, depth + 1);
+            let formula = self.best(factor, within);
             if let [single] = formula.products.as_slice() {
                 product.times(single);
                 continue;

@@ -1,0 +1,264 @@
+//! Equations as people write them: those of the textbooks, as short as they can be, and equal to what was derived.
+
+use std::collections::BTreeMap;
+
+use robot_document::{EquationOptions, Form, equations};
+use robot_dynamics::functions::Derivation;
+use robot_dynamics::mechanism::MechanismOptions;
+use robot_model::functions::{Effects, FunctionKind};
+use robot_model::robot::{Move, Robot};
+use robot_numeric::robots::{self, Random, Recipe};
+use robot_symbolic::polynomial::equal;
+use robot_symbolic::{AngleSums, Expr, Graph};
+
+const OPTIONS: EquationOptions = EquationOptions {
+    form: Form::Grouped,
+    kinds: vec![],
+    friction: false,
+    snap: None,
+    trigonometry: robot_document::Trigonometry::Named,
+    angle_sums: None,
+    expand: false,
+    references: false,
+    christoffel: false,
+};
+
+/// Definitions and quantities of a robot by name.
+fn printed(robot: &Robot, options: &EquationOptions) -> BTreeMap<String, String> {
+    let kinds = EquationOptions::default().kinds;
+    let printed = equations(robot, &EquationOptions { kinds, ..options.clone() }).unwrap();
+    let all = printed.definitions().chain(printed.quantities());
+    all.map(|equation| (equation.name.clone(), equation.text.clone())).collect()
+}
+
+fn fixture(name: &str) -> Robot {
+    let path = format!("{}/tests/fixtures/textbook/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    robot_testing::read(name, &std::fs::read_to_string(path).unwrap())
+}
+
+fn assert_prints(robot: &Robot, expected: &[(&str, &str)]) {
+    let found = printed(robot, &OPTIONS);
+    for (name, expected) in expected {
+        assert_eq!(found.get(*name).map(String::as_str), Some(*expected), "{}: {name}", robot.name);
+    }
+    let known =
+        |name: &String| name.starts_with(['Q', 'w']) || expected.iter().any(|one| one.0 == name);
+    let others: Vec<&String> = found.keys().filter(|name| !known(name)).collect();
+    assert!(others.is_empty(), "{}: {others:?}", robot.name);
+}
+
+/// M. W. Spong, S. Hutchinson, M. Vidyasagar, "Robot Modeling and Control", Wiley 2006, section 7.4, with r for the
+/// distances of the centers of mass and the terms link by link.
+#[test]
+fn the_planar_elbow_arm_prints_as_in_the_textbook() {
+    assert_prints(
+        &robot_testing::robot("planar_2r"),
+        &[
+            ("H_1_1", "m1*r1^2 + I1 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) + I2"),
+            ("H_1_2", "m2*r2*(r2 + l1*cos(q2)) + I2"),
+            ("H_2_2", "m2*r2^2 + I2"),
+            ("b_1_1_2", "-2*m2*l1*r2*sin(q2)"),
+            ("b_1_2_2", "-m2*l1*r2*sin(q2)"),
+            ("b_2_1_1", "m2*l1*r2*sin(q2)"),
+            ("g_1", "g*(m1*r1 + m2*l1)*cos(q1) + m2*g*r2*cos(q1 + q2)"),
+            ("g_2", "m2*g*r2*cos(q1 + q2)"),
+        ],
+    );
+}
+
+#[test]
+fn a_revolute_and_a_prismatic_joint_print_as_in_textbooks() {
+    assert_prints(
+        &fixture("rp"),
+        &[
+            ("M_1_1", "m1*r1^2 + m2*q2^2 + I1 + I2"),
+            ("M_2_2", "m2"),
+            ("b_1_1_2", "2*m2*q2"),
+            ("b_2_1_1", "-m2*q2"),
+            ("g_1", "g*(m1*r1 + m2*q2)*cos(q1)"),
+            ("g_2", "m2*g*sin(q1)"),
+        ],
+    );
+}
+
+#[test]
+fn a_scara_prints_as_in_textbooks() {
+    assert_prints(
+        &fixture("scara"),
+        &[
+            (
+                "M_1_1",
+                "m1*r1^2 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) \
+                 + (m3 + m4)*(l1^2 + l2^2 + 2*l1*l2*cos(q2)) + I1 + I2 + I3 + I4",
+            ),
+            ("M_1_2", "m2*r2*(r2 + l1*cos(q2)) + l2*(m3 + m4)*(l2 + l1*cos(q2)) + I2 + I3 + I4"),
+            ("M_1_4", "-I4"),
+            ("M_2_2", "m2*r2^2 + l2^2*(m3 + m4) + I2 + I3 + I4"),
+            ("M_2_4", "-I4"),
+            ("M_3_3", "m3 + m4"),
+            ("M_4_4", "I4"),
+            ("b_1_1_2", "-2*l1*(m2*r2 + l2*(m3 + m4))*sin(q2)"),
+            ("b_1_2_2", "-l1*(m2*r2 + l2*(m3 + m4))*sin(q2)"),
+            ("b_2_1_1", "l1*(m2*r2 + l2*(m3 + m4))*sin(q2)"),
+            ("g_3", "-g*(m3 + m4)"),
+        ],
+    );
+}
+
+/// The mass matrix and the gravity terms; the textbooks have no coefficients of velocities for this arm.
+#[test]
+fn the_first_three_joints_of_a_puma_print_as_in_textbooks() {
+    let found = printed(&fixture("elbow"), &OPTIONS);
+    for (name, expected) in [
+        ("M_1_1", "m2*r2^2*cos(q2)^2 + m3*(a2*cos(q2) + r3*cos(q2 + q3))^2 + I1"),
+        ("M_2_2", "m2*r2^2 + m3*(a2^2 + r3^2 + 2*a2*r3*cos(q3))"),
+        ("M_2_3", "m3*r3*(r3 + a2*cos(q3))"),
+        ("M_3_3", "m3*r3^2"),
+        ("g_2", "g*(m2*r2 + m3*a2)*cos(q2) + m3*r3*g*cos(q2 + q3)"),
+        ("g_3", "m3*r3*g*cos(q2 + q3)"),
+    ] {
+        assert_eq!(found[name], expected, "{name}");
+    }
+}
+
+/// The printed symbols of text: each name, number, sign, exponent and pair of brackets counts one, and so does the sine
+/// or cosine of a sum of joint positions.
+fn length(text: &str) -> usize {
+    let mut count = 0;
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let word = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.'));
+        let word = word.unwrap_or(rest.len());
+        let is_call = matches!(&rest[..word], "sin" | "cos");
+        let taken = match first {
+            _ if is_call => rest.find(')').unwrap() + 1,
+            _ if word > 0 => word,
+            _ => 1,
+        };
+        count += usize::from(word > 0 || matches!(first, '+' | '-' | '('));
+        rest = &rest[taken..];
+    }
+    count
+}
+
+#[test]
+fn a_length_counts_symbols() {
+    for (text, expected) in [
+        ("m2*r2*(r2 + l1*cos(q2)) + I2", 9),
+        ("-2*m2*l1*r2*sin(q2 + q3)^2", 7),
+        ("H_1_2 + 0.5*(a + b)", 7),
+    ] {
+        assert_eq!(length(text), expected, "{text}");
+    }
+}
+
+/// The bounds are those of a search by hand and by program over all entries of the mass matrix, the coefficients of
+/// velocities, gravity and the wrenches, and over whole joint torques, plus a few percent.
+#[test]
+fn equations_are_short() {
+    for (name, bound, by_others, whole) in [
+        ("planar_2r", 86, 82, 100),
+        ("planar_3r", 320, 252, 300),
+        ("scara", 125, 101, 186),
+        ("trttr1", 180, 166, 199),
+        ("puma560", 2070, 1255, 2300),
+    ] {
+        let robot = robot_testing::robot(name);
+        let total = |options: &EquationOptions, is_torque: bool| -> usize {
+            let all = printed(&robot, options).into_iter();
+            all.filter(|(name, _)| name.starts_with('Q') == is_torque)
+                .map(|(_, text)| length(&text))
+                .sum()
+        };
+        let found = [
+            total(&OPTIONS, false),
+            total(&EquationOptions { references: true, ..OPTIONS.clone() }, false),
+            total(&EquationOptions { form: Form::Collected, ..OPTIONS.clone() }, true),
+        ];
+        let bounds = [bound, by_others, whole];
+        assert!(found.iter().zip(&bounds).all(|(a, b)| a <= b), "{name}: {found:?} {bounds:?}");
+    }
+}
+
+/// The joint torques by what is printed, definitions replaced by what they stand for.
+fn torques<'g>(graph: &'g Graph, robot: &Robot, options: &EquationOptions) -> Vec<Expr<'g>> {
+    let kinds = EquationOptions::default().kinds;
+    let printed = equations(robot, &EquationOptions { kinds, ..options.clone() }).unwrap();
+    let mut values: BTreeMap<String, Expr<'g>> = BTreeMap::new();
+    for equation in printed.definitions().chain(printed.quantities()) {
+        let value = graph.parse(&equation.text).unwrap();
+        let value = value.substitute(|name| values.get(name).copied());
+        values.insert(equation.name.clone(), value);
+    }
+    (1..=robot.degrees_of_freedom()).map(|number| values[&format!("Q{number}")]).collect()
+}
+
+/// The robot with each joint from place `first` on parallel to its parent's.
+fn with_parallel_axes(mut robot: Robot, first: usize) -> Robot {
+    for index in first..robot.links.len() {
+        let Some(parent) = robot.links[index].parent else { continue };
+        let axis = robot.links[parent].joint.axis.clone();
+        let link = &mut robot.links[index];
+        link.placement.0.retain(|step| matches!(step, Move::Translate(_)));
+        link.joint.axis = axis;
+    }
+    robot
+}
+
+/// Compares two expressions at three states, relative to the sum of their values there.
+fn assert_equal_at_states(
+    what: &str,
+    graph: &Graph,
+    found: Expr<'_>,
+    derived: Expr<'_>,
+    random: &mut Random,
+) {
+    for _ in 0..3 {
+        let count = graph.symbol_count();
+        let values: Vec<f64> = (0..count).map(|_| random.uniform(0.2, 1.2)).collect();
+        let at = |symbol: robot_symbolic::SymbolId| values[symbol.index()];
+        let (found, derived) = (found.evaluate(at), derived.evaluate(at));
+        let error = (found - derived).abs();
+        assert!(error <= 1e-9 * derived.abs().max(1.0), "{what}: {found} {derived}");
+    }
+}
+
+#[test]
+fn equations_of_a_hundred_random_robots_are_those_derived() {
+    let mut random = Random::new(20_261_123);
+    let mut proved = 0;
+    for number in 0..100 {
+        let joints = 1 + number % 4;
+        let recipe = Recipe { mimic: number % 5 == 4, ..Recipe::tree(joints) };
+        let first = 1 + number % 3;
+        let robot = with_parallel_axes(robots::robot(&mut random, &recipe), first);
+        let robot = if number % 7 == 0 { robots::parameterized(&robot) } else { robot };
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::EXACT, None);
+        let kind = FunctionKind::InverseDynamics(Effects::WRENCH);
+        let derived = derivation.functions(kind).remove(0).outputs.remove(0).values;
+        for (form, angle_sums) in [
+            (Form::Grouped, None),
+            (Form::Grouped, Some(AngleSums::Expand)),
+            (Form::Collected, None),
+            (Form::Expanded, Some(AngleSums::Keep)),
+        ] {
+            // Whole torques of arms with tilted axes would fill pages.
+            if form != Form::Grouped && first > 1 && joints > 1 {
+                continue;
+            }
+            let options = EquationOptions { form, angle_sums, references: true, ..OPTIONS.clone() };
+            let found = torques(&graph, &robot, &options);
+            for (found, derived) in found.iter().zip(&derived) {
+                // Equal terms prove equality; roots in the directions of tilted axes may hide it.
+                if equal(*found, *derived).unwrap() {
+                    proved += 1;
+                } else {
+                    let what = format!("robot {number}, {options:?}");
+                    assert_equal_at_states(&what, &graph, *found, *derived, &mut random);
+                }
+            }
+        }
+    }
+    assert!(proved > 500, "{proved}");
+}
