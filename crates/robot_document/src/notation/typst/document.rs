@@ -2,9 +2,10 @@
 
 use super::{formula, text};
 use crate::breaking::right_side;
-use crate::document::{Block, Document, Inline, NumberedEquation, Table};
+use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
-use crate::latex::{Layout, Page, natural_width};
+use crate::latex::{Layout, Page};
+use crate::notation::tabular::{Part, SIZES, parts};
 use crate::width::width;
 
 /// The number of an equation and its distance from the equation, pt.
@@ -13,8 +14,6 @@ const NUMBER: f64 = 44.0;
 const MARGIN: f64 = 4.0;
 /// Between the columns of a table with the padding of the cells, pt.
 const CELL_GAP: f64 = 7.0;
-/// The smallest type of a table, pt.
-const SMALLEST: f64 = 6.0;
 /// Between two columns, cm.
 const GAP: f64 = 0.6;
 
@@ -61,14 +60,13 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
             Block::Paragraph(inlines) => {
                 typst.push_str(&format!("#par[{}]\n", line(inlines)));
             }
-            Block::List(items) => {
-                for item in items {
-                    typst.push_str(&format!("#par(hanging-indent: 1.2em)[{}]\n", line(item)));
-                }
-            }
             Block::Table(table) => {
                 tables += 1;
                 typst.push_str(&self::table(table, tables, page));
+            }
+            Block::Figure(figure) => {
+                let available = Layout::of_centimeters(page.width).width;
+                typst.push_str(&super::figure::figure(figure, available));
             }
             Block::Equations(list) => {
                 typst.push_str(&equations(list, Layout::of_centimeters(page.width))?);
@@ -99,43 +97,53 @@ fn head(document: &Document, page: Page) -> String {
     )
 }
 
-/// A table in a size that fits a column; one that would be too small becomes a list.
+/// A table that stays where it is, in parts that are never broken.
 fn table(table: &Table, number: usize, page: Page) -> String {
-    let mut typst = format!("#par[*Table {number}\\.* {}]\n", text(&table.caption));
-    let room = Layout::of_centimeters(page.width).width - CELL_GAP * table.head.len() as f64;
-    let size = (10.0 * room / natural_width(table)).min(10.0);
-    if size < SMALLEST {
-        for row in &table.rows {
-            let cells = table.head.iter().zip(row);
-            let cells: Vec<String> = cells.map(|(head, cell)| named_cell(head, cell)).collect();
-            typst.push_str(&format!("#par(hanging-indent: 1.2em)[{}]\n", cells.join("; ")));
-        }
-        return typst;
-    }
-    let cells = |cells: &[Vec<Inline>]| -> String {
-        cells.iter().map(|cell| format!("[{}], ", line(cell))).collect()
+    let available = Layout::of_centimeters(page.width).width;
+    parts(table, available, CELL_GAP).iter().map(|part| self::part(part, number)).collect()
+}
+
+fn part(part: &Part, number: usize) -> String {
+    let caption = match part.is_continued {
+        true => format!("*Table {number}* (continued)"),
+        false => format!("*Table {number}.* {}", text(&part.table.caption)),
     };
-    typst.push_str(&format!(
-        "#[#set text(size: {size:.1}pt)\n#table(columns: {}, stroke: none, inset: (x: 3pt, top: 3pt, bottom: 4pt), table.hline(),\n",
-        table.head.len()
-    ));
-    typst.push_str(&format!("  table.header({}), table.hline(),\n", cells(&table.head)));
-    for row in &table.rows {
-        typst.push_str(&format!("  {}\n", cells(row).trim_end()));
+    let size = 10.0 * SIZES.get(part.size).map_or(1.0, |(_, scale)| *scale);
+    let columns: Vec<String> = part.widths.iter().map(|width| column(*width)).collect();
+    let cells = |cells: &[Cell]| -> String {
+        let cells: Vec<String> = cells.iter().map(|cell| format!("[{}]", line(cell))).collect();
+        cells.join(", ")
+    };
+    let mut typst = format!(
+        "#block(breakable: false)[
+{caption}
+#set text(size: {size:.1}pt)
+#table(
+  columns: ({}),
+  stroke: none,
+  inset: (x: 3pt, top: 3pt, bottom: 4pt),
+  table.hline(),
+  table.header({}),
+  table.hline(),
+",
+        columns.join(", "),
+        cells(&part.table.head)
+    );
+    for row in &part.table.rows {
+        typst.push_str(&format!("  {},\n", cells(row)));
     }
-    typst.push_str("  table.hline())]\n");
+    typst.push_str("  table.hline(),\n)]\n");
     typst
 }
 
-fn named_cell(head: &[Inline], cell: &[Inline]) -> String {
-    if head.iter().all(|inline| *inline == Inline::text("")) {
-        return line(cell);
-    }
-    format!("{}: {}", line(head), line(cell))
+/// The width of a column.
+fn column(width: Option<f64>) -> String {
+    // The padding of the cells is within.
+    width.map_or_else(|| "auto".to_owned(), |width| format!("{}pt", (width + 6.0).floor()))
 }
 
 /// A line of text.
-fn line(inlines: &[Inline]) -> String {
+pub(super) fn line(inlines: &[Inline]) -> String {
     let one = |inline: &Inline| match inline {
         Inline::Text(content) => text(content),
         Inline::Emphasis(content) => format!("#emph[{}]", text(content)),
