@@ -91,7 +91,11 @@ impl Arguments {
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let check = robot_check::check_value(&robot, options.friction);
-        let extras = Extras { title: self.title.as_deref(), figure: None, check: check.as_ref() };
+        let extras = Extras {
+            title: self.title.as_deref(),
+            figure: Some(robot_report::scheme::figure(&robot)),
+            check: check.as_ref(),
+        };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
         let usual = Page::with_columns(self.columns);
         let page = Page { width: self.width.unwrap_or(usual.width), ..usual };

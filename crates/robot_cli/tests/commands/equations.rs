@@ -175,8 +175,8 @@ fn latex_has_the_names_of_the_file_and_the_style_asked_for() {
 fn typst_is_a_notation_of_equations_and_documents() {
     let file = robot("trttr1");
     let shown = super::run(&["equations", &file, "--format", "typst", "--numbers"]);
-    assert!(shown.output.contains("numbering: \"(1)\")\n$ Q_(1) & = "), "{}", shown.output);
-    assert!(shown.output.contains("$ <eq:Q5>]\n"), "{}", shown.output);
+    assert!(shown.output.contains("numbering: \"(1)\")\n$ Q_1 & = "), "{}", shown.output);
+    assert!(shown.output.contains("$ <eq:Q5>\n"), "{}", shown.output);
     let shown = super::run(&["document", &file, "--format", "typst", "--columns", "2"]);
     assert_eq!((shown.code, shown.errors.as_str()), (0, ""));
     assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q1>"));

@@ -22,7 +22,7 @@ pub(super) struct Part {
 /// Rows from which a narrow table is set in two halves side by side.
 const LONG: usize = 14;
 /// Lines of a part.
-const LINES: f64 = 36.0;
+const LINES: f64 = 28.0;
 /// Words are broken after as many letters.
 const LONGEST_WORD: usize = 12;
 /// A column is broken to no less than this without need, pt.
@@ -288,6 +288,6 @@ mod tests {
             .iter()
             .map(|part| part.table.rows.len())
             .collect();
-        assert_eq!(rows, [36, 14]);
+        assert_eq!(rows, [28, 22]);
     }
 }

@@ -99,11 +99,11 @@ mod tests {
     #[test]
     fn parts_of_pi_and_of_roots_are_fractions() {
         for (given, expected) in [
-            (r"0.5 \pi", r"\pi / 2"),
-            (r"-0.75 \pi", r"-3 \pi / 4"),
-            (r"2 \pi + 1.5 \pi", r"2 \pi + 3 \pi / 2"),
+            (r"0.5 \pi", r"\pi/ 2"),
+            (r"-0.75 \pi", r"-3 \pi/ 4"),
+            (r"2 \pi + 1.5 \pi", r"2 \pi+ 3 \pi/ 2"),
             (r"0.5 \sqrt{2}", r"\frac{1}{2} \sqrt{2}"),
-            (r"l_1 \left(0.25 \pi\right)", r"l_1 \left(\pi / 4\right)"),
+            (r"l_1 \left(0.25 \pi\right)", r"l_1 \left(\pi/ 4\right)"),
             (r"0.123 \pi + 0.5 q", r"0.123 \pi + 0.5 q"),
         ] {
             assert_eq!(formula(&tidied(read(given).unwrap())), expected, "{given}");

@@ -94,14 +94,15 @@ fn coordinates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) 
 /// The velocities and accelerations, a row each for all joints.
 fn rates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> Vec<Vec<Cell>> {
     let mut rows = vec![];
-    for (variable, word) in
-        [(JointVariable::Velocity, "velocity"), (JointVariable::Acceleration, "acceleration")]
-    {
+    for (variable, word) in [
+        (JointVariable::Velocity, "time derivative"),
+        (JointVariable::Acceleration, "second time derivative"),
+    ] {
         let mut indices = 0..robot.coordinates.len();
         if let Some(first) = indices.find(|index| occurring.has(&variable.symbol(*index))) {
             let shape = super::families::general(&symbols.look(&variable.symbol(first)), 1);
             let meaning = vec![
-                Inline::text(format!("{word} of the joint of ")),
+                Inline::text(format!("{word} of ")),
                 Inline::Math(Math::Letter('q').with_lower(Math::Letter('i'))),
             ];
             rows.push(vec![vec![Inline::Math(shape)], meaning, vec![]]);
@@ -117,19 +118,15 @@ fn wrenches(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> 
         for (names, what, unit) in
             [(&wrench.force, "force", "N"), (&wrench.moment, "moment", "N m")]
         {
-            let mut cell = vec![];
-            for name in names.iter().filter(|name| occurring.has(name)) {
-                if !cell.is_empty() {
-                    cell.push(Inline::text(", "));
+            for (name, axis) in names.iter().zip(["x", "y", "z"]) {
+                if occurring.has(name) {
+                    let meaning = format!(
+                        "{what} along {axis} that {} exerts on its surroundings, {unit}",
+                        frame.name
+                    );
+                    let symbol = vec![Inline::Math(symbols.look(name))];
+                    rows.push(vec![symbol, vec![Inline::Text(meaning)], vec![]]);
                 }
-                cell.push(Inline::Math(symbols.look(name)));
-            }
-            if !cell.is_empty() {
-                let meaning = format!(
-                    "{what} that {} exerts on its surroundings, in its axes, {unit}",
-                    frame.name
-                );
-                rows.push(vec![cell, vec![Inline::Text(meaning)], vec![]]);
             }
         }
     }

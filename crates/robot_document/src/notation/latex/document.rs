@@ -83,6 +83,9 @@ impl Writer {
         self.line("\\raggedbottom");
         self.line("\\begin{document}");
         self.line("\\raggedright");
+        // A display at the start of a paragraph has an empty line above it already.
+        self.line("\\setlength{\\abovedisplayskip}{0pt}");
+        self.line("\\setlength{\\belowdisplayskip}{4pt plus 2pt}");
         self.line(&format!("{{\\LARGE {}\\par}}\\medskip", text(&document.title)));
     }
 

@@ -1,10 +1,11 @@
 //! Displayed equations and whole documents.
 
 use super::{formula, text};
-use crate::breaking::right_side;
+use crate::breaking::{is_within_product, right_side};
 use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
 use crate::latex::{Layout, Page};
+use crate::math::Math;
 use crate::notation::tabular::{Part, SIZES, parts};
 use crate::width::width;
 
@@ -17,31 +18,54 @@ const CELL_GAP: f64 = 7.0;
 /// Between two columns, cm.
 const GAP: f64 = 0.6;
 
+/// Lines that are never on two pages; of the parts of a longer equation the last one has the number.
+const LINES: usize = 8;
+
 /// Displayed equations one below the other; those with a label are numbered.
 ///
 /// # Errors
 ///
 /// A piece of an equation that cannot be broken and does not fit a line.
 pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
-    let mut typst = String::new();
+    let is_numbered = list.iter().any(|one| one.label.is_some());
+    let numbering = if is_numbered { "\"(1)\"" } else { "none" };
+    let mut typst = format!("#[\n#set math.equation(numbering: {numbering})\n");
     for NumberedEquation { label, equation } in list {
         let number = if label.is_some() { NUMBER } else { 0.0 };
         let available = layout.width - width(&equation.left) - number - MARGIN;
-        let lines = right_side(equation, available)?;
-        let lines: Vec<String> = lines.iter().map(formula).collect();
-        let right = lines
-            .join(" \\\n    & quad ")
-            .replace("& quad + ", "& quad + med ")
-            .replace("& quad - ", "& quad - med ")
-            .replace("& quad dot.op ", "& quad quad dot.op ");
         let left = formula(&equation.left);
-        let tail = label.as_ref().map_or(String::new(), |label| format!(" <eq:{label}>"));
-        let numbering = if label.is_some() { "\"(1)\"" } else { "none" };
-        typst.push_str(&format!(
-            "#[#set math.equation(numbering: {numbering})\n$ {left} & = {right} ${tail}]\n"
-        ));
+        let lines = right_side(equation, available)?;
+        let last = lines.len().saturating_sub(1) / LINES;
+        for (part, lines) in lines.chunks(LINES).enumerate() {
+            let mut shown = vec![];
+            for (place, line) in lines.iter().enumerate() {
+                shown.push(match (part, place) {
+                    (0, 0) => format!("{left} & = {}", formula(line)),
+                    (_, 0) => format!("#hide(${left}$) & quad {}", continued(line)),
+                    _ => format!("& quad {}", continued(line)),
+                });
+            }
+            let shown = shown.join(" \\\n    ");
+            typst.push_str(&match label {
+                Some(label) if part == last => format!("$ {shown} $ <eq:{label}>\n"),
+                Some(_) => format!("#[#set math.equation(numbering: none)\n$ {shown} $]\n"),
+                None => format!("$ {shown} $\n"),
+            });
+        }
     }
+    typst.push_str("]\n");
     Ok(typst)
+}
+
+/// A further line: the sign that it starts with is set apart from what follows, as in a sum.
+fn continued(line: &Math) -> String {
+    match line.pieces() {
+        [first @ Math::Sign('+' | '-'), rest @ ..] => {
+            format!("{} med {}", formula(first), formula(&Math::Row(rest.to_vec())))
+        }
+        pieces if is_within_product(pieces) => format!("quad {}", formula(line)),
+        _ => formula(line),
+    }
 }
 
 /// The document as the source of a Typst run; it needs no package, and the fonts that Typst brings.
@@ -89,7 +113,7 @@ fn head(document: &Document, page: Page) -> String {
 #set par(spacing: 0.8em)
 #show math.equation: set text(font: \"New Computer Modern Math\")
 #show math.equation.where(block: true): set align(start)
-#show math.equation.where(block: true): set block(breakable: true, spacing: 0.8em)
+#show math.equation.where(block: true): set block(breakable: false, spacing: 0.65em)
 #set math.equation(number-align: end + bottom)
 #par[#text(size: 17pt)[{title}]]
 ",
