@@ -21,10 +21,10 @@ use crate::robot::RobotArgument;
   robot-symbolic document robots/trttr1.toml --form grouped,recursive --columns 2 -o trttr1.tex
   robot-symbolic document robots/trttr1.toml -o trttr1.typ
 
-The document contains tables of links and masses, the frames, the numbered equations in the chosen forms, the
-symbols with their values, and the joint torques at one state to check an implementation against. A file
-NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the packages amsmath and
-geometry, and two runs for references.")]
+The document contains a figure of the robot, tables of links and masses, the frames, the numbered equations in
+the chosen forms, the symbols that occur with their values, and the joint torques at one state to check an
+implementation against. A file NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the
+packages amsmath and geometry, TikZ for the figure, and two runs for references.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

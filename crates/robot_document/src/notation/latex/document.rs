@@ -73,7 +73,8 @@ impl Writer {
         ));
         self.line("\\usepackage{amsmath}");
         if document.blocks.iter().any(|block| matches!(block, Block::Figure(_))) {
-            self.line("\\usepackage{tikz}");
+            // Without TikZ there is no figure, and all the rest.
+            self.line("\\IfFileExists{tikz.sty}{\\usepackage{tikz}}{}");
         }
         self.line("\\setlength{\\mathindent}{0pt}");
         self.line("\\allowdisplaybreaks");

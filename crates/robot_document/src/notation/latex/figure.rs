@@ -8,7 +8,9 @@ use crate::figure::{Color, Figure, Label, Path, Point, Segment, Shape, coordinat
 pub(super) fn figure(figure: &Figure, available: f64) -> String {
     let scale = figure.scale(available);
     let colors = figure.colors();
-    let mut latex = String::from("\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright\n");
+    let mut latex = String::from(
+        "\n\\ifdefined\\tikzpicture\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright\n",
+    );
     for (Color([red, green, blue]), number) in colors.iter().zip(1..) {
         latex
             .push_str(&format!("\\definecolor{{figure{number}}}{{RGB}}{{{red},{green},{blue}}}\n"));
@@ -28,7 +30,7 @@ pub(super) fn figure(figure: &Figure, available: f64) -> String {
     }
     latex.push_str("\\end{tikzpicture}\\par\\smallskip\n");
     latex.push_str(&format!("\\textbf{{Figure 1.}} {}\n", text(&figure.caption)));
-    latex.push_str("\\end{minipage}\\par\\medskip\n");
+    latex.push_str("\\end{minipage}\\par\\medskip\n\\fi\n");
     latex
 }
 
