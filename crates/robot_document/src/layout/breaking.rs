@@ -145,7 +145,11 @@ impl Lines {
             let rest = pieces.get(start..).unwrap_or_default();
             // Short factors behind a sum stay with its last line.
             if place > 0 && rest.len() > factor.len() && has_short_tail(rest, self.rest) {
-                return self.add(rest, joint);
+                let before = (self.done.clone(), self.line.clone(), self.reserve);
+                if self.add(rest, joint).is_ok() {
+                    return Ok(());
+                }
+                (self.done, self.line, self.reserve) = before;
             }
             self.add(factor, joint)?;
             start += factor.len();

@@ -37,7 +37,7 @@ pub(super) fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
         && let Some((size, widths)) =
             Measure::new(&folded, gap).natural(columns(&folded), available)
     {
-        return rows(&folded, widths, size);
+        return rows(&folded, &widths, size);
     }
     let measure = Measure::new(table, gap);
     let all: Vec<usize> = columns(table).collect();
@@ -45,7 +45,7 @@ pub(super) fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
         (1..SIZES.len()).find_map(|size| measure.broken(&all, available, size, NARROW))
     });
     if let Some((size, widths)) = whole {
-        return rows(table, widths, size);
+        return rows(table, &widths, size);
     }
     let mut parts: Vec<Part> = vec![];
     for columns in measure.split(available) {
@@ -54,7 +54,7 @@ pub(super) fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
             .natural(columns.iter().copied(), available)
             .or_else(|| measure.broken(&columns, available, last, 0.0))
             .unwrap_or_else(|| measure.forced(&columns, available));
-        let mut next = rows(&chosen(table, &columns), widths, size);
+        let mut next = rows(&chosen(table, &columns), &widths, size);
         if !parts.is_empty() {
             next.iter_mut().for_each(|part| part.is_continued = true);
         }
@@ -189,10 +189,10 @@ fn chosen(table: &Table, columns: &[usize]) -> Table {
 }
 
 /// The rows in parts, none longer than a page.
-fn rows(table: &Table, widths: Vec<Option<f64>>, size: usize) -> Vec<Part> {
+fn rows(table: &Table, widths: &[Option<f64>], size: usize) -> Vec<Part> {
     let scale = SIZES.get(size).map_or(1.0, |(_, scale)| *scale);
     let lines = |row: &Vec<Cell>| {
-        let cells = row.iter().zip(&widths).filter_map(|(cell, width)| Some((cell, (*width)?)));
+        let cells = row.iter().zip(widths).filter_map(|(cell, width)| Some((cell, (*width)?)));
         let lines = cells.map(|(cell, width)| (1.15 * scale * natural_width(cell) / width).ceil());
         lines.fold(1.0, f64::max)
     };
@@ -210,7 +210,7 @@ fn rows(table: &Table, widths: Vec<Option<f64>>, size: usize) -> Vec<Part> {
     }
     let part = |(place, rows): (usize, Vec<Vec<Cell>>)| Part {
         table: Table { rows, caption: table.caption.clone(), head: table.head.clone(), ..*table },
-        widths: widths.clone(),
+        widths: widths.to_vec(),
         size,
         is_continued: place > 0,
     };

@@ -86,9 +86,9 @@ fn quotient(digits: &str) -> Option<[u64; 2]> {
     let above: u64 = format!("{whole}{part}").parse().ok()?;
     let fraction = (2..=LARGEST).find_map(|denominator| {
         let product = above.checked_mul(denominator)?;
-        (product % below == 0).then_some([product / below, denominator])
+        product.is_multiple_of(below).then_some([product / below, denominator])
     });
-    fraction.filter(|_| above % below != 0)
+    fraction.filter(|_| !above.is_multiple_of(below))
 }
 
 #[cfg(test)]
@@ -104,7 +104,7 @@ mod tests {
             (r"2 \pi + 1.5 \pi", r"2 \pi+ 3 \pi/ 2"),
             (r"0.5 \sqrt{2}", r"\frac{1}{2} \sqrt{2}"),
             (r"l_1 \left(0.25 \pi\right)", r"l_1 \left(\pi/ 4\right)"),
-            (r"0.123 \pi + 0.5 q", r"0.123 \pi + 0.5 q"),
+            (r"0.123 \pi + 0.5 q", r"0.123 \pi+ 0.5 q"),
         ] {
             assert_eq!(formula(&tidied(read(given).unwrap())), expected, "{given}");
         }
