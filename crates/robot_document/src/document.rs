@@ -1,10 +1,11 @@
 //! A document in no notation.
 
+use crate::figure::Figure;
 use crate::forms::Equation;
 use crate::math::Math;
 
 /// A document.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// The title.
     pub title: String,
@@ -13,16 +14,16 @@ pub struct Document {
 }
 
 /// A part of a document.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A heading of a section (level 1) or of a part of one (level 2).
     Heading(u8, String),
     /// A paragraph.
     Paragraph(Vec<Inline>),
-    /// Items, a line of text each.
-    List(Vec<Vec<Inline>>),
     /// A table with a caption.
     Table(Table),
+    /// A drawing with a caption.
+    Figure(Figure),
     /// Displayed equations, one below the other.
     Equations(Vec<NumberedEquation>),
 }
@@ -33,10 +34,15 @@ pub struct Table {
     /// Its content.
     pub caption: String,
     /// The heads of the columns.
-    pub head: Vec<Vec<Inline>>,
+    pub head: Vec<Cell>,
     /// The rows, a cell for each column.
-    pub rows: Vec<Vec<Vec<Inline>>>,
+    pub rows: Vec<Vec<Cell>>,
+    /// How many of the first columns say what a row is about.
+    pub keys: usize,
 }
+
+/// A cell of a table, a line of text.
+pub type Cell = Vec<Inline>;
 
 /// A displayed equation.
 #[derive(Clone, Debug, PartialEq, Eq)]

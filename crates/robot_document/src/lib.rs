@@ -12,6 +12,7 @@
 pub mod base_parameters;
 pub mod document;
 mod error;
+pub mod figure;
 pub mod forms;
 mod layout;
 pub mod markup;

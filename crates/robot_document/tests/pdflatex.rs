@@ -31,7 +31,9 @@ fn no_line_is_too_long() {
         let text = std::fs::read_to_string(&path).unwrap();
         let model = read_toml(name, &text).unwrap().robot;
         let forms = [Form::Grouped, Form::Recursive];
-        let described = robot::document(&model, &EquationOptions::default(), &forms, None).unwrap();
+        let described =
+            robot::document(&model, &EquationOptions::default(), &forms, robot::Extras::default())
+                .unwrap();
         for columns in [1, 2] {
             let latex = document(&described, Page::with_columns(columns)).unwrap();
             let Some(log) = log(&folder, &format!("{name}{columns}"), &latex) else {

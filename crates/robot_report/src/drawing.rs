@@ -23,11 +23,10 @@ pub(crate) fn path(points: &[Vector2<f64>], is_closed: bool) -> Element {
     element("path").attribute("d", text)
 }
 
-/// A line with a head at its end.
-pub(crate) fn arrow(from: Vector2<f64>, to: Vector2<f64>, head: f64) -> [Element; 2] {
+/// The corners of the head of an arrow.
+pub(crate) fn head(from: Vector2<f64>, to: Vector2<f64>, size: f64) -> [Vector2<f64>; 3] {
     let back = (from - to).try_normalize(1e-9).unwrap_or_default();
     let across = Vector2::new(-back.y, back.x);
-    let base = to + back * head;
-    let tip = [base + across * (0.4 * head), to, base - across * (0.4 * head)];
-    [path(&[from, to], false), path(&tip, true).class("head")]
+    let base = to + back * size;
+    [base + across * (0.4 * size), to, base - across * (0.4 * size)]
 }

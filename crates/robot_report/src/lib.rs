@@ -16,7 +16,7 @@ mod page;
 mod parts;
 mod plot;
 mod reload;
-mod scheme;
+pub mod scheme;
 mod structure;
 mod table;
 mod tables;
@@ -131,14 +131,8 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
     Ok((robot, sections))
 }
 
-/// The content of the scheme.
-const CAPTION: &str = "The robot at q = 0. Cylinders rotate about their axes, boxes slide along \
-    their guides; the arrow on an axis points in the positive direction of its coordinate. \
-    Directions are true; short offsets are enlarged, and joints at the same point are drawn \
-    apart along a dotted line.";
-
 fn kinematics(robot: &Robot) -> Section {
-    let caption = holding("figcaption", CAPTION);
+    let caption = holding("figcaption", scheme::CAPTION);
     let figure = element("figure").with(scheme::scheme(robot)).with(caption);
     let parts = [Some(figure), Some(tables::kinematics(robot)), tables::frames(robot)];
     Section {

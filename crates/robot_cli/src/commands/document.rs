@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgAction, Args, ValueEnum};
 use robot_build::MARKER;
 use robot_document::Form;
+use robot_document::robot::{Extras, document};
 use robot_document::{latex, latex::Page, typst};
 
 use crate::Terminal;
@@ -20,10 +21,10 @@ use crate::robot::RobotArgument;
   robot-symbolic document robots/trttr1.toml --form grouped,recursive --columns 2 -o trttr1.tex
   robot-symbolic document robots/trttr1.toml -o trttr1.typ
 
-The document contains tables of links and masses, the frames, the numbered equations in the chosen forms, the
-symbols with their values, and the joint torques at one state to check an implementation against. A file
-NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the packages amsmath and
-geometry, and two runs for references.")]
+The document contains a figure of the robot, tables of links and masses, the frames, the numbered equations in
+the chosen forms, the symbols that occur with their values, and the joint torques at one state to check an
+implementation against. A file NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the
+packages amsmath and geometry, TikZ for the figure, and two runs for references.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -33,6 +34,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, value_delimiter = ',', action = ArgAction::Append,
           default_value = "grouped")]
     form: Vec<FormName>,
+    /// Title [default: Equations of motion of NAME]
+    #[arg(long)]
+    title: Option<String>,
     /// Notation [default: typst for a file NAME.typ, else latex]
     #[arg(long, value_enum)]
     format: Option<Format>,
@@ -87,8 +91,12 @@ impl Arguments {
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let check = robot_check::check_value(&robot, options.friction);
-        let document = robot_document::robot::document(&robot, &options, &forms, check.as_ref());
-        let document = document.map_err(failed)?;
+        let extras = Extras {
+            title: self.title.as_deref(),
+            figure: Some(robot_report::scheme::figure(&robot)),
+            check: check.as_ref(),
+        };
+        let document = document(&robot, &options, &forms, extras).map_err(failed)?;
         let usual = Page::with_columns(self.columns);
         let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
         let (comment, shown) = match self.format() {

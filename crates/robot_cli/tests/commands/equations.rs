@@ -175,11 +175,95 @@ fn latex_has_the_names_of_the_file_and_the_style_asked_for() {
 fn typst_is_a_notation_of_equations_and_documents() {
     let file = robot("trttr1");
     let shown = super::run(&["equations", &file, "--format", "typst", "--numbers"]);
-    assert!(shown.output.contains("numbering: \"(1)\")\n$ Q_(1) & = "), "{}", shown.output);
-    assert!(shown.output.contains("$ <eq:Q5>]\n"), "{}", shown.output);
+    assert!(shown.output.contains("numbering: \"(1)\")\n$ Q_1 & = "), "{}", shown.output);
+    assert!(shown.output.contains("$ <eq:Q5>\n"), "{}", shown.output);
     let shown = super::run(&["document", &file, "--format", "typst", "--columns", "2"]);
     assert_eq!((shown.code, shown.errors.as_str()), (0, ""));
     assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q1>"));
+}
+
+/// The part of a document between two marks.
+fn between<'d>(document: &'d str, start: &str, end: &str) -> &'d str {
+    let (_, rest) = document.split_once(start).unwrap_or_else(|| panic!("{start}: {document}"));
+    rest.split_once(end).map_or(rest, |(part, _)| part)
+}
+
+#[test]
+fn a_document_defines_the_symbols_that_occur() {
+    let file = robot("trttr1");
+    let shown =
+        output(&["document", &file, "--form", "grouped,recursive", "--title", "An arm"], "");
+    assert!(shown.contains(r"{\LARGE An arm\par}"), "{shown}");
+    let symbols = between(&shown, r"\section{Symbols}", r"\section{");
+    for defined in [
+        r"\(q_1\) & displacement of joint 1, m",
+        r"\(\ddot{q}_i\) & second time derivative of \(q_i\)",
+        r"\(M_1\) & mass of link 1 & \(45 \mathrm{\ } \mathrm{kg}\)",
+        r"\(H_{ij}\) & entry of the mass matrix",
+        r"\(h_{ijk}\) & coefficient of \(\dot{q}_j \dot{q}_k\) in \(Q_i\)",
+        r"\(w_i\) & contribution",
+        r"\(\omega_{i,x}\) & component",
+        r"\(\varepsilon_{i,x}\) & component",
+        r"\(M_{l_x}^i\) & component",
+    ] {
+        assert!(symbols.contains(defined), "{defined}: {symbols}");
+    }
+    // Friction is not included.
+    assert!(!symbols.contains("friction"), "{symbols}");
+    let shown = output(&["document", &file, "--friction"], "");
+    assert!(between(&shown, r"\section{Symbols}", r"\section{").contains("viscous friction"));
+}
+
+#[test]
+fn every_symbol_that_a_form_defines_has_a_meaning() {
+    for name in ["trttr1", "ur5", "scara"] {
+        let forms = "grouped,recursive,compact";
+        let shown = output(&["document", &robot(name), "--form", forms], "");
+        let symbols = between(&shown, r"\section{Symbols}", r"\section{");
+        let labels = shown.matches(r"\label{eq:recursive:").count();
+        assert!(labels > 20 && symbols.contains("angular acceleration"), "{symbols}");
+        for definitions in ["Gravity", "Combinations of parameters", "Expressions of the state"] {
+            let (title, word) = (
+                format!(r"\subsection{{{definitions}}}"),
+                match definitions {
+                    "Gravity" => "gravity term",
+                    "Combinations of parameters" => "combination of parameters",
+                    _ => "expression that occurs several times",
+                },
+            );
+            assert_eq!(shown.contains(&title), symbols.contains(word), "{name}: {definitions}");
+        }
+    }
+}
+
+#[test]
+fn documents_have_the_scheme_of_the_robot() {
+    let file = robot("trttr1");
+    let latex = output(&["document", &file], "");
+    let figure = between(&latex, r"\begin{tikzpicture}", r"\end{tikzpicture}");
+    let typst = output(&["document", &file, "--format", "typst"], "");
+    for name in ["base", "1", "5", "6"] {
+        assert!(figure.contains(&format!("{{\\textbf{{{name}}}}};")), "{name}: {figure}");
+        assert!(typst.contains(&format!("weight: \"bold\")[{name}])")), "{name}: {typst}");
+    }
+    for symbol in ["q_1", "q_5", "l_1", "l_6"] {
+        assert!(figure.contains(&format!("{{\\({symbol}\\)}};")), "{symbol}: {figure}");
+        assert!(typst.contains(&format!(")[${symbol}$])")), "{symbol}: {typst}");
+    }
+}
+
+#[test]
+fn a_long_equation_of_typst_has_its_number_once() {
+    let shown = output(&["document", &robot("puma560"), "--format", "typst", "--columns", "2"], "");
+    assert!(!shown.contains("breakable: true"));
+    let equations = shown.split("$ <eq:").filter(|part| part.contains("#hide($"));
+    let mut parts = 0;
+    for part in equations {
+        let numbered = part.matches("numbering: none").count();
+        assert_eq!(numbered, part.matches("#hide($").count(), "{part}");
+        parts += numbered;
+    }
+    assert!(parts > 3, "{parts}");
 }
 
 #[test]

@@ -124,27 +124,90 @@ impl Lines {
 
     /// Adds pieces that fit no line as they are.
     fn split(&mut self, pieces: &[Math], joint: Joint, needed: f64) -> Result<(), TooWide> {
-        if let [signs @ .., Math::Fenced(Fence::Parentheses, inside)] = pieces
-            && signs.iter().all(|piece| matches!(piece, Math::Sign(_)))
-        {
-            self.reserve += PARENTHESIS;
-            self.add(&[signs, &[Math::Sign('(')]].concat(), joint)?;
-            for term in terms(inside.pieces()) {
-                self.add(term, Joint::Sign)?;
+        if let Some((signs, inside, tail)) = fenced(pieces) {
+            let before = (self.done.clone(), self.line.clone(), self.reserve);
+            let fits = width(&Math::Row(tail.to_vec())) <= TAIL * self.rest;
+            if fits && self.within(signs, inside, tail, joint).is_ok() {
+                return Ok(());
             }
-            self.reserve -= PARENTHESIS;
-            self.line.push(Math::Sign(')'));
-            return Ok(());
+            (self.done, self.line, self.reserve) = before;
+            if tail.is_empty() {
+                return self.within(signs, inside, tail, joint);
+            }
         }
         let factors = factors(pieces);
         if factors.len() < 2 {
             return Err(TooWide { needed });
         }
-        for (place, factor) in factors.into_iter().enumerate() {
-            self.add(factor, if place == 0 { joint } else { Joint::Factor })?;
+        let mut start = 0;
+        for (place, factor) in factors.iter().enumerate() {
+            let joint = if place == 0 { joint } else { Joint::Factor };
+            let rest = pieces.get(start..).unwrap_or_default();
+            // Short factors behind a sum stay with its last line.
+            if place > 0 && rest.len() > factor.len() && has_short_tail(rest, self.rest) {
+                let before = (self.done.clone(), self.line.clone(), self.reserve);
+                if self.add(rest, joint).is_ok() {
+                    return Ok(());
+                }
+                (self.done, self.line, self.reserve) = before;
+            }
+            self.add(factor, joint)?;
+            start += factor.len();
         }
         Ok(())
     }
+
+    /// Adds a sum in parentheses term by term, and what follows it on its last line.
+    fn within(
+        &mut self,
+        signs: &[Math],
+        inside: &Math,
+        tail: &[Math],
+        joint: Joint,
+    ) -> Result<(), TooWide> {
+        let behind = match tail {
+            [] => 0.0,
+            // With the space after a parenthesis.
+            tail => width(&Math::Row(tail.to_vec())) + PARENTHESIS,
+        };
+        self.reserve += PARENTHESIS;
+        self.add(&[signs, &[Math::Sign('(')]].concat(), joint)?;
+        let mut terms = terms(inside.pieces()).peekable();
+        while let Some(term) = terms.next() {
+            let behind = if terms.peek().is_none() { behind } else { 0.0 };
+            self.reserve += behind;
+            self.add(term, Joint::Sign)?;
+            self.reserve -= behind;
+        }
+        self.reserve -= PARENTHESIS;
+        self.line.push(Math::Sign(')'));
+        self.line.extend_from_slice(tail);
+        Ok(())
+    }
+}
+
+/// Factors behind a sum are short up to this part of a line.
+const TAIL: f64 = 0.4;
+
+/// A sum in parentheses, with the signs before it and the factors behind it, none of which is a sum.
+fn fenced(pieces: &[Math]) -> Option<(&[Math], &Math, &[Math])> {
+    let is_sign = |piece: &Math| matches!(piece, Math::Sign(_));
+    let place = pieces.iter().position(|piece| !is_sign(piece))?;
+    let (signs, rest) = pieces.split_at_checked(place)?;
+    match rest {
+        [Math::Fenced(Fence::Parentheses, inside), tail @ ..]
+            if !tail.iter().any(|piece| matches!(piece, Math::Fenced(..))) =>
+        {
+            Some((signs, inside, tail))
+        }
+        _ => None,
+    }
+}
+
+fn has_short_tail(pieces: &[Math], line: f64) -> bool {
+    fenced(pieces).is_some_and(|(_, _, tail)| {
+        !tail.is_empty() && width(&Math::Row(tail.to_vec())) <= TAIL * line
+    })
 }
 
 /// Whether a line that starts with these pieces goes on with a product.
@@ -201,6 +264,14 @@ mod tests {
         let sum = r"a - 0.0125 \sin q_1 \cos q_1 \sin q_2 \cos q_2 + b";
         let expected = ["a", r"-0.0125 \sin q_1 \cos q_1", r"\cdot \sin q_2 \cos q_2 + b"];
         assert_eq!(lines(sum, 100.0, 100.0), expected);
+    }
+
+    #[test]
+    fn short_factors_stay_with_the_sum_before_them() {
+        let product = r"m \left(a_1 + a_2 + a_3 + a_4\right) \cos q_2 + b";
+        assert_eq!(lines(product, 95.0, 95.0), ["m( a_1 + a_2 + a_3", r"+a_4 ) \cos q_2 + b"]);
+        let alone = r"-\left(a_1 + a_2 + a_3 + a_4\right) \sin q_5";
+        assert_eq!(lines(alone, 95.0, 95.0), ["-( a_1 + a_2 + a_3", r"+a_4 ) \sin q_5"]);
     }
 
     #[test]

@@ -3,4 +3,5 @@
 pub mod html;
 pub mod latex;
 pub mod mathml;
+mod tabular;
 pub mod typst;

@@ -2,7 +2,7 @@
 
 use robot_model::variable::JointVariable;
 
-use super::{heading, paragraph};
+use super::{heading, numbers, paragraph};
 use crate::document::{Block, Inline, Table};
 use crate::layout::SymbolTable;
 use crate::math::Math;
@@ -40,7 +40,8 @@ pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -
     };
     let driving = vec![Inline::Math(Math::Letter('Q'))];
     let [q, qd, qdd] = JointVariable::MOTION.map(|variable| name(variable.name()));
-    let head = vec![vec![], q, qd, qdd, driving];
+    let joint = vec![Inline::Math(Math::Letter('i'))];
+    let head = vec![joint, q, qd, qdd, driving];
     let mut blocks = vec![
         heading("A check value"),
         paragraph(
@@ -49,24 +50,22 @@ pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -
         ),
     ];
     if has_tip {
-        blocks.push(paragraph(&format!(
-            "Each tip exerts the force ({}) N and the moment ({}) N m.",
-            wrench[..3].join(", "),
-            wrench[3..].join(", ")
-        )));
+        let [fx, fy, fz, mx, my, mz] = wrench.map(numbers::signed);
+        blocks.push(Block::Paragraph(vec![
+            Inline::text("Each tip exerts the force "),
+            Inline::Math(numbers::vector(&[fx, fy, fz])),
+            Inline::text(" N and the moment "),
+            Inline::Math(numbers::vector(&[mx, my, mz])),
+            Inline::text(" N m."),
+        ]));
     }
     let caption = "State and joint torques, SI units.".to_owned();
-    blocks.push(Block::Table(Table { caption, head, rows }));
+    blocks.push(Block::Table(Table { caption, head, rows, keys: 1 }));
     blocks
 }
 
 fn number(text: &str) -> Inline {
-    let digits = text.trim_start_matches('-');
-    let value = Math::Number(digits.to_owned());
-    match digits.len() < text.len() {
-        true => Inline::Math(Math::Row(vec![Math::Sign('-'), value])),
-        false => Inline::Math(value),
-    }
+    Inline::Math(numbers::signed(text))
 }
 
 /// `q` of `q_1`.

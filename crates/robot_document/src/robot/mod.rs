@@ -1,20 +1,35 @@
 //! The document of a robot: its tables, its equations, its symbols, a check value.
 
 mod check_value;
+mod families;
+mod numbers;
 pub mod rows;
+mod sections;
 mod symbols;
 mod tables;
 pub mod words;
 
 use robot_model::robot::Robot;
 
-use crate::document::{Block, Document, Inline, NumberedEquation};
+use crate::document::{Block, Document, Inline};
 use crate::error::Error;
-use crate::forms::{EquationOptions, Equations, Form, equations};
+use crate::figure::Figure;
+use crate::forms::{EquationOptions, Form, equations};
 use crate::math::Math;
 pub use check_value::CheckValue;
 
-/// The document of a robot with its equations in several forms, and the check value if there is one.
+/// What a document has besides tables, equations and symbols.
+#[derive(Clone, Debug, Default)]
+pub struct Extras<'e> {
+    /// The title; by default "Equations of motion of" and the robot's name.
+    pub title: Option<&'e str>,
+    /// A drawing of the robot.
+    pub figure: Option<Figure>,
+    /// The check value.
+    pub check: Option<&'e CheckValue>,
+}
+
+/// The document of a robot with its equations in several forms.
 ///
 /// # Errors
 ///
@@ -23,30 +38,34 @@ pub fn document(
     robot: &Robot,
     options: &EquationOptions,
     forms: &[Form],
-    check: Option<&CheckValue>,
+    extras: Extras<'_>,
 ) -> Result<Document, Error> {
     let mut parts = vec![];
     for form in forms {
         parts.push((*form, equations(robot, &EquationOptions { form: *form, ..options.clone() })?));
     }
+    let title = match extras.title {
+        Some(title) => title.to_owned(),
+        None => format!("Equations of motion of {}", robot.name),
+    };
     let mut blocks = vec![];
     if let Some(description) = &robot.description {
         blocks.push(paragraph(description));
     }
     let Some((_, first)) = parts.first() else {
-        return Ok(Document { title: robot.name.clone(), blocks });
+        return Ok(Document { title, blocks });
     };
-    blocks.extend(tables::blocks(robot, &first.symbols)?);
+    blocks.extend(tables::blocks(robot, &first.symbols, extras.figure)?);
     blocks.extend(conventions(options)?);
     for (form, part) in &parts {
-        blocks.extend(equation_blocks(*form, part));
+        blocks.extend(sections::blocks(*form, part, options));
     }
-    blocks.extend(symbols::blocks(robot, &parts));
-    if let Some(check) = check {
+    blocks.extend(symbols::blocks(robot, &parts, &blocks));
+    if let Some(check) = extras.check {
         let has_tip = robot.tips().next().is_some();
         blocks.extend(check_value::blocks(check, has_tip, &first.symbols));
     }
-    Ok(Document { title: format!("Equations of motion of {}", robot.name), blocks })
+    Ok(Document { title, blocks })
 }
 
 fn paragraph(text: &str) -> Block {
@@ -89,22 +108,4 @@ fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
             Inline::text(friction),
         ]),
     ])
-}
-
-/// The equations, each numbered and labeled by form and name.
-fn equation_blocks(form: Form, part: &Equations) -> Vec<Block> {
-    let mut blocks = vec![];
-    for group in &part.groups {
-        let level = if group.definitions { 2 } else { 1 };
-        blocks.push(Block::Heading(level, group.title.clone()));
-        if !group.introduction.is_empty() {
-            blocks.push(paragraph(&group.introduction));
-        }
-        let numbered = |equation: &crate::forms::Equation| NumberedEquation {
-            label: Some(format!("{}:{}", form.name(), equation.label())),
-            equation: equation.clone(),
-        };
-        blocks.push(Block::Equations(group.equations.iter().map(numbered).collect()));
-    }
-    blocks
 }

@@ -1,73 +1,162 @@
-//! The list of symbols with their units and values.
+//! The table of the symbols that occur in a document: their meaning, units and values.
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
+use rustc_hash::FxHashSet;
 
-use super::heading;
-use crate::document::{Block, Inline};
+use super::families::families;
+use super::{heading, numbers};
+use crate::document::{Block, Cell, Inline, Table};
 use crate::forms::{Equations, Form};
+use crate::layout::SymbolTable;
 use crate::math::Math;
 use crate::robot::rows::{self, ParameterRow};
 
-/// The meaning of the robot's symbols.
-pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)]) -> Vec<Block> {
+/// The symbols of a robot that occur in these blocks, and those that the forms define.
+pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)], document: &[Block]) -> Vec<Block> {
     let Some((_, first)) = parts.first() else { return vec![] };
     let symbols = &first.symbols;
-    let mut items = vec![];
-    for (index, coordinate) in robot.coordinates.iter().enumerate() {
-        let position = match coordinate.kind {
-            JointKind::Revolute => "angle",
-            JointKind::Prismatic => "displacement",
-        };
-        let unit = JointVariable::Position.unit(coordinate.kind);
-        let name = JointVariable::Position.symbol(index);
-        items.push(vec![
-            Inline::Math(symbols.look(&name)),
-            Inline::text(format!(" \u{2014} {position} of the joint {}, {unit}", coordinate.joint)),
-        ]);
+    let occurring = Occurring::new(document);
+    let mut rows = coordinates(robot, symbols, &occurring);
+    rows.extend(rates(robot, symbols, &occurring));
+    for row in rows::parameters(robot).filter(|row| occurring.has(&row.parameter.name)) {
+        rows.push(parameter(symbols.look(&row.parameter.name), &row));
     }
-    for row in rows::parameters(robot) {
-        items.push(parameter_item(symbols.look(&row.parameter.name), &row));
+    rows.extend(wrenches(robot, symbols, &occurring));
+    for family in families(parts) {
+        rows.push(vec![vec![Inline::Math(family.shape)], family.meaning, vec![]]);
     }
-    for (frame, wrench) in robot.tips() {
-        let [force, moment] = [(&wrench.force, "force", "N"), (&wrench.moment, "moment", "N m")]
-            .map(|(names, what, unit)| {
-                let mut item = vec![];
-                for (place, name) in names.iter().enumerate() {
-                    item.push(Inline::text(if place == 0 { "" } else { ", " }));
-                    item.push(Inline::Math(symbols.look(name)));
+    let mut head: Vec<Cell> =
+        ["Symbol", "Meaning", "Value"].map(|name| vec![Inline::text(name)]).into();
+    // A robot of numbers has no values of symbols.
+    if rows.iter().all(|row| row.last().is_some_and(Vec::is_empty)) {
+        head.truncate(2);
+        rows.iter_mut().for_each(|row| row.truncate(2));
+    }
+    let table = Table { caption: "Symbols, SI units.".to_owned(), head, rows, keys: 1 };
+    vec![heading("Symbols"), Block::Table(table)]
+}
+
+/// The names of the symbols that are printed.
+struct Occurring<'d>(FxHashSet<&'d str>);
+
+impl<'d> Occurring<'d> {
+    fn new(blocks: &'d [Block]) -> Occurring<'d> {
+        let mut formulas: Vec<&Math> = vec![];
+        for block in blocks {
+            match block {
+                Block::Heading(..) | Block::Figure(_) => {}
+                Block::Paragraph(inlines) => formulas.extend(of_inlines(inlines)),
+                Block::Table(table) => {
+                    let cells = table.rows.iter().flatten();
+                    formulas.extend(cells.flat_map(|cell| of_inlines(cell)));
                 }
-                let text = format!(
-                    " \u{2014} {what} that {} exerts on its surroundings, in its axes, \
-                        {unit}",
-                    frame.name
-                );
-                item.push(Inline::Text(text));
-                item
-            });
-        items.extend([force, moment]);
+                Block::Equations(list) => formulas
+                    .extend(list.iter().flat_map(|one| [&one.equation.left, &one.equation.right])),
+            }
+        }
+        Occurring(formulas.into_iter().flat_map(Math::symbols).collect())
     }
-    vec![heading("Symbols"), Block::List(items)]
+
+    fn has(&self, name: &str) -> bool {
+        self.0.contains(name)
+    }
 }
 
-fn parameter_item(symbol: Math, row: &ParameterRow<'_>) -> Vec<Inline> {
-    let mut item = vec![Inline::Math(symbol)];
-    if let Some(meaning) = row.meaning {
-        item.push(Inline::Text(format!(" \u{2014} {}", meaning.trim())));
+fn of_inlines(inlines: &[Inline]) -> impl Iterator<Item = &Math> {
+    inlines.iter().filter_map(|inline| match inline {
+        Inline::Math(math) => Some(math),
+        _ => None,
+    })
+}
+
+fn coordinates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> Vec<Vec<Cell>> {
+    let mut rows = vec![];
+    for (index, coordinate) in robot.coordinates.iter().enumerate() {
+        let name = JointVariable::Position.symbol(index);
+        if occurring.has(&name) {
+            let position = match coordinate.kind {
+                JointKind::Revolute => "angle",
+                JointKind::Prismatic => "displacement",
+            };
+            let unit = JointVariable::Position.unit(coordinate.kind);
+            let meaning = format!("{position} of joint {}, {unit}", coordinate.joint);
+            rows.push(vec![
+                vec![Inline::Math(symbols.look(&name))],
+                vec![Inline::Text(meaning)],
+                vec![],
+            ]);
+        }
     }
+    rows
+}
+
+/// The velocities and accelerations, a row each for all joints.
+fn rates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> Vec<Vec<Cell>> {
+    let mut rows = vec![];
+    for (variable, word) in [
+        (JointVariable::Velocity, "time derivative"),
+        (JointVariable::Acceleration, "second time derivative"),
+    ] {
+        let mut indices = 0..robot.coordinates.len();
+        if let Some(first) = indices.find(|index| occurring.has(&variable.symbol(*index))) {
+            let shape = super::families::general(&symbols.look(&variable.symbol(first)), 1);
+            let meaning = vec![
+                Inline::text(format!("{word} of ")),
+                Inline::Math(Math::Letter('q').with_lower(Math::Letter('i'))),
+            ];
+            rows.push(vec![vec![Inline::Math(shape)], meaning, vec![]]);
+        }
+    }
+    rows
+}
+
+/// The components of the wrenches that tips exert.
+fn wrenches(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> Vec<Vec<Cell>> {
+    let mut rows = vec![];
+    for (frame, wrench) in robot.tips() {
+        for (names, what, unit) in
+            [(&wrench.force, "force", "N"), (&wrench.moment, "moment", "N m")]
+        {
+            for (name, axis) in names.iter().zip(["x", "y", "z"]) {
+                if occurring.has(name) {
+                    let meaning = format!(
+                        "{what} along {axis} that {} exerts on its surroundings, {unit}",
+                        frame.name
+                    );
+                    let symbol = vec![Inline::Math(symbols.look(name))];
+                    rows.push(vec![symbol, vec![Inline::Text(meaning)], vec![]]);
+                }
+            }
+        }
+    }
+    rows
+}
+
+fn parameter(symbol: Math, row: &ParameterRow<'_>) -> Vec<Cell> {
+    let mut meaning = row.meaning.unwrap_or_default().trim().to_owned();
     let unit = row.unit.filter(|text| *text != "1");
-    let gap = match &row.value {
-        Some(value) => format!(": {value}"),
-        None if unit.is_some() => ":".to_owned(),
-        None => return item,
+    let value = match (&row.value, unit) {
+        (Some(text), unit) => {
+            let number = match row.parameter.value.as_ref() {
+                Some(value) if numbers::is_long(text) => numbers::rounded(value.to_f64()),
+                _ => numbers::signed(text),
+            };
+            let pieces = std::iter::once(number).chain(unit.into_iter().flat_map(unit_shape));
+            vec![Inline::Math(Math::row(pieces.collect()))]
+        }
+        (None, Some(unit)) => {
+            meaning.push_str(if meaning.is_empty() { "in " } else { ", in " });
+            meaning.push_str(unit);
+            vec![]
+        }
+        (None, None) => vec![],
     };
-    item.push(Inline::Text(gap));
-    item.extend(unit.map(unit_shape));
-    item
+    vec![vec![Inline::Math(symbol)], vec![Inline::Text(meaning)], value]
 }
 
-/// `kg m²`, powers raised.
-fn unit_shape(unit: &str) -> Inline {
+/// `kg m²` after a number, powers raised.
+fn unit_shape(unit: &str) -> Vec<Math> {
     let mut pieces = vec![Math::Word(" ".to_owned())];
     let mut rest = unit;
     while let Some((name, more)) = rest.split_once('^') {
@@ -87,5 +176,5 @@ fn unit_shape(unit: &str) -> Inline {
     if !rest.is_empty() {
         pieces.push(Math::Word(rest.to_owned()));
     }
-    Inline::Math(Math::Row(pieces))
+    pieces
 }

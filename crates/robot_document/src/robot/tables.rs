@@ -4,20 +4,25 @@ use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Placement, Robot};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
-use super::{heading, paragraph};
-use crate::document::{Block, Inline, Table};
+use super::{heading, numbers, paragraph};
+use crate::document::{Block, Cell, Inline, Table};
 use crate::error::Error;
+use crate::figure::Figure;
 use crate::layout::SymbolTable;
 use crate::math::Math;
 use crate::robot::rows::{self, FrameRow, LinkRow};
 use crate::robot::words;
 
-type Cell = Vec<Inline>;
-
-/// Tables of the links, of their masses, and of the named frames.
-pub(super) fn blocks(robot: &Robot, symbols: &SymbolTable) -> Result<Vec<Block>, Error> {
+/// The figure, and tables of the links, of their masses, and of the named frames.
+pub(super) fn blocks(
+    robot: &Robot,
+    symbols: &SymbolTable,
+    figure: Option<Figure>,
+) -> Result<Vec<Block>, Error> {
     let formulas = Formulas { graph: Graph::new(), symbols };
-    let mut blocks = vec![heading("The robot"), gravity(robot, &formulas)?];
+    let mut blocks = vec![heading("The robot")];
+    blocks.extend(figure.map(Block::Figure));
+    blocks.push(gravity(robot, &formulas)?);
     blocks.push(Block::Table(links(robot, &formulas)?));
     blocks.push(paragraph(
         "T denotes a translation and R a rotation, each in the frame reached by the preceding ones.",
@@ -37,19 +42,12 @@ struct Formulas<'n> {
 impl Formulas<'_> {
     fn math(&self, formula: &Formula) -> Result<Math, Error> {
         let value = formula.lower(&self.graph, &mut |name| self.graph.symbol(name));
-        self.symbols.expression(value)
+        Ok(numbers::tidied(self.symbols.expression(value)?))
     }
 
     fn vector(&self, formulas: &[Formula; 3]) -> Result<Cell, Error> {
-        let mut pieces = vec![];
-        for formula in formulas {
-            if !pieces.is_empty() {
-                pieces.push(Math::Sign(','));
-            }
-            pieces.extend(self.math(formula)?.pieces().iter().cloned());
-        }
-        let inside = Math::Row(pieces);
-        Ok(vec![Inline::Math(Math::Fenced(crate::math::Fence::Parentheses, Box::new(inside)))])
+        let [x, y, z] = formulas.each_ref().map(|formula| self.math(formula));
+        Ok(vec![Inline::Math(numbers::vector(&[x?, y?, z?]))])
     }
 
     fn placement(&self, placement: &Placement) -> Result<Cell, Error> {
@@ -87,23 +85,44 @@ fn heads(names: &[&str]) -> Vec<Cell> {
     names.iter().map(|name| vec![Inline::text(*name)]).collect()
 }
 
+/// The cells that say which link a row is about: its number, and its name unless that is the number.
+fn link_cells(robot: &Robot, index: usize) -> Vec<Cell> {
+    let number = vec![Inline::Math(Math::integer(index + 1))];
+    let name = robot.links.get(index).map_or("", |link| &link.name);
+    if are_numbered(robot) { vec![number] } else { vec![number, vec![Inline::text(name)]] }
+}
+
+/// The heads of these cells.
+fn link_heads(robot: &Robot) -> Vec<Cell> {
+    if are_numbered(robot) {
+        return heads(&["Link"]);
+    }
+    vec![vec![Inline::Math(Math::Letter('i'))], vec![Inline::text("Link")]]
+}
+
+/// Whether the names of all links are their numbers.
+fn are_numbered(robot: &Robot) -> bool {
+    robot.links.iter().zip(1..).all(|(link, number)| link.name == number.to_string())
+}
+
 fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     let mut rows = vec![];
     for (index, row) in rows::links(robot).enumerate() {
         let LinkRow { link, parent, kind, coordinate, .. } = row;
-        rows.push(vec![
-            vec![Inline::Math(Math::integer(index + 1))],
-            vec![Inline::text(&link.name)],
+        let mut row = link_cells(robot, index);
+        row.extend([
             vec![Inline::text(parent)],
             vec![Inline::text(kind)],
             formulas.vector(&link.joint.axis)?,
             vec![Inline::Math(formulas.symbols.look(&coordinate))],
             formulas.placement(&link.placement)?,
         ]);
+        rows.push(row);
     }
-    let head =
-        heads(&["", "Link", "Parent", "Joint", "Axis", "Coordinate", "Pose in the parent frame"]);
-    Ok(Table { caption: "Links and joints.".to_owned(), head, rows })
+    let mut head = link_heads(robot);
+    let keys = head.len();
+    head.extend(heads(&["Parent", "Joint", "Axis", "Coordinate", "Pose in the parent frame"]));
+    Ok(Table { caption: "Links and joints.".to_owned(), head, rows, keys })
 }
 
 fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
@@ -116,24 +135,17 @@ fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
         ]);
     }
     let head = heads(&["Frame", "Link", "Pose in the link frame"]);
-    Ok(Table { caption: "Named frames.".to_owned(), head, rows })
+    Ok(Table { caption: "Named frames.".to_owned(), head, rows, keys: 1 })
 }
 
 /// A value of a table: long constants to six digits.
 fn value_cell(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
-    let long = robot_symbolic::print::to_text(value).is_ok_and(|text| text.len() > LONG_NUMBER);
+    let long = robot_symbolic::print::to_text(value).is_ok_and(|text| numbers::is_long(&text));
     if !long || !walk::symbols(&[value]).is_empty() {
-        return symbols.expression(value);
+        return Ok(numbers::tidied(symbols.expression(value)?));
     }
-    let number = value.evaluate(|_| f64::NAN);
-    let places = (5.0 - number.abs().log10().floor()).clamp(0.0, 12.0) as usize;
-    let digits = format!("{:.places$}", number.abs());
-    let digits = Math::Number(digits.trim_end_matches('0').trim_end_matches('.').to_owned());
-    Ok(if number < 0.0 { Math::Row(vec![Math::Sign('-'), digits]) } else { digits })
+    Ok(numbers::rounded(value.evaluate(|_| f64::NAN)))
 }
-
-/// Constants of more bytes of text are rounded in tables.
-const LONG_NUMBER: usize = 10;
 
 /// Mass, center of mass and tensor of each link, in the link's axes; columns of zeros are left out.
 fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
@@ -155,15 +167,15 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     };
     let columns: Vec<usize> = (0..names.len()).filter(shown).collect();
     let mut rows = vec![];
-    for (index, (link, values)) in robot.links.iter().zip(&values).enumerate() {
-        let mut row =
-            vec![vec![Inline::Math(Math::integer(index + 1))], vec![Inline::text(&link.name)]];
+    for (index, values) in values.iter().enumerate() {
+        let mut row = link_cells(robot, index);
         for value in columns.iter().filter_map(|column| values.get(*column)) {
             row.push(vec![Inline::Math(value_cell(symbols, *value)?)]);
         }
         rows.push(row);
     }
-    let mut head = heads(&["", "Link"]);
+    let mut head = link_heads(robot);
+    let keys = head.len();
     for (column, name) in columns.iter().filter_map(|column| Some((*column, *names.get(*column)?)))
     {
         let letters = |name: &str| Math::row(name.chars().map(Math::Letter).collect());
@@ -176,5 +188,5 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     let caption = "Masses, kg; centers of mass, m; moments of inertia about the center of mass \
         in the axes of the link frame, kg m²; columns of zeros are omitted, values are rounded."
         .to_owned();
-    Ok(Table { caption, head, rows })
+    Ok(Table { caption, head, rows, keys })
 }

@@ -1,17 +1,23 @@
 //! The drawing of a layout.
 
 use nalgebra::Vector2;
+use robot_document::document::Inline;
+use robot_document::figure::Figure;
 use robot_document::markup::{Element, element, holding};
+use robot_document::math::Math;
 use robot_document::robot::words;
+use robot_document::{SymbolTable, Trigonometry};
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
-use robot_symbolic::Formula;
+use robot_symbolic::{Formula, Graph};
 
 use super::labels::{Rectangle, Room};
 use super::layout::{BASE, Layout, Place, Segment};
+use super::shape::{Group, Shape, Words, arrow, group, line};
+use super::style::Style;
 use super::symbols;
 use super::view::View;
-use crate::drawing::{arrow, coordinate, path};
+use crate::drawing::coordinate;
 use crate::parts;
 use crate::text;
 
@@ -24,7 +30,9 @@ pub(crate) struct Drawing<'r> {
     view: View,
     room: Room,
     /// Dimension lines and labels, on top of all.
-    written: Vec<Element>,
+    written: Vec<Shape>,
+    /// The look of symbols in documents.
+    table: SymbolTable,
 }
 
 /// The height of letters, and of a line with them.
@@ -37,26 +45,18 @@ const BESIDE: [f64; 6] = [20.0, -20.0, 32.0, -32.0, 48.0, -48.0];
 impl<'r> Drawing<'r> {
     /// The drawing of a robot's layout from a view.
     pub(crate) fn of(robot: &'r Robot, layout: &'r Layout, view: View) -> Drawing<'r> {
-        Drawing { robot, layout, view, room: Room::default(), written: vec![] }
+        let table = SymbolTable::new(robot, Trigonometry::Named)
+            .unwrap_or_else(|_| SymbolTable::spelled(Trigonometry::Named));
+        Drawing { robot, layout, view, room: Room::default(), written: vec![], table }
     }
 
     /// The drawing as SVG.
-    pub(crate) fn build(mut self) -> Element {
-        self.take_room();
-        let ground = symbols::ground(self.view.point(&BASE));
-        let bodies: Vec<Element> =
-            (0..self.layout.links.len()).map(|index| self.link(index)).collect();
-        let base = self.body(None);
-        let joints: Vec<Element> =
-            (0..self.layout.links.len()).map(|index| self.joint(index)).collect();
-        let frames: Vec<Element> =
-            self.layout.frames.iter().map(|(index, place)| self.frame(*index, place)).collect();
-        self.write();
-        let bounds = self.room.bounds();
-        let bounds = bounds.unwrap_or(Rectangle::about(Point::zeros(), Point::new(1.0, 1.0)));
-        let (low, size) = (bounds.low.map(|side| side - 12.0), bounds.high - bounds.low);
-        let [x, y, width, height] =
-            [low.x, low.y, size.x + 24.0, size.y + 24.0].map(|side| coordinate(side.round()));
+    pub(crate) fn build(self) -> Element {
+        let (title, description) =
+            (format!("Kinematic scheme of {}", self.robot.name), self.description());
+        let (shapes, bounds) = self.shapes();
+        let (low, size) = (bounds.low, bounds.high - bounds.low);
+        let [x, y, width, height] = [low.x, low.y, size.x, size.y].map(coordinate);
         element("svg")
             .attribute("xmlns", "http://www.w3.org/2000/svg")
             .attribute("viewBox", format!("{x} {y} {width} {height}"))
@@ -64,17 +64,37 @@ impl<'r> Drawing<'r> {
             .attribute("height", height)
             .attribute("role", "img")
             .attribute("aria-labelledby", "scheme-title scheme-description")
-            .with(
-                holding("title", format!("Kinematic scheme of {}", self.robot.name))
-                    .attribute("id", "scheme-title"),
-            )
-            .with(holding("desc", self.description()).attribute("id", "scheme-description"))
-            .with(ground)
-            .with(base)
-            .with_all(bodies)
-            .with_all(joints)
-            .with_all(frames)
-            .with_all(self.written)
+            .with(holding("title", title).attribute("id", "scheme-title"))
+            .with(holding("desc", description).attribute("id", "scheme-description"))
+            .with_all(shapes.iter().map(Shape::svg))
+    }
+
+    /// The drawing for a document.
+    pub(crate) fn figure(self, caption: &str) -> Figure {
+        let (shapes, Rectangle { low, high }) = self.shapes();
+        let mut drawn = vec![];
+        shapes.iter().for_each(|shape| shape.draw(&Style::default(), &mut drawn));
+        let bounds = [low, high].map(|corner| [corner.x, corner.y]);
+        Figure { caption: caption.to_owned(), bounds, shapes: drawn }
+    }
+
+    /// All parts, and the rectangle around them.
+    fn shapes(mut self) -> (Vec<Shape>, Rectangle) {
+        self.take_room();
+        let links = 0..self.layout.links.len();
+        let mut shapes: Vec<Shape> =
+            vec![symbols::ground(self.view.point(&BASE)).into(), self.body(None).into()];
+        shapes.extend(links.clone().map(|index| self.link(index).into()));
+        shapes.extend(links.map(|index| self.joint(index).into()));
+        let frames = self.layout.frames.iter();
+        shapes.extend(frames.map(|(index, place)| self.frame(*index, place).into()));
+        self.write();
+        let bounds = self.room.bounds();
+        let bounds = bounds.unwrap_or(Rectangle::about(Point::zeros(), Point::new(1.0, 1.0)));
+        shapes.append(&mut self.written);
+        let low = bounds.low.map(|side| (side - 12.0).round());
+        let size = (bounds.high - bounds.low).map(|side| (side + 24.0).round());
+        (shapes, Rectangle { low, high: low + size })
     }
 
     fn places(&self) -> impl Iterator<Item = &'r Place> + use<'r> {
@@ -105,7 +125,7 @@ impl<'r> Drawing<'r> {
     }
 
     /// The body of a link: what leads from its joint to those that it carries.
-    fn body(&self, carrier: Option<usize>) -> Element {
+    fn body(&self, carrier: Option<usize>) -> Group {
         let of_links = self.robot.links.iter().zip(&self.layout.links);
         let of_links = of_links.filter(|(link, _)| link.parent == carrier).map(|(_, place)| place);
         let of_frames = self.layout.frames.iter().filter_map(|(index, place)| {
@@ -116,43 +136,43 @@ impl<'r> Drawing<'r> {
         let lines = segments.map(|segment| {
             let ends = segment.ends.each_ref().map(|end| self.view.point(end));
             let class = if segment.length.is_some() { "body" } else { "body apart" };
-            path(&ends, false).class(class)
+            line(&ends, false).class(class)
         });
-        element("g").with_all(lines)
+        group().with_all(lines)
     }
 
-    fn link(&self, index: usize) -> Element {
+    fn link(&self, index: usize) -> Group {
         let name = self.robot.links.get(index).map_or("", |link| link.name.as_str());
         self.body(Some(index))
             .attribute("id", format!("scheme-{}", parts::link(index)))
             .class(hue(index))
             .attribute("data-is", parts::link(index))
-            .with(holding("title", format!("link {name}")))
+            .with(Shape::Title(format!("link {name}")))
     }
 
-    fn joint(&self, index: usize) -> Element {
-        let group = element("g").class(hue(index)).attribute("data-is", parts::link(index));
+    fn joint(&self, index: usize) -> Group {
+        let group = group().class(hue(index)).attribute("data-is", parts::link(index));
         let (Some(link), Some(place)) = (self.robot.links.get(index), self.layout.links.get(index))
         else {
             return group;
         };
         let (view, origin, axis) = (&self.view, &place.position, &place.axis);
         let sign = match link.joint.kind {
-            JointKind::Revolute => symbols::cylinder(view, origin, axis),
-            JointKind::Prismatic => symbols::slider(view, origin, axis, &place.rotation),
+            JointKind::Revolute => Shape::from(symbols::cylinder(view, origin, axis)),
+            JointKind::Prismatic => symbols::slider(view, origin, axis, &place.rotation).into(),
         };
         let motion = words::motion(link.joint.kind);
         group
-            .with(holding("title", format!("joint {}, {motion}", link.joint.name)))
+            .with(Shape::Title(format!("joint {}, {motion}", link.joint.name)))
             .with(symbols::axis(view, origin, axis))
             .with(sign)
             .with(symbols::triad(view, origin, &place.rotation))
     }
 
-    fn frame(&self, index: usize, place: &Place) -> Element {
+    fn frame(&self, index: usize, place: &Place) -> Group {
         let frame = self.robot.frames.get(index);
         let link = frame.and_then(|frame| frame.link);
-        let group = element("g")
+        let group = group()
             .with(symbols::hand(&self.view, &place.position, &place.axis))
             .with(symbols::triad(&self.view, &place.position, &place.rotation));
         match link {
@@ -174,10 +194,12 @@ impl<'r> Drawing<'r> {
         for (index, place) in &self.layout.frames {
             if let Some(frame) = self.robot.frames.get(*index) {
                 let point = self.view.point(&place.position);
-                self.label(&frame.name, point, 12.0, "name", None);
+                let name = Inline::text(text::shortened(&frame.name, 22));
+                self.label(&frame.name, name, point, 12.0, "name", None);
             }
         }
-        self.label("base", self.view.point(&BASE) + Point::new(0.0, 8.0), 10.0, "name", None);
+        let base = self.view.point(&BASE) + Point::new(0.0, 8.0);
+        self.label("base", Inline::text("base"), base, 10.0, "name", None);
         for place in self.places() {
             for (axis, name) in place.rotation.column_iter().zip(["x", "y", "z"]) {
                 let end = self.view.point(&(place.position + axis * symbols::TRIAD));
@@ -194,10 +216,12 @@ impl<'r> Drawing<'r> {
         };
         let [_, reach] = symbols::AXIS;
         let end = self.view.point(&(place.position + place.axis * reach));
-        let coordinate = text::symbol(&JointVariable::Position.symbol(link.joint.coordinate));
-        self.label(&coordinate, end, 4.0, "coordinate", Some(index));
+        let name = JointVariable::Position.symbol(link.joint.coordinate);
+        let inline = Inline::Math(self.table.look(&name));
+        self.label(&text::symbol(&name), inline, end, 4.0, "coordinate", Some(index));
         let point = self.view.point(&place.position);
-        self.label(&link.name, point, symbols::HALF + 2.0, "name", Some(index));
+        let name = Inline::text(text::shortened(&link.name, 22));
+        self.label(&link.name, name, point, symbols::HALF + 2.0, "name", Some(index));
     }
 
     /// A line beside a piece of a link with its length.
@@ -207,6 +231,7 @@ impl<'r> Drawing<'r> {
         let Some(along) = (to - from).try_normalize(8.0) else { return };
         let across = Point::new(-along.y, along.x);
         let (words, of) = length_words(self.robot, length);
+        let inline = self.length(length, &words);
         let size = size_of(&words, LETTERS);
         let label = |offset: f64| {
             let beside = across * offset;
@@ -214,22 +239,22 @@ impl<'r> Drawing<'r> {
             let center = (from + to) / 2.0 + across * (offset + off.copysign(offset));
             Rectangle::about(center, size)
         };
-        let line = |offset: f64| {
+        let beside = |offset: f64| {
             let middle = (from + to) / 2.0 + across * offset;
             Rectangle::about(middle, along.abs() * (to - from).norm() + across.abs() * 4.0)
         };
         let cost = |offset: &f64| {
-            self.room.cost(&label(*offset)) + self.room.cost(&line(*offset)) + offset.abs()
+            self.room.cost(&label(*offset)) + self.room.cost(&beside(*offset)) + offset.abs()
         };
         let best = BESIDE.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(20.0);
         let ends = [from, to].map(|end| end + across * best);
         let over = across * 4f64.copysign(best);
-        let mut group = element("g").class("dimension");
+        let mut group = group().class("dimension");
         if !of.is_empty() {
             group = group.attribute("data-is", of);
         }
         for (end, drawn) in [from, to].into_iter().zip(ends) {
-            group = group.with(path(&[end, drawn + over], false).class("witness"));
+            group = group.with(line(&[end, drawn + over], false).class("witness"));
         }
         let middle = (ends[0] + ends[1]) / 2.0;
         group = group.with_all(arrow(middle, ends[0], 6.0)).with_all(arrow(middle, ends[1], 6.0));
@@ -242,26 +267,34 @@ impl<'r> Drawing<'r> {
         } else {
             self.room.find(middle, size, 4.0)
         };
-        self.written.push(group.with(words_at(&words, &place, LETTERS)));
+        self.written.push(group.with(words_at(&words, inline, &place, LETTERS)).into());
     }
 
     /// A name near a point, with a line to it if it is far.
-    fn label(&mut self, words: &str, point: Point, gap: f64, class: &str, link: Option<usize>) {
+    fn label(
+        &mut self,
+        words: &str,
+        inline: Inline,
+        point: Point,
+        gap: f64,
+        class: &str,
+        link: Option<usize>,
+    ) {
         let shown = text::shortened(words, 22);
         let place = self.room.find(point, size_of(&shown, LETTERS), gap);
         let hue = link.map(hue).unwrap_or_default();
-        let mut group = element("g").class(format!("{class} {hue}").trim_end());
+        let mut group = group().class(format!("{class} {hue}").trim_end());
         if let Some(link) = link {
             group = group.attribute("data-is", parts::link(link));
         }
         let nearest = point.sup(&place.low).inf(&place.high);
         if (nearest - point).norm() > gap + 20.0 {
-            group = group.with(path(&[point, nearest], false).class("leader"));
+            group = group.with(line(&[point, nearest], false).class("leader"));
         }
         if shown != words {
-            group = group.with(holding("title", words));
+            group = group.with(Shape::Title(words.to_owned()));
         }
-        self.written.push(group.with(words_at(&shown, &place, LETTERS)));
+        self.written.push(group.with(words_at(&shown, inline, &place, LETTERS)).into());
     }
 
     /// The letter of an axis, beyond its end, left out if there is no room for it.
@@ -272,8 +305,23 @@ impl<'r> Drawing<'r> {
             "y" => "axis-y",
             _ => "axis-z",
         };
-        let text = words_at(name, &place, SMALL);
-        self.written.push(element("g").class(class).with(text));
+        let letter = Inline::Math(Math::row(name.chars().map(Math::Letter).collect()));
+        let text = words_at(name, letter, &place, SMALL);
+        self.written.push(group().class(class).with(text).into());
+    }
+
+    /// A length in a document: its formula, without its sign if it is a symbol.
+    fn length(&self, length: &Formula, words: &str) -> Inline {
+        let graph = Graph::new();
+        let value = length.lower(&graph, &mut |name| graph.symbol(name));
+        if length.is_constant() {
+            return Inline::text(words);
+        }
+        let formula = self.table.expression(value).unwrap_or_default();
+        match formula.pieces() {
+            [Math::Sign('-'), bare @ Math::Symbol(_)] => Inline::Math(bare.clone()),
+            _ => Inline::Math(formula),
+        }
     }
 
     fn description(&self) -> String {
@@ -323,11 +371,7 @@ fn size_of(words: &str, letters: f64) -> Point {
     Point::new((words.chars().count() as f64 * 0.6 + 0.3) * letters, letters * 1.15)
 }
 
-fn words_at(words: &str, place: &Rectangle, letters: f64) -> Element {
+fn words_at(words: &str, inline: Inline, place: &Rectangle, letters: f64) -> Words {
     let center = (place.low + place.high) / 2.0;
-    holding("text", words)
-        .attribute("x", coordinate(center.x))
-        .attribute("y", coordinate(center.y + 0.35 * letters))
-        .attribute("font-size", coordinate(letters))
-        .attribute("text-anchor", "middle")
+    Words { center, text: words.to_owned(), inline, size: letters }
 }

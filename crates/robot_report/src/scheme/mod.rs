@@ -7,9 +7,12 @@
 mod draw;
 mod labels;
 mod layout;
+mod shape;
+mod style;
 mod symbols;
 mod view;
 
+use robot_document::figure::Figure;
 use robot_document::markup::Element;
 use robot_model::robot::Robot;
 
@@ -20,6 +23,19 @@ use view::View;
 pub(crate) fn scheme(robot: &Robot) -> Element {
     let (layout, view) = best(robot);
     draw::Drawing::of(robot, &layout, view).build()
+}
+
+/// The content of the scheme.
+pub(crate) const CAPTION: &str = "The robot at q = 0. Cylinders rotate about their axes, boxes slide along \
+    their guides; the arrow on an axis points in the positive direction of its coordinate. \
+    Directions are true; short offsets are enlarged, and joints at the same point are drawn \
+    apart along a dotted line.";
+
+/// The scheme as lines, curves and labels, for documents.
+#[must_use]
+pub fn figure(robot: &Robot) -> Figure {
+    let (layout, view) = best(robot);
+    draw::Drawing::of(robot, &layout, view).figure(CAPTION)
 }
 
 /// The clearest of all views.

@@ -1,10 +1,9 @@
 //! The signs of the scheme: joints, frames, the ground.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
-use robot_document::markup::{Element, element};
 
+use super::shape::{Cylinder, Group, Line, arrow, group, line};
 use super::view::View;
-use crate::drawing::{arrow, coordinate, path};
 
 /// Half the length of a joint's sign along its axis.
 pub(crate) const HALF: f64 = 20.0;
@@ -16,37 +15,23 @@ pub(crate) const AXIS: [f64; 2] = [-40.0, 54.0];
 pub(crate) const TRIAD: f64 = 38.0;
 
 /// The axis of a joint, which points to where it moves for growing coordinates.
-pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Element {
+pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Group {
     let [from, to] = AXIS.map(|reach| view.point(&(origin + axis * reach)));
-    element("g").class("axis").with_all(arrow(from, to, 8.0))
+    group().class("axis").with_all(arrow(from, to, 8.0))
 }
 
 /// A revolute joint: a cylinder about its axis.
-pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Element {
-    let (center, along) = (view.point(origin), view.point(axis));
+pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Cylinder {
+    let along = view.point(axis);
     let nearness = view.nearness(axis);
-    // In coordinates with x along the axis on the page: a strip between two ellipses.
-    let (half, bulge) = (HALF * along.norm(), RADIUS * nearness.abs());
-    let [half_text, bulge_text, radius] = [half, bulge, RADIUS].map(coordinate);
-    let arc = |x: &str, y: &str| format!("A{bulge_text} {radius} 0 0 1 {x} {y}");
-    let outline = format!(
-        "M-{half_text} -{radius}L{half_text} -{radius}{}L-{half_text} {radius}{}Z",
-        arc(&half_text, &radius),
-        arc(&format!("-{half_text}"), &format!("-{radius}")),
-    );
-    let near = if nearness >= 0.0 { half } else { -half };
-    let turn = if along.norm() > 1e-9 { along.y.atan2(along.x).to_degrees() } else { 0.0 };
-    let [x, y, turn] = [center.x, center.y, turn].map(coordinate);
-    let cap = element("ellipse")
-        .attribute("cx", coordinate(near))
-        .attribute("cy", "0")
-        .attribute("rx", bulge_text.as_str())
-        .attribute("ry", radius.as_str());
-    element("g")
-        .class("joint")
-        .attribute("transform", format!("translate({x} {y}) rotate({turn})"))
-        .with(element("path").attribute("d", outline))
-        .with(cap)
+    Cylinder {
+        center: view.point(origin),
+        turn: if along.norm() > 1e-9 { along.y.atan2(along.x) } else { 0.0 },
+        half: HALF * along.norm(),
+        radius: RADIUS,
+        bulge: RADIUS * nearness.abs(),
+        is_near: nearness >= 0.0,
+    }
 }
 
 /// A prismatic joint: a box between the rails of its guide.
@@ -55,12 +40,12 @@ pub(crate) fn slider(
     origin: &Vector3<f64>,
     axis: &Vector3<f64>,
     rotation: &Matrix3<f64>,
-) -> Element {
+) -> Group {
     let [across, beside] = normals(view, axis, rotation);
     let rails = [-1.0, 1.0].map(|side| {
         let rail = origin + across * (side * (RADIUS + 5.0));
         let ends = [-1.9, 1.9].map(|reach| view.point(&(rail + axis * (reach * HALF))));
-        path(&ends, false).class("rail")
+        line(&ends, false).class("rail")
     });
     let half = [axis * HALF, across * RADIUS, beside * RADIUS];
     let faces = (0..3).map(|face| {
@@ -69,9 +54,9 @@ pub(crate) fn slider(
         let center = origin + half[face] * sign;
         let (u, v) = (half[(face + 1) % 3], half[(face + 2) % 3]);
         let corners = [u + v, u - v, -u - v, v - u].map(|corner| view.point(&(center + corner)));
-        path(&corners, true)
+        line(&corners, true)
     });
-    element("g").class("joint").with_all(rails).with_all(faces)
+    group().class("joint").with_all(rails).with_all(faces)
 }
 
 /// Two directions across an axis, the first the one that is seen better.
@@ -85,31 +70,31 @@ fn normals(view: &View, axis: &Vector3<f64>, rotation: &Matrix3<f64>) -> [Vector
 }
 
 /// The axes of a frame.
-pub(crate) fn triad(view: &View, origin: &Vector3<f64>, rotation: &Matrix3<f64>) -> Element {
+pub(crate) fn triad(view: &View, origin: &Vector3<f64>, rotation: &Matrix3<f64>) -> Group {
     let start = view.point(origin);
     let axes = rotation.column_iter().zip(["axis-x", "axis-y", "axis-z"]).map(|(axis, class)| {
         let end = view.point(&(origin + axis * TRIAD));
-        element("g").class(class).with_all(arrow(start, end, 6.0))
+        group().class(class).with_all(arrow(start, end, 6.0))
     });
-    element("g").class("triad").with_all(axes)
+    group().class("triad").with_all(axes)
 }
 
 /// The ground under a point.
-pub(crate) fn ground(point: Vector2<f64>) -> Element {
+pub(crate) fn ground(point: Vector2<f64>) -> Group {
     let edge = [-24.0, 24.0].map(|x| point + Vector2::new(x, 0.0));
     let hatch = (0..6).map(|index| {
         let top = point + Vector2::new(-20.0 + 8.0 * f64::from(index), 0.0);
-        path(&[top, top + Vector2::new(-7.0, 8.0)], false)
+        line(&[top, top + Vector2::new(-7.0, 8.0)], false)
     });
-    element("g").class("ground").with(path(&edge, false)).with_all(hatch)
+    group().class("ground").with(line(&edge, false)).with_all(hatch)
 }
 
 /// The hand at a tip: a fork open to the outside.
-pub(crate) fn hand(view: &View, origin: &Vector3<f64>, outward: &Vector3<f64>) -> Element {
+pub(crate) fn hand(view: &View, origin: &Vector3<f64>, outward: &Vector3<f64>) -> Line {
     let point = view.point(origin);
     let along = view.point(outward).try_normalize(1e-3).unwrap_or(Vector2::new(1.0, 0.0));
     let across = Vector2::new(-along.y, along.x);
     let corner = |x: f64, y: f64| point + along * x + across * y;
     let fork = [corner(9.0, -8.0), corner(0.0, -8.0), corner(0.0, 8.0), corner(9.0, 8.0)];
-    path(&fork, false).class("hand")
+    line(&fork, false).class("hand")
 }

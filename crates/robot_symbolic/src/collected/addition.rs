@@ -96,7 +96,7 @@ impl Group {
             // cos x sin y ± sin x cos y = ±sin(x ± y)
             (false, true, true, false) => {
                 let (angle, negative) = combined(!same)?;
-                Some((angle.sine, negative != !same))
+                Some((angle.sine, negative == same))
             }
             _ => None,
         }

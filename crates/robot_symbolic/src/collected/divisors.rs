@@ -18,7 +18,7 @@ const MAX_KERNELS: usize = 48;
 const MAX_INTEGER: i64 = 16;
 
 /// Longer sums are not squared: their brackets could not be broken over lines.
-const MAX_SQUARED: usize = 8;
+const MAX_SQUARED: usize = 5;
 
 /// A way to write a sum f as K Q + R.
 #[derive(Debug)]
@@ -210,7 +210,7 @@ impl<'t> Seeker<'t> {
         uses: &[(Powers, Rational, [usize; 2])],
     ) -> Option<Candidate> {
         // Of the ways to share numbers between the two factors the first that makes no new ones.
-        let scales = std::iter::once(Rational::ONE).chain(uses.iter().map(|(_, x, _)| x.abs()));
+        let mut scales = std::iter::once(Rational::ONE).chain(uses.iter().map(|(_, x, _)| x.abs()));
         let fits = |scale: &Rational| {
             let inverse = scale.recip();
             self.allows(&(ratio * scale))
@@ -218,7 +218,7 @@ impl<'t> Seeker<'t> {
                     uses.iter().all(|(_, x, _)| self.allows(&(x * &inverse)))
                 })
         };
-        let scale = scales.filter(|scale| fits(scale)).next()?;
+        let scale = scales.find(fits)?;
         let inverse = scale.recip()?;
         let mut used: Vec<usize> = vec![];
         let mut quotient: Vec<Term> = vec![];

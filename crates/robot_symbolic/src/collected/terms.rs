@@ -50,7 +50,8 @@ impl Powers {
                     Ordering::Greater => product.extend(b.next().copied()),
                     Ordering::Equal => {
                         product.push((x.0, x.1.saturating_add(y.1)));
-                        (a.next(), b.next());
+                        a.next();
+                        b.next();
                     }
                 },
                 (Some(_), None) => product.extend(a.next().copied()),

@@ -40,11 +40,11 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     let left = list.iter().map(|one| width(&one.equation.left)).fold(0.0, f64::max);
     let number = if numbered { NUMBER } else { 0.0 };
     let available = layout.width - left - number - MARGIN;
-    let mut writer = Writer { numbered, latex: String::new(), rows: vec![] };
+    let mut writer = Writer { numbered, latex: String::new(), rows: vec![], is_within: false };
     for equation in list {
         writer.add(equation, available)?;
     }
-    writer.end();
+    writer.end(Cut::Between);
     Ok(writer.latex)
 }
 
@@ -53,6 +53,8 @@ struct Writer {
     latex: String,
     /// The lines of the environment that is being filled.
     rows: Vec<String>,
+    /// Whether it goes on with an equation that started in the one before.
+    is_within: bool,
 }
 
 impl Writer {
@@ -61,9 +63,13 @@ impl Writer {
         let lines = right_side(equation, available)?;
         let left = formula(&equation.left);
         let last = lines.len().saturating_sub(1);
+        // Equations stay whole if they can.
+        if self.rows.len() + lines.len() > LONGEST {
+            self.end(Cut::Between);
+        }
         for (place, line) in lines.iter().enumerate() {
             if self.rows.len() >= LONGEST {
-                self.end();
+                self.end(Cut::Within);
             }
             let mut row = match (place, self.rows.is_empty()) {
                 (0, _) => format!("  {left} &= {}", formula(line)),
@@ -77,16 +83,41 @@ impl Writer {
             }
             self.rows.push(row);
         }
+        // What follows has a left side of its own.
+        if self.is_within {
+            self.end(Cut::Between);
+        }
         Ok(())
     }
 
-    fn end(&mut self) {
-        if !self.rows.is_empty() {
-            let name = if self.numbered { "align" } else { "align*" };
-            let rows = std::mem::take(&mut self.rows).join(" \\\\\n");
-            self.latex.push_str(&format!("\\begin{{{name}}}\n{rows}\n\\end{{{name}}}\n"));
+    /// Ends an environment; within an equation the lines go on at the usual distance.
+    fn end(&mut self, cut: Cut) {
+        if self.rows.is_empty() {
+            return;
         }
+        let name = if self.numbered { "align" } else { "align*" };
+        let rows = std::mem::take(&mut self.rows).join(" \\\\\n");
+        let mut skips = String::new();
+        if self.is_within {
+            skips.push_str(r"\abovedisplayskip=\jot");
+        }
+        if cut == Cut::Within {
+            skips.push_str(r"\belowdisplayskip=0pt");
+        }
+        let environment = format!("\\begin{{{name}}}\n{rows}\n\\end{{{name}}}");
+        self.latex.push_str(&match skips.as_str() {
+            "" => format!("{environment}\n"),
+            _ => format!("{{{skips}\n{environment}}}%\n"),
+        });
+        self.is_within = cut == Cut::Within;
     }
+}
+
+/// Where an environment ends.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cut {
+    Between,
+    Within,
 }
 
 /// A further line: the sign that it starts with is set apart from what follows, as in a sum.

@@ -2,12 +2,12 @@
 
 mod document;
 mod equations;
+mod figure;
 mod formula;
 mod read;
 mod read_back;
 mod text;
 
-pub(crate) use document::natural_width;
 pub use document::{Page, document};
 pub use equations::{Layout, equations};
 pub use formula::formula;

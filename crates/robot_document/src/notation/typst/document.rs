@@ -1,10 +1,12 @@
 //! Displayed equations and whole documents.
 
 use super::{formula, text};
-use crate::breaking::right_side;
-use crate::document::{Block, Document, Inline, NumberedEquation, Table};
+use crate::breaking::{is_within_product, right_side};
+use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
-use crate::latex::{Layout, Page, natural_width};
+use crate::latex::{Layout, Page};
+use crate::math::Math;
+use crate::notation::tabular::{Part, SIZES, parts};
 use crate::width::width;
 
 /// The number of an equation and its distance from the equation, pt.
@@ -13,10 +15,11 @@ const NUMBER: f64 = 44.0;
 const MARGIN: f64 = 4.0;
 /// Between the columns of a table with the padding of the cells, pt.
 const CELL_GAP: f64 = 7.0;
-/// The smallest type of a table, pt.
-const SMALLEST: f64 = 6.0;
 /// Between two columns, cm.
 const GAP: f64 = 0.6;
+
+/// Lines that are never on two pages; of the parts of a longer equation the last one has the number.
+const LINES: usize = 8;
 
 /// Displayed equations one below the other; those with a label are numbered.
 ///
@@ -24,25 +27,45 @@ const GAP: f64 = 0.6;
 ///
 /// A piece of an equation that cannot be broken and does not fit a line.
 pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
-    let mut typst = String::new();
+    let is_numbered = list.iter().any(|one| one.label.is_some());
+    let numbering = if is_numbered { "\"(1)\"" } else { "none" };
+    let mut typst = format!("#[\n#set math.equation(numbering: {numbering})\n");
     for NumberedEquation { label, equation } in list {
         let number = if label.is_some() { NUMBER } else { 0.0 };
         let available = layout.width - width(&equation.left) - number - MARGIN;
-        let lines = right_side(equation, available)?;
-        let lines: Vec<String> = lines.iter().map(formula).collect();
-        let right = lines
-            .join(" \\\n    & quad ")
-            .replace("& quad + ", "& quad + med ")
-            .replace("& quad - ", "& quad - med ")
-            .replace("& quad dot.op ", "& quad quad dot.op ");
         let left = formula(&equation.left);
-        let tail = label.as_ref().map_or(String::new(), |label| format!(" <eq:{label}>"));
-        let numbering = if label.is_some() { "\"(1)\"" } else { "none" };
-        typst.push_str(&format!(
-            "#[#set math.equation(numbering: {numbering})\n$ {left} & = {right} ${tail}]\n"
-        ));
+        let lines = right_side(equation, available)?;
+        let last = lines.len().saturating_sub(1) / LINES;
+        for (part, lines) in lines.chunks(LINES).enumerate() {
+            let mut shown = vec![];
+            for (place, line) in lines.iter().enumerate() {
+                shown.push(match (part, place) {
+                    (0, 0) => format!("{left} & = {}", formula(line)),
+                    (_, 0) => format!("#hide(${left}$) & quad {}", continued(line)),
+                    _ => format!("& quad {}", continued(line)),
+                });
+            }
+            let shown = shown.join(" \\\n    ");
+            typst.push_str(&match label {
+                Some(label) if part == last => format!("$ {shown} $ <eq:{label}>\n"),
+                Some(_) => format!("#[#set math.equation(numbering: none)\n$ {shown} $]\n"),
+                None => format!("$ {shown} $\n"),
+            });
+        }
     }
+    typst.push_str("]\n");
     Ok(typst)
+}
+
+/// A further line: the sign that it starts with is set apart from what follows, as in a sum.
+fn continued(line: &Math) -> String {
+    match line.pieces() {
+        [first @ Math::Sign('+' | '-'), rest @ ..] => {
+            format!("{} med {}", formula(first), formula(&Math::Row(rest.to_vec())))
+        }
+        pieces if is_within_product(pieces) => format!("quad {}", formula(line)),
+        _ => formula(line),
+    }
 }
 
 /// The document as the source of a Typst run; it needs no package, and the fonts that Typst brings.
@@ -61,14 +84,13 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
             Block::Paragraph(inlines) => {
                 typst.push_str(&format!("#par[{}]\n", line(inlines)));
             }
-            Block::List(items) => {
-                for item in items {
-                    typst.push_str(&format!("#par(hanging-indent: 1.2em)[{}]\n", line(item)));
-                }
-            }
             Block::Table(table) => {
                 tables += 1;
                 typst.push_str(&self::table(table, tables, page));
+            }
+            Block::Figure(figure) => {
+                let available = Layout::of_centimeters(page.width).width;
+                typst.push_str(&super::figure::figure(figure, available));
             }
             Block::Equations(list) => {
                 typst.push_str(&equations(list, Layout::of_centimeters(page.width))?);
@@ -91,7 +113,7 @@ fn head(document: &Document, page: Page) -> String {
 #set par(spacing: 0.8em)
 #show math.equation: set text(font: \"New Computer Modern Math\")
 #show math.equation.where(block: true): set align(start)
-#show math.equation.where(block: true): set block(breakable: true, spacing: 0.8em)
+#show math.equation.where(block: true): set block(breakable: false, spacing: 0.65em)
 #set math.equation(number-align: end + bottom)
 #par[#text(size: 17pt)[{title}]]
 ",
@@ -99,43 +121,53 @@ fn head(document: &Document, page: Page) -> String {
     )
 }
 
-/// A table in a size that fits a column; one that would be too small becomes a list.
+/// A table that stays where it is, in parts that are never broken.
 fn table(table: &Table, number: usize, page: Page) -> String {
-    let mut typst = format!("#par[*Table {number}\\.* {}]\n", text(&table.caption));
-    let room = Layout::of_centimeters(page.width).width - CELL_GAP * table.head.len() as f64;
-    let size = (10.0 * room / natural_width(table)).min(10.0);
-    if size < SMALLEST {
-        for row in &table.rows {
-            let cells = table.head.iter().zip(row);
-            let cells: Vec<String> = cells.map(|(head, cell)| named_cell(head, cell)).collect();
-            typst.push_str(&format!("#par(hanging-indent: 1.2em)[{}]\n", cells.join("; ")));
-        }
-        return typst;
-    }
-    let cells = |cells: &[Vec<Inline>]| -> String {
-        cells.iter().map(|cell| format!("[{}], ", line(cell))).collect()
+    let available = Layout::of_centimeters(page.width).width;
+    parts(table, available, CELL_GAP).iter().map(|part| self::part(part, number)).collect()
+}
+
+fn part(part: &Part, number: usize) -> String {
+    let caption = match part.is_continued {
+        true => format!("*Table {number}* (continued)"),
+        false => format!("*Table {number}.* {}", text(&part.table.caption)),
     };
-    typst.push_str(&format!(
-        "#[#set text(size: {size:.1}pt)\n#table(columns: {}, stroke: none, inset: (x: 3pt, top: 3pt, bottom: 4pt), table.hline(),\n",
-        table.head.len()
-    ));
-    typst.push_str(&format!("  table.header({}), table.hline(),\n", cells(&table.head)));
-    for row in &table.rows {
-        typst.push_str(&format!("  {}\n", cells(row).trim_end()));
+    let size = 10.0 * SIZES.get(part.size).map_or(1.0, |(_, scale)| *scale);
+    let columns: Vec<String> = part.widths.iter().map(|width| column(*width)).collect();
+    let cells = |cells: &[Cell]| -> String {
+        let cells: Vec<String> = cells.iter().map(|cell| format!("[{}]", line(cell))).collect();
+        cells.join(", ")
+    };
+    let mut typst = format!(
+        "#block(breakable: false)[
+{caption}
+#set text(size: {size:.1}pt)
+#table(
+  columns: ({}),
+  stroke: none,
+  inset: (x: 3pt, top: 3pt, bottom: 4pt),
+  table.hline(),
+  table.header({}),
+  table.hline(),
+",
+        columns.join(", "),
+        cells(&part.table.head)
+    );
+    for row in &part.table.rows {
+        typst.push_str(&format!("  {},\n", cells(row)));
     }
-    typst.push_str("  table.hline())]\n");
+    typst.push_str("  table.hline(),\n)]\n");
     typst
 }
 
-fn named_cell(head: &[Inline], cell: &[Inline]) -> String {
-    if head.iter().all(|inline| *inline == Inline::text("")) {
-        return line(cell);
-    }
-    format!("{}: {}", line(head), line(cell))
+/// The width of a column.
+fn column(width: Option<f64>) -> String {
+    // The padding of the cells is within.
+    width.map_or_else(|| "auto".to_owned(), |width| format!("{}pt", (width + 6.0).floor()))
 }
 
 /// A line of text.
-fn line(inlines: &[Inline]) -> String {
+pub(super) fn line(inlines: &[Inline]) -> String {
     let one = |inline: &Inline| match inline {
         Inline::Text(content) => text(content),
         Inline::Emphasis(content) => format!("#emph[{}]", text(content)),

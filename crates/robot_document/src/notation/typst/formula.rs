@@ -1,4 +1,6 @@
-//! Formulas as Typst.
+//! Formulas as Typst, as people write them.
+
+use robot_model::signs::FunctionName;
 
 use super::text::quoted;
 use crate::math::{Fence, Math, Script};
@@ -6,60 +8,95 @@ use crate::math::{Fence, Math, Script};
 /// The Typst of a formula, for math mode.
 #[must_use]
 pub fn formula(math: &Math) -> String {
+    shown(math, Place::Free)
+}
+
+/// Where a formula is: among the arguments of a call, a comma would start the next one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Free,
+    Argument,
+}
+
+fn shown(math: &Math, place: Place) -> String {
     match math {
         Math::Number(digits) => digits.clone(),
         Math::Letter(letter) => letter.to_string(),
         Math::Word(word) => quoted(word),
-        Math::Sign(sign) => self::sign(*sign),
-        Math::Function(name) => format!("op({})", quoted(name.text())),
-        Math::Symbol(symbol) => formula(&symbol.shape),
-        Math::Row(pieces) => row(pieces),
-        Math::Script(script) => with_indices(script),
+        Math::Sign(sign) => self::sign(*sign, place),
+        Math::Function(FunctionName::Sign) => format!("op({})", quoted(FunctionName::Sign.text())),
+        Math::Function(name) => name.text().to_owned(),
+        Math::Symbol(symbol) => shown(&symbol.shape, place),
+        Math::Row(pieces) => row(pieces, place),
+        Math::Script(script) => with_indices(script, place),
         Math::Accent(accent, inside) => call(accent.typst(), inside),
         Math::Styled(font, inside) => {
             let [before, after] = font.typst();
-            format!("{before}{}{after}", formula(inside))
+            format!("{before}{}{after}", shown(inside, Place::Argument))
         }
         Math::Fraction(parts) => {
-            let [above, below] = parts.each_ref().map(formula);
-            format!("frac({above}, {below})")
+            let [above, below] = parts.each_ref().map(|part| grouped(&shown(part, place)));
+            format!("{above}/{below}")
         }
         Math::Root(inside) => call("sqrt", inside),
-        Math::Fenced(Fence::Parentheses, inside) => format!("({})", formula(inside)),
+        Math::Fenced(Fence::Parentheses, inside) => format!("({})", shown(inside, place)),
         Math::Fenced(Fence::Bars, inside) => call("abs", inside),
         Math::Matrix(rows) => {
-            let row = |row: &Vec<Math>| row.iter().map(formula).collect::<Vec<_>>().join(", ");
+            let cell = |entry: &Math| shown(entry, Place::Argument);
+            let row = |row: &Vec<Math>| row.iter().map(cell).collect::<Vec<_>>().join(", ");
             let rows: Vec<String> = rows.iter().map(row).collect();
             format!("mat(delim: \"[\", {})", rows.join("; "))
         }
     }
 }
 
-/// All signs but those of sums are escaped: a comma or a parenthesis would be one of a call.
-fn sign(sign: char) -> String {
+/// All signs but those of sums and lists are escaped: a single parenthesis has no other one.
+fn sign(sign: char, place: Place) -> String {
     match sign {
         '·' => "dot.op".to_owned(),
         '*' => "∗".to_owned(),
         '+' | '-' | '=' => sign.to_string(),
+        ',' if place == Place::Free => sign.to_string(),
         other => format!("\\{other}"),
     }
 }
 
 fn call(function: &str, inside: &Math) -> String {
-    format!("{function}({})", formula(inside))
+    format!("{function}({})", shown(inside, Place::Argument))
+}
+
+/// Whether Typst takes a piece as a whole before and after a sign: a number, or a letter.
+fn is_single(typst: &str) -> bool {
+    let mut letters = typst.chars();
+    match (letters.next(), letters.as_str()) {
+        (Some(first), "") => first.is_alphanumeric(),
+        (Some(_), _) => typst.bytes().all(|byte| byte.is_ascii_digit()),
+        (None, _) => false,
+    }
+}
+
+/// A piece as a whole: its parentheses do not print.
+fn grouped(typst: &str) -> String {
+    if is_single(typst) { typst.to_owned() } else { format!("({typst})") }
 }
 
 /// Pieces with a space between: letters without one would be a word, and a letter before a
 /// parenthesis a call. Beside quotation marks a space would print.
-fn row(pieces: &[Math]) -> String {
+fn row(pieces: &[Math], place: Place) -> String {
     let mut typst = String::new();
-    for (place, piece) in pieces.iter().enumerate() {
-        let before = place.checked_sub(1).and_then(|place| pieces.get(place));
+    for (index, piece) in pieces.iter().enumerate() {
+        let before = index.checked_sub(1).and_then(|index| pieces.get(index));
         if before.is_some_and(|before| piece.is_apart_from(before)) {
             typst.push_str(" thin");
         }
-        let piece = formula(piece);
-        if !typst.is_empty() && !typst.ends_with('"') && !piece.starts_with('"') {
+        let is_close = match (before, piece) {
+            (None, _) | (_, Math::Sign(',')) => true,
+            (Some(Math::Function(_)), Math::Fenced(..)) => true,
+            (Some(Math::Sign('-')), _) => index == 1,
+            _ => false,
+        };
+        let piece = shown(piece, place);
+        if !is_close && !typst.ends_with('"') && !piece.starts_with('"') {
             typst.push(' ');
         }
         typst.push_str(&piece);
@@ -67,19 +104,37 @@ fn row(pieces: &[Math]) -> String {
     if typst.is_empty() { "\"\"".to_owned() } else { typst }
 }
 
-/// A power of a symbol with an index is above the index: `attach` sees to that.
-fn with_indices(script: &Script) -> String {
-    let base = formula(&script.base);
+/// A power of a symbol with an index is above the index.
+fn with_indices(script: &Script, place: Place) -> String {
+    if let (None, Some(upper), Some(own)) = (&script.lower, &script.upper, own_index(&script.base))
+        && own.upper.is_none()
+    {
+        let (base, lower) = (own.base.clone(), own.lower.clone());
+        return with_indices(&Script { base, lower, upper: Some(upper.clone()) }, place);
+    }
     let places = [("b", "_", &script.lower), ("t", "^", &script.upper)];
     let indices = places
         .into_iter()
-        .filter_map(|(name, sign, index)| index.as_ref().map(|index| (name, sign, formula(index))));
+        .filter_map(|(name, sign, index)| index.as_ref().map(|index| (name, sign, index)));
     if is_simple(&script.base) {
-        let indices: String = indices.map(|(_, sign, index)| format!("{sign}({index})")).collect();
-        return format!("{base}{indices}");
+        let indices: String = indices
+            .map(|(_, sign, index)| format!("{sign}{}", grouped(&shown(index, place))))
+            .collect();
+        return format!("{}{indices}", shown(&script.base, place));
     }
-    let indices: String = indices.map(|(name, _, index)| format!(", {name}: {index}")).collect();
-    format!("attach({base}{indices})")
+    let indices: String = indices
+        .map(|(name, _, index)| format!(", {name}: {}", shown(index, Place::Argument)))
+        .collect();
+    format!("attach({}{indices})", shown(&script.base, Place::Argument))
+}
+
+/// The indices that a base has itself.
+fn own_index(base: &Math) -> Option<&Script> {
+    match base {
+        Math::Script(script) => Some(script),
+        Math::Symbol(symbol) => own_index(&symbol.shape),
+        _ => None,
+    }
 }
 
 fn is_simple(base: &Math) -> bool {
@@ -95,21 +150,38 @@ mod tests {
     use robot_model::signs::Accent;
 
     use super::*;
+    use crate::latex::read;
 
     #[test]
     fn indices_accents_and_calls() {
         let rate = Math::Accent(Accent::DoubleDot, Box::new(Math::Letter('q')));
         let power = rate.with_lower(Math::integer(2)).with_upper(Math::integer(3));
-        assert_eq!(formula(&power), "attach(dot.double(q)_(2), t: 3)");
+        assert_eq!(formula(&power), "dot.double(q)_2^3");
         let fenced = Math::Fenced(Fence::Parentheses, Box::new(Math::Letter('x')));
         let row = Math::Row(vec![Math::Letter('q'), fenced, Math::Sign('·'), Math::Letter('ω')]);
         assert_eq!(formula(&row), "q (x) dot.op ω");
     }
 
     #[test]
+    fn formulas_read_as_people_write_them() {
+        for (latex, typst) in [
+            (r"\sin q_2 \dot{q}_2^{2}", "sin q_2 dot(q)_2^2"),
+            (r"-\cos^{2} q_{12} + J_x^{*5}", "-cos^2 q_12 + J_x^(∗ 5)"),
+            (r"\sin\left(q_2 + q_3\right) - F_{l_x}^{6}", "sin(q_2 + q_3) - F_(l_x)^6"),
+            (r"\left(0, -g, l_1\right)", "(0, - g, l_1)"),
+            (r"\omega_{2,x} \frac{1}{2} \frac{a + b}{c_1}", "ω_(2, x) 1/2 (a + b)/(c_1)"),
+            (r"\dot{x_{1,2}} \sqrt{2}", r"dot(x_(1\, 2)) sqrt(2)"),
+        ] {
+            assert_eq!(formula(&read(latex).unwrap()), typst, "{latex}");
+        }
+    }
+
+    #[test]
     fn signs_and_words_are_never_markup() {
-        let signs = ",(:;./".chars().map(Math::Sign).collect();
-        assert_eq!(formula(&Math::Row(signs)), r"\, \( \: \; \. \/");
+        let signs: Vec<Math> = ",(:;./".chars().map(Math::Sign).collect();
+        assert_eq!(formula(&Math::Row(signs.clone())), r", \( \: \; \. \/");
+        let marked = Math::Accent(Accent::Bar, Box::new(Math::Row(signs)));
+        assert_eq!(formula(&marked), r"macron(\, \( \: \; \. \/)");
         let word = Math::Word("\"#x\\".to_owned());
         let row = Math::Row(vec![Math::Letter('a'), word, Math::Letter('b')]);
         assert_eq!(formula(&row), r##"a"\"#x\\"b"##);

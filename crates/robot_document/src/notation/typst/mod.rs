@@ -1,6 +1,7 @@
 //! Typst: formulas, equations and documents.
 
 mod document;
+mod figure;
 mod formula;
 mod text;
 

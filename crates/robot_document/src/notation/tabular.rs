@@ -1,0 +1,293 @@
+//! Tables that fit a column: in smaller type, with cells of several lines, side by side, or in parts.
+
+use crate::document::{Cell, Inline, Table};
+use crate::width::{text_width, width};
+
+/// Sizes of type with what they are of the normal size.
+pub(super) const SIZES: [(&str, f64); 3] =
+    [("normalsize", 1.0), ("small", 0.92), ("footnotesize", 0.84)];
+
+/// A table, or the part of one with some of its columns and rows.
+pub(super) struct Part {
+    /// Its heads and rows.
+    pub(super) table: Table,
+    /// The widths of columns whose cells may take several lines, pt.
+    pub(super) widths: Vec<Option<f64>>,
+    /// The place of the size of type among the sizes.
+    pub(super) size: usize,
+    /// Whether another part comes before.
+    pub(super) is_continued: bool,
+}
+
+/// Rows from which a narrow table is set in two halves side by side.
+const LONG: usize = 14;
+/// Lines of a part.
+const LINES: f64 = 28.0;
+/// Words are broken after as many letters.
+const LONGEST_WORD: usize = 12;
+/// A column is broken to no less than this without need, pt.
+const NARROW: f64 = 70.0;
+
+/// The parts of a table for a line of a width, pt, with `gap` points for each column.
+pub(super) fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
+    let folded = folded(table);
+    let columns = |table: &Table| 0..table.head.len();
+    if table.rows.len() >= LONG
+        && let Some(folded) = folded
+        && let Some((size, widths)) =
+            Measure::new(&folded, gap).natural(columns(&folded), available)
+    {
+        return rows(&folded, &widths, size);
+    }
+    let measure = Measure::new(table, gap);
+    let all: Vec<usize> = columns(table).collect();
+    let whole = measure.natural(columns(table), available).or_else(|| {
+        (1..SIZES.len()).find_map(|size| measure.broken(&all, available, size, NARROW))
+    });
+    if let Some((size, widths)) = whole {
+        return rows(table, &widths, size);
+    }
+    let mut parts: Vec<Part> = vec![];
+    for columns in measure.split(available) {
+        let last = SIZES.len() - 1;
+        let (size, widths) = measure
+            .natural(columns.iter().copied(), available)
+            .or_else(|| measure.broken(&columns, available, last, 0.0))
+            .unwrap_or_else(|| measure.forced(&columns, available));
+        let mut next = rows(&chosen(table, &columns), &widths, size);
+        if !parts.is_empty() {
+            next.iter_mut().for_each(|part| part.is_continued = true);
+        }
+        parts.extend(next);
+    }
+    parts
+}
+
+/// The natural widths of columns in the normal size, and those of their widest words.
+struct Measure {
+    natural: Vec<f64>,
+    least: Vec<f64>,
+    keys: usize,
+    gap: f64,
+}
+
+/// The place of a size, and the widths of columns of several lines.
+type Layout = (usize, Vec<Option<f64>>);
+
+impl Measure {
+    fn new(table: &Table, gap: f64) -> Measure {
+        let widest = |measure: fn(&[Inline]) -> f64| {
+            let column = |column: usize| {
+                let cells = std::iter::once(&table.head).chain(&table.rows);
+                let cells = cells.filter_map(|row| row.get(column));
+                cells.map(|cell| measure(cell)).fold(0.0, f64::max)
+            };
+            (0..table.head.len()).map(column).collect()
+        };
+        let (natural, least) = (widest(natural_width), widest(least_width));
+        Measure { natural, least, keys: table.keys, gap }
+    }
+
+    /// Columns in the largest type in which no cell needs a second line.
+    fn natural(&self, columns: impl Iterator<Item = usize>, available: f64) -> Option<Layout> {
+        let widths: Vec<f64> =
+            columns.filter_map(|column| self.natural.get(column).copied()).collect();
+        let (sum, gaps) = (widths.iter().sum::<f64>(), self.gap * widths.len() as f64);
+        let size = SIZES.iter().position(|(_, scale)| sum * scale + gaps <= available)?;
+        Some((size, vec![None; widths.len()]))
+    }
+
+    /// Columns with cells of several lines, none narrower than `narrow` points.
+    fn broken(
+        &self,
+        columns: &[usize],
+        available: f64,
+        size: usize,
+        narrow: f64,
+    ) -> Option<Layout> {
+        let scale = SIZES.get(size).map_or(1.0, |(_, scale)| *scale);
+        let room = available - self.gap * columns.len() as f64;
+        let width = |column: &usize, level: f64| {
+            let of = |widths: &[f64]| widths.get(*column).map_or(0.0, |width| width * scale);
+            of(&self.natural).min(of(&self.least).max(level))
+        };
+        let total = |level: f64| columns.iter().map(|column| width(column, level)).sum::<f64>();
+        let mut level = available;
+        while total(level) > room {
+            level -= 1.0;
+            if level < narrow {
+                return None;
+            }
+        }
+        let chosen = columns.iter().map(|column| {
+            let own = width(column, level);
+            (own < width(column, f64::INFINITY)).then_some(own)
+        });
+        Some((size, chosen.collect()))
+    }
+
+    /// A column that is wider than the line: its formulas are broken where they can be.
+    fn forced(&self, columns: &[usize], available: f64) -> Layout {
+        let scale = SIZES.last().map_or(1.0, |(_, scale)| *scale);
+        let keys: f64 = self.natural.iter().take(self.keys).map(|width| width * scale).sum();
+        let room = available - self.gap * columns.len() as f64 - keys;
+        let widths = columns.iter().map(|column| (*column >= self.keys).then_some(room.max(20.0)));
+        (SIZES.len() - 1, widths.collect())
+    }
+
+    /// Columns in parts that fit, the first ones again in each.
+    fn split(&self, available: f64) -> Vec<Vec<usize>> {
+        let scale = SIZES.last().map_or(1.0, |(_, scale)| *scale);
+        let width =
+            |column: usize| self.natural.get(column).map_or(0.0, |width| width * scale) + self.gap;
+        let keys: Vec<usize> = (0..self.keys).collect();
+        let start: f64 = keys.iter().map(|column| width(*column)).sum();
+        let (mut parts, mut part, mut sum) = (vec![], keys.clone(), start);
+        for column in self.keys..self.natural.len() {
+            if sum + width(column) > available && part.len() > keys.len() {
+                parts.push(std::mem::replace(&mut part, keys.clone()));
+                sum = start;
+            }
+            part.push(column);
+            sum += width(column);
+        }
+        parts.push(part);
+        parts
+    }
+}
+
+/// The table with its second half beside the first.
+fn folded(table: &Table) -> Option<Table> {
+    let half = table.rows.len().div_ceil(2);
+    let (left, right) = table.rows.split_at_checked(half)?;
+    let beside = |left: &[Cell], right: Option<&Vec<Cell>>| -> Vec<Cell> {
+        let empty = vec![vec![]; table.head.len()];
+        // A column of its own keeps the halves apart.
+        let between = [vec![]];
+        [left, &between, right.unwrap_or(&empty)].concat()
+    };
+    let rows = left.iter().enumerate().map(|(place, row)| beside(row, right.get(place)));
+    Some(Table {
+        caption: table.caption.clone(),
+        head: beside(&table.head, Some(&table.head)),
+        rows: rows.collect(),
+        keys: table.keys,
+    })
+}
+
+/// The table with some of its columns.
+fn chosen(table: &Table, columns: &[usize]) -> Table {
+    let of = |row: &Vec<Cell>| -> Vec<Cell> {
+        columns.iter().filter_map(|column| row.get(*column).cloned()).collect()
+    };
+    Table {
+        caption: table.caption.clone(),
+        head: of(&table.head),
+        rows: table.rows.iter().map(of).collect(),
+        keys: table.keys,
+    }
+}
+
+/// The rows in parts, none longer than a page.
+fn rows(table: &Table, widths: &[Option<f64>], size: usize) -> Vec<Part> {
+    let scale = SIZES.get(size).map_or(1.0, |(_, scale)| *scale);
+    let lines = |row: &Vec<Cell>| {
+        let cells = row.iter().zip(widths).filter_map(|(cell, width)| Some((cell, (*width)?)));
+        let lines = cells.map(|(cell, width)| (1.15 * scale * natural_width(cell) / width).ceil());
+        lines.fold(1.0, f64::max)
+    };
+    let mut chunks: Vec<Vec<Vec<Cell>>> = vec![vec![]];
+    let mut sum = 0.0;
+    for row in &table.rows {
+        sum += lines(row);
+        if sum > LINES {
+            chunks.push(vec![]);
+            sum = lines(row);
+        }
+        if let Some(chunk) = chunks.last_mut() {
+            chunk.push(row.clone());
+        }
+    }
+    let part = |(place, rows): (usize, Vec<Vec<Cell>>)| Part {
+        table: Table { rows, caption: table.caption.clone(), head: table.head.clone(), ..*table },
+        widths: widths.to_vec(),
+        size,
+        is_continued: place > 0,
+    };
+    chunks.into_iter().enumerate().map(part).collect()
+}
+
+/// The width of a cell on one line in the normal size, pt.
+fn natural_width(cell: &[Inline]) -> f64 {
+    cell.iter().map(inline_width).sum()
+}
+
+/// The width of the widest word or formula of a cell.
+fn least_width(cell: &[Inline]) -> f64 {
+    let word = |inline: &Inline| match inline {
+        Inline::Text(text) | Inline::Emphasis(text) => {
+            let words = text.split(' ').map(|word| {
+                let end = word.char_indices().nth(LONGEST_WORD).map_or(word.len(), |(at, _)| at);
+                1.2 * text_width(word.get(..end).unwrap_or(word))
+            });
+            words.fold(0.0, f64::max)
+        }
+        whole => inline_width(whole),
+    };
+    cell.iter().map(word).fold(0.0, f64::max)
+}
+
+fn inline_width(inline: &Inline) -> f64 {
+    match inline {
+        Inline::Text(text) => text_width(text),
+        Inline::Emphasis(text) => 1.2 * text_width(text),
+        Inline::Math(math) => width(math),
+        Inline::Reference(_) => 25.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(columns: usize, rows: usize, cell: &str) -> Table {
+        let row = vec![vec![Inline::text(cell)]; columns];
+        let (head, rows) = (row.clone(), vec![row; rows]);
+        Table { caption: String::new(), head, rows, keys: 1 }
+    }
+
+    #[test]
+    fn wide_tables_are_split_and_keep_their_first_column() {
+        let wide = parts(&table(9, 2, "onelongword"), 200.0, 10.0);
+        assert!(wide.len() > 2);
+        for part in &wide {
+            let width: f64 = part.table.head.iter().map(|cell| natural_width(cell) * 0.84).sum();
+            assert!(width + 10.0 * part.table.head.len() as f64 <= 200.0);
+        }
+        let columns: usize = wide.iter().map(|part| part.table.head.len() - 1).sum();
+        assert_eq!(columns, 8);
+        assert!(!wide[0].is_continued && wide[1].is_continued);
+    }
+
+    #[test]
+    fn long_text_takes_several_lines() {
+        let sentence = ["word"; 30].join(" ");
+        let found = parts(&table(2, 2, &sentence), 200.0, 10.0);
+        let [part] = found.as_slice() else { panic!("{} parts", found.len()) };
+        let widths: Vec<f64> = part.widths.iter().flatten().copied().collect();
+        assert!(widths.len() == 2 && widths.iter().sum::<f64>() <= 180.0, "{widths:?}");
+    }
+
+    #[test]
+    fn long_narrow_tables_stand_side_by_side_and_long_ones_go_on() {
+        let found = parts(&table(2, 21, "a"), 200.0, 10.0);
+        let [part] = found.as_slice() else { panic!("{} parts", found.len()) };
+        assert_eq!((part.table.head.len(), part.table.rows.len()), (5, 11));
+        assert!(part.table.rows.iter().all(|row| row.len() == 5));
+        let rows: Vec<usize> = parts(&table(3, 50, "abcdefghij"), 200.0, 10.0)
+            .iter()
+            .map(|part| part.table.rows.len())
+            .collect();
+        assert_eq!(rows, [28, 22]);
+    }
+}

@@ -1,0 +1,177 @@
+//! The meaning of the symbols that equations define: one for all of a kind, with letters as indices.
+
+use robot_dynamics::quantity::Kind;
+
+use crate::document::{Cell, Inline};
+use crate::forms::{Equations, Form, Group};
+use crate::math::{Math, Script};
+
+/// Symbols of a kind.
+pub(super) struct Family {
+    /// Their layout, letters in place of numbers.
+    pub(super) shape: Math,
+    /// Their meaning.
+    pub(super) meaning: Cell,
+}
+
+/// The letters of indices.
+const INDICES: [char; 3] = ['i', 'j', 'k'];
+
+/// The kinds of symbols on the left sides of equations, in order. The names of standard and base parameters are
+/// explained with their definitions.
+pub(super) fn families(parts: &[(Form, Equations)]) -> Vec<Family> {
+    let mut known: Vec<(String, Math)> = vec![];
+    let mut families = vec![];
+    for group in parts.iter().flat_map(|(_, part)| &part.groups) {
+        for equation in &group.equations {
+            let shape = general(&equation.left, numbers(&equation.name));
+            let family = family(&equation.name).to_owned();
+            if known.iter().any(|(name, look)| *name == family && same(look, &shape)) {
+                continue;
+            }
+            known.push((family.clone(), shape.clone()));
+            if let Some(meaning) = meaning(group, &family) {
+                families.push(Family { shape, meaning });
+            }
+        }
+    }
+    families
+}
+
+/// Whether two members of a family are explained by one of them: components are.
+fn same(first: &Math, other: &Math) -> bool {
+    base(first) == base(other)
+}
+
+fn base(shape: &Math) -> Option<&Math> {
+    match shape {
+        Math::Symbol(symbol) => base(&symbol.shape),
+        Math::Script(script) => Some(&script.base),
+        _ => None,
+    }
+}
+
+/// `M` of `M_1_2`, `F_l` of `F_l5.x` and `F_l5_x`, `omega` of `omega1.x`.
+fn family(name: &str) -> &str {
+    let name = name.split_once('.').map_or(name, |(name, _)| name);
+    let bare = ["_x", "_y", "_z"].iter().find_map(|end| name.strip_suffix(end));
+    let bare = bare.filter(|bare| bare.ends_with(|c: char| c.is_ascii_digit()));
+    bare.unwrap_or(name).trim_end_matches(|c: char| c.is_ascii_digit() || c == '_')
+}
+
+/// The numbers of an indexed symbol, `M_1_2` or `Q1`.
+fn numbers(name: &str) -> usize {
+    let is_number = |part: &&str| part.bytes().all(|byte| byte.is_ascii_digit());
+    name.split('_').skip(1).filter(is_number).count().max(1)
+}
+
+/// The layout of a symbol with letters in place of its numbers: one number may be that of several indices.
+pub(super) fn general(shape: &Math, indices: usize) -> Math {
+    let mut letters = INDICES.into_iter().map(Math::Letter);
+    let all = count(shape);
+    replaced(shape, &mut |_| match all {
+        1 => Math::row(letters.by_ref().take(indices).collect()),
+        _ => letters.next().unwrap_or(Math::Letter('n')),
+    })
+}
+
+fn count(shape: &Math) -> usize {
+    let mut numbers = 0;
+    let _ = replaced(shape, &mut |digits| {
+        numbers += 1;
+        Math::Number(digits.to_owned())
+    });
+    numbers
+}
+
+/// The layout with its numbers replaced.
+fn replaced(shape: &Math, number: &mut dyn FnMut(&str) -> Math) -> Math {
+    match shape {
+        Math::Symbol(symbol) => replaced(&symbol.shape, number),
+        Math::Number(digits) => number(digits),
+        Math::Row(pieces) => {
+            Math::Row(pieces.iter().map(|piece| replaced(piece, number)).collect())
+        }
+        Math::Script(script) => {
+            let [lower, upper] = [&script.lower, &script.upper]
+                .map(|index| index.as_ref().map(|index| replaced(index, number)));
+            Math::Script(Box::new(Script { base: script.base.clone(), lower, upper }))
+        }
+        other => other.clone(),
+    }
+}
+
+/// What the symbols of a family in a group are.
+fn meaning(group: &Group, family: &str) -> Option<Cell> {
+    let text = match (group.title.as_str(), family) {
+        ("Standard parameters" | "Base parameters", _) => return None,
+        ("Coriolis and centrifugal coefficients", _) => return Some(product()),
+        ("Mass matrix", _) => "entry of the mass matrix",
+        ("Christoffel symbols", _) => "Christoffel symbol of the first kind",
+        ("Gravity", _) => "gravity term of joint i",
+        ("Wrenches of the tips", _) => "contribution of the wrenches of the tips to joint i",
+        ("Friction", _) => "friction of joint i",
+        ("Coulomb friction", _) => "Coulomb friction of joint i",
+        ("Coefficients of the base parameters", _) => "coefficient of base parameter j in joint i",
+        ("Combinations of parameters", _) => "combination of parameters",
+        ("Expressions of the state", _) => "expression that occurs several times",
+        ("Parameters of the links", "r") => "component of the center of mass of link i, m",
+        ("Parameters of the links", "J") => "entry of the inertia tensor of link i, kg m²",
+        ("Parameters of the links", _) => "mass of link i, kg",
+        (_, "omega") => "component of the angular velocity of link i, rad/s",
+        (_, "epsilon") => "component of the angular acceleration of link i, rad/s²",
+        (_, "a") => "component of the acceleration of the origin of frame i, m/s²",
+        (_, name) => of_quantity(Kind::from_name(name)?),
+    };
+    Some(vec![Inline::text(text)])
+}
+
+const fn of_quantity(kind: Kind) -> &'static str {
+    match kind {
+        Kind::CenterOfMassAcceleration => {
+            "component of the acceleration of the center of mass of link i, m/s²"
+        }
+        Kind::Force => "component of the force that moves link i, N",
+        Kind::Moment => "component of the moment about the center of mass that moves link i, N m",
+        Kind::LinkForce => "component of the force that link i receives through its joint, N",
+        Kind::LinkMoment => "component of the moment that link i receives through its joint, N m",
+        Kind::GeneralizedForce => "joint torque (N m) or joint force (N) of joint i",
+    }
+}
+
+/// Of what a coefficient of velocities is one.
+fn product() -> Cell {
+    let rate = |index| {
+        let letter = Box::new(Math::Letter('q'));
+        let rate = Math::Accent(robot_model::signs::Accent::Dot, letter);
+        rate.with_lower(Math::Letter(index))
+    };
+    let force = Math::Letter('Q').with_lower(Math::Letter('i'));
+    vec![
+        Inline::text("coefficient of "),
+        Inline::Math(Math::Row(vec![rate('j'), rate('k')])),
+        Inline::text(" in "),
+        Inline::Math(force),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::latex::{formula, read};
+
+    #[test]
+    fn members_of_a_family_have_letters_for_their_numbers() {
+        for (name, look, general_look, family_name) in [
+            ("M_1_2", "M_{12}", "M_{ij}", "M"),
+            ("b_1_10_2", "b_{1,10,2}", "b_{i,j,k}", "b"),
+            ("Q1", "Q_1", "Q_i", "Q"),
+            ("omega2.x", r"\omega_{2,x}", r"\omega_{i,x}", "omega"),
+            ("F_l5_x", "F_{l_x}^{5}", "F_{l_x}^i", "F_l"),
+            ("F_l5.x", "F_{l_x}^{5}", "F_{l_x}^i", "F_l"),
+        ] {
+            let shape = general(&read(look).unwrap(), numbers(name));
+            assert_eq!((formula(&shape).as_str(), family(name)), (general_look, family_name));
+        }
+    }
+}

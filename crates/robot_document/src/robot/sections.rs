@@ -1,0 +1,85 @@
+//! The equations of a document: a section for each form, its parts below it.
+
+use robot_dynamics::quantity::Kind;
+
+use super::paragraph;
+use crate::document::{Block, Inline, NumberedEquation};
+use crate::forms::{Equation, EquationOptions, Equations, Form, Group};
+use crate::math::Math;
+
+/// The section of a form; each equation is numbered and labeled by form and name.
+pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) -> Vec<Block> {
+    let mut blocks = vec![Block::Heading(1, format!("Equations of motion, {}", form.name()))];
+    let own = part.groups.iter().find(|group| !group.definitions);
+    match own.map_or("", |group| &group.introduction) {
+        "" => blocks.extend(introduction(form)),
+        text => blocks.push(paragraph(text)),
+    }
+    for group in &part.groups {
+        if part.groups.len() > 1 {
+            blocks.push(Block::Heading(2, title(form, group, options)));
+        }
+        if group.definitions && !group.introduction.is_empty() {
+            blocks.push(paragraph(&group.introduction));
+        }
+        let numbered = |equation: &Equation| NumberedEquation {
+            label: Some(format!("{}:{}", form.name(), equation.label())),
+            equation: equation.clone(),
+        };
+        blocks.push(Block::Equations(group.equations.iter().map(numbered).collect()));
+    }
+    blocks
+}
+
+/// The title of a part: what is asked for has the title of its section otherwise.
+fn title(form: Form, group: &Group, options: &EquationOptions) -> String {
+    let has_all = matches!(form, Form::Expanded | Form::Collected | Form::Compact);
+    match options.kinds.as_slice() {
+        _ if group.definitions => group.title.clone(),
+        [Kind::GeneralizedForce] => "Joint torques".to_owned(),
+        _ if has_all => "Quantities".to_owned(),
+        _ => "Joint torques".to_owned(),
+    }
+}
+
+/// What a section starts with if its form says nothing of itself.
+fn introduction(form: Form) -> Option<Block> {
+    match form {
+        Form::Recursive => Some(recursion()),
+        Form::Compact => Some(paragraph(
+            "Expressions that occur several times have names, each defined before it is used.",
+        )),
+        _ => None,
+    }
+}
+
+fn recursion() -> Block {
+    let letter = |letter| Inline::Math(Math::Letter(letter));
+    let indexed = |base, index| Inline::Math(Math::Letter(base).with_lower(Math::Letter(index)));
+    let text = |text: &str| Inline::text(text);
+    Block::Paragraph(vec![
+        text(
+            "The recursive Newton-Euler algorithm, link by link. Outward, from the base to the tips, the angular velocity ",
+        ),
+        letter('ω'),
+        text(" and the angular acceleration "),
+        letter('ε'),
+        text(" of a link, the acceleration "),
+        letter('a'),
+        text(" of the origin of its frame and the acceleration "),
+        indexed('a', 'c'),
+        text(" of its center of mass follow from those of its parent, and from them the force "),
+        letter('F'),
+        text(" and the moment "),
+        indexed('M', 'c'),
+        text(
+            " about the center of mass that move the link. Inward, from the tips to the base, the force ",
+        ),
+        indexed('F', 'l'),
+        text(" and the moment "),
+        indexed('M', 'l'),
+        text(
+            " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame.",
+        ),
+    ])
+}
