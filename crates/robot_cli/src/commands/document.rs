@@ -8,7 +8,7 @@ use robot_document::Form;
 use robot_document::{latex, latex::Page, typst};
 
 use crate::Terminal;
-use crate::delivery::{Delivery, ForceArgument};
+use crate::delivery::{Delivery, ForceArgument, file_of};
 use crate::displayed::centimeters;
 use crate::failure::Failure;
 use crate::forms::{EquationArguments, FormName, failed};
@@ -73,7 +73,8 @@ impl Arguments {
     }
 
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let writer = self.force.writer(self.robot.inputs());
+        let writer =
+            self.force.writer(self.robot.inputs(), file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
         let mut forms: Vec<Form> = vec![];
         for form in self.form.iter().map(|form| Form::from(*form)) {

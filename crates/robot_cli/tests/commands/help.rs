@@ -24,8 +24,8 @@ fn example(command: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Examples that are shown with others' programs, targets that need not be installed.
-const ELSEWHERE: [&str; 2] = ["cargo ", "--target"];
+/// Examples that are shown with others' programs, targets that need not be installed, a browser.
+const ELSEWHERE: [&str; 3] = ["cargo ", "--target", "--open"];
 
 #[test]
 fn the_examples_of_every_command_run() {

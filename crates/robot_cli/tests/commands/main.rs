@@ -45,8 +45,14 @@ fn run_between(
     output: &mut dyn std::io::Write,
     errors: &mut dyn std::io::Write,
 ) -> u8 {
-    let mut terminal =
-        robot_cli::Terminal { input: &mut input, output, errors, colors: false, progress: false };
+    let mut terminal = robot_cli::Terminal {
+        input: &mut input,
+        output,
+        errors,
+        colors: false,
+        progress: false,
+        screen: None,
+    };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
     robot_cli::run(arguments, &mut terminal)
 }

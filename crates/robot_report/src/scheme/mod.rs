@@ -7,11 +7,14 @@
 mod draw;
 mod labels;
 mod layout;
+mod picture;
 mod symbols;
 mod view;
 
 use robot_document::markup::Element;
 use robot_model::robot::Robot;
+
+pub use picture::scheme_picture;
 
 use layout::{Layout, confusion, layout};
 use view::View;
