@@ -69,7 +69,7 @@ fn after(text: &str, columns: usize) -> String {
                 whole += next.trim_start();
             }
             // `  0  done`: further lines begin below `done`.
-            let hanging = if is_definition { indent + 3 } else { indent };
+            let hanging = if is_definition { indent + 3 } else { 0 };
             shown.push(wrapped(&whole, columns, hanging));
         }
     }
@@ -80,27 +80,24 @@ fn indent(line: &str) -> usize {
     line.len() - line.trim_start().len()
 }
 
-/// A text on lines of at most so many columns, the further ones indented; longer words stay whole.
+/// A text on lines of at most so many columns, the further ones indented as far as the text that the first one
+/// begins with is long; longer words stay whole.
 fn wrapped(text: &str, columns: usize, hanging: usize) -> String {
-    let (mut shown, mut column) = (String::new(), 0);
-    for word in text.split(' ') {
-        let width = word.chars().count();
-        if column > 0 && column + 1 + width > columns {
-            shown.push('\n');
-            shown.push_str(&" ".repeat(hanging));
-            column = hanging;
-        } else if column > 0 || !shown.is_empty() || word.is_empty() {
-            shown.push(' ');
-            column += 1;
+    let (start, words) = text.split_at_checked(hanging).unwrap_or(("", text));
+    let (mut lines, mut line, mut has_words) = (vec![], start.to_owned(), false);
+    for word in words.split_whitespace() {
+        if has_words && line.chars().count() + 1 + word.chars().count() > columns {
+            lines.push(std::mem::replace(&mut line, " ".repeat(hanging)));
+            has_words = false;
         }
-        shown.push_str(word);
-        column += width;
+        if has_words {
+            line.push(' ');
+        }
+        line.push_str(word);
+        has_words = true;
     }
-    // The first space of an indented text was that of the first, empty word.
-    match text.strip_prefix(' ') {
-        Some(_) => shown.split_off(1),
-        None => shown,
-    }
+    lines.push(line);
+    lines.join("\n")
 }
 
 /// A line of a shell, continued on others by `\` before options where it is too long.
@@ -207,8 +204,10 @@ mod tests {
                 for line in help.lines().filter(|line| line.chars().count() > columns) {
                     // A word, or what a shell reads, is not cut.
                     let words = line.split_whitespace().count();
-                    let is_text =
-                        line.starts_with("  [{") || line.starts_with("  robot-symbolic torques");
+                    let is_usage = line.starts_with("Usage:");
+                    let is_text = is_usage
+                        || line.starts_with("  [{")
+                        || line.starts_with("  robot-symbolic torques");
                     assert!(words <= 2 || is_text, "{columns} columns: {line}");
                 }
             }

@@ -41,7 +41,9 @@ fn of_joint(text: &str, variable: JointVariable, kind: JointKind) -> Result<f64,
         DEGREES.iter().find(|(known, _)| *known == variable).map_or(&[][..], |(_, ends)| ends);
     let Some(degrees) = ends.iter().find_map(|end| text.strip_suffix(end)) else {
         return number(text).map_err(|wrong| match (kind, ends) {
-            (JointKind::Revolute, [degrees, ..]) => format!("{wrong}, or 90{degrees}"),
+            (JointKind::Revolute, [degrees, ..]) => {
+                wrong.replace("0.5 or pi/2", &format!("0.5, pi/2 or 90{degrees}"))
+            }
             _ => wrong,
         });
     };

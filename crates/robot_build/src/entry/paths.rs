@@ -123,8 +123,10 @@ fn nearest(path: &Path) -> Option<String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
     let names = entries.filter_map(|entry| {
-        let entry = entry.ok()?;
-        entry.path().is_file().then(|| entry.file_name().into_string().ok())?
+        let path = entry.ok()?.path();
+        // A plan is never asked for by its name.
+        let is_wanted = path.is_file() && path.extension().is_none_or(|end| end != "plan");
+        is_wanted.then(|| Some(path.file_name()?.to_str()?.to_owned()))?
     });
     let mut names: Vec<String> = names.take(MOST_NAMES).collect();
     names.sort();

@@ -97,11 +97,10 @@ impl Arguments {
 
 /// Shows a file with the program that the system opens such files with.
 fn show(path: &Path) -> Result<(), Failure> {
-    open::that_detached(path).map_err(|error| {
+    open::that_detached(path).map_err(|_| {
         let file = shown(path);
-        Failure::input(format!(
-            "the page is written, but no program to show it was found ({error}); open {file} in a browser"
-        ))
+        let wanted = "the page is written, but the system has no program that shows it";
+        Failure::input(format!("{wanted}; open {file} in a browser"))
     })
 }
 

@@ -163,15 +163,16 @@ fn functions(robot: &Robot) -> String {
             named.iter().filter(|(_, kind)| kind.frame().is_some_and(|frame| is_wanted(&frame)));
         wanted.map(|(name, _)| name.as_str()).collect()
     };
-    let mut lists = vec![
-        ("functions".to_owned(), there),
-        ("of frames".to_owned(), of(|frame| matches!(frame, FrameRef::Named(_)))),
-        (
-            "of moving links, by name only".to_owned(),
-            of(|frame| matches!(frame, FrameRef::Link(_))),
-        ),
+    let lists = [
+        ("functions", there),
+        ("of frames", of(|frame| matches!(frame, FrameRef::Named(_)))),
+        ("of moving links, by name only", of(|frame| matches!(frame, FrameRef::Link(_)))),
     ];
-    lists.extend(absent.into_iter().map(|(why, names)| (format!("not available, {why}"), names)));
-    let shown = lists.iter().filter(|(_, names)| !names.is_empty());
-    shown.map(|(title, names)| text::list(title, names)).collect()
+    let lists = lists.iter().filter(|(_, names)| !names.is_empty());
+    let mut shown: String = lists.map(|(title, names)| text::list(title, names)).collect();
+    for (why, names) in absent {
+        shown += &text::list("not available", &names);
+        shown += &format!("    {why}\n");
+    }
+    shown
 }

@@ -169,8 +169,11 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
     let ((_, end), (before, after)) = (ends(&motion.t), ends(&energies.total));
     let drift = drift(&energies.total);
     let [end, before, after] = [end, before, after].map(number);
-    let drift =
-        drift.map(|drift| format!(", a relative change of {drift:.1e}")).unwrap_or_default();
+    let drift = match drift {
+        Some(0.0) => ", no change".to_owned(),
+        Some(drift) => format!(", a relative change of {drift:.1e}"),
+        None => String::new(),
+    };
     format!(
         "{end} s in {} steps, {} lines; energy from {before} J to {after} J{drift}",
         motion.steps,

@@ -8,9 +8,6 @@ use super::{Layout, State};
 use crate::text;
 use crate::values::{list, miscounted, number, of_joints};
 
-/// The options of a state, one of which is given if no file of states is.
-pub(crate) const STATE: [&str; 5] = ["q", "qd", "qdd", "tau", "wrench"];
-
 /// A state, each variable as an option.
 #[derive(Args)]
 pub(crate) struct StateArguments {
@@ -37,6 +34,12 @@ pub(crate) struct StateArguments {
 }
 
 impl StateArguments {
+    /// Whether any variable is.
+    pub(crate) fn is_given(&self) -> bool {
+        let given = [&self.q, &self.qd, &self.qdd, &self.tau];
+        given.iter().any(|one| one.is_some()) || !self.wrench.is_empty()
+    }
+
     /// The state, and all that is wrong with it.
     pub(crate) fn state(&self, robot: &Robot, layout: &Layout) -> (State, Vec<String>) {
         let (mut arrays, mut wrong) = (vec![], vec![]);

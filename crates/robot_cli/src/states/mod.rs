@@ -5,7 +5,7 @@ mod csv;
 mod json;
 mod node;
 
-pub(crate) use arguments::{STATE, StateArguments};
+pub(crate) use arguments::StateArguments;
 
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, WRENCH, WRENCH_COMPONENTS};

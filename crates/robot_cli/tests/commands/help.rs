@@ -9,7 +9,9 @@ use crate::{URDF, complaint, folder, output};
 pub(crate) fn commands() -> Vec<String> {
     let overview = output(&["--help"], "");
     let list = overview.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
-    let names = list.lines().map(|line| line.split_whitespace().next().unwrap().to_owned());
+    // Further lines of what a command does are indented more.
+    let lines = list.lines().filter(|line| !line.starts_with("   "));
+    let names = lines.map(|line| line.split_whitespace().next().unwrap().to_owned());
     let names: Vec<String> = names.filter(|name| name != "help").collect();
     assert!(names.len() >= 14, "{names:?}");
     names

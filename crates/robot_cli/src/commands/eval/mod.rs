@@ -25,7 +25,7 @@ use crate::options::help;
 use crate::progress::watched;
 use crate::robot::{RobotArgument, trigonometry};
 use crate::settings::Settings;
-use crate::states::{Layout, STATE, State, StateArguments};
+use crate::states::{Layout, State, StateArguments};
 use crate::suggested::FUNCTION;
 
 #[derive(Args)]
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME", value_parser = FUNCTION)]
     function: String,
     /// The file with the states; `-` for standard input
-    #[arg(long, value_name = "FILE", required_unless_present_any = STATE)]
+    #[arg(long, value_name = "FILE")]
     states: Option<PathBuf>,
     #[command(flatten)]
     state: StateArguments,
@@ -70,6 +70,10 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        if self.states.is_none() && !self.state.is_given() {
+            let message = "a state is needed: --q, --qd, …, or --states with a file of states";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let file = self.robot.open()?;
         let described = file.read(terminal)?;
         let Described { robot, code, .. } = &described;
