@@ -38,8 +38,9 @@ mod tests {
 
     #[test]
     fn the_picture_needs_no_other_file() {
-        let text = include_str!("../../../../robots/trttr1.toml");
-        let robot = robot_model::description::read_toml("robot.toml", text).unwrap().robot;
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/trttr1.toml");
+        let text = std::fs::read_to_string(path).unwrap();
+        let robot = robot_model::description::read_toml("robot.toml", &text).unwrap().robot;
         let shown = scheme_picture(&robot);
         let parsed = roxmltree::Document::parse(&shown).unwrap();
         let root = parsed.root_element();
