@@ -1,5 +1,6 @@
 //! Files that commands write, and the check that they are up to date.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -17,14 +18,23 @@ pub(crate) struct ForceArgument {
 }
 
 impl ForceArgument {
-    /// A writer of outputs that are made of those inputs; `-` is standard input.
-    pub(crate) fn writer(&self, inputs: impl IntoIterator<Item = PathBuf>) -> Writer {
+    /// A writer of outputs that are made of those inputs; `-` is standard input. Refused if replacing is asked for
+    /// where nothing is written.
+    pub(crate) fn writer(
+        &self,
+        inputs: impl IntoIterator<Item = PathBuf>,
+        writes: bool,
+    ) -> Result<Writer, Failure> {
+        if self.force && !writes {
+            let message = "--force has no effect, because no file is written; leave it out";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let inputs = inputs.into_iter().map(|input| match input.to_str() {
             Some("-") => PathBuf::from("/dev/stdin"),
             _ => input,
         });
         let remedy = "choose another name, or replace it with --force";
-        Writer::new().inputs(inputs).force(self.force).remedy(remedy)
+        Ok(Writer::new().inputs(inputs).force(self.force).remedy(remedy))
     }
 }
 
@@ -48,13 +58,23 @@ pub(crate) fn file_of(path: Option<&Path>) -> Option<&Path> {
 
 /// Where one text goes, which has been found to be free for it.
 pub(crate) struct Delivery<'a> {
-    path: Option<&'a Path>,
+    path: Option<Cow<'a, Path>>,
     check: bool,
     writer: Writer,
     ownership: Ownership,
 }
 
 impl OutputArguments {
+    /// The file that is asked for, if any is.
+    pub(crate) fn file(&self) -> Option<&PathBuf> {
+        self.output.as_ref().filter(|path| file_of(Some(path)).is_some())
+    }
+
+    /// Whether neither a file nor standard output is asked for.
+    pub(crate) fn is_open(&self) -> bool {
+        self.output.is_none()
+    }
+
     /// The place of a text with the mark of this program, made of those inputs; refused at once, before
     /// any work, where it cannot be written.
     pub(crate) fn open(
@@ -75,21 +95,37 @@ impl OutputArguments {
             let message = "--check compares a file, and `-` is standard output; name a file";
             return Err(Failure::Usage(vec![message.to_owned()]));
         }
-        let delivery =
-            Delivery { path, check: self.check, writer: self.force.writer(inputs), ownership };
-        delivery.opened()
+        let writer = self.force.writer(inputs, path.is_some() && !self.check)?;
+        let path = path.map(Cow::Borrowed);
+        Delivery { path, check: self.check, writer, ownership }.opened()
+    }
+
+    /// The place of a text with the mark of this program at a path that is not asked for.
+    pub(crate) fn open_at(
+        &self,
+        path: PathBuf,
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<Delivery<'_>, Failure> {
+        let writer = self.force.writer(inputs, true)?;
+        let (path, ownership) = (Some(Cow::Owned(path)), Ownership::Marked);
+        Delivery { path, check: false, writer, ownership }.opened()
     }
 }
 
 impl<'a> Delivery<'a> {
     /// The place of a text with the mark of this program, which is never compared.
     pub(crate) fn open(path: Option<&'a Path>, writer: Writer) -> Result<Delivery<'a>, Failure> {
-        Delivery { path: file_of(path), check: false, writer, ownership: Ownership::Marked }
-            .opened()
+        let path = file_of(path).map(Cow::Borrowed);
+        Delivery { path, check: false, writer, ownership: Ownership::Marked }.opened()
+    }
+
+    /// The file; `None` if it is standard output.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
     }
 
     fn opened(self) -> Result<Delivery<'a>, Failure> {
-        if let Some(path) = self.path.filter(|_| !self.check) {
+        if let Some(path) = self.path().filter(|_| !self.check) {
             self.writer.check(&[(path, self.ownership)])?;
         }
         Ok(self)
@@ -97,7 +133,7 @@ impl<'a> Delivery<'a> {
 
     /// Prints the text, writes it to the file, or compares it with the file.
     pub(crate) fn deliver(&self, text: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let Some(path) = self.path else {
+        let Some(path) = self.path() else {
             return Ok(terminal.output.write_all(text.as_bytes())?);
         };
         if self.check {
@@ -105,10 +141,35 @@ impl<'a> Delivery<'a> {
         }
         let ownership = self.ownership;
         let output = Output { path: path.to_owned(), bytes: text.as_bytes(), ownership };
-        if self.writer.write(&[output])? > 0 {
-            writeln!(terminal.errors, "wrote {}", shown(path))?;
-        }
-        Ok(())
+        write(&self.writer, &[output], terminal)
+    }
+}
+
+/// Writes files, and says of each that changed how large it is.
+pub(crate) fn write(
+    writer: &Writer,
+    outputs: &[Output<'_>],
+    terminal: &mut Terminal<'_>,
+) -> Result<(), Failure> {
+    let is_same = |output: &&Output<'_>| {
+        output.path.is_file() && std::fs::read(&output.path).is_ok_and(|old| old == output.bytes)
+    };
+    let same: Vec<&Path> =
+        outputs.iter().filter(is_same).map(|output| output.path.as_path()).collect();
+    writer.write(outputs)?;
+    for output in outputs.iter().filter(|output| !same.contains(&output.path.as_path())) {
+        let size = size(output.bytes.len());
+        writeln!(terminal.errors, "wrote {} ({size})", shown(&output.path))?;
+    }
+    Ok(())
+}
+
+/// A size in the unit that people read it in.
+pub(crate) fn size(bytes: usize) -> String {
+    match bytes {
+        0..1000 => format!("{bytes} bytes"),
+        1000..1_000_000 => format!("{:.1} kB", bytes as f64 / 1e3),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
     }
 }
 
@@ -162,4 +223,17 @@ fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a str)>) -> Result
     }
     stale.push("run the same command without --check to update it".to_owned());
     Err(Failure::Input(stale))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_those_of_people() {
+        assert_eq!(
+            [0, 999, 1000, 1_440_000].map(size),
+            ["0 bytes", "999 bytes", "1.0 kB", "1.4 MB"]
+        );
+    }
 }

@@ -10,13 +10,15 @@ use robot_symbolic::AngleSums;
 use crate::failure::Failure;
 use crate::friction::has_friction;
 use crate::robot::RobotArgument;
+use crate::suggested::QUANTITY;
 use crate::text;
 
 /// How equations are written.
 #[derive(Args)]
 pub(crate) struct EquationArguments {
     /// Quantities: a_c, F, M_c, F_l, M_l, Q, or all; the forms grouped, recursive and regrouped have only Q
-    #[arg(long = "quantity", value_name = "NAMES", value_delimiter = ',', default_value = "Q")]
+    #[arg(long = "quantity", value_name = "NAMES", value_delimiter = ',', default_value = "Q",
+          value_parser = QUANTITY, hide_possible_values = true)]
     quantities: Vec<String>,
     /// Sines and cosines in LaTeX, Typst and MathML [default: named]
     #[arg(long, value_enum)]

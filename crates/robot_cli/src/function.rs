@@ -1,39 +1,9 @@
 //! Names of functions on the command line.
 
-use std::ffi::OsStr;
-
-use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use robot_build::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions, functions::named};
 use robot_model::robot::Robot;
 
 use crate::failure::Failure;
-
-/// Takes any name, for the robot says which frames there are, and lists the functions of all robots in help
-/// and completions.
-#[derive(Clone, Copy)]
-pub(crate) struct FunctionName {
-    /// Whether the word for all functions may stand.
-    pub(crate) all: bool,
-}
-
-impl TypedValueParser for FunctionName {
-    type Value = String;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        argument: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<String, clap::Error> {
-        StringValueParser::new().parse_ref(command, argument, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
-        let names = kinds.chain(self.all.then_some(ALL_FUNCTIONS));
-        Some(Box::new(names.map(PossibleValue::new)))
-    }
-}
 
 /// The functions of a robot of those names.
 pub(crate) fn functions(names: &[String], robot: &Robot) -> Result<Functions, Failure> {

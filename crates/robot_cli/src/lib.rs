@@ -13,6 +13,7 @@ mod format;
 mod forms;
 mod friction;
 mod function;
+mod help;
 mod messages;
 mod motion;
 mod options;
@@ -21,19 +22,23 @@ mod progress;
 mod reading;
 mod recording;
 mod robot;
+mod screen;
 mod settings;
 mod states;
+mod suggested;
 mod text;
+mod values;
 
 use std::ffi::{OsStr, OsString};
 use std::io::{Read, Write};
 
-use clap::Parser;
 use clap::error::ErrorKind;
+use clap::{FromArgMatches, Parser};
 
 use commands::Command;
 use failure::Failure;
 use messages::Messages;
+pub use screen::Screen;
 
 /// The name of the command.
 const NAME: &str = "robot-symbolic";
@@ -73,13 +78,15 @@ pub struct Terminal<'a> {
     pub output: &'a mut dyn Write,
     /// Standard error.
     pub errors: &'a mut dyn Write,
-    /// Whether standard error shows colours: see [`colors`].
+    /// Whether standard error shows colors: see [`colors`].
     pub colors: bool,
     /// Whether standard error shows how far a long run has come: on a terminal.
     pub progress: bool,
+    /// The terminal that standard output is, if it is one: results are then shown for people.
+    pub screen: Option<Screen>,
 }
 
-/// Whether standard error shows colours: on a terminal, unless the variable `NO_COLOR` is set and not
+/// Whether a stream shows colors: on a terminal, unless the variable `NO_COLOR` is set and not
 /// empty (<https://no-color.org>).
 #[must_use]
 pub fn colors(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
@@ -100,9 +107,14 @@ pub fn run(
         errors: &mut errors,
         ..*terminal
     };
-    let cli = match Cli::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let mut whole = help::command(terminal.screen);
+    let cli = whole.try_get_matches_from_mut(&arguments).and_then(|matches| {
+        Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut whole))
+    });
+    let cli = match cli {
         Ok(cli) => cli,
-        Err(error) => return usage(&error, terminal),
+        Err(error) => return usage(&help::with_tips(error, &arguments, &whole), terminal),
     };
     let command = cli.command.unwrap_or_default();
     let result = command.run(terminal).and_then(|()| Ok(terminal.output.flush()?));
@@ -116,10 +128,16 @@ pub fn run(
 fn usage(error: &clap::Error, terminal: &mut Terminal<'_>) -> u8 {
     let wanted = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if wanted {
-        let shown = write!(terminal.output, "{error}").and_then(|()| terminal.output.flush());
+        let text = rendered(error, screen::is_colored(terminal.screen));
+        let shown = write!(terminal.output, "{text}").and_then(|()| terminal.output.flush());
         return shown.map_or_else(|error| Failure::from(error).report(terminal), |()| 0);
     }
     // Nobody is listening if this fails.
-    let _ = write!(terminal.errors, "{error}");
+    let _ = write!(terminal.errors, "{}", rendered(error, terminal.colors));
     2
+}
+
+fn rendered(error: &clap::Error, colors: bool) -> String {
+    let text = error.render();
+    if colors { text.ansi().to_string() } else { text.to_string() }
 }

@@ -85,6 +85,7 @@ mod tests {
             errors: &mut errors,
             colors: false,
             progress,
+            screen: None,
         };
         let answer = watched("thinking", &mut terminal, || {
             std::thread::sleep(Duration::from_millis(1500));

@@ -7,15 +7,16 @@ use robot_symbolic::Rational;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::help::MODEL;
 use crate::options::{help, in_flags};
 use crate::text;
 
 /// What is taken with a warning.
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct ReadingArguments {
-    #[arg(long, help = help("allow_massless"))]
+    #[arg(long, help_heading = MODEL, help = help("allow_massless"))]
     pub(crate) allow_massless: bool,
-    #[arg(long, help = help("allow_unphysical"))]
+    #[arg(long, help_heading = MODEL, help = help("allow_unphysical"))]
     pub(crate) allow_unphysical: bool,
 }
 

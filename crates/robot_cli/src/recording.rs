@@ -6,7 +6,7 @@ use robot_build::{Output, Ownership, Writer};
 use robot_simulation::plot::Figure;
 
 use crate::Terminal;
-use crate::delivery::file_of;
+use crate::delivery::{file_of, write};
 use crate::failure::Failure;
 
 /// A path that says what picture to write.
@@ -70,7 +70,7 @@ impl<'a> Recording<'a> {
             ownership: TABLE,
         });
         let outputs: Vec<Output<'_>> = plot.into_iter().chain(table).collect();
-        self.writer.write(&outputs)?;
+        write(&self.writer, &outputs, terminal)?;
         if self.table.is_none() {
             terminal.output.write_all(csv.as_bytes())?;
         }

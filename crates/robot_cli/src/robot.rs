@@ -14,10 +14,12 @@ use robot_model::snap;
 
 use crate::Terminal;
 use crate::failure::Failure;
-use crate::function::{FunctionName, bundles, functions};
+use crate::function::{bundles, functions};
+use crate::help::MODEL;
 use crate::options::{CodeOptions, choice, help, value_name};
 use crate::plan::pinned_or_searched;
 use crate::reading::ReadingArguments;
+use crate::suggested::FUNCTIONS;
 use crate::text;
 
 /// The robot file.
@@ -25,9 +27,9 @@ use crate::text;
 pub(crate) struct RobotArgument {
     /// The robot file
     file: PathBuf,
-    #[arg(long, value_name = value_name("snap"), help = help("snap"), value_parser = snap, allow_hyphen_values = true)]
+    #[arg(long, value_name = value_name("snap"), help_heading = MODEL, help = help("snap"), value_parser = snap, allow_hyphen_values = true)]
     snap: Option<f64>,
-    #[arg(long, value_name = value_name("base_frames"), help = help("base_frames"), value_parser = base_frames())]
+    #[arg(long, value_name = value_name("base_frames"), help_heading = MODEL, help = help("base_frames"), value_parser = base_frames())]
     base_frames: Option<BaseFrames>,
     #[command(flatten)]
     pub(crate) reading: ReadingArguments,
@@ -137,7 +139,7 @@ impl OpenRobot<'_> {
 #[derive(Args)]
 pub(crate) struct CodeArguments {
     #[arg(long = "function", help = help("functions"), value_name = value_name("functions"), value_delimiter = ',',
-          value_parser = FunctionName { all: true })]
+          value_parser = FUNCTIONS)]
     functions: Vec<String>,
     #[command(flatten)]
     bundles: BundleArguments,

@@ -9,6 +9,7 @@ use crate::Terminal;
 use crate::failure::Failure;
 use crate::robot::OpenRobot;
 use crate::text;
+use crate::values;
 
 /// Parameters' values in place of the nominal ones.
 #[derive(Args)]
@@ -21,9 +22,7 @@ pub(crate) struct Settings {
 /// `M5=2.5`
 fn setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as M5=2.5")?;
-    let number = value.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    let number = number.ok_or_else(|| format!("`{}` is not a number", value.trim()))?;
-    Ok((name.trim().to_owned(), number))
+    Ok((name.trim().to_owned(), values::number(value)?))
 }
 
 impl Settings {

@@ -84,6 +84,25 @@ fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     lines
 }
 
+/// `title: a, b, c`, broken after commas, the further lines indented.
+pub(crate) fn list(title: &str, names: &[&str]) -> String {
+    let mut shown = format!("{title}:");
+    let mut column = shown.chars().count();
+    for (index, name) in names.iter().enumerate() {
+        let comma = if index + 1 < names.len() { "," } else { "" };
+        let width = name.chars().count() + comma.len();
+        if column + 1 + width > COLUMNS {
+            shown.push_str("\n   ");
+            column = 3;
+        }
+        // Writing to a string does not fail.
+        let _ = write!(shown, " {name}{comma}");
+        column += 1 + width;
+    }
+    shown.push('\n');
+    shown
+}
+
 /// Rows in columns, the first row a title; numbers to the right.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);

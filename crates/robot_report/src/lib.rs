@@ -24,6 +24,7 @@ mod text;
 
 pub use error::{Error, MOST_COORDINATES, presentable};
 pub use evidence::{Accuracy, Compiled};
+pub use scheme::scheme_picture;
 
 use robot_build::ablation::ablation;
 use robot_build::{

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use robot_model::description::{self, MAX_BYTES};
 use robot_model::diagnostic::Source;
+use robot_symbolic::nearest_word;
 
 use crate::error::{Error, Errors, shown};
 
@@ -97,14 +98,46 @@ fn check_not_empty(path: &Path) -> Result<(), Error> {
 fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {
     path.canonicalize().map_err(|error| {
         let reason = match error.kind() {
-            std::io::ErrorKind::NotFound => {
-                format!("there is no such file (looked for {})", shown(path))
-            }
+            std::io::ErrorKind::NotFound => missing(path, given),
             _ => error.to_string(),
         };
         cannot_read(given, &reason)
     })
 }
+
+/// That there is no file, and the one whose name is nearest.
+fn missing(path: &Path, given: &Path) -> String {
+    let place =
+        if path == given { String::new() } else { format!(" (looked for {})", shown(path)) };
+    let mut near =
+        nearest(path).map(|near| format!("; did you mean {}?", shown(&given.with_file_name(near))));
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists());
+    if let Some(folder) = folder {
+        near = Some(format!("; there is no folder {}", shown(folder)));
+    }
+    format!("there is no such file{place}{}", near.unwrap_or_default())
+}
+
+/// The name of the file in the same folder whose name is nearest, with the same extension first.
+fn nearest(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let names = entries.filter_map(|entry| {
+        let path = entry.ok()?.path();
+        // A plan is never asked for by its name.
+        let is_wanted = path.is_file() && path.extension().is_none_or(|end| end != "plan");
+        is_wanted.then(|| Some(path.file_name()?.to_str()?.to_owned()))?
+    });
+    let mut names: Vec<String> = names.take(MOST_NAMES).collect();
+    names.sort();
+    let stem = |name: &str| Path::new(name).file_stem()?.to_str().map(str::to_owned);
+    let name = path.file_name()?.to_str()?;
+    let whole = nearest_word(name, names.iter().map(String::as_str)).map(str::to_owned);
+    whole.or_else(|| names.iter().find(|known| stem(known) == stem(name)).cloned())
+}
+
+/// The most files of a folder that are looked at for a name.
+const MOST_NAMES: usize = 10_000;
 
 fn cannot_read(path: &Path, reason: &str) -> Error {
     Error::File { action: "read", path: path.to_owned(), reason: reason.to_owned() }

@@ -9,7 +9,7 @@ use robot_document::robot::{Extras, document};
 use robot_document::{latex, latex::Page, typst};
 
 use crate::Terminal;
-use crate::delivery::{Delivery, ForceArgument};
+use crate::delivery::{Delivery, ForceArgument, file_of};
 use crate::displayed::centimeters;
 use crate::failure::Failure;
 use crate::forms::{EquationArguments, FormName, failed};
@@ -77,7 +77,8 @@ impl Arguments {
     }
 
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let writer = self.force.writer(self.robot.inputs());
+        let writer =
+            self.force.writer(self.robot.inputs(), file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
         let mut forms: Vec<Form> = vec![];
         for form in self.form.iter().map(|form| Form::from(*form)) {

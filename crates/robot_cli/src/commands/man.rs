@@ -35,6 +35,7 @@ impl Arguments {
         let mut command = Cli::command().disable_help_subcommand(true);
         command.build();
         let own = page(&command)?;
+        let writer = self.force.writer([], self.folder.is_some() && !self.check)?;
         let Some(folder) = &self.folder else {
             return Ok(terminal.output.write_all(own.text.as_bytes())?);
         };
@@ -42,7 +43,7 @@ impl Arguments {
         for command in command.get_subcommands() {
             pages.push(page(command)?);
         }
-        deliver_folder(folder, &pages, self.check, &self.force.writer([]), terminal)
+        deliver_folder(folder, &pages, self.check, &writer, terminal)
     }
 }
 

@@ -11,11 +11,13 @@ mod equations;
 mod eval;
 mod generate;
 mod import;
+mod init;
 mod man;
 mod package;
 mod prove;
 mod report;
 mod schema;
+mod scheme;
 mod search;
 mod show;
 mod simulate;
@@ -31,6 +33,8 @@ use crate::failure::Failure;
 /// What the command line asks for.
 #[derive(Subcommand)]
 pub(crate) enum Command {
+    /// Write a first robot file, to be edited
+    Init(init::Arguments),
     /// Print the equations of motion of a robot
     Equations(equations::Arguments),
     /// Write a document about a robot: tables, equations, symbols and a check value
@@ -53,6 +57,8 @@ pub(crate) enum Command {
     Prove(prove::Arguments),
     /// Write a page about a robot: scheme, tables, equations, structure, operations, evidence
     Report(report::Arguments),
+    /// Draw the kinematic scheme of a robot as SVG
+    Scheme(scheme::Arguments),
     /// Search for the form of the recursion with the fewest operations
     Search(search::Arguments),
     /// Write a URDF file as a robot file
@@ -88,6 +94,8 @@ impl Command {
     /// Does what was asked for.
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         match self {
+            Command::Init(arguments) => arguments.run(terminal),
+            Command::Scheme(arguments) => arguments.run(terminal),
             Command::Equations(arguments) => arguments.run(terminal),
             Command::Document(arguments) => arguments.run(terminal),
             Command::Base(arguments) => arguments.run(terminal),

@@ -41,7 +41,7 @@ impl Arguments {
         let robot = self.robot.read(terminal)?;
         let options = self.code.options(&self.robot, &robot, terminal)?;
         let files = watched("generating", terminal, || package::package(&source, &options))?;
-        let writer = self.force.writer(self.robot.inputs());
+        let writer = self.force.writer(self.robot.inputs(), !self.check)?;
         deliver_folder(&self.output, &files, self.check, &writer, terminal)
     }
 }

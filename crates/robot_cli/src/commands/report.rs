@@ -1,12 +1,14 @@
 //! `report`: a page about a robot.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
-use robot_build::{Options, Programs, Source, planned};
+use robot_build::{Options, Programs, Source, planned, shown};
 use robot_evidence::{Compiler, Profile, prove};
 use robot_report::{Accuracy, Compiled, Input, presentable, report};
 
 use crate::Terminal;
-use crate::delivery::OutputArguments;
+use crate::delivery::{Delivery, OutputArguments};
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
@@ -15,6 +17,7 @@ use crate::text;
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic report robots/trttr1.toml -o trttr1.html
+  robot-symbolic report robots/planar_2r.toml --without-compiler --open
   robot-symbolic report robots/panda.toml -o panda.html --without-compiler
 
 The page is a single file that needs no other file and no network: the kinematic scheme, tables of joints,
@@ -29,6 +32,10 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     #[command(flatten)]
     output: OutputArguments,
+    /// Show the page in the browser; without --output, the page is NAME.html in this folder, NAME that of the
+    /// robot file
+    #[arg(long, conflicts_with = "check")]
+    open: bool,
     /// Do not start a compiler: the page then has no evidence about machine code
     #[arg(long)]
     without_compiler: bool,
@@ -36,7 +43,7 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let output = self.output.open(self.robot.inputs())?;
+        let output = self.output(terminal)?;
         let options = self.robot.options(terminal)?;
         // Read first, so that warnings are shown and no compiler starts for a page that cannot be.
         let robot = self.robot.read(terminal)?.robot;
@@ -44,7 +51,38 @@ impl Arguments {
         text::lacking(&robot, &options, terminal)?;
         let source = self.robot.source()?;
         let page = watched("writing", terminal, || self.page(&source, &planned(&robot, &options)))?;
-        output.deliver(&page, terminal)
+        output.deliver(&page, terminal)?;
+        match output.path().filter(|_| self.open) {
+            Some(path) => show(path),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the page goes. A terminal does not show pages.
+    fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
+        let inputs = self.robot.inputs();
+        if !self.output.is_open() {
+            let output = self.output.open(inputs)?;
+            if self.open && output.path().is_none() {
+                let message = "--open shows a file, and `-` is standard output; name a file";
+                return Err(Failure::Usage(vec![message.to_owned()]));
+            }
+            return Ok(output);
+        }
+        let usual = PathBuf::from(self.robot.path().file_name().unwrap_or_default());
+        let usual = usual.with_extension("html");
+        if self.open {
+            return self.output.open_at(usual, inputs);
+        }
+        if terminal.screen.is_some() {
+            let name = shown(&usual);
+            let message = format!(
+                "the page is HTML, for browsers: show it with --open, write it with -o {name}, or \
+                 print it with -o -"
+            );
+            return Err(Failure::Usage(vec![message]));
+        }
+        self.output.open(inputs)
     }
 
     fn page(&self, source: &Source, options: &Options) -> Result<String, Failure> {
@@ -55,6 +93,15 @@ impl Arguments {
         };
         Ok(report(&Input { source, options, compiled: &compiled, judge })?)
     }
+}
+
+/// Shows a file with the program that the system opens such files with.
+fn show(path: &Path) -> Result<(), Failure> {
+    open::that_detached(path).map_err(|_| {
+        let file = shown(path);
+        let wanted = "the page is written, but the system has no program that shows it";
+        Failure::input(format!("{wanted}; open {file} in a browser"))
+    })
 }
 
 /// How far the programs are off the numeric solver.

@@ -44,7 +44,8 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let path = pin_path(self.robot.path());
         let remedy = "move it away, or replace it with --force";
-        let writer = self.force.writer([self.robot.path().to_owned()]).remedy(remedy);
+        let writer =
+            self.force.writer([self.robot.path().to_owned()], !self.dry_run)?.remedy(remedy);
         if !self.dry_run {
             if path.exists() && !path.is_file() {
                 return Err(Failure::input(format!(

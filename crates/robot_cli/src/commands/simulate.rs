@@ -6,6 +6,7 @@ use clap::Args;
 use robot_build::{Pivots, Programs};
 use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_simulation::plot::motion_figure;
 use robot_simulation::{
     Energies, Motion, RobotProgram, SimulationOptions, State, Table, Torques, simulate,
@@ -21,6 +22,7 @@ use crate::progress::Progress;
 use crate::recording::{Recording, plot_path};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
+use crate::values::of_joints;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -42,17 +44,17 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", default_value_t = 0.01, allow_hyphen_values = true)]
     step: f64,
     /// Error tolerance of a step in a component y of q and qd: TOLERANCE (1 + |y|)
-    #[arg(long, default_value_t = 1e-9, allow_hyphen_values = true)]
+    #[arg(long, default_value = "1e-9", allow_hyphen_values = true)]
     tolerance: f64,
-    /// Maximum number of integrator steps [default: a million, or ten per line of output if that is more]
+    /// Maximum number of integrator steps [default: 1e6, or ten per line of output if that is more]
     #[arg(long, value_name = "STEPS")]
     max_steps: Option<usize>,
-    /// Initial joint positions, separated by commas, rad or m [default: 0]
-    #[arg(long, value_name = "Q1,Q2,…", value_delimiter = ',', allow_hyphen_values = true)]
-    q0: Option<Vec<f64>>,
-    /// Initial joint velocities, rad/s or m/s [default: 0]
-    #[arg(long, value_name = "QD1,QD2,…", value_delimiter = ',', allow_hyphen_values = true)]
-    qd0: Option<Vec<f64>>,
+    /// Initial joint positions, separated by commas; rad or m, or such as pi/2, 90deg [default: 0]
+    #[arg(long, value_name = "Q1,Q2,…", allow_hyphen_values = true)]
+    q0: Option<String>,
+    /// Initial joint velocities; rad/s or m/s [default: 0]
+    #[arg(long, value_name = "QD1,QD2,…", allow_hyphen_values = true)]
+    qd0: Option<String>,
     /// Torque or force of a joint, by number or name; the other joints are not driven
     #[arg(long = "torque", value_name = "JOINT=EXPRESSION")]
     torque: Vec<String>,
@@ -76,10 +78,12 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let inputs = self.robot.inputs().into_iter().chain(self.torques.clone());
-        let writer = self.force.writer(inputs);
+        let writes = file_of(self.output.as_deref()).is_some() || self.plot.is_some();
+        let writer = self.force.writer(inputs, writes)?;
         let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
         let file = self.robot.open()?;
         let robot = motion::robot(&file, &self.settings, &self.friction, terminal)?;
+        let start = self.start(&robot)?;
         let friction = self.friction.is_wanted();
         let functions = RobotProgram::functions(friction);
         let options = file.options(terminal)?;
@@ -87,7 +91,7 @@ impl Arguments {
         let pivots = Pivots::new(&programs.robot, &options, &self.settings.pairs())?;
         let program = RobotProgram::new(&programs, &self.settings.pairs(), friction)?
             .with_pivots(pivots.clone());
-        let motion = self.motion(&programs, &program, terminal)?;
+        let motion = self.motion(&programs, &program, &start, terminal)?;
         warn(&motion, &pivots, terminal)?;
         let energies = motion.energies(&program)?;
         let figure = || {
@@ -105,12 +109,10 @@ impl Arguments {
         &self,
         programs: &Programs,
         program: &RobotProgram<'_>,
+        start: &State,
         terminal: &mut Terminal<'_>,
     ) -> Result<Motion, Failure> {
         let torques = self.torques(&programs.robot, terminal)?;
-        let zeros = || vec![0.0; programs.robot.degrees_of_freedom()];
-        let given = |values: &Option<Vec<f64>>| values.clone().unwrap_or_else(zeros);
-        let start = State { q: given(&self.q0), qd: given(&self.qd0) };
         let &Arguments { time: duration, step, tolerance, .. } = self;
         // The simulation reports invalid times.
         let usual = SimulationOptions::default().max_steps.max((10.0 * duration / step) as usize);
@@ -118,7 +120,23 @@ impl Arguments {
         let options = SimulationOptions { duration, step, tolerance, max_steps };
         let mut progress = Progress::new(terminal);
         let mut heard = |t: f64| progress.show(|| format!("{t:.3} s of {} s", number(duration)));
-        Ok(simulate(program, &torques, &start, &options, &mut heard)?)
+        Ok(simulate(program, &torques, start, &options, &mut heard)?)
+    }
+
+    fn start(&self, robot: &Robot) -> Result<State, Failure> {
+        let mut wrong = vec![];
+        let given = [
+            ("--q0", &self.q0, JointVariable::Position),
+            ("--qd0", &self.qd0, JointVariable::Velocity),
+        ];
+        let [q, qd] = given.map(|(option, text, variable)| match text {
+            None => vec![0.0; robot.degrees_of_freedom()],
+            Some(text) => of_joints(option, text, variable, robot).unwrap_or_else(|found| {
+                wrong.extend(found);
+                vec![]
+            }),
+        });
+        if wrong.is_empty() { Ok(State { q, qd }) } else { Err(Failure::Usage(wrong)) }
     }
 
     fn torques(&self, robot: &Robot, terminal: &mut Terminal<'_>) -> Result<Torques, Failure> {
@@ -149,10 +167,35 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
         (first.unwrap_or_default(), last.unwrap_or_default())
     };
     let ((_, end), (before, after)) = (ends(&motion.t), ends(&energies.total));
+    let drift = drift(&energies.total);
     let [end, before, after] = [end, before, after].map(number);
+    let drift = match drift {
+        Some(0.0) => ", no change".to_owned(),
+        Some(drift) => format!(", a relative change of {drift:.1e}"),
+        None => String::new(),
+    };
     format!(
-        "{end} s in {} steps, {} lines; energy from {before} J to {after} J",
+        "{end} s in {} steps, {} lines; energy from {before} J to {after} J{drift}",
         motion.steps,
         motion.t.len()
     )
+}
+
+/// The change of the energy, relative to its largest value; `None` if it is always 0.
+fn drift(energies: &[f64]) -> Option<f64> {
+    let (first, last) = (energies.first()?, energies.last()?);
+    let largest = energies.iter().fold(0.0_f64, |largest, energy| largest.max(energy.abs()));
+    (largest > 0.0).then(|| (last - first) / largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_drift_is_relative_to_the_largest_energy() {
+        assert_eq!(drift(&[2.0, -4.0, 3.0]), Some(0.25));
+        assert_eq!(drift(&[0.0, 0.0]), None);
+        assert_eq!(drift(&[]), None);
+    }
 }

@@ -12,9 +12,10 @@ use crate::Terminal;
 use crate::counts;
 use crate::failure::Failure;
 use crate::format::Format;
-use crate::function::{FunctionName, functions};
+use crate::function::functions;
 use crate::progress::watched;
 use crate::robot::{BundleArguments, RobotArgument};
+use crate::suggested::FUNCTIONS;
 use crate::text;
 
 #[derive(Args)]
@@ -37,7 +38,7 @@ pub(crate) struct Arguments {
     /// Functions to count [default without --bundle: every function of the robot, and the bundles of
     /// the robot file's [code]]
     #[arg(long = "function", value_name = "NAME", value_delimiter = ',',
-          value_parser = FunctionName { all: true })]
+          value_parser = FUNCTIONS)]
     functions: Vec<String>,
     #[command(flatten)]
     bundles: BundleArguments,
@@ -47,9 +48,9 @@ pub(crate) struct Arguments {
     /// Show the savings by each option of the recursion and each pass
     #[arg(long, conflicts_with = "passes")]
     options: bool,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Json)]
-    format: Format,
+    /// Output format [default: text on a terminal, else json]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
 }
 
 impl Arguments {
@@ -83,7 +84,7 @@ impl Arguments {
                 (function.name.as_str(), counts)
             })
             .collect();
-        match self.format {
+        match self.format(terminal) {
             Format::Json => {
                 let functions: Map<String, Value> = counts
                     .iter()
@@ -104,9 +105,14 @@ impl Arguments {
 }
 
 impl Arguments {
+    fn format(&self, terminal: &Terminal<'_>) -> Format {
+        let usual = if terminal.screen.is_some() { Format::Text } else { Format::Json };
+        self.format.unwrap_or(usual)
+    }
+
     /// Counts of functions under titles: a table of all, or an object of lists.
     fn show(&self, steps: &[Step], terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        match self.format {
+        match self.format(terminal) {
             Format::Json => {
                 let steps: Vec<Value> = steps.iter().map(Step::json).collect();
                 writeln!(terminal.output, "{:#}", Value::Array(steps))?;
@@ -178,17 +184,19 @@ fn ablated(found: &[Ablation]) -> Vec<Step> {
     (0..functions.len()).flat_map(of).collect()
 }
 
-/// A row for each function, and one for what the constructor does of it.
+/// A row for each function, and one for what the constructor does of it, if anything.
 fn rows(counts: &[(&str, FunctionCounts)]) -> Vec<Vec<String>> {
     let mut title = vec!["function".to_owned()];
     title.extend(counts::COLUMNS.iter().map(|(name, _)| (*name).to_owned()));
     let mut rows = vec![title];
     for (name, counts) in counts {
-        for (name, counts) in
-            [((*name).to_owned(), counts.call), (format!("  once for {name}"), counts.constructor)]
-        {
-            let cells = counts::COLUMNS.iter().map(|(_, count)| count(&counts).to_string());
-            rows.push(std::iter::once(name).chain(cells).collect());
+        let cells = |counts: &Counts| -> Vec<String> {
+            counts::COLUMNS.iter().map(|(_, count)| count(counts).to_string()).collect()
+        };
+        rows.push([vec![(*name).to_owned()], cells(&counts.call)].concat());
+        let once = cells(&counts.constructor);
+        if once.iter().any(|count| count != "0") {
+            rows.push([vec![format!("  once for {name}")], once].concat());
         }
     }
     rows

@@ -8,7 +8,7 @@ use robot_simulation::plot::contributions_figure;
 use robot_simulation::{Table, TorqueContributions, Trajectory, torque_contributions};
 
 use crate::Terminal;
-use crate::delivery::ForceArgument;
+use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
 use crate::files;
 use crate::friction::FrictionArguments;
@@ -80,7 +80,8 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let inputs = self.robot.inputs().into_iter().chain(self.trajectory.clone());
-        let writer = self.force.writer(inputs);
+        let writes = file_of(self.output.as_deref()).is_some() || self.plot.is_some();
+        let writer = self.force.writer(inputs, writes)?;
         let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
         let file = self.robot.open()?;
         let robot = motion::robot(&file, &self.settings, &self.friction, terminal)?;

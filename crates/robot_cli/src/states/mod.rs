@@ -1,8 +1,11 @@
-//! States at which functions are computed, from JSON or CSV.
+//! States at which functions are computed, from the command line, JSON or CSV.
 
+mod arguments;
 mod csv;
 mod json;
 mod node;
+
+pub(crate) use arguments::StateArguments;
 
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, WRENCH, WRENCH_COMPONENTS};

@@ -312,3 +312,52 @@ fn an_angle_that_has_no_sine_is_the_reason() {
     let shown = complaint(1, &["torques", &file, "--expressions", expressions, "--time", "1"], "");
     assert!(shown.contains("q2 = 2000000000 rad (joint `2`) is outside the range"), "{shown}");
 }
+
+#[test]
+fn a_state_is_given_on_the_command_line() {
+    let file = robot("planar_2r");
+    let eval = |more: &[&str]| output(&[&["eval", &file, "--function"], more].concat(), "");
+    let states =
+        r#"[{"q": [1.5707963267948966, -0.5235987755982988], "qd": [0, 1], "qdd": [-2, 0.5]}]"#;
+    let arguments = ["eval", &file, "--function", "inverse_dynamics", "--states", "-"];
+    let given = ["inverse_dynamics", "--q", "pi/2,-30deg", "--qd", "0,1", "--qdd=-2,1/2"];
+    assert_eq!(eval(&given), output(&arguments, states));
+    // A wrench chooses the function that takes it.
+    let loaded = [
+        "inverse_dynamics",
+        "--q",
+        "0,0",
+        "--qd",
+        "0,0",
+        "--qdd",
+        "0,0",
+        "--wrench",
+        "0,-10,0,0,0,0",
+    ];
+    assert_ne!(eval(&loaded), eval(&loaded[..7]));
+}
+
+#[test]
+fn wrong_states_on_the_command_line_are_told_with_their_place() {
+    let file = robot("planar_2r");
+    let wrong = |code, more: &[&str]| {
+        complaint(code, &[&["eval", &file, "--function", "inverse_dynamics"], more].concat(), "")
+    };
+    assert_eq!(
+        wrong(2, &["--q", "pi/2,x", "--qd", "1", "--qdd", "1,90deg/s"]),
+        "error: --q: entry 2, q2: `x` is not a number; write one such as 0.5, pi/2 or 90deg\n\
+         error: --qd: 1 entry, not 2 (qd1, qd2)\n\
+         error: --qdd: entry 2, qdd2: `90deg/s` is not a number; write one such as 0.5, pi/2 or 90deg/s^2\n"
+    );
+    assert!(wrong(2, &[]).contains("a state is needed"));
+    assert!(wrong(1, &["--q", "0,0"]).contains("`qd` is missing; inverse_dynamics needs it"));
+    assert!(wrong(2, &["--q", "0,0", "--states", "-"]).contains("cannot be used with"));
+    assert!(wrong(2, &["--wrench", "1,2"]).contains("--wrench: 2 entries, not 6 (fx, fy"));
+    assert!(wrong(2, &["--wrench", "hand=1,2,3,4,5,6"]).contains("leave out `hand=`"));
+    let scara =
+        complaint(2, &["eval", &robot("scara"), "--function", "gravity", "--q", "0,0,90deg,0"], "");
+    assert!(
+        scara.contains("entry 3, q3: `90deg` is an angle, and the joint is prismatic"),
+        "{scara}"
+    );
+}

@@ -9,7 +9,9 @@ use crate::{URDF, complaint, folder, output};
 pub(crate) fn commands() -> Vec<String> {
     let overview = output(&["--help"], "");
     let list = overview.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
-    let names = list.lines().map(|line| line.split_whitespace().next().unwrap().to_owned());
+    // Further lines of what a command does are indented more.
+    let lines = list.lines().filter(|line| !line.starts_with("   "));
+    let names = lines.map(|line| line.split_whitespace().next().unwrap().to_owned());
     let names: Vec<String> = names.filter(|name| name != "help").collect();
     assert!(names.len() >= 14, "{names:?}");
     names
@@ -24,8 +26,8 @@ fn example(command: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Examples that are shown with others' programs, targets that need not be installed.
-const ELSEWHERE: [&str; 2] = ["cargo ", "--target"];
+/// Examples that are shown with others' programs, targets that need not be installed, a browser.
+const ELSEWHERE: [&str; 3] = ["cargo ", "--target", "--open"];
 
 #[test]
 fn the_examples_of_every_command_run() {

@@ -17,6 +17,7 @@ mod help;
 mod interrupted;
 mod json_schema;
 mod outputs;
+mod people;
 mod plans;
 mod prove;
 mod reading;
@@ -41,12 +42,36 @@ struct Outcome {
 /// Runs `robot-symbolic` with arguments between streams that are no terminal: the exit code.
 fn run_between(
     arguments: &[&str],
+    input: &[u8],
+    output: &mut dyn std::io::Write,
+    errors: &mut dyn std::io::Write,
+) -> u8 {
+    run_shown(None, arguments, input, output, errors)
+}
+
+/// Runs it where standard output may be a terminal.
+fn run_on(screen: Option<robot_cli::Screen>, arguments: &[&str]) -> Outcome {
+    let (mut output, mut errors) = (vec![], vec![]);
+    let code = run_shown(screen, arguments, b"", &mut output, &mut errors);
+    let [output, errors] = [output, errors].map(|bytes| String::from_utf8(bytes).unwrap());
+    Outcome { code, output, errors }
+}
+
+fn run_shown(
+    screen: Option<robot_cli::Screen>,
+    arguments: &[&str],
     mut input: &[u8],
     output: &mut dyn std::io::Write,
     errors: &mut dyn std::io::Write,
 ) -> u8 {
-    let mut terminal =
-        robot_cli::Terminal { input: &mut input, output, errors, colors: false, progress: false };
+    let mut terminal = robot_cli::Terminal {
+        input: &mut input,
+        output,
+        errors,
+        colors: false,
+        progress: false,
+        screen,
+    };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
     robot_cli::run(arguments, &mut terminal)
 }
@@ -68,6 +93,15 @@ fn run(arguments: &[&str]) -> Outcome {
 fn output(arguments: &[&str], input: &str) -> String {
     let Outcome { code, output, errors } = run_with(arguments, input.as_bytes());
     assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
+    output
+}
+
+/// What a command prints that writes files and complains of nothing.
+#[track_caller]
+fn output_beside_files(arguments: &[&str]) -> String {
+    let Outcome { code, output, errors } = run(arguments);
+    let complaints: Vec<&str> = errors.lines().filter(|line| !line.starts_with("wrote ")).collect();
+    assert_eq!((code, complaints), (0, vec![]), "{arguments:?}");
     output
 }
 

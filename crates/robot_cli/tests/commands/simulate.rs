@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::{WRIST, complaint, folder, output, robot, run, run_with};
+use crate::{WRIST, complaint, folder, output, output_beside_files, robot, run, run_with};
 use robot_testing::pages::blocks;
 
 /// The columns of CSV by name.
@@ -36,7 +36,7 @@ fn torques_from_a_file_repeat_the_motion() {
     let file = robot("planar_2r");
     let driven = ["simulate", &file, "--time", "1", "--step", "0.001", "--torque"];
     let more = ["1 = m1*g*r1 + 3*t", "--torque", "2=-0.5*t", "-o", path];
-    let shown = output(&[&driven[..], &more].concat(), "");
+    let shown = output_beside_files(&[&driven[..], &more].concat());
     assert!(shown.starts_with("1 s in 100"), "{shown}");
     let first = std::fs::read_to_string(path).unwrap();
     let repeated = ["simulate", &file, "--time", "1", "--step", "0.001", "--torques", path];
@@ -90,7 +90,7 @@ fn dry_friction_holds_and_lets_go() {
     let path = folder("simulate-trttr1").join("motion.csv");
     let (file, path) = (robot("trttr1"), path.to_str().unwrap().to_owned());
     let torque = ["--torque", "1 = 10*sin(3*t)", "-o", &path];
-    let shown = output(&[&["simulate", &file, "--friction"], &torque[..]].concat(), "");
+    let shown = output_beside_files(&[&["simulate", &file, "--friction"], &torque[..]].concat());
     let steps = shown.strip_prefix("10 s in ").and_then(|shown| shown.split_once(' ')).unwrap().0;
     assert!(steps.parse::<usize>().unwrap() < 2500, "{shown}");
 }
@@ -215,8 +215,7 @@ fn run_line(line: &str, folder: &Path) {
     });
     let arguments: Vec<String> = placed.collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let outcome = run(&arguments);
-    assert_eq!((outcome.code, outcome.errors.as_str()), (0, ""), "{line}");
+    output_beside_files(&arguments);
 }
 
 /// What a picture says: its texts, but for the labels of the error of integration, which differ from
@@ -284,4 +283,20 @@ fn torques_are_split_and_wrong_trajectories_refused() {
         let shown = complaint(2, &["torques", &file, "--trajectory", "-", option, "5"], "");
         assert!(shown.contains("cannot be used with"), "{shown}");
     }
+}
+
+#[test]
+fn starts_may_be_in_degrees_and_the_drift_is_told() {
+    let file = robot("planar_2r");
+    let motion = |q0: &str| output(&["simulate", &file, "--time", "0.02", "--q0", q0], "");
+    assert_eq!(motion("90deg,-pi/4"), motion("1.5707963267948966,-0.7853981633974483"));
+    let found = complaint(2, &["simulate", &file, "--q0", "1,two"], "");
+    assert!(found.starts_with("error: --q0: entry 2, q2: `two` is not a number"), "{found}");
+    let (table, plot) = (folder("drift").join("a.csv"), folder("drift_plot").join("a.svg"));
+    let (table, plot) = (table.to_str().unwrap(), plot.to_str().unwrap());
+    let outcome =
+        run(&["simulate", &file, "--q0", "1,1", "--time", "1", "-o", table, "--plot", plot]);
+    assert!(outcome.output.contains(" J, a relative change of "), "{}", outcome.output);
+    assert!(outcome.errors.contains(&format!("wrote {table} (")), "{}", outcome.errors);
+    assert!(outcome.errors.contains(&format!("wrote {plot} (")), "{}", outcome.errors);
 }

@@ -4,12 +4,14 @@
 //! once, in the order of their places.
 
 pub mod code;
+mod group;
 mod render;
 
 use std::fmt;
 use std::ops::Range;
 
-pub use render::{Style, render};
+pub use group::Group;
+pub use render::{Style, render, render_group};
 
 /// Bytes of a source text.
 pub type Span = Range<usize>;
@@ -192,7 +194,13 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// All of them as text, each with its excerpt of the source, then how many there are.
+    /// The diagnostics, those of warnings and notes together that differ only in names, numbers and places.
+    #[must_use]
+    pub fn groups(&self) -> Vec<Group<'_>> {
+        group::groups(&self.list)
+    }
+
+    /// All of them as text, each group with an excerpt of the source, then how many there are.
     #[must_use]
     pub fn render(&self, style: Style) -> String {
         render::render_all(&self.source, &self.list, style)

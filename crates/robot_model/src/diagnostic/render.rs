@@ -1,7 +1,8 @@
 //! Diagnostics as text for people.
 
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
+use super::group::{Group, groups};
 use super::{Diagnostic, Label, Severity, Source, Span, quote};
 
 /// More diagnostics than this are counted, not shown.
@@ -19,13 +20,22 @@ pub enum Style {
 /// One diagnostic as text, without a newline at the end.
 #[must_use]
 pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String {
+    render_group(source, &Group { first: diagnostic, others: vec![] }, style)
+}
+
+/// Diagnostics of the same kind as one text, without a newline at the end.
+#[must_use]
+pub fn render_group(source: &Source, found: &Group<'_>, style: Style) -> String {
+    let diagnostic = found.first;
+    let (message, others) = (found.message(), found.others(source));
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
         Severity::Note => Level::NOTE,
     };
-    let mut group =
-        Group::with_title(level.primary_title(diagnostic.message.as_str()).id(diagnostic.code));
+    let mut group = annotate_snippets::Group::with_title(
+        level.primary_title(message.as_str()).id(diagnostic.code),
+    );
     match &diagnostic.primary {
         Some(primary) => {
             let mut labels = vec![(primary, AnnotationKind::Primary)];
@@ -46,6 +56,9 @@ pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String 
             group = group.element(annotate_snippets::Origin::path(quote(&source.name)));
         }
     }
+    if let Some(others) = &others {
+        group = group.element(Level::NOTE.message(others.as_str()));
+    }
     if let Some(why) = &diagnostic.why {
         group = group.element(Level::NOTE.message(why.as_str()));
     }
@@ -60,9 +73,10 @@ pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String 
 }
 
 pub(super) fn render_all(source: &Source, list: &[Diagnostic], style: Style) -> String {
-    let shown = list.iter().take(MAX_SHOWN);
+    let groups = groups(list);
+    let (shown, left) = groups.split_at(groups.len().min(MAX_SHOWN));
     let mut parts: Vec<String> =
-        shown.map(|diagnostic| render(source, diagnostic, style)).collect();
+        shown.iter().map(|group| render_group(source, group, style)).collect();
     let count = |severity| list.iter().filter(|found| found.severity == severity).count();
     let counts = [
         (count(Severity::Error), "error"),
@@ -74,7 +88,7 @@ pub(super) fn render_all(source: &Source, list: &[Diagnostic], style: Style) -> 
         .filter(|(count, _)| *count > 0)
         .map(|(count, what)| format!("{count} {what}{}", if *count == 1 { "" } else { "s" }))
         .collect();
-    let more = match list.len().saturating_sub(MAX_SHOWN) {
+    let more = match left.iter().map(Group::count).sum::<usize>() {
         0 => String::new(),
         more => format!(" ({more} more not shown)"),
     };

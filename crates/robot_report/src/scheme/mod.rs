@@ -7,6 +7,7 @@
 mod draw;
 mod labels;
 mod layout;
+mod picture;
 mod shape;
 mod style;
 mod symbols;
@@ -15,6 +16,8 @@ mod view;
 use robot_document::figure::Figure;
 use robot_document::markup::Element;
 use robot_model::robot::Robot;
+
+pub use picture::scheme_picture;
 
 use layout::{Layout, confusion, layout};
 use view::View;

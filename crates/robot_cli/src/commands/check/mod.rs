@@ -16,6 +16,7 @@ use crate::format::Format;
 use crate::options::in_flags;
 use crate::plan::is_of_pin;
 use crate::reading::ReadingArguments;
+use crate::suggested::CODE;
 use crate::text;
 
 #[derive(Args)]
@@ -41,10 +42,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum)]
     deny: Option<Deny>,
     /// Hide warnings and notes with these codes
-    #[arg(long, value_name = "CODE", value_delimiter = ',')]
+    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = CODE,
+          hide_possible_values = true)]
     allow: Vec<String>,
     /// Show the page of a code
-    #[arg(long, value_name = "CODE", exclusive = true)]
+    #[arg(long, value_name = "CODE", exclusive = true, value_parser = CODE, hide_possible_values = true)]
     explain: Option<String>,
     #[command(flatten)]
     reading: ReadingArguments,
@@ -162,10 +164,11 @@ fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         }
     };
     let name = &choices.source().name;
-    for choice in choices.iter() {
+    for group in choices.groups() {
+        let choice = group.first;
         let place = choice.primary.as_ref().map_or(0, |label| label.span.start);
         let (line, column) = choices.source().position(place);
-        let (code, message) = (choice.code, &choice.message);
+        let (code, message) = (choice.code, group.line(choices.source()));
         writeln!(terminal.errors, "note[{code}]: {name}:{line}:{column}: {message}")?;
     }
     if found.is_empty() {

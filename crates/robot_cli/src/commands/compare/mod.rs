@@ -12,6 +12,7 @@ use crate::Terminal;
 use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::robot::RobotArgument;
+use crate::screen::is_colored;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -56,6 +57,7 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let comparison = self.comparison(terminal).map_err(Failure::refused)?;
         let shown = match self.format {
+            Format::Text if is_colored(terminal.screen) => show::colored(&show::text(&comparison)),
             Format::Text => show::text(&comparison),
             Format::Json => show::json(&comparison),
             Format::Markdown => show::markdown(&comparison),

@@ -6,6 +6,8 @@ use std::fmt::Write as _;
 use robot_check::errata::{Comparison, Difference, MistakeKind};
 use serde_json::{Value, json};
 
+use crate::screen::{ADDED, CHANGED, REMOVED, TITLE, styled_lines};
+
 /// A paragraph for each difference, and a summary.
 pub(super) fn text(comparison: &Comparison) -> String {
     let mut shown = String::new();
@@ -33,6 +35,16 @@ pub(super) fn text(comparison: &Comparison) -> String {
         }
     }
     shown + &summary(comparison) + "\n"
+}
+
+/// The text with printed terms as removed ones and derived terms as new ones.
+pub(super) fn colored(text: &str) -> String {
+    styled_lines(text, |line| match line.split_whitespace().next() {
+        Some("printed") => Some(REMOVED),
+        Some("derived") => Some(ADDED),
+        Some("nearest") => Some(CHANGED),
+        _ => (!line.starts_with(' ')).then_some(TITLE),
+    })
 }
 
 /// `(31) F_l5.x`

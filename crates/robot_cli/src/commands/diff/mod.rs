@@ -15,9 +15,13 @@ use crate::format::Format;
 use crate::plan::pinned_or_searched;
 use crate::progress::watched;
 use crate::reading::ReadingArguments;
+use crate::screen::is_colored;
 
 /// The most states at which torques are compared: of a long robot a minute's work.
 const MOST_STATES: i64 = 100_000;
+
+/// The terms of an equation that are shown if nothing else is asked for.
+const TERMS: usize = 20;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -43,9 +47,9 @@ pub(crate) struct Arguments {
     /// Number of random states, at most 100000
     #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=MOST_STATES))]
     states: u32,
-    /// Maximum number of terms shown per equation in text
-    #[arg(long, default_value_t = 20)]
-    terms: usize,
+    /// Maximum number of terms shown per equation in text [default: 20]
+    #[arg(long)]
+    terms: Option<usize>,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -53,9 +57,16 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        if self.terms.is_some() && matches!(self.format, Format::Json) {
+            let message = "--terms has no effect in JSON, which has all terms; leave it out";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let found = self.difference(terminal).map_err(Failure::refused)?;
         let shown = match self.format {
-            Format::Text => show::text(&found, self.terms),
+            Format::Text => {
+                let text = show::text(&found, self.terms.unwrap_or(TERMS));
+                if is_colored(terminal.screen) { show::colored(&text) } else { text }
+            }
             Format::Json => show::json(&found),
         };
         answered(&shown, terminal)?;

@@ -9,6 +9,8 @@ use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
 use serde_json::{Map, Value, json};
 
+use crate::screen::{ADDED, CHANGED, REMOVED, TITLE, styled_lines};
+
 /// A part for each kind of difference.
 pub(super) fn text(found: &Difference, most: usize) -> String {
     let [a, b] = &found.names;
@@ -23,6 +25,17 @@ pub(super) fn text(found: &Difference, most: usize) -> String {
         let _ = write!(shown, "\n{title}\n{lines}");
     }
     shown
+}
+
+/// The text with what is added, removed and changed in colors.
+pub(crate) fn colored(text: &str) -> String {
+    styled_lines(text, |line| match line.trim_start().get(..2) {
+        _ if !line.is_empty() && !line.starts_with([' ', '+', '-', '~']) => Some(TITLE),
+        Some("+ ") => Some(ADDED),
+        Some("- ") => Some(REMOVED),
+        Some("~ ") => Some(CHANGED),
+        _ => None,
+    })
 }
 
 const TORQUES: &str = "largest differences of the joint torques";

@@ -21,15 +21,16 @@ use self::digits::Digits;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::files;
-use crate::function::FunctionName;
 use crate::options::help;
 use crate::progress::watched;
 use crate::robot::{RobotArgument, trigonometry};
 use crate::settings::Settings;
-use crate::states::{Layout, State};
+use crate::states::{Layout, State, StateArguments};
+use crate::suggested::FUNCTION;
 
 #[derive(Args)]
 #[command(after_help = "Example:
+  robot-symbolic eval robots/planar_2r.toml --function gravity --q pi/2,-30deg
   robot-symbolic eval robots/planar_2r.toml --function inverse_dynamics --states - <<'END'
   [{\"q\": [0.3, 0.5], \"qd\": [0, 1], \"qdd\": [2, 0]}]
   END
@@ -45,11 +46,13 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     /// The function, or a bundle of the robot file's [code]; `jacobian_NAME` and `jacobian_dot_qd_NAME` for
     /// one frame or moving link
-    #[arg(long, value_name = "NAME", value_parser = FunctionName { all: false })]
+    #[arg(long, value_name = "NAME", value_parser = FUNCTION)]
     function: String,
     /// The file with the states; `-` for standard input
     #[arg(long, value_name = "FILE")]
-    states: PathBuf,
+    states: Option<PathBuf>,
+    #[command(flatten)]
+    state: StateArguments,
     #[command(flatten)]
     settings: Settings,
     #[arg(long, help = help("trigonometry"), default_value = "polynomial", value_parser = trigonometry())]
@@ -67,6 +70,10 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        if self.states.is_none() && !self.state.is_given() {
+            let message = "a state is needed: --q, --qd, …, or --states with a file of states";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let file = self.robot.open()?;
         let described = file.read(terminal)?;
         let Described { robot, code, .. } = &described;
@@ -77,7 +84,7 @@ impl Arguments {
         if wrong.is_empty() {
             self.settings.check(&file, &described, terminal)?;
         }
-        let states = self.states(&Layout::of(robot), terminal, &mut wrong)?;
+        let states = self.states(robot, terminal, &mut wrong)?;
         let kind = kind.map(|kind| with_wrench(kind, robot, &states, &mut wrong));
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
         let options = Options { functions, bundles, ..file.options(terminal)? };
@@ -110,11 +117,16 @@ impl Arguments {
 
     fn states(
         &self,
-        layout: &Layout,
+        robot: &Robot,
         terminal: &mut Terminal<'_>,
         wrong: &mut Vec<String>,
     ) -> Result<Vec<State>, Failure> {
-        let (name, text) = files::read(&self.states, terminal)?;
+        let layout = Layout::of(robot);
+        let Some(path) = &self.states else {
+            let (state, found) = self.state.state(robot, &layout);
+            return if found.is_empty() { Ok(vec![state]) } else { Err(Failure::Usage(found)) };
+        };
+        let (name, text) = files::read(path, terminal)?;
         let (states, found) = layout.read(&text);
         wrong.extend(found.into_iter().map(|message| format!("{name}: {message}")));
         Ok(states)

@@ -9,12 +9,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 use robot_model::diagnostic::Style;
+use time::{OffsetDateTime, UtcOffset};
 
+use super::diff::show;
 use crate::Terminal;
 use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
+use crate::screen::is_colored;
 use files::Files;
 use page::Page;
 use state::{Look, Settings, Shown, State};
@@ -54,13 +57,14 @@ static OVER: AtomicBool = AtomicBool::new(false);
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let clock = clock();
         // A name that is wrong from the start is not waited for.
         self.robot.source()?;
         if self.report.is_some() && file_of(self.report.as_deref()).is_none() {
             let message = "--report needs a file, which is rewritten at each save; name one";
             return Err(Failure::Usage(vec![message.to_owned()]));
         }
-        let writer = self.force.writer(self.robot.inputs());
+        let writer = self.force.writer(self.robot.inputs(), self.report.is_some())?;
         let page = self.report.clone().map(|path| Page::open(path, writer)).transpose()?;
         ctrlc::set_handler(|| OVER.store(true, Ordering::Relaxed))
             .map_err(|error| Failure::input(format!("cannot wait for Ctrl-C: {error}")))?;
@@ -69,15 +73,29 @@ impl Arguments {
         let looks = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));
         let style = if terminal.colors { Style::Terminal } else { Style::Plain };
         let reading = self.robot.reading;
-        let settings = Settings { snap: self.robot.snap(), reading, terms: self.terms, style };
+        // A file or a pipe holds the same text at any time.
+        let clock = terminal.screen.map(|_| &clock as &(dyn Fn() -> String + Sync));
+        let snap = self.robot.snap();
+        let settings = Settings { snap, reading, terms: self.terms, style, clock };
         follow(looks, &settings, page, terminal)
+    }
+}
+
+/// What shows the time of day: local, if the system says how far that is from UTC. It only does as long as
+/// there are no threads.
+fn clock() -> impl Fn() -> String {
+    let local = UtcOffset::current_local_offset().ok();
+    move || {
+        let now = OffsetDateTime::now_utc().to_offset(local.unwrap_or(UtcOffset::UTC));
+        let zone = if local.is_some() { "" } else { " UTC" };
+        format!("{:02}:{:02}:{:02}{zone}", now.hour(), now.minute(), now.second())
     }
 }
 
 /// Shows what changes from look to look, until there are no more.
 fn follow(
     looks: impl Iterator<Item = Look>,
-    settings: &Settings,
+    settings: &Settings<'_>,
     mut page: Option<Page>,
     terminal: &mut Terminal<'_>,
 ) -> Result<(), Failure> {
@@ -87,6 +105,10 @@ fn follow(
         let shown;
         (state, shown) = watched("deriving", terminal, || state.after(&look, settings));
         let Shown { title, problems, changes } = shown;
+        let [title, changes] = [title, changes].map(|text| match is_colored(terminal.screen) {
+            true => show::colored(&text),
+            false => text,
+        });
         write!(terminal.output, "{title}").and_then(|()| terminal.output.flush())?;
         write!(terminal.errors, "{problems}").and_then(|()| terminal.errors.flush())?;
         write!(terminal.output, "{changes}").and_then(|()| terminal.output.flush())?;

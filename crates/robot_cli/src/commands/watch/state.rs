@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use robot_build::{Error, Errors, Options, Plan, Source};
 use robot_check::difference::{Difference, Options as DifferenceOptions, difference};
 use robot_check::doctor;
-use robot_model::diagnostic::{Severity, Style, render};
+use robot_model::diagnostic::{Severity, Style, render, render_group};
 use robot_model::robot::Robot;
 
 use crate::commands::diff::show;
@@ -23,7 +23,7 @@ pub(super) struct Look {
 }
 
 /// The options of showing changes.
-pub(super) struct Settings {
+pub(super) struct Settings<'a> {
     /// The tolerance for angles, rad, if one is given.
     pub(super) snap: Option<f64>,
     /// The reading options that turn errors into warnings.
@@ -32,6 +32,8 @@ pub(super) struct Settings {
     pub(super) terms: usize,
     /// The style of errors and warnings.
     pub(super) style: Style,
+    /// The time of day, where it is shown.
+    pub(super) clock: Option<&'a (dyn Fn() -> String + Sync)>,
 }
 
 /// The state after a look.
@@ -81,13 +83,13 @@ impl State {
     }
 
     /// The options of making code of the last robot.
-    pub(super) fn options(&self, settings: &Settings) -> Options {
+    pub(super) fn options(&self, settings: &Settings<'_>) -> Options {
         let plan = self.valid.as_ref().and_then(|valid| valid.plan.clone());
         Options { snap: settings.snap, plan, ..settings.reading.options() }
     }
 
     /// The state after a look, and the output.
-    pub(super) fn after(&self, look: &Look, settings: &Settings) -> (State, Shown) {
+    pub(super) fn after(&self, look: &Look, settings: &Settings<'_>) -> (State, Shown) {
         let number = self.number;
         let read = look.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
         match read.and_then(|source| valid(number, source, &look.plan, settings)) {
@@ -96,14 +98,14 @@ impl State {
                 (State { number: number + 1, valid: Some(valid), wrong: None }, shown)
             }
             Err(wrong) => {
-                let shown = self.after_errors(&wrong);
+                let shown = self.after_errors(&wrong, settings);
                 (State { number: number + 1, valid: self.valid.clone(), wrong: Some(wrong) }, shown)
             }
         }
     }
 
     /// The output for a valid robot.
-    fn after_valid(&self, now: &ValidRobot, settings: &Settings) -> Shown {
+    fn after_valid(&self, now: &ValidRobot, settings: &Settings<'_>) -> Shown {
         let before = self.valid.iter().flat_map(|valid| &valid.problems);
         let before: Vec<&Problem> = before.chain(self.wrong.iter().flatten()).collect();
         let problems = texts(absent(&now.problems, &before));
@@ -115,26 +117,29 @@ impl State {
                 "{gone}{}: {coordinates} coordinates, {parameters} parameters; watching\n",
                 now.robot.name
             );
-            return Shown { title: title(self.number, None), problems, changes };
+            return Shown { title: title(self.number, None, settings), problems, changes };
         };
         let found = difference(&valid.robot, &now.robot, &compared(valid, now, settings));
         let differences = differences(&found, settings.terms);
         let none = if differences.is_empty() { "no changes in the robot\n" } else { "" };
-        let title = title(self.number, Some(valid.number));
+        let title = title(self.number, Some(valid.number), settings);
         Shown { title, problems, changes: format!("{gone}{differences}{none}") }
     }
 
     /// The output for a file that does not describe a robot.
-    fn after_errors(&self, wrong: &[Problem]) -> Shown {
+    fn after_errors(&self, wrong: &[Problem], settings: &Settings<'_>) -> Shown {
         let gone = gone(self.wrong.iter().flatten().collect(), wrong);
         let stands = match &self.valid {
-            None => "the file has errors; watching".to_owned(),
+            None => "the file has errors; waiting for a save without".to_owned(),
             Some(valid) => {
-                format!("the file has errors; keeping the robot from {}", name(valid.number))
+                format!(
+                    "the file has errors; the last good robot, from {}, is kept",
+                    name(valid.number)
+                )
             }
         };
         Shown {
-            title: title(self.number, None),
+            title: title(self.number, None, settings),
             problems: texts(wrong.iter().collect()),
             changes: format!("{gone}{stands}\n"),
         }
@@ -146,7 +151,7 @@ fn valid(
     number: usize,
     source: &Source,
     plan: &Result<Option<Plan>, Errors>,
-    settings: &Settings,
+    settings: &Settings<'_>,
 ) -> Result<ValidRobot, Vec<Problem>> {
     let style = settings.style;
     let options = settings.reading.options();
@@ -155,10 +160,11 @@ fn valid(
     let examination = doctor::examine(&described);
     let mut problems: Vec<Problem> = examination
         .found
+        .groups()
         .iter()
-        .map(|one| Problem {
-            line: line(one.severity, one.code, &one.message),
-            text: in_flags(&render(source, one, style)),
+        .map(|group| Problem {
+            line: line(group.first.severity, group.first.code, &group.message()),
+            text: in_flags(&render_group(source, group, style)),
         })
         .collect();
     let (plan, stale) = match plan {
@@ -225,18 +231,19 @@ fn name(number: usize) -> String {
     }
 }
 
-/// Nothing for the start; a blank line and `save 3, from save 2:` after it.
-fn title(number: usize, from: Option<usize>) -> String {
-    match (number, from) {
-        (0, _) => String::new(),
-        (number, None) => format!("\n{}:\n", name(number)),
-        (number, Some(from)) => format!("\n{}, from {}:\n", name(number), name(from)),
+/// Nothing for the start; a blank line and `save 3, 14:02:31, from save 2:` after it.
+fn title(number: usize, from: Option<usize>, settings: &Settings<'_>) -> String {
+    if number == 0 {
+        return String::new();
     }
+    let time = settings.clock.map(|clock| format!(", {}", clock())).unwrap_or_default();
+    let from = from.map(|from| format!(", from {}", name(from))).unwrap_or_default();
+    format!("\n{}{time}{from}:\n", name(number))
 }
 
 /// Under which plans two robots are compared: their own, if both have one; a pin goes stale with each
 /// change of its file, and the default plan beside it would show the plan, not the robot.
-fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings) -> DifferenceOptions {
+fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings<'_>) -> DifferenceOptions {
     let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;
     let code = [before, now].map(|one| Options {
         snap: settings.snap,

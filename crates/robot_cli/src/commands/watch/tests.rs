@@ -29,11 +29,12 @@ fn look(text: &str) -> Look {
     Look { source: Ok(source), plan: Ok(None) }
 }
 
-const SETTINGS: Settings = Settings {
+const SETTINGS: Settings<'_> = Settings {
     snap: None,
     reading: ReadingArguments { allow_massless: false, allow_unphysical: false },
     terms: 20,
     style: Style::Plain,
+    clock: None,
 };
 
 /// How the watch ends, and what it shows on either stream.
@@ -53,6 +54,7 @@ fn followed_with(
         errors: &mut errors,
         colors: false,
         progress: false,
+        screen: None,
     };
     let ended = follow(looks.into_iter(), &SETTINGS, page, &mut terminal);
     let [output, errors] = [output, errors].map(|bytes| String::from_utf8(bytes).unwrap());
@@ -89,7 +91,9 @@ fn a_broken_file_keeps_the_last_robot() {
     let (is_good, output, errors) = followed([ARM, &broken(), &moved].map(look));
     assert!(!is_good);
     assert_eq!(
-        output.matches("the file has errors; keeping the robot from the start\n").count(),
+        output
+            .matches("the file has errors; the last good robot, from the start, is kept\n")
+            .count(),
         2
     );
     // As long as the file is broken all errors are shown; a line that moves is no other error.
@@ -107,7 +111,10 @@ fn a_broken_file_keeps_the_last_robot() {
 fn a_file_that_is_broken_from_the_start_is_waited_for() {
     let (is_good, output, errors) = followed([&broken(), ARM].map(look));
     assert!(is_good && errors.contains("error[R0303]"));
-    assert!(output.starts_with("the file has errors; watching\n\nsave 1:\ngone: error"));
+    assert!(
+        output
+            .starts_with("the file has errors; waiting for a save without\n\nsave 1:\ngone: error")
+    );
     assert!(output.ends_with("planar_2r: 2 coordinates, 9 parameters; watching\n"), "{output}");
     assert!(!followed([look(&broken())]).0);
 }

@@ -1,0 +1,63 @@
+//! `init`: a first robot file.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_build::{Output, Ownership, shown};
+
+use crate::Terminal;
+use crate::delivery::{ForceArgument, write};
+use crate::failure::Failure;
+
+/// The file, for an arm of two links.
+const ROBOT: &str = include_str!("../../demo/first.toml");
+
+/// The name of the robot in it.
+const NAME: &str = "my_robot";
+
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-symbolic init
+  robot-symbolic init two_link
+
+Writes NAME.toml, a planar arm of two links with a comment on each key, to be edited. Its first line names the
+JSON schema for editors; `robot-symbolic schema` writes that. docs/robot-file.md describes all keys, and
+`import` makes a robot file of a URDF file.")]
+pub(crate) struct Arguments {
+    /// The name of the robot, and of the file before `.toml`
+    #[arg(default_value = NAME, value_parser = name)]
+    name: String,
+    #[command(flatten)]
+    force: ForceArgument,
+}
+
+/// A name that can be a robot's and a file's.
+fn name(text: &str) -> Result<String, String> {
+    let text = text.strip_suffix(".toml").unwrap_or(text);
+    let is_fine = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    match text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(is_fine) {
+        true => Ok(text.to_owned()),
+        false => {
+            Err("a name begins with a letter and has letters, digits, _ and - only".to_owned())
+        }
+    }
+}
+
+impl Arguments {
+    pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let path = PathBuf::from(format!("{}.toml", self.name));
+        let text = ROBOT.replace(NAME, &self.name);
+        let writer = self.force.writer([], true)?;
+        let (bytes, ownership) = (text.as_bytes(), Ownership::Edited);
+        let output = Output { path: path.clone(), bytes, ownership };
+        writer.check(&[(&path, ownership)])?;
+        write(&writer, &[output], terminal)?;
+        let file = shown(&path);
+        writeln!(
+            terminal.output,
+            "Next:\n  robot-symbolic show {file}\n  robot-symbolic equations {file}\n  robot-symbolic report {file} \
+             --open\n  robot-symbolic schema -o robot-file.schema.json"
+        )?;
+        Ok(())
+    }
+}

@@ -1,0 +1,52 @@
+//! A terminal that shows results.
+
+use std::fmt::Write as _;
+
+use clap::builder::styling::{AnsiColor, Style};
+
+/// A terminal as standard output.
+#[derive(Clone, Copy, Debug)]
+pub struct Screen {
+    /// Its width, in columns; `None` if it does not say.
+    pub columns: Option<usize>,
+    /// Whether it shows colors: see [`colors`](crate::colors).
+    pub colors: bool,
+}
+
+/// What lacks, in red.
+pub(crate) const REMOVED: Style = AnsiColor::Red.on_default();
+/// What is new, in green.
+pub(crate) const ADDED: Style = AnsiColor::Green.on_default();
+/// What differs, in yellow.
+pub(crate) const CHANGED: Style = AnsiColor::Yellow.on_default();
+/// Titles.
+pub(crate) const TITLE: Style = Style::new().bold();
+
+/// Whether a result on that terminal has colors.
+pub(crate) fn is_colored(screen: Option<Screen>) -> bool {
+    screen.is_some_and(|screen| screen.colors)
+}
+
+/// The lines of a text, each in the style that `style` has for it.
+pub(crate) fn styled_lines(text: &str, style: impl Fn(&str) -> Option<Style>) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for line in text.lines() {
+        // Writing to a string does not fail.
+        let _ = match style(line) {
+            Some(style) => writeln!(shown, "{style}{line}{style:#}"),
+            None => writeln!(shown, "{line}"),
+        };
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_styled_alone() {
+        let shown = styled_lines("+ a\nb\n", |line| line.starts_with('+').then_some(ADDED));
+        assert_eq!(shown, "\u{1b}[32m+ a\u{1b}[0m\nb\n");
+    }
+}

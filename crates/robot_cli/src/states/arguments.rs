@@ -1,0 +1,103 @@
+//! A state on the command line: `--q 0.3,-0.5 --qd 0,0`.
+
+use clap::Args;
+use robot_model::robot::Robot;
+use robot_model::variable::{JointVariable, WRENCH};
+
+use super::{Layout, State};
+use crate::text;
+use crate::values::{list, miscounted, number, of_joints};
+
+/// A state, each variable as an option.
+#[derive(Args)]
+pub(crate) struct StateArguments {
+    /// Joint positions of one state, instead of --states, separated by commas; rad or m, or such as pi/2, 90deg
+    #[arg(long, value_name = "Q1,Q2,…", allow_hyphen_values = true, conflicts_with = "states")]
+    q: Option<String>,
+    /// Joint velocities of the state; rad/s or m/s
+    #[arg(long, value_name = "QD1,…", allow_hyphen_values = true, conflicts_with = "states")]
+    qd: Option<String>,
+    /// Joint accelerations of the state; rad/s² or m/s²
+    #[arg(long, value_name = "QDD1,…", allow_hyphen_values = true, conflicts_with = "states")]
+    qdd: Option<String>,
+    /// Joint torques of the state; N m or N
+    #[arg(long, value_name = "TAU1,…", allow_hyphen_values = true, conflicts_with = "states")]
+    tau: Option<String>,
+    /// Wrench of the state that the tip exerts on its surroundings; TIP=FX,… for each of several tips
+    #[arg(
+        long,
+        value_name = "FX,FY,FZ,MX,MY,MZ",
+        allow_hyphen_values = true,
+        conflicts_with = "states"
+    )]
+    wrench: Vec<String>,
+}
+
+impl StateArguments {
+    /// Whether any variable is.
+    pub(crate) fn is_given(&self) -> bool {
+        let given = [&self.q, &self.qd, &self.qdd, &self.tau];
+        given.iter().any(|one| one.is_some()) || !self.wrench.is_empty()
+    }
+
+    /// The state, and all that is wrong with it.
+    pub(crate) fn state(&self, robot: &Robot, layout: &Layout) -> (State, Vec<String>) {
+        let (mut arrays, mut wrong) = (vec![], vec![]);
+        let given = [&self.q, &self.qd, &self.qdd, &self.tau];
+        for (variable, text) in JointVariable::ALL.into_iter().zip(given) {
+            let Some(text) = text else { continue };
+            let name = variable.name().to_owned();
+            match of_joints(&format!("--{name}"), text, variable, robot) {
+                Ok(values) => {
+                    wrong.extend(miscounted(
+                        &format!("--{name}"),
+                        &values,
+                        &robot.symbols(variable),
+                    ));
+                    arrays.push((name, values));
+                }
+                Err(found) => {
+                    // Given, if wrong: it does not lack.
+                    arrays.push((name, vec![]));
+                    wrong.extend(found);
+                }
+            }
+        }
+        for text in &self.wrench {
+            match wrench(text, layout) {
+                Ok((name, _)) if arrays.iter().any(|(known, _)| *known == name) => {
+                    wrong.push(format!("--wrench: `{name}` is given twice"));
+                }
+                Ok(array) => arrays.push(array),
+                Err(found) => wrong.extend(found),
+            }
+        }
+        (State { place: "the command line".to_owned(), arrays }, wrong)
+    }
+}
+
+/// `0,0,-10,0,0,0`, `left=0,0,-10,0,0,0`
+fn wrench(text: &str, layout: &Layout) -> Result<(String, Vec<f64>), Vec<String>> {
+    let (tip, entries) = text.split_once('=').map_or(("", text), |(tip, rest)| (tip.trim(), rest));
+    let name = if tip.is_empty() { WRENCH.to_owned() } else { format!("{WRENCH}_{tip}") };
+    let Some(array) = layout.arrays.iter().find(|array| array.name == name) else {
+        let of_tip = |name: &&str| name.starts_with(&format!("{WRENCH}_"));
+        let tips: Vec<&str> = layout.names().into_iter().filter(of_tip).collect();
+        let tips: Vec<&str> = tips.iter().map(|name| &name[WRENCH.len() + 1..]).collect();
+        return Err(vec![match tip {
+            "" => format!(
+                "--wrench: the robot has several tips; write TIP=FX,FY,FZ,MX,MY,MZ for one of {}",
+                tips.join(", ")
+            ),
+            tip if tips.is_empty() => {
+                format!("--wrench: the robot does not have several tips; leave out `{tip}=`")
+            }
+            tip => format!("--wrench: {}", text::unknown("tip", tip, &tips)),
+        }]);
+    };
+    let values = list("--wrench", entries, &array.columns, |_, entry| number(entry))?;
+    match miscounted("--wrench", &values, &array.columns) {
+        Some(wrong) => Err(vec![wrong]),
+        None => Ok((name, values)),
+    }
+}

@@ -1,0 +1,138 @@
+//! Numbers on the command line: `0.5`, `pi/2`, `90deg`.
+
+use robot_model::diagnostic::quote;
+use robot_model::robot::{JointKind, Robot};
+use robot_model::variable::JointVariable;
+use robot_symbolic::Formula;
+
+/// The ends that mark an angle in degrees, for what is an angle, a rate of one, and so on.
+const DEGREES: [(JointVariable, &[&str]); 3] = [
+    (JointVariable::Position, &["deg", "°"]),
+    (JointVariable::Velocity, &["deg/s", "°/s", "deg", "°"]),
+    (JointVariable::Acceleration, &["deg/s^2", "°/s^2", "deg", "°"]),
+];
+
+/// A number, or a formula of numbers such as `-3*pi/4`.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    if let Ok(number) = text.parse::<f64>() {
+        return match number.is_finite() {
+            true => Ok(number),
+            false => Err(format!("`{}` is not a finite number", quote(text))),
+        };
+    }
+    let wrong = || format!("`{}` is not a number; write one such as 0.5 or pi/2", quote(text));
+    let mut has_names = false;
+    let number = Formula::parse(text).map_err(|_| wrong())?.evaluate(|_| {
+        has_names = true;
+        f64::NAN
+    });
+    match (has_names, number.is_finite()) {
+        (true, _) => Err(wrong()),
+        (false, true) => Ok(number),
+        (false, false) => Err(format!("`{}` does not have a finite value", quote(text))),
+    }
+}
+
+/// A number in the units of a joint's variable; angles may be in degrees.
+fn of_joint(text: &str, variable: JointVariable, kind: JointKind) -> Result<f64, String> {
+    let text = text.trim();
+    let ends =
+        DEGREES.iter().find(|(known, _)| *known == variable).map_or(&[][..], |(_, ends)| ends);
+    let Some(degrees) = ends.iter().find_map(|end| text.strip_suffix(end)) else {
+        return number(text).map_err(|wrong| match (kind, ends) {
+            (JointKind::Revolute, [degrees, ..]) => {
+                wrong.replace("0.5 or pi/2", &format!("0.5, pi/2 or 90{degrees}"))
+            }
+            _ => wrong,
+        });
+    };
+    match kind {
+        JointKind::Revolute => Ok(number(degrees)?.to_radians()),
+        JointKind::Prismatic => {
+            Err(format!("`{}` is an angle, and the joint is prismatic: write meters", quote(text)))
+        }
+    }
+}
+
+/// A variable of all joints, separated by commas, given as `option`, or what is wrong with which of them; their count is
+/// not checked.
+pub(crate) fn of_joints(
+    option: &str,
+    text: &str,
+    variable: JointVariable,
+    robot: &Robot,
+) -> Result<Vec<f64>, Vec<String>> {
+    let symbols = robot.symbols(variable);
+    let kinds: Vec<JointKind> = robot.links.iter().map(|link| link.joint.kind).collect();
+    list(option, text, &symbols, |index, entry| {
+        of_joint(entry, variable, kinds.get(index).copied().unwrap_or(JointKind::Revolute))
+    })
+}
+
+/// That there are not as many numbers as names.
+pub(crate) fn miscounted(option: &str, values: &[f64], names: &[String]) -> Option<String> {
+    let (given, expected) = (values.len(), names.len());
+    let plural = if given == 1 { "entry" } else { "entries" };
+    let names = names.join(", ");
+    (given != expected).then(|| format!("{option}: {given} {plural}, not {expected} ({names})"))
+}
+
+/// Numbers of those names, separated by commas, given as `option`; their count is not checked.
+pub(crate) fn list(
+    option: &str,
+    text: &str,
+    names: &[String],
+    read: impl Fn(usize, &str) -> Result<f64, String>,
+) -> Result<Vec<f64>, Vec<String>> {
+    let entries: Vec<&str> =
+        if text.trim().is_empty() { vec![] } else { text.split(',').collect() };
+    let (mut values, mut wrong) = (vec![], vec![]);
+    for (index, entry) in entries.iter().enumerate() {
+        match read(index, entry) {
+            Ok(value) => values.push(value),
+            Err(why) => {
+                let name = names.get(index).map(|name| format!(", {name}")).unwrap_or_default();
+                wrong.push(format!("{option}: entry {}{name}: {why}", index + 1));
+            }
+        }
+    }
+    if wrong.is_empty() { Ok(values) } else { Err(wrong) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read() {
+        let pi = std::f64::consts::PI;
+        for (text, value) in [
+            ("-0.5", -0.5),
+            (" 1e-3 ", 1e-3),
+            ("pi/2", pi / 2.0),
+            ("-3*pi/4", -3.0 * pi / 4.0),
+            ("sqrt(2)", 2_f64.sqrt()),
+        ] {
+            assert_eq!(number(text), Ok(value), "{text}");
+        }
+        for text in ["", "x", "pi/", "1/0", "inf", "nan", "90deg", "1,5", "2*x"] {
+            assert!(number(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn degrees_are_those_of_revolute_joints() {
+        let read = |text, variable, kind| of_joint(text, variable, kind);
+        use JointKind::{Prismatic, Revolute};
+        use JointVariable::{Acceleration, Position, Torque, Velocity};
+        assert_eq!(read("90deg", Position, Revolute), Ok(90_f64.to_radians()));
+        assert_eq!(read("-45 °", Position, Revolute), Ok((-45_f64).to_radians()));
+        assert_eq!(read("180deg/s", Velocity, Revolute), Ok(180_f64.to_radians()));
+        assert_eq!(read("1deg/s^2", Acceleration, Revolute), Ok(1_f64.to_radians()));
+        assert_eq!(read("0.5", Position, Prismatic), Ok(0.5));
+        assert!(read("90deg/s", Position, Revolute).is_err());
+        assert!(read("90deg", Torque, Revolute).is_err());
+        assert!(read("90deg", Position, Prismatic).unwrap_err().contains("prismatic"));
+    }
+}

@@ -1,0 +1,200 @@
+//! Warnings and notes of the same kind, which are shown as one.
+
+use super::{Diagnostic, Severity, Source};
+
+/// So many are shown one by one.
+const FEW: usize = 2;
+/// More names or lines than this are counted.
+const MAX_LISTED: usize = 16;
+
+/// Diagnostics that differ only in names, numbers and places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group<'d> {
+    /// The first of them.
+    pub first: &'d Diagnostic,
+    /// The others, in their order.
+    pub others: Vec<&'d Diagnostic>,
+}
+
+impl Group<'_> {
+    /// How many they are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        1 + self.others.len()
+    }
+
+    /// The message of the first, with the number of all where there are several.
+    #[must_use]
+    pub fn message(&self) -> String {
+        match self.count() {
+            1 => self.first.message.clone(),
+            count => format!("{} ({count} times like this)", self.first.message),
+        }
+    }
+
+    /// All of them in a line.
+    #[must_use]
+    pub fn line(&self, source: &Source) -> String {
+        match self.others(source) {
+            Some(others) => format!("{}; {others}", self.message()),
+            None => self.message(),
+        }
+    }
+
+    /// The names and the lines of the others: ``also `current`; on lines 12, 15``.
+    #[must_use]
+    pub fn others(&self, source: &Source) -> Option<String> {
+        if self.others.is_empty() {
+            return None;
+        }
+        let known = names(&self.first.message);
+        let mut also: Vec<String> = vec![];
+        for name in self.others.iter().flat_map(|other| names(&other.message)) {
+            let name = format!("`{name}`");
+            if !known.contains(&name.trim_matches('`')) && !also.contains(&name) {
+                also.push(name);
+            }
+        }
+        let mut lines: Vec<usize> = self
+            .others
+            .iter()
+            .filter_map(|other| Some(source.position(other.primary.as_ref()?.span.start).0))
+            .collect();
+        lines.sort_unstable();
+        lines.dedup();
+        let plural = if lines.len() == 1 { "" } else { "s" };
+        let lines: Vec<String> = lines.iter().map(ToString::to_string).collect();
+        let parts = [(also, "also ".to_owned()), (lines, format!("on line{plural} "))];
+        let parts = parts.into_iter().filter(|(list, _)| !list.is_empty());
+        let parts: Vec<String> =
+            parts.map(|(list, before)| format!("{before}{}", shortened(&list))).collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
+}
+
+fn shortened(list: &[String]) -> String {
+    let shown = list.iter().take(MAX_LISTED).cloned().collect::<Vec<_>>().join(", ");
+    match list.len().saturating_sub(MAX_LISTED) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+/// The groups in the order of their first members. Errors, each of which is to be mended, are alone, and so are
+/// few of a kind.
+pub(super) fn groups(list: &[Diagnostic]) -> Vec<Group<'_>> {
+    let mut found: Vec<(Option<Kind<'_>>, Vec<&Diagnostic>)> = vec![];
+    for one in list {
+        let kind = (one.severity != Severity::Error).then(|| kind(one));
+        match found.iter_mut().find(|(known, _)| kind.is_some() && *known == kind) {
+            Some((_, members)) => members.push(one),
+            None => found.push((kind, vec![one])),
+        }
+    }
+    let mut groups: Vec<Group<'_>> = vec![];
+    for (_, members) in found {
+        match members.as_slice() {
+            [first, others @ ..] if members.len() > FEW => {
+                groups.push(Group { first, others: others.to_vec() });
+            }
+            few => groups.extend(few.iter().map(|first| Group { first, others: vec![] })),
+        }
+    }
+    let place = |one: &Diagnostic| list.iter().position(|other| std::ptr::eq(one, other));
+    groups.sort_by_key(|group| place(group.first));
+    groups
+}
+
+/// By what diagnostics are of the same kind: code and texts without names and numbers.
+type Kind<'d> = (&'d str, String, String, String, String);
+
+fn kind(one: &Diagnostic) -> Kind<'_> {
+    let label = one.primary.as_ref().map_or("", |label| label.text.as_str());
+    let [why, help] =
+        [&one.why, &one.help].map(|text| pattern(text.as_deref().unwrap_or_default()));
+    (one.code, pattern(&one.message), pattern(label), why, help)
+}
+
+/// The text with every name in backquotes and every number the same.
+fn pattern(text: &str) -> String {
+    let mut shown = String::new();
+    for (index, part) in text.split('`').enumerate() {
+        if index % 2 == 1 {
+            shown.push('`');
+            continue;
+        }
+        let mut in_number = false;
+        for character in part.chars() {
+            let digit =
+                character.is_ascii_digit() || in_number && matches!(character, '.' | 'e' | '-');
+            if !digit {
+                shown.push(character);
+            } else if !in_number {
+                shown.push('0');
+            }
+            in_number = digit;
+        }
+    }
+    shown
+}
+
+/// The names in backquotes.
+fn names(text: &str) -> Vec<&str> {
+    text.split('`').skip(1).step_by(2).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Diagnostics, Style};
+    use super::*;
+
+    fn warning(code: &'static str, message: &str, place: usize) -> Diagnostic {
+        Diagnostic::warning(code, message).at(&(place..place + 1), "not read")
+    }
+
+    fn all(list: Vec<Diagnostic>) -> Diagnostics {
+        let source = Source { name: "arm".to_owned(), text: "a\nb\nc\nd\ne\nf\n".to_owned() };
+        Diagnostics::new(source, list)
+    }
+
+    #[test]
+    fn many_of_a_kind_are_one() {
+        let list = vec![
+            warning("R0603", "`current` of `joint1` is 1.5e-3", 0),
+            warning("R0602", "`x` is unused", 2),
+            warning("R0603", "`current` of `joint2` is 2", 4),
+            warning("R0603", "`gear` of `joint2` is 30", 6),
+        ];
+        let shown = all(list).render(Style::Plain);
+        assert!(
+            shown.starts_with(
+                "warning[R0603]: `current` of `joint1` is 1.5e-3 (3 times like this)\n"
+            ),
+            "{shown}"
+        );
+        assert!(shown.contains("= note: also `joint2`, `gear`; on lines 3, 4\n"), "{shown}");
+        assert_eq!(shown.matches("warning[").count(), 2, "{shown}");
+        assert!(shown.ends_with("arm: 4 warnings\n"), "{shown}");
+    }
+
+    #[test]
+    fn errors_and_few_of_a_kind_are_alone() {
+        let few = vec![warning("R0603", "`a`", 0), warning("R0603", "`b`", 2)];
+        assert_eq!(all(few).render(Style::Plain).matches("warning[").count(), 2);
+        let error = |place: usize| Diagnostic::error("R0101", "`a`").at(&(place..place + 1), "");
+        let errors = all(vec![error(0), error(2), error(4)]).render(Style::Plain);
+        assert_eq!(errors.matches("error[").count(), 3, "{errors}");
+        let other = vec![
+            warning("R0603", "`a` is not read", 0),
+            warning("R0603", "`a` is twice", 2),
+            warning("R0604", "`a` is not read", 4),
+        ];
+        assert_eq!(all(other).render(Style::Plain).matches("warning[").count(), 3);
+    }
+
+    #[test]
+    fn long_lists_are_cut() {
+        let list: Vec<String> = (1..=20).map(|line| line.to_string()).collect();
+        assert!(shortened(&list).ends_with("15, 16 and 4 more"));
+    }
+}
