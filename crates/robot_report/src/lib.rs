@@ -8,8 +8,8 @@
 mod costs;
 mod drawing;
 mod equations;
-mod error;
 mod evidence;
+mod folded;
 mod formula;
 mod motion;
 mod page;
@@ -22,7 +22,6 @@ mod table;
 mod tables;
 mod text;
 
-pub use error::{Error, MOST_COORDINATES, presentable};
 pub use evidence::{Accuracy, Compiled};
 
 use robot_build::ablation::ablation;
@@ -71,8 +70,8 @@ const FUNCTIONS: [FunctionKind; 9] = [
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options; a robot too long for a page.
-pub fn report(input: &Input<'_>) -> Result<String, Error> {
+/// Everything that is wrong with the file or the options.
+pub fn report(input: &Input<'_>) -> Result<String, Errors> {
     let (robot, sections) = sections(input)?;
     Ok(page(&robot, sections, None))
 }
@@ -94,7 +93,7 @@ pub struct Reloading {
 /// # Errors
 ///
 /// The errors of [`report`].
-pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
+pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
     let (robot, sections) = sections(input)?;
     let still = page(&robot, sections.clone(), None);
     let stamp = Stamp::of(&still);
@@ -103,9 +102,8 @@ pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
 }
 
 /// The robot of a file, and what the page says of it.
-fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
+fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     let robot = robot_build::read_with(input.source, input.options)?.robot;
-    presentable(&robot)?;
     let symbols = Symbols::of(&robot);
     let lacking = unsolvable(&robot, input.options);
     let has = |kind: &FunctionKind| {
@@ -133,7 +131,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
 
 /// The content of the scheme.
 const CAPTION: &str = "The robot at q = 0. Cylinders rotate about their axes, boxes slide along \
-    their guides; the arrow on an axis points in the positive direction of its coordinate. \
+    their guides; the arrow on or beside an axis points in the positive direction of its coordinate. \
     Directions are true; short offsets are enlarged, and joints at the same point are drawn \
     apart along a dotted line.";
 
