@@ -123,7 +123,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
         Section { id: "equations", title: "Equations of motion", body: equations::forms(&robot) },
         structure(&robot),
         Section { id: "motion", title: "Joint torques by cause", body: motion::torques(&programs) },
-        costs(input, &programs, lacking.as_ref())?,
+        costs(input, &programs, lacking.as_ref()),
         evidence(input, &programs),
     ];
     Ok((robot, sections))
@@ -164,21 +164,23 @@ fn structure(robot: &Robot) -> Section {
     Section { id: "structure", title: "Structure of the equations", body }
 }
 
-fn costs(
-    input: &Input<'_>,
-    programs: &Programs,
-    lacking: Option<&Unsolvable>,
-) -> Result<Section, Errors> {
+fn costs(input: &Input<'_>, programs: &Programs, lacking: Option<&Unsolvable>) -> Section {
     let functions = Functions::Chosen(vec![FUNCTION]);
-    let ablation = ablation(input.source, &Options { functions, ..input.options.clone() })?;
+    let options = match ablation(input.source, &Options { functions, ..input.options.clone() }) {
+        Ok(found) => costs::options(&found, FUNCTION.name()),
+        Err(errors) => {
+            let words = format!("The savings of the options are not shown: {errors}");
+            Some(holding("p", words).class("note"))
+        }
+    };
     let parts = [
         lacking.map(|lacking| holding("p", format!("Note: {lacking}.")).class("note")),
         Some(costs::functions(&programs.module)),
         costs::passes(&programs.module, FUNCTION.name()),
-        costs::options(&ablation, FUNCTION.name()),
+        options,
     ];
     let body = parts.into_iter().flatten().map(Node::from).collect();
-    Ok(Section { id: "costs", title: "Operations", body })
+    Section { id: "costs", title: "Operations", body }
 }
 
 fn evidence(input: &Input<'_>, programs: &Programs) -> Section {
