@@ -50,15 +50,6 @@ impl From<robot_simulation::Error> for Failure {
     }
 }
 
-impl From<robot_report::Error> for Failure {
-    fn from(error: robot_report::Error) -> Failure {
-        match error {
-            robot_report::Error::Robot(errors) => Failure::Robot(errors),
-            other => Failure::input(other.to_string()),
-        }
-    }
-}
-
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Failure {
         Failure::Stream(error)

@@ -1,44 +1,67 @@
 //! The equations of motion in each form, as MathML whose terms point at the links and parameters that
 //! they come from.
 
+use std::collections::BTreeSet;
+
 use robot_document::breaking::terms;
 use robot_document::markup::{Element, Node, element, holding};
 use robot_document::math::Math;
+use robot_document::width::width;
 use robot_document::{Equation, EquationOptions, Equations, Form, Group, equations};
+use robot_document::{latex, mathml, typst};
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, Variable};
 
-use crate::formula::{self, math};
+use crate::folded::{deferred, folded};
 use crate::parts;
 
-/// Forms of more terms than this are not shown: pages would be slow, and nobody reads so far.
-const MAX_TERMS: usize = 5_000;
+/// Forms of more characters than this are not shown: nobody reads so far.
+const MAX_LENGTH: usize = 150_000;
+/// More definitions than this are folded: they are to be looked up, not to be read through.
+const MOST_DEFINITIONS: usize = 18;
+/// Robots of more coordinates than this have the forms that go link by link alone: the others have functions of
+/// pairs of joints, or multiply all out.
+const MOST_COORDINATES: usize = 24;
+/// The width of a piece of an equation that is not broken, in points of 10 pt type: about that of a phone.
+const PIECE: f64 = 190.0;
 
-/// The forms of the page in their order, the first one open.
-const FORMS: [(Form, &str); 5] = [
+/// The forms of the page in their order.
+const FORMS: [(Form, &str); 6] = [
     (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
-    (Form::Expanded, "Expanded: sums of products, without friction"),
+    (Form::Collected, "Collected: common factors before brackets, without friction"),
     (Form::Recursive, "Recursive: the iterations link by link"),
     (Form::Compact, "Compact: repeated expressions have names"),
     (Form::Regrouped, "Regrouped: linear in the base parameters"),
+    (Form::Expanded, "Expanded: sums of products, without friction"),
 ];
 
-/// All forms, each to be opened.
+/// All forms, each to be opened, but for one that is open.
 pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
-    let mut body: Vec<Node> = vec![holding("p", WORDS).into()];
-    for (place, (form, title)) in FORMS.into_iter().enumerate() {
-        // Expanded under the root of dry friction, the forces in the joints fill pages.
-        let friction = robot.has_friction() && form != Form::Expanded;
-        let options = EquationOptions { form, friction, ..EquationOptions::default() };
-        let shown = match equations(robot, &options) {
-            Ok(found) => in_form(robot, form, &found),
-            Err(error) => vec![note(&format!("This form is not shown: {error}"))],
-        };
-        let details = element("details").with(holding("summary", title)).with_all(shown);
-        let details = if place == 0 { details.attribute("open", "") } else { details };
-        body.push(details.into());
-    }
-    body
+    let found: Vec<_> = FORMS.map(|(form, title)| (form, title, in_form(robot, form))).into();
+    let lengths =
+        found.iter().filter_map(|(form, _, found)| Some((*form, length(found.as_ref().ok()?))));
+    let opened = opened(&lengths.collect::<Vec<_>>());
+    let forms = found.iter().map(|(form, title, found)| {
+        let details = element("details").with(holding("summary", *title));
+        match found {
+            Err(reason) => details.with(note(reason)),
+            Ok(found) if opened == Some(*form) => details
+                .attribute("open", "")
+                .with_all(Sources::of(robot, *form, found).groups(true)),
+            Ok(found) => details.with_all(Sources::of(robot, *form, found).groups(false)),
+        }
+    });
+    std::iter::once(holding("p", WORDS)).chain(forms).map(Node::from).collect()
+}
+
+/// The form that is open: the shortest, but rather one without names of the computation's own if that is not much
+/// longer.
+fn opened(lengths: &[(Form, usize)]) -> Option<Form> {
+    let (shortest, least) = lengths.iter().min_by_key(|(_, length)| *length)?;
+    let plain = lengths.iter().find(|(form, length)| {
+        matches!(form, Form::Grouped | Form::Collected) && *length <= 2 * least
+    });
+    plain.map(|(form, _)| *form).or(Some(*shortest))
 }
 
 /// The form of the equations.
@@ -51,57 +74,109 @@ fn note(words: &str) -> Element {
     holding("p", words).class("note")
 }
 
-fn in_form(robot: &Robot, form: Form, found: &Equations) -> Vec<Element> {
+/// The characters of the equations, definitions included.
+fn length(found: &Equations) -> usize {
     let all = found.groups.iter().flat_map(|group| &group.equations);
-    let count: usize = all.map(|equation| terms(equation.right.pieces()).count()).sum();
-    if count > MAX_TERMS {
-        return vec![note(&format!(
-            "This form has {count} terms and is too long for this page; print it separately \
-             (form `{}`).",
-            form.name()
-        ))];
+    all.map(|equation| equation.name.len() + equation.text.len()).sum()
+}
+
+/// The equations in a form, or why they are not shown.
+fn in_form(robot: &Robot, form: Form) -> Result<Equations, String> {
+    let coordinates = robot.degrees_of_freedom();
+    let link_by_link = matches!(form, Form::Recursive | Form::Compact);
+    if coordinates > MOST_COORDINATES && !link_by_link {
+        return Err(format!(
+            "This form is not shown: the robot has {coordinates} coordinates, and the form is too \
+             long to read beyond {MOST_COORDINATES}."
+        ));
     }
-    let names: Vec<&str> = found
-        .groups
-        .iter()
-        .flat_map(|group| &group.equations)
-        .map(|equation| equation.name.as_str())
-        .collect();
-    let sources = Sources { robot, form, names };
-    found.groups.iter().flat_map(|group| sources.group(group)).collect()
+    // Expanded under the root of dry friction, the forces in the joints fill pages.
+    let friction = robot.has_friction() && !matches!(form, Form::Expanded | Form::Collected);
+    let options = EquationOptions { form, friction, ..EquationOptions::default() };
+    let found =
+        equations(robot, &options).map_err(|error| format!("This form is not shown: {error}."))?;
+    let length = length(&found);
+    if length > MAX_LENGTH {
+        return Err(format!(
+            "This form is not shown: it has {length} characters, too many to read; print it \
+             separately (form `{}`).",
+            form.name()
+        ));
+    }
+    Ok(found)
 }
 
 /// The meaning of symbols.
 struct Sources<'r> {
     robot: &'r Robot,
     form: Form,
+    found: &'r Equations,
     /// The symbols that the form's own equations define.
-    names: Vec<&'r str>,
+    names: BTreeSet<&'r str>,
 }
 
-impl Sources<'_> {
-    fn group(&self, group: &Group) -> Vec<Element> {
-        let mut shown = vec![holding("h3", group.title.as_str())];
-        if !group.introduction.is_empty() {
-            shown.push(holding("p", group.introduction.as_str()));
-        }
-        shown.extend(group.equations.iter().map(|equation| self.equation(equation)));
-        shown
+impl<'r> Sources<'r> {
+    fn of(robot: &'r Robot, form: Form, found: &'r Equations) -> Sources<'r> {
+        let all = found.groups.iter().flat_map(|group| &group.equations);
+        let names = all.map(|equation| equation.name.as_str()).collect();
+        Sources { robot, form, found, names }
     }
 
-    /// An equation that breaks between its terms.
+    /// The groups of the form, definitions folded.
+    fn groups(&self, is_open: bool) -> Vec<Element> {
+        let one = |group: &Group| {
+            let introduction =
+                (!group.introduction.is_empty()).then(|| holding("p", group.introduction.as_str()));
+            let equations = group.equations.iter().map(|equation| self.equation(equation));
+            let content = introduction.into_iter().chain(equations);
+            if group.equations.len() > MOST_DEFINITIONS && group.definitions {
+                let title = format!("{} ({})", group.title, group.equations.len());
+                return vec![folded(title, content)];
+            }
+            let content = std::iter::once(holding("h3", group.title.as_str())).chain(content);
+            if is_open { content.collect() } else { vec![deferred(content)] }
+        };
+        self.found.groups.iter().flat_map(one).collect()
+    }
+
+    /// An equation that breaks between pieces of some terms.
     fn equation(&self, equation: &Equation) -> Element {
         let left = Math::Row(vec![equation.left.clone(), Math::Sign('=')]);
-        let right = terms(equation.right.pieces()).enumerate();
-        element("p")
+        let mut whole = vec![equation.left.clone(), Math::Sign('=')];
+        whole.extend_from_slice(equation.right.pieces());
+        let whole = Math::Row(whole);
+        let mut lines = vec![vec![mathml::formula(&left)]];
+        let mut taken = width(&left);
+        let mut has_stop = false;
+        for (place, pieces) in terms(equation.right.pieces()).enumerate() {
+            let (term, is_stop) = self.term(place, pieces, !has_stop);
+            has_stop |= is_stop;
+            let needed = width(&Math::Row(pieces.to_vec()));
+            match lines.last_mut().filter(|_| place == 0 || taken + needed <= PIECE) {
+                Some(line) => {
+                    line.push(term);
+                    taken += needed;
+                }
+                None => {
+                    lines.push(vec![term]);
+                    taken = needed;
+                }
+            }
+        }
+        let shown = element("p")
             .class("equation")
+            .attribute("id", self.defined(&equation.name))
             .attribute("data-terms", "")
             .attribute("data-is", self.defined(&equation.name))
-            .with(math(&left))
-            .with_all(right.map(|(place, term)| self.term(place, term)))
+            .attribute("data-latex", latex::formula(&whole))
+            .attribute("data-typst", typst::formula(&whole))
+            .with_all(lines.into_iter().map(|line| element("math").with_all(line)));
+        // Each equation is a stop of the tabulator.
+        if has_stop { shown } else { shown.attribute("tabindex", "0") }
     }
 
-    fn term(&self, place: usize, pieces: &[Math]) -> Element {
+    /// A term with what it depends on, and whether it is the stop of the tabulator.
+    fn term(&self, place: usize, pieces: &[Math], may_stop: bool) -> (Element, bool) {
         let term = Math::Row(pieces.to_vec());
         let mut tokens: Vec<String> = vec![];
         for name in term.symbols() {
@@ -111,19 +186,20 @@ impl Sources<'_> {
                 }
             }
         }
-        let shown = element("span").class("term").with(formula::term(pieces, place == 0));
+        let shown = if place == 0 { mathml::formula(&term) } else { mathml::continued(&term) };
+        let shown = shown.class("term");
         if tokens.is_empty() {
-            return shown;
+            return (shown, false);
         }
-        // One stop of the tabulator for each equation; the arrows go through its terms.
-        let stop = if place == 0 { "0" } else { "-1" };
-        shown.attribute("data-of", tokens.join(" ")).attribute("tabindex", stop)
+        // One stop for each equation; the arrows go through its terms.
+        let stop = if may_stop { "0" } else { "-1" };
+        (shown.attribute("data-of", tokens.join(" ")).attribute("tabindex", stop), may_stop)
     }
 
     /// The origin of a symbol.
     fn tokens(&self, name: &str) -> Vec<String> {
         let parameter = self.robot.parameter(name).is_some();
-        if !parameter && self.names.contains(&name) {
+        if !parameter && self.names.contains(name) {
             return vec![self.defined(name)];
         }
         match self.robot.variable(name) {
@@ -145,9 +221,34 @@ impl Sources<'_> {
         }
     }
 
-    /// The token of an equation of this form.
+    /// The token of an equation of this form, and its anchor: its label.
     fn defined(&self, name: &str) -> String {
-        let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
+        let plain = |letter: char| match letter {
+            '.' => ':',
+            _ if letter.is_ascii_alphanumeric() => letter,
+            _ => '-',
+        };
         format!("{}-{}", self.form.name(), name.chars().map(plain).collect::<String>())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shortest_form_is_open_but_rather_a_plain_one() {
+        let of = |lengths: [usize; 3]| {
+            opened(
+                &[Form::Grouped, Form::Collected, Form::Compact]
+                    .into_iter()
+                    .zip(lengths)
+                    .collect::<Vec<_>>(),
+            )
+        };
+        assert_eq!(of([9, 8, 5]), Some(Form::Grouped));
+        assert_eq!(of([11, 10, 5]), Some(Form::Collected));
+        assert_eq!(of([11, 11, 5]), Some(Form::Compact));
+        assert_eq!(opened(&[]), None);
     }
 }

@@ -3,6 +3,7 @@
 use robot_document::markup::{Element, Node, element, holding};
 use robot_evidence::{Evidence, Module};
 
+use crate::folded::folded;
 use crate::table::Table;
 
 /// The evidence from the compiler.
@@ -84,7 +85,7 @@ fn profile(module: &Module) -> Element {
         ];
         table.row("", holding("code", name.as_str()), cells);
     }
-    table.build()
+    folded(format!("Machine code, profile {}", module.profile.name()), [table.build()])
 }
 
 /// The program's results against those of the numeric solver.

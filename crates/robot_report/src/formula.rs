@@ -14,13 +14,6 @@ pub(crate) fn math(formula: &Math) -> Element {
     holding("math", mathml::formula(formula))
 }
 
-/// A term of a sum: a sign before it is between it and the term before.
-pub(crate) fn term(pieces: &[Math], is_first: bool) -> Element {
-    let term = Math::Row(pieces.to_vec());
-    let shown = if is_first { mathml::formula(&term) } else { mathml::continued(&term) };
-    holding("math", shown)
-}
-
 /// The layout of the robot's symbols.
 pub(crate) struct Symbols {
     /// `None` if two symbols look alike: then they are shown by their names.

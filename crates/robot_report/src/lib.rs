@@ -8,8 +8,8 @@
 mod costs;
 mod drawing;
 mod equations;
-mod error;
 mod evidence;
+mod folded;
 mod formula;
 mod motion;
 mod page;
@@ -22,7 +22,6 @@ mod table;
 mod tables;
 mod text;
 
-pub use error::{Error, MOST_COORDINATES, presentable};
 pub use evidence::{Accuracy, Compiled};
 pub use scheme::scheme_picture;
 
@@ -72,8 +71,8 @@ const FUNCTIONS: [FunctionKind; 9] = [
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options; a robot too long for a page.
-pub fn report(input: &Input<'_>) -> Result<String, Error> {
+/// Everything that is wrong with the file or the options.
+pub fn report(input: &Input<'_>) -> Result<String, Errors> {
     let (robot, sections) = sections(input)?;
     Ok(page(&robot, sections, None))
 }
@@ -95,7 +94,7 @@ pub struct Reloading {
 /// # Errors
 ///
 /// The errors of [`report`].
-pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
+pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
     let (robot, sections) = sections(input)?;
     let still = page(&robot, sections.clone(), None);
     let stamp = Stamp::of(&still);
@@ -104,9 +103,8 @@ pub fn reloading(input: &Input<'_>) -> Result<Reloading, Error> {
 }
 
 /// The robot of a file, and what the page says of it.
-fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
+fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     let robot = robot_build::read_with(input.source, input.options)?.robot;
-    presentable(&robot)?;
     let symbols = Symbols::of(&robot);
     let lacking = unsolvable(&robot, input.options);
     let has = |kind: &FunctionKind| {
@@ -126,7 +124,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Error> {
         Section { id: "equations", title: "Equations of motion", body: equations::forms(&robot) },
         structure(&robot),
         Section { id: "motion", title: "Joint torques by cause", body: motion::torques(&programs) },
-        costs(input, &programs, lacking.as_ref())?,
+        costs(input, &programs, lacking.as_ref()),
         evidence(input, &programs),
     ];
     Ok((robot, sections))
@@ -161,21 +159,23 @@ fn structure(robot: &Robot) -> Section {
     Section { id: "structure", title: "Structure of the equations", body }
 }
 
-fn costs(
-    input: &Input<'_>,
-    programs: &Programs,
-    lacking: Option<&Unsolvable>,
-) -> Result<Section, Errors> {
+fn costs(input: &Input<'_>, programs: &Programs, lacking: Option<&Unsolvable>) -> Section {
     let functions = Functions::Chosen(vec![FUNCTION]);
-    let ablation = ablation(input.source, &Options { functions, ..input.options.clone() })?;
+    let options = match ablation(input.source, &Options { functions, ..input.options.clone() }) {
+        Ok(found) => costs::options(&found, FUNCTION.name()),
+        Err(errors) => {
+            let words = format!("The savings of the options are not shown: {errors}");
+            Some(holding("p", words).class("note"))
+        }
+    };
     let parts = [
         lacking.map(|lacking| holding("p", format!("Note: {lacking}.")).class("note")),
         Some(costs::functions(&programs.module)),
         costs::passes(&programs.module, FUNCTION.name()),
-        costs::options(&ablation, FUNCTION.name()),
+        options,
     ];
     let body = parts.into_iter().flatten().map(Node::from).collect();
-    Ok(Section { id: "costs", title: "Operations", body })
+    Section { id: "costs", title: "Operations", body }
 }
 
 fn evidence(input: &Input<'_>, programs: &Programs) -> Section {

@@ -24,7 +24,7 @@ impl Table {
         cells: impl IntoIterator<Item = C>,
     ) {
         let heading = holding("th", heading).attribute("scope", "row");
-        let cells = cells.into_iter().map(|cell| holding("td", cell));
+        let cells = cells.into_iter().map(|cell| cell_of(cell.into()));
         let row = element("tr").with(heading).with_all(cells);
         self.rows.push(if parts.is_empty() { row } else { row.attribute("data-is", parts) });
     }
@@ -34,7 +34,7 @@ impl Table {
         let headings =
             self.columns.into_iter().map(|column| holding("th", column).attribute("scope", "col"));
         let table = element("table")
-            .with(holding("caption", self.caption.as_str()))
+            .with(holding("caption", holding("span", self.caption.as_str())))
             .with(holding("thead", element("tr").with_all(headings)))
             .with(element("tbody").with_all(self.rows));
         // The keyboard scrolls what has the focus.
@@ -45,4 +45,13 @@ impl Table {
             .attribute("aria-label", self.caption)
             .with(table)
     }
+}
+
+/// Cells of more characters than this are sentences: on narrow screens they keep a width in which they read well.
+const WORDS: usize = 24;
+
+fn cell_of(cell: Node) -> Element {
+    let is_long = matches!(&cell, Node::Text(text) if text.chars().count() > WORDS);
+    let cell = holding("td", cell);
+    if is_long { cell.class("words") } else { cell }
 }

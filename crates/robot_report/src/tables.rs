@@ -55,7 +55,7 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
 pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     let columns = ["Body", "Mass, kg", "Center of mass and axes, m, rad"];
     let columns = columns.into_iter().chain(Inertia::NAMES);
-    let caption = "Masses and moments of inertia, kg m². The moments are about the center of \
+    let caption = "Masses and moments of inertia, kg·m². The moments are about the center of \
         mass, in the axes given; products of inertia are entries of the tensor, xy = −∫xy dm.";
     let mut table = Table::new(caption, columns);
     for (index, link) in robot.links.iter().enumerate() {
@@ -83,7 +83,7 @@ pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
         let links = links.filter_map(|index| robot.links.get(index));
         let words = [
             value.unwrap_or_else(|| "none".to_owned()).replace('-', "−"),
-            unit.unwrap_or_default().to_owned(),
+            text::unit(unit.unwrap_or_default()),
             meaning.unwrap_or_default().to_owned(),
             links.map(|link| link.name.as_str()).collect::<Vec<_>>().join(", "),
         ];

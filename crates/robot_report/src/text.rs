@@ -1,7 +1,7 @@
 //! Values of robot files in words and numbers.
 
 use robot_document::robot::words;
-use robot_model::robot::{Placement, Robot};
+use robot_model::robot::{Move, Placement, Robot};
 use robot_symbolic::Formula;
 
 /// The nominal value of a formula; NaN if a parameter of it has none.
@@ -47,9 +47,38 @@ pub(crate) fn number(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// A pose: `to (l4, 0, l3), rotated about z by π/2`, with the nominal values of parameters.
+/// A pose: `translate (l4, 0, l3), rotate z by π/2`, with the nominal values of parameters.
 pub(crate) fn pose(robot: &Robot, placement: &Placement) -> String {
-    words::pose(placement, |formula| with_value(robot, formula))
+    let text = |formula: &Formula| with_value(robot, formula);
+    let one = |step: &Move| match step {
+        Move::Translate(by) => format!("translate {}", words::vector(by, text)),
+        Move::Rotate(about, angle) => format!("rotate {} by {}", words::axis(*about), text(angle)),
+    };
+    let moves: Vec<String> = words::moves(placement).map(one).collect();
+    if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
+}
+
+/// A unit as people write it: `kg·m²` for `kg m^2`.
+pub(crate) fn unit(name: &str) -> String {
+    let raised = |digit: char| match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4'..='9' => char::from_u32(0x2070 + u32::from(digit) - u32::from('0')).unwrap_or(digit),
+        other => other,
+    };
+    let mut written = String::new();
+    let mut is_power = false;
+    for letter in name.replace([' ', '*'], "·").chars() {
+        is_power = letter == '^' || is_power && (letter == '-' || letter.is_ascii_digit());
+        match letter {
+            '^' => {}
+            _ if is_power => written.push(raised(letter)),
+            _ => written.push(letter),
+        }
+    }
+    written
 }
 
 /// A name with the number at its end below the line: `l₄`.
@@ -82,6 +111,12 @@ mod tests {
     fn only_numbers_at_the_end_go_below() {
         assert_eq!(["l4", "q12", "a_2b", "7"].map(symbol), ["l₄", "q₁₂", "a_2b", "₇"]);
         assert_eq!((shortened("abcd", 4), shortened("abcde", 4)), ("abcd".into(), "abc…".into()));
+    }
+
+    #[test]
+    fn units_have_powers_and_dots() {
+        let shown = ["kg m^2", "kg*m^2", "N m s/rad", "m^-1", "m/s^2", ""].map(unit);
+        assert_eq!(shown, ["kg·m²", "kg·m²", "N·m·s/rad", "m⁻¹", "m/s²", ""]);
     }
 
     #[test]

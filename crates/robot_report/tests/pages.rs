@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use robot_build::{Options, Programs, Source};
-use robot_report::{Accuracy, Compiled, Input, MOST_COORDINATES, reloading, report};
+use robot_report::{Accuracy, Compiled, Input, reloading, report};
 use roxmltree::{Document, Node, ParsingOptions};
 
 fn page(name: &str, text: &str) -> String {
@@ -49,14 +49,74 @@ fn judge(programs: &Programs) -> Result<Accuracy, String> {
     Ok(Accuracy { states: robot_check::accuracy::states(), worst })
 }
 
+/// The elements that a browser makes of a page when it loads it: those in `noscript` are text to it.
+fn loaded<'a>(document: &'a Document<'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    let is_folded = |node: &Node<'_, '_>| {
+        node.ancestors().skip(1).any(|ancestor| ancestor.has_tag_name("noscript"))
+    };
+    document.descendants().filter(Node::is_element).filter(move |node| !is_folded(node))
+}
+
 #[test]
-fn robots_too_long_for_a_page_are_refused() {
-    let source = Source { name: "chain.toml".to_owned(), text: chain(MOST_COORDINATES + 1) };
-    let compiled = Compiled::Unread { reason: "a test.".to_owned() };
-    let input = Input { source: &source, options: &Options::default(), compiled: &compiled, judge };
-    let message = report(&input).unwrap_err().to_string();
-    assert!(message.starts_with("chain has 25 coordinates"), "{message}");
-    assert_eq!(reloading(&input).unwrap_err().to_string(), message);
+fn robots_of_any_size_have_a_page_without_the_long_forms() {
+    let page = page("chain.toml", &chain(26));
+    let document = parsed(&page);
+    let notes = document.descendants().filter(|node| node.attribute("class") == Some("note"));
+    let refused =
+        notes.filter_map(|node| node.text()).filter(|note| note.contains("26 coordinates"));
+    assert_eq!(refused.count(), 4);
+    let ids: BTreeSet<&str> = words(&document, "id").collect();
+    for part in ["scheme-link-26", "structure", "motion", "costs", "compact-Q26"] {
+        assert!(ids.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn pages_of_long_arms_load_few_elements_and_one_open_form() {
+    for (robot, form, most, math) in [
+        ("planar_2r", "grouped", 2_000, 60),
+        ("trttr1", "collected", 4_000, 120),
+        ("panda", "compact", 12_000, 1_500),
+        ("iiwa", "compact", 12_000, 1_500),
+    ] {
+        let page = page_of(robot);
+        let document = parsed(&page);
+        let count = loaded(&document).count();
+        assert!(count < most, "{robot}: {count}");
+        let formulas = loaded(&document).filter(|node| node.has_tag_name("math")).count();
+        assert!(formulas < math, "{robot}: {formulas} formulas");
+        // A browser takes the text in a `noscript` up to its end: there is no other one in it.
+        for folded in document.descendants().filter(|node| node.has_tag_name("noscript")) {
+            let mut inside = folded.descendants().skip(1);
+            assert!(!inside.any(|one| one.has_tag_name("noscript") || one.has_tag_name("script")));
+            assert!(folded.parent().is_some_and(|parent| parent.has_tag_name("details")));
+        }
+        let open = document.descendants().filter(|node| node.attribute("open").is_some());
+        let [open] = open.collect::<Vec<_>>()[..] else { panic!("{robot}: not one open form") };
+        let first = format!("{form}-Q1");
+        let mut shown = loaded(&document).filter(|node| node.attribute("id") == Some(&first));
+        assert!(shown.any(|node| node.ancestors().any(|node| node == open)), "{robot}");
+    }
+}
+
+#[test]
+fn equations_have_their_source_in_other_notations() {
+    let page = page_of("trttr1");
+    let document = parsed(&page);
+    let equations: Vec<_> =
+        document.descendants().filter(|node| node.attribute("data-terms").is_some()).collect();
+    assert!(equations.len() > 200);
+    let ids: BTreeSet<&str> = words(&document, "id").collect();
+    for equation in equations {
+        assert!(equation.attribute("id").is_some_and(|id| ids.contains(id)));
+        let latex = equation.attribute("data-latex").unwrap();
+        assert!(robot_document::latex::read(latex).is_ok(), "{latex}");
+        assert!(equation.attribute("data-typst").unwrap().contains(" = "));
+        let stops = equation.descendants().filter(|node| node.attribute("tabindex") == Some("0"));
+        assert_eq!(stops.count(), 1, "one stop of the tabulator: {latex}");
+    }
+    let mass = document.descendants().find(|node| node.attribute("id") == Some("grouped-H-3-3"));
+    assert_eq!(mass.unwrap().attribute("data-latex"), Some("H_{33} = M_3 + M_4 + M_5"));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use robot_build::{Options, Programs, Source, planned, shown};
 use robot_evidence::{Compiler, Profile, prove};
-use robot_report::{Accuracy, Compiled, Input, presentable, report};
+use robot_report::{Accuracy, Compiled, Input, report};
 
 use crate::Terminal;
 use crate::delivery::{Delivery, OutputArguments};
@@ -45,9 +45,8 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output(terminal)?;
         let options = self.robot.options(terminal)?;
-        // Read first, so that warnings are shown and no compiler starts for a page that cannot be.
+        // Read first, so that warnings are shown and no compiler starts for a robot that is refused.
         let robot = self.robot.read(terminal)?.robot;
-        presentable(&robot)?;
         text::lacking(&robot, &options, terminal)?;
         let source = self.robot.source()?;
         let page = watched("writing", terminal, || self.page(&source, &planned(&robot, &options)))?;

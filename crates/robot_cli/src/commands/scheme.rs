@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_report::{presentable, scheme_picture};
+use robot_report::scheme_picture;
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;
@@ -34,7 +34,6 @@ impl Arguments {
         }
         let output = self.output.open(self.robot.inputs())?;
         let robot = self.robot.read(terminal)?.robot;
-        presentable(&robot)?;
         output.deliver(&scheme_picture(&robot), terminal)
     }
 }

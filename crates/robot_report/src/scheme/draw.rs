@@ -42,6 +42,11 @@ const SMALL: f64 = 11.0;
 /// The distance of a link's dimension line from it.
 const BESIDE: [f64; 6] = [20.0, -20.0, 32.0, -32.0, 48.0, -48.0];
 
+/// The distance of a joint's arrow from its axis, if a link is on that.
+const BESIDE_AXIS: f64 = 18.0;
+/// What is nearer to the middle of a link than this is covered.
+const COVERING: f64 = 7.0;
+
 impl<'r> Drawing<'r> {
     /// The drawing of a robot's layout from a view.
     pub(crate) fn of(robot: &'r Robot, layout: &'r Layout, view: View) -> Drawing<'r> {
@@ -110,6 +115,8 @@ impl<'r> Drawing<'r> {
             let ends =
                 symbols::AXIS.map(|reach| self.view.point(&(place.position + place.axis * reach)));
             self.room.take_line(ends[0], ends[1]);
+            let [from, to] = self.arrow(place);
+            self.room.take_line(from, to);
         }
         for place in self.places() {
             for Segment { ends: [from, to], .. } in &place.path {
@@ -162,19 +169,29 @@ impl<'r> Drawing<'r> {
             JointKind::Prismatic => symbols::slider(view, origin, axis, &place.rotation).into(),
         };
         let motion = words::motion(link.joint.kind);
+        let [from, to] = self.arrow(place);
+        let way = super::shape::group().class("way").with_all(arrow(from, to, 9.0));
         group
             .with(Shape::Title(format!("joint {}, {motion}", link.joint.name)))
             .with(symbols::axis(view, origin, axis))
             .with(sign)
+            .with(way)
             .with(symbols::triad(view, origin, &place.rotation))
     }
 
     fn frame(&self, index: usize, place: &Place) -> Group {
         let frame = self.robot.frames.get(index);
         let link = frame.and_then(|frame| frame.link);
-        let group = group()
-            .with(symbols::hand(&self.view, &place.position, &place.axis))
-            .with(symbols::triad(&self.view, &place.position, &place.rotation));
+        // A hand is at the end of an arm alone.
+        let carries =
+            link.is_none() || self.robot.links.iter().any(|carried| carried.parent == link);
+        let is_hand = frame.is_some_and(|frame| frame.wrench.is_some()) || !carries;
+        let hand = is_hand.then(|| symbols::hand(&self.view, &place.position, &place.axis));
+        let group = group().with_all(hand).with(symbols::triad(
+            &self.view,
+            &place.position,
+            &place.rotation,
+        ));
         match link {
             Some(link) => group.class(hue(link)).attribute("data-is", parts::link(link)),
             None => group,
@@ -198,8 +215,11 @@ impl<'r> Drawing<'r> {
                 self.label(&frame.name, name, point, 12.0, "name", None);
             }
         }
-        let base = self.view.point(&BASE) + Point::new(0.0, 8.0);
-        self.label("base", Inline::text("base"), base, 10.0, "name", None);
+        let bases = self.layout.bases.iter().filter_map(|index| self.robot.frames.get(*index));
+        let bases: Vec<&str> = bases.map(|frame| frame.name.as_str()).collect();
+        let base = if bases.is_empty() { "base".to_owned() } else { bases.join(", ") };
+        let point = self.view.point(&BASE) + Point::new(0.0, 8.0);
+        self.label(&base, Inline::text(&base), point, 10.0, "name", None);
         for place in self.places() {
             for (axis, name) in place.rotation.column_iter().zip(["x", "y", "z"]) {
                 let end = self.view.point(&(place.position + axis * symbols::TRIAD));
@@ -208,14 +228,38 @@ impl<'r> Drawing<'r> {
         }
     }
 
+    /// The arrow in the positive direction of a joint: on its axis, or beside it where a link covers that.
+    fn arrow(&self, place: &Place) -> [Point; 2] {
+        let [_, reach] = symbols::AXIS;
+        let on = [symbols::HALF + 4.0, reach]
+            .map(|reach| self.view.point(&(place.position + place.axis * reach)));
+        let Some(along) = (on[1] - on[0]).try_normalize(1.0) else { return on };
+        let across = Point::new(-along.y, along.x) * BESIDE_AXIS;
+        let beside = |side: f64| on.map(|end| end + across * side);
+        let sides = [on, beside(1.0), beside(-1.0)];
+        let hidden = |ends: &&[Point; 2]| self.covered((ends[0] + ends[1]) / 2.0);
+        sides.iter().min_by(|a, b| hidden(a).total_cmp(&hidden(b))).copied().unwrap_or(on)
+    }
+
+    /// How much a link covers a point.
+    fn covered(&self, point: Point) -> f64 {
+        let segments = self.places().flat_map(|place| &place.path);
+        let distance = |segment: &Segment| {
+            let [from, to] = segment.ends.each_ref().map(|end| self.view.point(end));
+            let along = to - from;
+            let part = (point - from).dot(&along) / along.norm_squared().max(1e-9);
+            (point - from - along * part.clamp(0.0, 1.0)).norm()
+        };
+        segments.map(|segment| (COVERING - distance(segment)).max(0.0)).fold(0.0, f64::max)
+    }
+
     /// The joint's coordinate at its axis, the link's name beside its joint.
     fn names(&mut self, index: usize) {
         let (Some(link), Some(place)) = (self.robot.links.get(index), self.layout.links.get(index))
         else {
             return;
         };
-        let [_, reach] = symbols::AXIS;
-        let end = self.view.point(&(place.position + place.axis * reach));
+        let [_, end] = self.arrow(place);
         let name = JointVariable::Position.symbol(link.joint.coordinate);
         let inline = Inline::Math(self.table.look(&name));
         self.label(&text::symbol(&name), inline, end, 4.0, "coordinate", Some(index));

@@ -2,6 +2,7 @@
 //! frame, with those too short to be seen drawn longer and joints at one point drawn apart.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use robot_document::robot::words;
 use robot_model::robot::{Axis, Move, Placement, Robot};
 use robot_symbolic::Formula;
 
@@ -27,6 +28,8 @@ pub(crate) struct Layout {
     pub(crate) links: Vec<Place>,
     /// Named frames with what the drawing shows of them, by index.
     pub(crate) frames: Vec<(usize, Place)>,
+    /// Named frames that are the base, by index.
+    pub(crate) bases: Vec<usize>,
 }
 
 /// A frame on the page.
@@ -58,7 +61,7 @@ const MAX_FRAMES: usize = 4;
 /// Lays the robot out as it is best seen from a view.
 pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
     let scale = LONGEST / longest(robot).max(f64::MIN_POSITIVE);
-    let mut layout = Layout { links: vec![], frames: vec![] };
+    let mut layout = Layout { links: vec![], frames: vec![], bases: vec![] };
     for link in &robot.links {
         let axis = link.joint.axis.each_ref().map(|part| value(robot, part));
         let axis = direction(&axis.into());
@@ -69,6 +72,11 @@ pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
     for (index, frame) in robot.frames.iter().enumerate() {
         if !crowded || frame.wrench.is_some() {
             let own = Vector3::zeros();
+            // What is at the base's origin is the base.
+            if frame.link.is_none() && words::moves(&frame.placement).next().is_none() {
+                layout.bases.push(index);
+                continue;
+            }
             let place = layout.place(robot, view, scale, frame.link, &frame.placement, own);
             layout.frames.push((index, place));
         }

@@ -30,8 +30,8 @@ pub(crate) fn scheme(robot: &Robot) -> Element {
 
 /// The content of the scheme.
 pub(crate) const CAPTION: &str = "The robot at q = 0. Cylinders rotate about their axes, boxes slide along \
-    their guides; the arrow on an axis points in the positive direction of its coordinate. \
-    Directions are true; short offsets are enlarged, and joints at the same point are drawn \
+    their guides; the arrow on or beside an axis points in the positive direction of its \
+    coordinate. Directions are true; short offsets are enlarged, and joints at the same point are drawn \
     apart along a dotted line.";
 
 /// The scheme as lines, curves and labels, for documents.

@@ -54,6 +54,7 @@ impl Style {
             "axis" => Style { width: 1.0, dashes: &[9.0, 3.0, 2.0, 3.0], ..self },
             "head" => Style { width: 1.0, dashes: &[], fill: Some(self.color), ..self },
             "hand" => Style { width: 3.0, ..self },
+            "way" => Style { width: 2.5, ..self },
             "dimension" => Style { color: FAINT, width: 1.0, text: INK, ..self },
             "leader" => Style { color: FAINT, ..self },
             "name" => Style { is_bold: true, ..self },

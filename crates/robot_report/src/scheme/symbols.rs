@@ -14,10 +14,10 @@ pub(crate) const AXIS: [f64; 2] = [-40.0, 54.0];
 /// The length of the axes of a frame.
 pub(crate) const TRIAD: f64 = 38.0;
 
-/// The axis of a joint, which points to where it moves for growing coordinates.
+/// The axis of a joint.
 pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Group {
     let [from, to] = AXIS.map(|reach| view.point(&(origin + axis * reach)));
-    group().class("axis").with_all(arrow(from, to, 8.0))
+    group().class("axis").with(line(&[from, to], false))
 }
 
 /// A revolute joint: a cylinder about its axis.

@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use robot_build::{Options, Output, Ownership, Source, Writer, shown};
-use robot_report::{Compiled, Error, Input, Reloading, reloading};
+use robot_build::{Errors, Options, Output, Ownership, Source, Writer, shown};
+use robot_report::{Compiled, Input, Reloading, reloading};
 
 use crate::commands::report::judge;
 use crate::failure::Failure;
@@ -46,7 +46,7 @@ impl Page {
     /// # Errors
     ///
     /// A robot that no page can be made of.
-    pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Error> {
+    pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Errors> {
         let reason = "the page was made without a compiler, while the file was watched.".to_owned();
         let compiled = Compiled::Unread { reason };
         reloading(&Input { source, options, compiled: &compiled, judge })
