@@ -15,6 +15,7 @@ fn command(arguments: &[&str]) -> (u8, String) {
         errors: &mut errors,
         colors: false,
         progress: false,
+        screen: None,
     };
     let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
     let code = robot_cli::run(arguments, &mut terminal);

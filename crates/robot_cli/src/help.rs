@@ -64,7 +64,7 @@ fn after(text: &str, columns: usize) -> String {
                         self::indent(next) > indent
                     }
             };
-            while let Some(next) = lines.next_if(|next| goes_on(&next)) {
+            while let Some(next) = lines.next_if(|next| goes_on(next)) {
                 whole += " ";
                 whole += next.trim_start();
             }

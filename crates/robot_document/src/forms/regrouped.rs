@@ -257,7 +257,7 @@ fn inline<'g>(
             match known.filter(|(one, _)| one.name == name).map(|(_, value)| value).next() {
                 Some(Shown::Zero) => {}
                 Some(Shown::Short { terms: own, .. }) => {
-                    terms.push(product(writer, parameter, own))
+                    terms.push(product(writer, parameter, own));
                 }
                 Some(Shown::Long) | None => {
                     terms.push(product(writer, writer.graph.symbol(&name), &[unit()]));
