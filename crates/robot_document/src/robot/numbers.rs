@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn long_numbers_have_six_digits() {
-        let shown = [1.0 / 3.0, -1234.567_891, 0.000_123_456_78, 1200.0, 2e7].map(rounded);
+        let shown = [1.0 / 3.0, -1_234.567_891, 0.000_123_456_78, 1200.0, 2e7].map(rounded);
         let shown = shown.map(|math| formula(&math));
         assert_eq!(shown, ["0.333333", "-1234.57", "0.000123457", "1200", "20000000"]);
     }

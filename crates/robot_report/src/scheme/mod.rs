@@ -1,8 +1,8 @@
 //! The kinematic scheme, as the paper's figure 3: joints as the signs of rotation and translation,
 //! frames with their axes, offsets as dimension lines, links by their names.
 //!
-//! [`layout`] puts the robot's rest position on the page, [`view`] chooses from where it is seen,
-//! [`symbols`] has the signs, [`labels`] finds room for what is written.
+//! `layout` puts the robot's rest position on the page, `view` chooses from where it is seen,
+//! `symbols` has the signs, `labels` finds room for what is written.
 
 mod draw;
 mod labels;

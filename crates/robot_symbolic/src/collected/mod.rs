@@ -1,7 +1,7 @@
 //! Short formulas: sums of products with what they have in common taken out of brackets, and sines
 //! and cosines of sums of angles where these are shorter.
 //!
-//! [`collect`] turns a canonical [`Polynomial`](crate::Polynomial) into a nested sum of products. Its steps:
+//! A [`Collector`] turns a canonical [`Polynomial`] into a nested sum of products. Its steps:
 //!
 //! 1. in every group of parallel joints, each coefficient is written in the angles between links that make it
 //!    shortest (`angles`, `addition`);
