@@ -16,7 +16,7 @@ use crate::folded::{deferred, folded};
 use crate::parts;
 
 /// Forms of more characters than this are not shown: nobody reads so far.
-const MAX_LENGTH: usize = 150_000;
+const MAX_LENGTH: usize = 120_000;
 /// More definitions than this are folded: they are to be looked up, not to be read through.
 const MOST_DEFINITIONS: usize = 18;
 /// Robots of more coordinates than this have the forms that go link by link alone: the others have functions of

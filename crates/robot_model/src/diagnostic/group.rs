@@ -1,5 +1,7 @@
 //! Warnings and notes of the same kind, which are shown as one.
 
+use std::collections::{HashMap, HashSet};
+
 use super::{Diagnostic, Severity, Source};
 
 /// So many are shown one by one.
@@ -47,19 +49,16 @@ impl Group<'_> {
         if self.others.is_empty() {
             return None;
         }
-        let known = names(&self.first.message);
-        let mut also: Vec<String> = vec![];
-        for name in self.others.iter().flat_map(|other| names(&other.message)) {
-            let name = format!("`{name}`");
-            if !known.contains(&name.trim_matches('`')) && !also.contains(&name) {
-                also.push(name);
-            }
-        }
-        let mut lines: Vec<usize> = self
-            .others
-            .iter()
-            .filter_map(|other| Some(source.position(other.primary.as_ref()?.span.start).0))
-            .collect();
+        let mut known: HashSet<&str> = names(&self.first.message).into_iter().collect();
+        let further = self.others.iter().flat_map(|other| names(&other.message));
+        let also: Vec<String> =
+            further.filter(|name| known.insert(name)).map(|name| format!("`{name}`")).collect();
+        let starts = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let starts: Vec<usize> = starts.map(|(place, _)| place).collect();
+        let line = |byte: usize| starts.partition_point(|newline| *newline < byte) + 1;
+        let others = self.others.iter();
+        let mut lines: Vec<usize> =
+            others.filter_map(|other| Some(line(other.primary.as_ref()?.span.start))).collect();
         lines.sort_unstable();
         lines.dedup();
         let plural = if lines.len() == 1 { "" } else { "s" };
@@ -83,26 +82,32 @@ fn shortened(list: &[String]) -> String {
 /// The groups in the order of their first members. Errors, each of which is to be mended, are alone, and so are
 /// few of a kind.
 pub(super) fn groups(list: &[Diagnostic]) -> Vec<Group<'_>> {
-    let mut found: Vec<(Option<Kind<'_>>, Vec<&Diagnostic>)> = vec![];
-    for one in list {
-        let kind = (one.severity != Severity::Error).then(|| kind(one));
-        match found.iter_mut().find(|(known, _)| kind.is_some() && *known == kind) {
-            Some((_, members)) => members.push(one),
-            None => found.push((kind, vec![one])),
+    let mut places: HashMap<Kind<'_>, usize> = HashMap::new();
+    let mut found: Vec<Vec<(usize, &Diagnostic)>> = vec![];
+    for member in list.iter().enumerate() {
+        let new = found.len();
+        let place = match member.1.severity {
+            Severity::Error => new,
+            _ => *places.entry(kind(member.1)).or_insert(new),
+        };
+        match found.get_mut(place) {
+            Some(members) => members.push(member),
+            None => found.push(vec![member]),
         }
     }
-    let mut groups: Vec<Group<'_>> = vec![];
-    for (_, members) in found {
+    let mut groups: Vec<(usize, Group<'_>)> = vec![];
+    for members in found {
         match members.as_slice() {
-            [first, others @ ..] if members.len() > FEW => {
-                groups.push(Group { first, others: others.to_vec() });
+            [(place, first), others @ ..] if members.len() > FEW => {
+                let others = others.iter().map(|(_, other)| *other).collect();
+                groups.push((*place, Group { first, others }));
             }
-            few => groups.extend(few.iter().map(|first| Group { first, others: vec![] })),
+            few => groups
+                .extend(few.iter().map(|(place, first)| (*place, Group { first, others: vec![] }))),
         }
     }
-    let place = |one: &Diagnostic| list.iter().position(|other| std::ptr::eq(one, other));
-    groups.sort_by_key(|group| place(group.first));
-    groups
+    groups.sort_by_key(|(place, _)| *place);
+    groups.into_iter().map(|(_, group)| group).collect()
 }
 
 /// By what diagnostics are of the same kind: code and texts without names and numbers.
