@@ -191,7 +191,7 @@ impl Terms {
         self.0.iter().map(term_length).sum::<usize>() + self.0.len().saturating_sub(1)
     }
 
-    /// The variables of an order that no choice can change, each once.
+    /// The variables that occur, in order.
     pub(super) fn variables(&self) -> Vec<Variable> {
         let powers = self.0.iter().flat_map(|(powers, _)| powers.iter());
         let mut variables: Vec<Variable> = powers.map(|(variable, _)| variable).collect();
