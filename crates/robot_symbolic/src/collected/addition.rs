@@ -13,7 +13,7 @@ type Circle = [Terms; 2];
 impl Group {
     /// The terms with each product of other variables multiplied by the shortest form of its coefficient.
     pub(super) fn shortest(&self, terms: &Terms, variables: &Variables<'_>) -> Terms {
-        let mut rewriters: Vec<Rewriter<'_>> =
+        let mut rewriters: Vec<Rewriter<'_, '_>> =
             self.bases.iter().map(|basis| Rewriter::new(self, basis, variables)).collect();
         let mut all: Vec<Term> = vec![];
         for (cofactor, coefficient) in self.by_cofactor(terms) {
@@ -119,26 +119,14 @@ impl Group {
 }
 
 /// Writes sines and cosines of coordinates in the angles of a basis.
-struct Rewriter<'a> {
+struct Rewriter<'a, 'g> {
     circles: FxHashMap<Variable, Terms>,
     known: FxHashMap<Powers, Terms>,
-    variables: &'a dyn Partners,
+    variables: &'a Variables<'g>,
 }
 
-/// What the reduction of squares has to know of variables.
-pub(super) trait Partners {
-    /// The cosine of a sine.
-    fn cosine_of(&self, sine: Variable) -> Option<Variable>;
-}
-
-impl Partners for Variables<'_> {
-    fn cosine_of(&self, sine: Variable) -> Option<Variable> {
-        self.partner(sine).filter(|_| !self.is_cosine(sine))
-    }
-}
-
-impl<'a> Rewriter<'a> {
-    fn new(group: &Group, basis: &Basis, variables: &'a Variables<'_>) -> Rewriter<'a> {
+impl<'a, 'g> Rewriter<'a, 'g> {
+    fn new(group: &Group, basis: &Basis, variables: &'a Variables<'g>) -> Rewriter<'a, 'g> {
         let mut circles = FxHashMap::default();
         for (coordinate, sum) in group.coordinates.iter().zip(basis) {
             let one = Terms::single(Powers::default(), Rational::ONE);
@@ -181,7 +169,7 @@ impl<'a> Rewriter<'a> {
 }
 
 /// Sine and cosine of a sum or difference of an angle and one of the group's.
-fn turned([s, c]: &Circle, by: Angle, negative: bool, variables: &dyn Partners) -> Circle {
+fn turned([s, c]: &Circle, by: Angle, negative: bool, variables: &Variables<'_>) -> Circle {
     let sign = Rational::integer(if negative { -1 } else { 1 });
     let sine = (Powers::of(by.sine), sign.clone());
     let cosine = (Powers::of(by.cosine), Rational::ONE);
@@ -192,7 +180,7 @@ fn turned([s, c]: &Circle, by: Angle, negative: bool, variables: &dyn Partners) 
     [sum(s.times(&cosine), c.times(&sine)), sum(c.times(&cosine), s.times(&minus_sine))]
 }
 
-fn multiplied(a: &Terms, b: &Terms, variables: &dyn Partners) -> Terms {
+fn multiplied(a: &Terms, b: &Terms, variables: &Variables<'_>) -> Terms {
     let products = a
         .as_slice()
         .iter()
@@ -201,7 +189,7 @@ fn multiplied(a: &Terms, b: &Terms, variables: &dyn Partners) -> Terms {
 }
 
 /// The sum with each square of a sine as 1 − cos².
-pub(super) fn reduced(terms: Vec<Term>, variables: &dyn Partners) -> Terms {
+pub(super) fn reduced(terms: Vec<Term>, variables: &Variables<'_>) -> Terms {
     let mut pending = terms;
     let mut done = vec![];
     while let Some((powers, number)) = pending.pop() {

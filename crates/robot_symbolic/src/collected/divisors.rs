@@ -134,9 +134,7 @@ impl<'t> Seeker<'t> {
         if more.is_one() {
             return Some((seed.clone(), quotient, used));
         }
-        let less = |(powers, number): &Term| Some((powers.quotient(&more)?, number.clone()));
-        let quotient = Terms::sum(quotient.as_slice().iter().filter_map(less));
-        Some((seed.product(&more), quotient, used))
+        Some((seed.product(&more), quotient.over(&more), used))
     }
 
     /// The weak division by a sum of several terms, if it is a factor of several products.
@@ -317,9 +315,8 @@ fn estimate(terms: &Terms) -> usize {
     if content.is_one() {
         return flat_or_square(terms);
     }
-    let less = |(powers, number): &Term| Some((powers.quotient(&content)?, number.clone()));
-    let inner = Terms::sum(terms.as_slice().iter().filter_map(less));
-    terms.unsigned_length().min(content.length() + flat_or_square(&inner) + 1)
+    let inner = flat_or_square(&terms.over(&content));
+    terms.unsigned_length().min(content.length() + inner + 1)
 }
 
 /// The length of a sum, or that of the power that it is.

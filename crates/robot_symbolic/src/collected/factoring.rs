@@ -307,7 +307,5 @@ fn common_factor(terms: &Terms) -> Term {
 /// The terms divided by a product that divides all of them.
 fn divided(terms: &Terms, (powers, number): &Term) -> Terms {
     let inverse = number.recip().unwrap_or(Rational::ONE);
-    let quotient =
-        |(own, coefficient): &Term| Some((own.quotient(powers)?, coefficient * &inverse));
-    Terms::sum(terms.as_slice().iter().filter_map(quotient))
+    terms.over(powers).scaled(&inverse)
 }

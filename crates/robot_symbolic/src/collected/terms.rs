@@ -173,6 +173,12 @@ impl Terms {
         Terms::sum(self.0.iter().map(times))
     }
 
+    /// The terms divided by a product of powers that divides all of them.
+    pub(super) fn over(&self, divisor: &Powers) -> Terms {
+        let quotient = |(powers, number): &Term| Some((powers.quotient(divisor)?, number.clone()));
+        Terms::sum(self.0.iter().filter_map(quotient))
+    }
+
     /// The largest product of powers that divides all terms.
     pub(super) fn content(&self) -> Powers {
         let mut powers = self.0.iter().map(|(powers, _)| powers);

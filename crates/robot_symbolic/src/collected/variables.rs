@@ -90,6 +90,11 @@ impl<'g> Variables<'g> {
         self.partners.get(usize::from(variable)).copied().flatten()
     }
 
+    /// The cosine of the angle of a sine; `None` for other variables.
+    pub(super) fn cosine_of(&self, sine: Variable) -> Option<Variable> {
+        self.partner(sine).filter(|_| !self.is_cosine(sine))
+    }
+
     /// Whether the variable is a cosine.
     pub(super) fn is_cosine(&self, variable: Variable) -> bool {
         let meaning = self.meanings.get(usize::from(variable));
