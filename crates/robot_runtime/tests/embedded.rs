@@ -59,7 +59,7 @@ fn compiles_in_a_crate_of_its_own() -> Result<(), Box<dyn Error>> {
     }
     fs::write(
         folder.join("lib.rs"),
-        "#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings, missing_docs)]\n//! A crate.\n\
+        "#![no_std]\n#![deny(unsafe_code)]\n#![deny(warnings, missing_docs)]\n//! A crate.\n\
          pub mod runtime;\n",
     )?;
     for feature in [None, Some("feature=\"std\"")] {

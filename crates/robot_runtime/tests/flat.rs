@@ -107,7 +107,9 @@ fn arrays_are_computed_in_vector_registers_without_branches() {
         for feature in [&[][..], &["--cfg", "feature=\"std\""]] {
             let target_cpu = format!("-Ctarget-cpu={cpu}");
             let options = [&["-Copt-level=3", &target_cpu], feature].concat();
-            let functions = compile("arrays", ARRAYS, X86, &options);
+            let mut functions = compile("arrays", ARRAYS, X86, &options);
+            // It asks the processor, once, in kernels that are dispatched.
+            functions.retain(|name, _| !name.contains("processor"));
             assert_eq!(functions.len(), 12, "{:?}", functions.keys());
             for (name, listing) in &functions {
                 assert_eq!(jumps(listing), 0, "{name} on {cpu} jumps");

@@ -18,18 +18,24 @@ pub const FUSED: bool = cfg!(all(
 ));
 
 macro_rules! multiply_add {
-    ($name:ident, $float:ident) => {
+    ($name:ident, $once:ident, $float:ident) => {
         /// `a · b + c`, fused if [`FUSED`].
         #[inline(always)]
         pub(super) fn $name(a: $float, b: $float, c: $float) -> $float {
+            if FUSED { $once(a, b, c) } else { a * b + c }
+        }
+
+        /// `a · b + c`, rounded once with feature `std`: in software if the processor has no instruction
+        /// for it, so it is called only where it has one.
+        #[inline(always)]
+        pub(super) fn $once(a: $float, b: $float, c: $float) -> $float {
             #[cfg(feature = "std")]
-            if FUSED {
-                return a.mul_add(b, c);
-            }
-            a * b + c
+            return a.mul_add(b, c);
+            #[cfg(not(feature = "std"))]
+            return a * b + c;
         }
     };
 }
 
-multiply_add!(mul_add_f64, f64);
-multiply_add!(mul_add_f32, f32);
+multiply_add!(mul_add_f64, once_f64, f64);
+multiply_add!(mul_add_f32, once_f32, f32);

@@ -2,6 +2,10 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::lanewise::{
+    Difference, Lanewise, Magnitude, MultiplyAdd, Negative, Product, Quotient,
+    ReciprocalOfPositive, Sign, SineCosine, SquareRoot, Sum,
+};
 use super::scalar::Scalar;
 
 /// `N` numbers of type `T` on which every operation acts lane by lane.
@@ -55,6 +59,12 @@ impl<T: Scalar, const N: usize> Lanes<T, N> {
         result
     }
 
+    #[inline(always)]
+    fn lanewise<O: Lanewise<1, 1>>(self) -> Self {
+        let [lanes] = T::lanewise::<O, 1, 1, N>([&self.0]);
+        Self(lanes)
+    }
+
     /// `function` of each lane of `self` and the same lane of `other`.
     #[inline(always)]
     #[must_use]
@@ -82,29 +92,30 @@ impl<T: Scalar, const N: usize> From<Lanes<T, N>> for [T; N] {
 }
 
 macro_rules! lane_by_lane {
-    ($operator:ident, $method:ident) => {
+    ($operator:ident, $method:ident, $operation:ident) => {
         impl<T: Scalar, const N: usize> $operator for Lanes<T, N> {
             type Output = Self;
 
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                self.zip(other, T::$method)
+                let [lanes] = T::lanewise::<$operation, 2, 1, N>([&self.0, &other.0]);
+                Self(lanes)
             }
         }
     };
 }
 
-lane_by_lane!(Add, add);
-lane_by_lane!(Sub, sub);
-lane_by_lane!(Mul, mul);
-lane_by_lane!(Div, div);
+lane_by_lane!(Add, add, Sum);
+lane_by_lane!(Sub, sub, Difference);
+lane_by_lane!(Mul, mul, Product);
+lane_by_lane!(Div, div, Quotient);
 
 impl<T: Scalar, const N: usize> Neg for Lanes<T, N> {
     type Output = Self;
 
     #[inline(always)]
     fn neg(self) -> Self {
-        self.map(T::neg)
+        self.lanewise::<Negative>()
     }
 }
 
@@ -119,26 +130,24 @@ impl<T: Scalar, const N: usize> Scalar for Lanes<T, N> {
 
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        let mut result = self;
-        for ((lane, factor), addend) in result.0.iter_mut().zip(&factor.0).zip(&addend.0) {
-            *lane = T::mul_add(*lane, *factor, *addend);
-        }
-        result
+        let arguments = [&self.0, &factor.0, &addend.0];
+        let [lanes] = T::lanewise::<MultiplyAdd, 3, 1, N>(arguments);
+        Self(lanes)
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        self.map(T::sqrt)
+        self.lanewise::<SquareRoot>()
     }
 
     #[inline(always)]
     fn abs(self) -> Self {
-        self.map(T::abs)
+        self.lanewise::<Magnitude>()
     }
 
     #[inline(always)]
     fn signum0(self) -> Self {
-        self.map(T::signum0)
+        self.lanewise::<Sign>()
     }
 
     #[inline(always)]
@@ -148,12 +157,12 @@ impl<T: Scalar, const N: usize> Scalar for Lanes<T, N> {
 
     #[inline(always)]
     fn recip_positive(self) -> Self {
-        self.map(T::recip_positive)
+        self.lanewise::<ReciprocalOfPositive>()
     }
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let (sines, cosines) = T::sin_cos_array(&self.0);
+        let [sines, cosines] = T::lanewise::<SineCosine, 1, 2, N>([&self.0]);
         (Self(sines), Self(cosines))
     }
 }

@@ -7,11 +7,17 @@
 mod batch;
 mod fused;
 mod lanes;
+mod lanewise;
 #[cfg(not(feature = "std"))]
 mod no_std_trig;
+mod number;
+mod processor;
+mod real;
 mod reciprocal;
+mod registers;
 pub mod root;
 mod scalar;
+mod state;
 #[cfg(feature = "std")]
 mod std_trig;
 mod tanh;
@@ -22,8 +28,11 @@ pub use self::fused::FUSED;
 pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
 #[cfg(not(feature = "std"))]
 pub use self::no_std_trig::{StdTrig, std_sin_cos_array};
+pub use self::processor::{Arithmetic, Compiled, Kernel, dispatch, dispatch_apart, dispatch_block};
+pub use self::real::Real;
 pub use self::reciprocal::{recip_positive_f32, recip_positive_f64};
 pub use self::scalar::Scalar;
+pub use self::state::{State, chunks, column_length, lane, padded_chunks, set_state, state};
 #[cfg(feature = "std")]
 pub use self::std_trig::{StdTrig, std_sin_cos_array};
 pub use self::trig::{PolyTrig, Trig, sin_cos_array, sin_cos_each};

@@ -4,7 +4,9 @@ use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::fused::{mul_add_f32, mul_add_f64};
+use super::lanewise::{self, Lanewise};
 use super::reciprocal::{recip_positive_f32, recip_positive_f64};
+use super::registers;
 use super::root::{sqrt_f32, sqrt_f64};
 use super::tanh::{tanh_f32, tanh_f64};
 use super::trig::{block, double, single};
@@ -72,6 +74,16 @@ pub trait Scalar:
     fn sin_cos_array<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
         block::one_by_one(angles, Self::sin_cos)
     }
+
+    /// An operation on each lane of arrays; `f64` and `f32` compute it in vector registers if the
+    /// target has them.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn lanewise<O: Lanewise<A, R>, const A: usize, const R: usize, const N: usize>(
+        arguments: [&[Self; N]; A],
+    ) -> [[Self; N]; R] {
+        lanewise::one_by_one::<Self, O, A, R, N>(arguments)
+    }
 }
 
 macro_rules! implement_scalar {
@@ -83,6 +95,7 @@ macro_rules! implement_scalar {
         $tanh:path,
         $recip_positive:path,
         $sin_cos:path,
+        $polynomials:ident,
         $block:literal
     ) => {
         impl Scalar for $float {
@@ -136,7 +149,18 @@ macro_rules! implement_scalar {
 
             #[inline(always)]
             fn sin_cos_array<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
+                #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
+                if 1 < N && N <= 2 * $block {
+                    return registers::x86::$polynomials::<{ super::FUSED }, N>(angles);
+                }
                 block::in_blocks::<$block, _, N>(angles, $sin_cos)
+            }
+
+            #[inline(always)]
+            fn lanewise<O: Lanewise<A, R>, const A: usize, const R: usize, const N: usize>(
+                arguments: [&[Self; N]; A],
+            ) -> [[Self; N]; R] {
+                registers::$float::<O, A, R, N>(arguments)
             }
         }
     };
@@ -150,6 +174,7 @@ implement_scalar!(
     tanh_f64,
     recip_positive_f64,
     double::sin_cos,
+    double,
     8
 );
 implement_scalar!(
@@ -160,5 +185,6 @@ implement_scalar!(
     tanh_f32,
     recip_positive_f32,
     single::sin_cos,
+    single,
     16
 );

@@ -159,7 +159,7 @@ impl Parts<'_> {
             "// {}\n\n\
              #![doc = include_str!(\"../README.md\")]\n\
              #![no_std]\n\
-             #![forbid(unsafe_code)]\n\n\
+             #![deny(unsafe_code)]\n\n\
              mod model;\n\
              pub mod runtime;\n\n\
              pub use model::*;\n\

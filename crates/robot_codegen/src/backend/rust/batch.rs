@@ -1,73 +1,121 @@
-//! Functions over slices of states.
+//! Functions over many states: slices of states, columns, and blocks of a few states side by side.
 //!
-//! A block of states is one loop whose body is the whole function: LLVM's loop vectoriser turns it
-//! into vectors of states, whatever the order of the statements, where its vectoriser of
-//! straight-line code would find vectors or not by chance.
+//! All of them compute block by block ([`lanes`](super::lanes)); the loops over blocks and over the states of a block
+//! are the only ones of generated code. The last states are filled up to a block with zeros, so that all take the
+//! same path; nothing is indexed, so that nothing can panic.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
-use syn::{Expr, ImplItem, Pat, Stmt, Type, parse_quote};
+use syn::{Expr, ImplItem, Type, parse_quote};
 
 use super::doc;
 use super::function::Methods;
 use super::namer::derived;
 use super::options::Parallel;
-use super::outputs;
 use super::syntax;
 use super::variables::Variables;
 use crate::backend::common::used_inputs;
-use crate::trigonometry::Trigonometry;
 
 /// As many blocks one thread computes at least: some microseconds of work.
 const GRAIN: usize = 32;
 
-/// The slices that the method takes.
-struct Slices {
-    variables: Variables,
-    /// Names, types of one state and whether the function needs it.
-    inputs: Vec<(Ident, Type, bool)>,
-    /// Names, types and zeros of one state.
-    outputs: Vec<(Ident, Type, Expr)>,
+/// What the methods over many states take and give.
+pub(super) struct Slices {
+    pub(super) variables: Variables,
+    /// Names, numbers of one state and whether the function needs it.
+    pub(super) inputs: Vec<(Ident, usize, bool)>,
+    /// Names and shapes of one state.
+    pub(super) outputs: Vec<(Ident, Vec<usize>)>,
     /// The number of states in a block.
-    lanes: Literal,
+    pub(super) lanes: Literal,
 }
 
 impl Slices {
-    fn used(&self) -> impl Iterator<Item = &Ident> {
+    pub(super) fn used(&self) -> impl Iterator<Item = &Ident> {
         self.inputs.iter().filter(|(_, _, used)| *used).map(|(name, ..)| name)
     }
 
-    fn output_names(&self) -> impl Iterator<Item = &Ident> {
-        self.outputs.iter().map(|(name, ..)| name)
+    pub(super) fn output_names(&self) -> Vec<&Ident> {
+        self.outputs.iter().map(|(name, _)| name).collect()
     }
 
-    /// `q.len().min(tau.len())`
-    fn shortest(&self) -> Option<Expr> {
-        let names = self.inputs.iter().map(|(name, ..)| name).chain(self.output_names());
-        let lengths = names.map(|name| -> Expr { parse_quote!(#name.len()) });
-        lengths.reduce(|a, b| parse_quote!(#a.min(#b)))
+    /// The names of inputs and outputs.
+    fn names(&self) -> impl Iterator<Item = &Ident> {
+        self.inputs.iter().map(|(name, ..)| name).chain(self.outputs.iter().map(|(name, _)| name))
+    }
+
+    /// The parameters `q: &[[f64; 6]]` and `tau: &mut [[f64; 6]]`.
+    fn slices(&self, scalar: &Type) -> Vec<TokenStream> {
+        let inputs = self.inputs.iter().map(|(name, length, _)| {
+            let state = syntax::array_type(scalar, *length);
+            quote!(#name: &[#state])
+        });
+        let outputs = self.outputs.iter().map(|(name, shape)| {
+            let state = syntax::shaped_type(scalar, shape);
+            quote!(#name: &mut [#state])
+        });
+        inputs.chain(outputs).collect()
+    }
+}
+
+/// How the states of a block lie in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layout {
+    /// State by state: `[[f64; 6]; 8]`.
+    States,
+    /// Coordinate by coordinate: `[[f64; 8]; 6]`, wherever the lanes of each coordinate are.
+    Lanes,
+}
+
+/// The names of the methods over many states.
+pub(super) struct BatchNames {
+    batch: Ident,
+    /// A block of states in memory, and what computes it.
+    states: Ident,
+    states_with: Ident,
+    columns: Ident,
+    /// A block in lanes in memory, one elsewhere, and what computes it.
+    pub(super) block: Ident,
+    lanes: Ident,
+    lanes_with: Ident,
+}
+
+impl BatchNames {
+    /// The methods of a block in this layout: the one that is called, and the one that the kernel calls.
+    pub(super) fn of(&self, layout: Layout) -> (&Ident, &Ident) {
+        match layout {
+            Layout::States => (&self.states, &self.states_with),
+            Layout::Lanes => (&self.lanes, &self.lanes_with),
+        }
     }
 }
 
 impl Methods<'_, '_> {
-    /// The method over slices, and the one that computes a block of `lanes` states; none for a
-    /// function that needs no inputs.
-    ///
-    /// The loops of the two are the only ones of generated code. The last states are filled up to a
-    /// block with zeros, so that all take the same path; nothing is indexed, so that nothing can panic.
+    /// The methods over slices, columns and blocks of `lanes` states; none for a function that needs no inputs.
     pub(super) fn batch(&mut self, lanes: usize) -> Vec<ImplItem> {
-        let slices = self.slices(lanes);
+        let mut slices = self.slices(lanes);
         if slices.used().next().is_none() {
             return vec![];
         }
         let plain = self.names.plain.clone();
-        let batch = derived(&mut self.scope.methods, &plain, "batch");
-        let block = derived(&mut self.scope.methods, &plain, "block");
-        let mut methods = vec![self.over_slices(&slices, &batch, &block)];
+        let mut name = |suffix: &str| derived(&mut self.scope.methods, &plain, suffix);
+        let names = BatchNames {
+            batch: name("batch"),
+            states: name("states"),
+            states_with: name("states_with"),
+            columns: name("columns"),
+            block: name("block"),
+            lanes: name("lanes"),
+            lanes_with: name("lanes_with"),
+        };
+        let mut methods = vec![self.over_slices(&slices, &names)];
         if self.scope.options.parallel != Parallel::No {
-            methods.push(self.over_threads(&slices, lanes, &batch));
+            methods.push(self.over_threads(&slices, lanes, &names.batch));
         }
-        methods.push(self.of_block(slices, &block));
+        methods.extend(self.of_block(&mut slices, &names, Layout::States));
+        methods.push(self.over_columns(&slices, &names));
+        methods.push(self.block(&slices, &names));
+        methods.extend(self.of_block(&mut slices, &names, Layout::Lanes));
         methods
     }
 
@@ -75,46 +123,33 @@ impl Methods<'_, '_> {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
         // The variables of the methods.
-        for word in ["count", "half", "result", "circular", "to", "from"] {
+        for word in ["count", "whole", "start", "half", "lane", "lanes", "result", "circular"] {
             variables.namer.name(word);
         }
-        let scalar = self.number.ty();
         let used = used_inputs(function, &function.core).into_iter();
         let used = used.zip(used_inputs(function, &function.angles)).map(|(a, b)| a || b);
         let names = variables.inputs.iter().cloned().zip(&function.inputs).zip(used);
-        let inputs = names.map(|((name, input), used)| {
-            (name, syntax::array_type(&scalar, input.symbols.len()), used)
-        });
-        let inputs = inputs.collect();
-        let outputs = function.outputs.iter().map(|output| {
-            let zero = output.shape.iter().rev().fold(syntax::float(0.0), |zero, length| {
-                let length = Literal::usize_unsuffixed(*length);
-                parse_quote!([#zero; #length])
-            });
-            let name = variables.namer.name(&output.name);
-            (name, syntax::shaped_type(&scalar, &output.shape), zero)
-        });
+        let inputs = names.map(|((name, input), used)| (name, input.symbols.len(), used)).collect();
+        let outputs = function.outputs.iter();
+        let outputs =
+            outputs.map(|output| (variables.namer.name(&output.name), output.shape.clone()));
         let outputs = outputs.collect();
         Slices { variables, inputs, outputs, lanes: Literal::usize_unsuffixed(lanes.max(1)) }
     }
 
-    /// Cuts the slices into blocks.
-    fn over_slices(&self, slices: &Slices, batch: &Ident, block: &Ident) -> ImplItem {
+    /// Cuts slices of states into blocks.
+    fn over_slices(&self, slices: &Slices, names: &BatchNames) -> ImplItem {
         let (runtime, lanes) = (self.number.runtime(), &slices.lanes);
-        let (inputs, input_types) = columns(slices.inputs.iter().map(|(name, ty, _)| (name, ty)));
-        let (outputs, output_types) =
-            columns(slices.outputs.iter().map(|(name, ty, _)| (name, ty)));
-        let used: Vec<&Ident> = slices.used().collect();
-        let count = slices.shortest();
-        let mut namer = slices.variables.namer.clone();
-        let mut with = |names: &[&Ident], suffix: &str| -> Vec<Ident> {
-            names.iter().map(|name| derived(&mut namer, name, suffix)).collect()
-        };
-        let (used_rests, output_rests) = (with(&used, "rest"), with(&outputs, "rest"));
-        let states = with(&outputs, "states");
-        let zeros: Vec<&Expr> = slices.outputs.iter().map(|(_, _, zero)| zero).collect();
-        let rest = output_rests.first();
-        let (pattern, blocks) = zipped(used.iter().chain(&outputs).map(|name| plain_item(name)));
+        let BatchNames { batch, states: method, .. } = names;
+        let parameters = slices.slices(&self.number.ty());
+        let lengths = slices.names().map(|name| parse_quote!(#name.len()));
+        let count = least(lengths);
+        let (used, outputs): (Vec<&Ident>, _) = (slices.used().collect(), slices.output_names());
+        let used_rests = suffixed(&used, "rest", slices);
+        let output_rests = suffixed(&outputs, "rest", slices);
+        let results = suffixed(&outputs, "states", slices);
+        let (pattern, result) = (zip_pattern(&used, &outputs), syntax::tuple_pattern(&results));
+        let (first, others) = used.split_first().map_or((None, &[][..]), |(a, b)| (Some(a), b));
         let docs = doc::attributes(&[
             format!(
                 "`{}` for many states, {lanes} at a time: entry i of each slice belongs to state i.",
@@ -126,28 +161,87 @@ impl Methods<'_, '_> {
         ]);
         parse_quote! {
             #(#docs)*
-            pub fn #batch(
-                &self,
-                #(#inputs: &[#input_types],)*
-                #(#outputs: &mut [#output_types],)*
-            ) -> usize {
+            pub fn #batch(&self, #(#parameters),*) -> usize {
                 let count = #count;
                 #(let #used = #used.get(..count).unwrap_or_default();)*
                 #(let #outputs = #outputs.get_mut(..count).unwrap_or_default();)*
-                #(let (#used, #used_rests) = #runtime::blocks::<_, #lanes>(#used);)*
-                #(let (#outputs, #output_rests) = #runtime::blocks_mut::<_, #lanes>(#outputs);)*
-                for #pattern in #blocks {
-                    self.#block(#(#used,)* #(#outputs),*);
+                #(let (#used, #used_rests) = #used.as_chunks::<#lanes>();)*
+                #(let (#outputs, #output_rests) = #outputs.as_chunks_mut::<#lanes>();)*
+                for #pattern in #first.iter() #(.zip(#others))* #(.zip(#outputs))* {
+                    let #result = self.#method(#(#used),*);
+                    #(*#outputs = #results;)*
                 }
-                if !#rest.is_empty() {
-                    #(let mut #states = [#zeros; #lanes];)*
-                    self.#block(
-                        #(&#runtime::padded_states(#used_rests),)*
-                        #(&mut #states),*
-                    );
-                    #(for (to, from) in #output_rests.iter_mut().zip(#states) {
+                if !count.is_multiple_of(#lanes) {
+                    let #result = self.#method(#(&#runtime::padded_states(#used_rests)),*);
+                    #(for (to, from) in #output_rests.iter_mut().zip(#results) {
                         *to = from;
                     })*
+                }
+                count
+            }
+        }
+    }
+
+    /// Cuts columns into blocks, which stay where they are.
+    fn over_columns(&self, slices: &Slices, names: &BatchNames) -> ImplItem {
+        let (runtime, lanes) = (self.number.runtime(), &slices.lanes);
+        let BatchNames { columns, lanes: method, .. } = names;
+        let scalar = self.number.ty();
+        let column: Type = parse_quote!(&[#scalar]);
+        let inputs = slices.inputs.iter().map(|(name, length, _)| {
+            let columns = syntax::array_type(&column, *length);
+            quote!(#name: #columns)
+        });
+        let column: Type = parse_quote!(&mut [#scalar]);
+        let written = slices.outputs.iter().map(|(name, shape)| {
+            let columns = syntax::shaped_type(&column, shape);
+            quote!(mut #name: #columns)
+        });
+        let states = slices.outputs.iter().map(|(name, shape)| -> Expr {
+            let state = syntax::shaped_type(&scalar, shape);
+            parse_quote!(<#state as #runtime::State>::column_length(&#name))
+        });
+        let lengths = slices
+            .inputs
+            .iter()
+            .map(|(name, ..)| -> Expr { parse_quote!(#runtime::column_length(&#name)) });
+        let count = least(lengths.chain(states));
+        let used: Vec<&Ident> = slices.used().collect();
+        let outputs = slices.output_names();
+        let pattern = suffixed(&outputs, "lanes", slices);
+        let stores = |count: Expr| {
+            let stores = slices.outputs.iter().zip(&pattern).map(|((name, shape), result)| {
+                let state = syntax::shaped_type(&scalar, shape);
+                quote!(<#state as #runtime::State>::to_columns(&#result, &mut #name, start, #count);)
+            });
+            stores.collect::<Vec<_>>()
+        };
+        let (block, rest) = (stores(parse_quote!(#lanes)), stores(parse_quote!(count - start)));
+        let taken = syntax::tuple_pattern(&pattern);
+        let docs = doc::attributes(&[
+            format!(
+                "`{}` for many states in columns, {lanes} at a time: entry i of each column belongs to state i.",
+                self.names.plain
+            ),
+            String::new(),
+            "Computes as many states as the shortest column has, and returns their number."
+                .to_owned(),
+        ]);
+        parse_quote! {
+            #(#docs)*
+            #[inline]
+            pub fn #columns(&self, #(#inputs,)* #(#written),*) -> usize {
+                let count = #count;
+                let whole = count - count % #lanes;
+                for start in (0..whole).step_by(#lanes) {
+                    let #taken = self.#method(#(#runtime::chunks(&#used, start)),*);
+                    #(#block)*
+                }
+                for start in (whole..count).step_by(#lanes) {
+                    let #taken = self.#method(
+                        #(#runtime::padded_chunks::<_, #lanes, _>(&#used, start).each_ref()),*
+                    );
+                    #(#rest)*
                 }
                 count
             }
@@ -158,15 +252,16 @@ impl Methods<'_, '_> {
     /// blocks do, so that each state is computed as it is by one thread.
     fn over_threads(&mut self, slices: &Slices, lanes: usize, batch: &Ident) -> ImplItem {
         let parallel = derived(&mut self.scope.methods, batch, "parallel");
-        let (inputs, input_types) = columns(slices.inputs.iter().map(|(name, ty, _)| (name, ty)));
-        let (outputs, output_types) =
-            columns(slices.outputs.iter().map(|(name, ty, _)| (name, ty)));
+        let parameters = slices.slices(&self.number.ty());
+        let inputs: Vec<&Ident> = slices.inputs.iter().map(|(name, ..)| name).collect();
+        let outputs = slices.output_names();
         let mut namer = slices.variables.namer.clone();
         let mut rests = |names: &[&Ident]| -> Vec<Ident> {
             names.iter().map(|name| derived(&mut namer, name, "rest")).collect()
         };
         let (input_rests, output_rests) = (rests(&inputs), rests(&outputs));
-        let (count, block) = (slices.shortest(), &slices.lanes);
+        let lengths = slices.names().map(|name| parse_quote!(#name.len()));
+        let (count, block) = (least(lengths), &slices.lanes);
         let grain = Literal::usize_unsuffixed(GRAIN.saturating_mul(lanes.max(1)));
         let feature = self.scope.options.parallel == Parallel::WithFeature;
         let condition = feature.then(|| quote!(#[cfg(feature = "rayon")]));
@@ -181,11 +276,7 @@ impl Methods<'_, '_> {
         parse_quote! {
             #(#docs)*
             #condition
-            pub fn #parallel(
-                &self,
-                #(#inputs: &[#input_types],)*
-                #(#outputs: &mut [#output_types],)*
-            ) -> usize {
+            pub fn #parallel(&self, #(#parameters),*) -> usize {
                 let count = #count;
                 if count <= #grain {
                     return self.#batch(#(#inputs,)* #(#outputs),*);
@@ -204,145 +295,21 @@ impl Methods<'_, '_> {
             }
         }
     }
-
-    /// A block: the function of each state.
-    fn of_block(&mut self, mut slices: Slices, block: &Ident) -> ImplItem {
-        let lanes = slices.lanes.clone();
-        let inputs = slices.inputs.iter().filter(|(_, _, used)| *used);
-        let parameters = inputs.map(|(name, ty, _)| quote!(#name: &[#ty; #lanes]));
-        let parameters: Vec<TokenStream> = parameters.collect();
-        let outputs = slices.outputs.iter();
-        let outputs: Vec<TokenStream> =
-            outputs.map(|(name, ty, _)| quote!(#name: &mut [#ty; #lanes])).collect();
-        let statements = self.loops(&mut slices);
-        parse_quote! {
-            #[inline(never)]
-            fn #block(&self, #(#parameters,)* #(#outputs),*) {
-                #(#statements)*
-            }
-        }
-    }
-
-    /// The loop over the states of a block.
-    fn loops(&mut self, slices: &mut Slices) -> Vec<Stmt> {
-        let outputs: Vec<Ident> = slices.output_names().cloned().collect();
-        let stores = self.stores(&outputs);
-        let to_outputs: Vec<(Pat, Expr)> = outputs.iter().map(plain_item).collect();
-        if self.function.angles.results().is_empty() {
-            let items = slices.used().map(plain_item).chain(to_outputs);
-            let (pattern, states) = zip(items);
-            let (plain, all) = (&self.names.plain, &slices.variables.inputs);
-            let inputs = slices.inputs.iter().zip(&self.function.inputs);
-            let unused = inputs
-                .filter(|((_, _, used), _)| !used)
-                .map(|((name, ..), input)| (name, Literal::usize_unsuffixed(input.symbols.len())));
-            let (unused, lengths) = columns(unused);
-            return vec![parse_quote! {
-                for #pattern in #states {
-                    #(let #unused = &[0.0; #lengths];)*
-                    let result = self.#plain(#(#all),*);
-                    #(#stores)*
-                }
-            }];
-        }
-        match self.scope.options.trigonometry {
-            Trigonometry::Polynomial => vec![self.one_loop(slices, to_outputs, &stores)],
-            Trigonometry::Standard => self.two_loops(slices, to_outputs, &stores),
-        }
-    }
-
-    /// The whole function in one loop.
-    fn one_loop(
-        &mut self,
-        slices: &mut Slices,
-        to_outputs: Vec<(Pat, Expr)>,
-        stores: &[Stmt],
-    ) -> Stmt {
-        let (takes, angles) = self.angles_argument(&mut slices.variables);
-        let (pattern, states) = zip(slices.used().map(plain_item).chain(to_outputs));
-        let (sc, runtime) = (&self.names.sc, self.number.runtime());
-        let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
-        let inputs = slices.variables.chosen(&used_inputs(self.function, &self.function.core));
-        parse_quote! {
-            for #pattern in #states {
-                #(#takes)*
-                let (#s, #c) = #runtime::sin_cos_each(#angles);
-                let result = self.#sc(&#s, &#c, #(#inputs),*);
-                #(#stores)*
-            }
-        }
-    }
-
-    /// Sines and cosines of the standard library in a loop of their own, for they are calls, and a
-    /// loop with calls is not vectorised.
-    fn two_loops(
-        &mut self,
-        slices: &mut Slices,
-        to_outputs: Vec<(Pat, Expr)>,
-        stores: &[Stmt],
-    ) -> Vec<Stmt> {
-        let function = self.function;
-        let (takes, angles) = self.angles_argument(&mut slices.variables);
-        let angle_inputs = slices.variables.chosen(&used_inputs(function, &function.angles));
-        let count = Literal::usize_unsuffixed(function.angles.results().len());
-        let (lanes, sin_cos) = (&slices.lanes, self.number.circular_array());
-        let circular = (parse_quote!(circular), parse_quote!(&mut circular));
-        let (angle_pattern, angle_states) =
-            zip(angle_inputs.into_iter().map(plain_item).chain([circular]));
-        let inputs = slices.variables.chosen(&used_inputs(function, &function.core));
-        let items = inputs.iter().map(|name| plain_item(name)).chain(to_outputs);
-        let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
-        let known = (parse_quote!((#s, #c)), parse_quote!(circular));
-        let (pattern, states) = zip([known].into_iter().chain(items));
-        let sc = &self.names.sc;
-        vec![
-            parse_quote!(let mut circular = [([0.0; #count], [0.0; #count]); #lanes];),
-            parse_quote! {
-                for #angle_pattern in #angle_states {
-                    #(#takes)*
-                    *circular = #sin_cos(#angles);
-                }
-            },
-            parse_quote! {
-                for #pattern in #states {
-                    let result = self.#sc(#s, #c, #(#inputs),*);
-                    #(#stores)*
-                }
-            },
-        ]
-    }
-
-    /// `*tau = result;`
-    fn stores(&self, outputs: &[Ident]) -> Vec<Stmt> {
-        if self.scope.output_type(self.function).is_none() {
-            return outputs.iter().map(|name| parse_quote!(*#name = result;)).collect();
-        }
-        let fields = outputs::fields(self.function);
-        let stores = outputs.iter().zip(fields);
-        stores.map(|(name, field)| parse_quote!(*#name = result.#field;)).collect()
-    }
 }
 
-/// A variable that is iterated over, under its own name.
-fn plain_item(name: &Ident) -> (Pat, Expr) {
-    (syntax::binding(name), syntax::variable(name))
+/// `q.len().min(tau.len())`
+fn least(lengths: impl Iterator<Item = Expr>) -> Option<Expr> {
+    lengths.reduce(|a, b| parse_quote!(#a.min(#b)))
 }
 
-/// Pairs as two lists.
-fn columns<A, B>(pairs: impl Iterator<Item = (A, B)>) -> (Vec<A>, Vec<B>) {
-    pairs.unzip()
+/// A variable for each name.
+fn suffixed(names: &[&Ident], suffix: &str, slices: &Slices) -> Vec<Ident> {
+    let mut namer = slices.variables.namer.clone();
+    names.iter().map(|name| derived(&mut namer, name, suffix)).collect()
 }
 
-/// `((q, qd), tau)` and `q.iter().zip(qd).zip(tau)`
-fn zip(mut items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
-    let (first, value) = items.next().unwrap_or_else(|| (parse_quote!(()), parse_quote!([(); 0])));
-    zipped([(first, parse_quote!(#value.iter()))].into_iter().chain(items))
-}
-
-/// `((q, qd), tau)` and `q.zip(qd).zip(tau)`, if all are iterators.
-fn zipped(items: impl Iterator<Item = (Pat, Expr)>) -> (Pat, Expr) {
-    let all = items.reduce(|(pattern, zipped), (next, value)| {
-        (parse_quote!((#pattern, #next)), parse_quote!(#zipped.zip(#value)))
-    });
-    all.unwrap_or_else(|| (parse_quote!(()), parse_quote!([(); 0].iter())))
+/// `((q, qd), tau)`, for `q.iter().zip(qd).zip(tau)`.
+fn zip_pattern(used: &[&Ident], outputs: &[&Ident]) -> syn::Pat {
+    let names = used.iter().chain(outputs).map(|name| syntax::binding(name));
+    names.reduce(|pattern, next| parse_quote!((#pattern, #next))).unwrap_or(parse_quote!(_))
 }

@@ -144,7 +144,7 @@ impl<'a> Body<'a> {
             Operation::Neg(a) => syntax::negative(self.operand(a)),
             Operation::MulAdd(a, b, c) => {
                 let operands = [a, b, c].map(|value| self.operand(value));
-                syntax::call(self.number.method("mul_add"), operands)
+                syntax::call(self.number.mul_add(), operands)
             }
             Operation::Call(function, a) => self.call(function, self.operand(a)),
         }

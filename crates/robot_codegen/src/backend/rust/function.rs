@@ -6,6 +6,7 @@ use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
 
 use super::body::Body;
 use super::doc;
+use super::kernel::{self, Choice};
 use super::namer::{Namer, derived, identifier};
 use super::number::Number;
 use super::outputs;
@@ -25,7 +26,9 @@ const INLINE_LIMIT: usize = 2000;
 pub(super) struct Names {
     pub(super) plain: Ident,
     pub(super) sc: Ident,
-    out_of_line: Ident,
+    /// The plain method and that of sines and cosines as kernels call them.
+    with: Ident,
+    sc_with: Ident,
     angles: Ident,
 }
 
@@ -34,7 +37,8 @@ impl Names {
         Names {
             plain: plain.clone(),
             sc: derived(namer, plain, "sc"),
-            out_of_line: derived(namer, plain, "apart"),
+            with: derived(namer, plain, "with"),
+            sc_with: derived(namer, plain, "sc_with"),
             angles: derived(namer, plain, "angles"),
         }
     }
@@ -45,15 +49,18 @@ pub(super) fn items(scope: &mut Scope<'_>, function: &Function, plain: &Ident) -
     let mut items = vec![];
     items.extend(outputs::type_item(scope, function, scope.options.generic));
     let number = scope.number.clone();
+    let dispatched = kernel::is_dispatched(function, &scope.options.limits);
+    let fused = dispatched && kernel::is_fused(function);
+    let chosen = if fused { number.with_arithmetic() } else { number.clone() };
     let mut methods = vec![];
-    let mut printer = Methods::new(scope, function, &number, plain);
+    let mut printer = Methods::new(scope, function, &chosen, plain, dispatched);
     methods.extend(printer.all());
     if let Some(lanes) = printer.scope.options.batch {
         methods.extend(printer.batch(lanes));
     }
     if scope.options.generic {
         let generic = derived(&mut scope.methods, plain, "generic");
-        methods.extend(Methods::new(scope, function, &number.generic(), &generic).all());
+        methods.extend(Methods::new(scope, function, &number.generic(), &generic, false).all());
     }
     items.push(syntax::impl_model(methods));
     if !scope.has_parameters() {
@@ -68,6 +75,8 @@ pub(super) struct Methods<'s, 'a> {
     pub(super) function: &'s Function,
     pub(super) number: &'s Number,
     pub(super) names: Names,
+    /// Whether it is compiled for several processors.
+    pub(super) dispatched: bool,
 }
 
 /// The statements of a program, its results, and the functions of its parts.
@@ -83,56 +92,49 @@ impl<'s, 'a> Methods<'s, 'a> {
         function: &'s Function,
         number: &'s Number,
         plain: &Ident,
+        dispatched: bool,
     ) -> Methods<'s, 'a> {
         let names = Names::new(&mut scope.methods, plain);
-        Methods { scope, function, number, names }
+        Methods { scope, function, number, names, dispatched }
     }
 
     fn all(&mut self) -> Vec<ImplItem> {
         if self.function.angles.results().is_empty() {
             return self.arithmetic();
         }
-        let mut methods = vec![self.whole()];
+        let mut methods = self.whole();
         if !self.has_plain_angles() {
             methods.extend(self.angles());
         }
         methods.extend(self.arithmetic_of_angles());
-        methods.extend(self.has_method_out_of_line().then(|| self.method_out_of_line()));
         methods
     }
 
-    /// Whether the arithmetic stays out of line if single states are computed, on x86-64 with
-    /// multiply-adds: after calls of the library's sine and cosine, over which LLVM can keep nothing in
-    /// registers, it comes out 3 to 7 % slower inlined, if it has more inputs than them. Without
-    /// multiply-adds LLVM makes vectors of sines that were stored a moment ago, and waits for them
-    /// (`docs/performance.md`).
-    fn is_out_of_line(&self) -> bool {
-        let function = self.function;
-        let calls = self.scope.options.trigonometry == Trigonometry::Standard;
-        calls && used_inputs(function, &function.core).contains(&true)
+    /// Whether sines and cosines are calls of the standard library: these stay outside of kernels.
+    fn has_calls(&self) -> bool {
+        self.scope.options.trigonometry == Trigonometry::Standard
     }
 
-    /// Whether that takes a method of its own, for loops need the arithmetic inlined.
-    fn has_method_out_of_line(&self) -> bool {
-        self.is_out_of_line() && self.is_in_loops()
+    /// The choice of the arithmetic after sines and cosines of the standard library. After these calls, over
+    /// which LLVM can keep nothing in registers, it is 3 to 7 % slower inlined where multiply-adds are compiled
+    /// in, if it has more inputs than them (`docs/performance.md`).
+    fn choice_after_calls(&self) -> Choice {
+        let function = self.function;
+        let more = used_inputs(function, &function.core).contains(&true);
+        if more { Choice::Apart } else { Choice::Call }
     }
 
-    /// The arithmetic out of line.
-    fn method_out_of_line(&mut self) -> ImplItem {
-        let function = self.function;
-        let variables = Variables::new(self.scope, function);
-        let used = used_inputs(function, &function.core);
-        let parameters = self.sc_parameters(&variables, &used);
-        let (s, c) = (&variables.sines, &variables.cosines);
-        let (name, method) = (&self.names.out_of_line, &self.names.sc);
-        let arguments = variables.chosen(&used);
-        let returned = outputs::returned(self.scope, function, self.number);
-        let inline = out_of_line(&quote!(inline(always)));
-        parse_quote! {
-            #inline
-            fn #name(&self, #(#parameters),*) -> #returned {
-                self.#method(#s, #c, #(#arguments),*)
-            }
+    /// The arithmetic as kernels and loops call it, and its type argument.
+    pub(super) fn arithmetic_method(&self) -> TokenStream {
+        let Names { plain, sc, with, sc_with, .. } = &self.names;
+        let without_angles = self.function.angles.results().is_empty();
+        let argument = self.arithmetic_argument();
+        match (self.dispatched, without_angles) {
+            (false, true) => quote!(#plain),
+            (false, false) => quote!(#sc),
+            (true, true) => quote!(#with #argument),
+            (true, false) if self.has_calls() || argument.is_some() => quote!(#sc_with #argument),
+            (true, false) => quote!(#sc),
         }
     }
 
@@ -143,25 +145,38 @@ impl<'s, 'a> Methods<'s, 'a> {
     }
 
     /// From the inputs: the angles, their sines and cosines, and the arithmetic.
-    fn whole(&mut self) -> ImplItem {
+    fn whole(&mut self) -> Vec<ImplItem> {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
         let in_core = used_inputs(function, &function.core);
         let in_angles = used_inputs(function, &function.angles);
         let used: Vec<bool> = in_core.iter().zip(&in_angles).map(|(a, b)| *a || *b).collect();
-        let mut statements = variables.ignore(&used);
         let (takes, angles) = self.angles_argument(&mut variables);
-        statements.extend(takes);
         let circular = self.number.circular_array();
         let (s, c) = (&variables.sines, &variables.cosines);
-        statements.push(parse_quote!(let (#s, #c) = #circular(#angles);));
-        let method =
-            if self.has_method_out_of_line() { &self.names.out_of_line } else { &self.names.sc };
         let arguments = variables.chosen(&in_core);
+        let mut statements = takes;
+        statements.push(parse_quote!(let (#s, #c) = #circular(#angles);));
+        let (plain, docs) = (self.names.plain.clone(), self.doc());
+        let all = self.input_parameters(&variables, &vec![true; used.len()]);
+        let ignored = variables.ignore(&used);
+        if !self.dispatched || self.has_calls() {
+            let sc = &self.names.sc;
+            let value = parse_quote!(self.#sc(&#s, &#c, #(#arguments),*));
+            let statements = ignored.into_iter().chain(statements).collect();
+            return vec![self.method(&plain, &docs, &all, statements, value)];
+        }
+        let method = self.arithmetic_method();
         let value = parse_quote!(self.#method(&#s, &#c, #(#arguments),*));
-        let parameters = self.input_parameters(&variables, &vec![true; used.len()]);
-        let docs = self.doc();
-        self.method(&self.names.plain, &docs, &parameters, statements, value)
+        let (with, handed) = (self.names.with.clone(), self.handed(&variables, &used, &[]));
+        let returned = outputs::returned(self.scope, function, self.number);
+        let (kernel, call) = self.kernel(Choice::Call, &variables, &handed, &with, &returned);
+        let parameters = self.input_parameters(&variables, &used);
+        let kernel = ignored.into_iter().chain(kernel).collect();
+        vec![
+            self.method(&plain, &docs, &all, kernel, call),
+            self.private(&with, &parameters, statements, value),
+        ]
     }
 
     /// `&[q1, q2]` and the statements before it, or a call of the method of the angles.
@@ -170,7 +185,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         if self.has_plain_angles() {
             let takes = variables.take_entries(function, &function.angles);
             let name = self.names.plain.clone();
-            let array = syntax::array(self.print(&function.angles, variables, &name).results);
+            let array = syntax::array(self.print_angles(variables, &name).results);
             return (takes, parse_quote!(&#array));
         }
         let used = used_inputs(function, &function.angles);
@@ -184,7 +199,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let mut variables = Variables::new(self.scope, function);
         let used = used_inputs(function, &function.angles);
         let mut statements = variables.take_entries(function, &function.angles);
-        let printed = self.print(&function.angles, &mut variables, &name);
+        let printed = self.print_angles(&mut variables, &name);
         statements.extend(printed.statements);
         let text = format!("The angles whose sines and cosines `{}` uses, in rad.", self.names.sc);
         let docs = doc::attributes(&[text]);
@@ -210,7 +225,17 @@ impl<'s, 'a> Methods<'s, 'a> {
         let parameters = self.input_parameters(&variables, &vec![true; used.len()]);
         let (name, docs) = (self.names.plain.clone(), self.doc());
         let statements = variables.ignore(&used);
-        self.core(variables, &name, &docs, &parameters, statements)
+        if !self.dispatched {
+            return self.core(variables, &name, &docs, &parameters, statements);
+        }
+        let handed = self.handed(&variables, &used, &[]);
+        let with = self.names.with.clone();
+        let chosen = self.input_parameters(&variables, &used);
+        let returned = outputs::returned(self.scope, function, self.number);
+        let (kernel, call) = self.kernel(Choice::Call, &variables, &handed, &with, &returned);
+        let kernel = statements.into_iter().chain(kernel).collect();
+        let public = self.method(&name, &docs, &parameters, kernel, call);
+        [public].into_iter().chain(self.core(variables, &with, &[], &chosen, vec![])).collect()
     }
 
     /// The arithmetic, with sines and cosines given.
@@ -221,7 +246,24 @@ impl<'s, 'a> Methods<'s, 'a> {
         let parameters = self.sc_parameters(&variables, &used);
         let (name, docs) = (self.names.sc.clone(), self.sc_doc());
         let statements = variables.take_angles(&function.core).to_vec();
-        self.core(variables, &name, &docs, &parameters, statements)
+        let with = self.names.sc_with.clone();
+        let returned = outputs::returned(self.scope, function, self.number);
+        let public = if self.dispatched && self.has_calls() {
+            let first = [&variables.sines, &variables.cosines];
+            let handed = self.handed(&variables, &used, &first);
+            let choice = self.choice_after_calls();
+            let (kernel, call) = self.kernel(choice, &variables, &handed, &with, &returned);
+            self.method(&name, &docs, &parameters, kernel, call)
+        } else if self.number.has_arithmetic() {
+            let (runtime, arguments) = (self.number.runtime(), variables.chosen(&used));
+            let (s, c) = (&variables.sines, &variables.cosines);
+            let call = parse_quote!(self.#with::<#runtime::Compiled>(#s, #c, #(#arguments),*));
+            self.method(&name, &docs, &parameters, vec![], call)
+        } else {
+            return self.core(variables, &name, &docs, &parameters, statements);
+        };
+        let core = self.core(variables, &with, &[], &parameters, statements);
+        [public].into_iter().chain(core).collect()
     }
 
     /// Sines, cosines, and the inputs used besides.
@@ -245,13 +287,35 @@ impl<'s, 'a> Methods<'s, 'a> {
         let printed = self.print(&function.core, &mut variables, name);
         statements.extend(printed.statements);
         let value = outputs::value(self.scope, function, printed.results);
-        let method = self.method(name, docs, parameters, statements, value);
+        let method = if docs.is_empty() {
+            self.private(name, parameters, statements, value)
+        } else {
+            self.method(name, docs, parameters, statements, value)
+        };
         [method].into_iter().chain(printed.parts).collect()
     }
 
     fn print(&mut self, program: &Program, variables: &mut Variables, name: &Ident) -> Printed {
+        let number = self.number.clone();
+        self.print_with(&number, program, variables, name)
+    }
+
+    /// The angles: sums, computed as the target is compiled for.
+    fn print_angles(&mut self, variables: &mut Variables, name: &Ident) -> Printed {
+        let number = self.number.without_arithmetic();
+        let function = self.function;
+        self.print_with(&number, &function.angles, variables, name)
+    }
+
+    fn print_with(
+        &mut self,
+        number: &Number,
+        program: &Program,
+        variables: &mut Variables,
+        name: &Ident,
+    ) -> Printed {
         let mut namer = std::mem::take(&mut variables.namer);
-        let (number, fields) = (self.number, self.scope.fields.clone());
+        let fields = self.scope.fields.clone();
         let source_name = |source: Source| variables.name(source);
         let load = |source: Source| match source {
             Source::Field(index) => number.field(&fields[index as usize]),
@@ -281,16 +345,30 @@ impl<'s, 'a> Methods<'s, 'a> {
     ) -> ImplItem {
         let docs = doc::attributes(docs);
         let (generics, clause) = (self.number.generics(), self.number.where_clause());
-        let out_of_line_here =
-            *name == self.names.sc && self.is_out_of_line() && !self.is_in_loops();
-        let inline =
-            if out_of_line_here { Some(out_of_line(&quote!(inline))) } else { self.inline() };
+        let inline = self.inline();
         let returned = outputs::returned(self.scope, self.function, self.number);
         let signature = parse_quote! {
             #(#docs)*
             #inline
             #[must_use]
             pub fn #name #generics (&self, #(#parameters),*) -> #returned #clause {}
+        };
+        syntax::with_body(signature, statements, value)
+    }
+
+    /// A method that kernels call, inlined into each.
+    fn private(
+        &self,
+        name: &Ident,
+        parameters: &[TokenStream],
+        statements: Vec<Stmt>,
+        value: Expr,
+    ) -> ImplItem {
+        let generics = self.arithmetic_parameter();
+        let returned = outputs::returned(self.scope, self.function, self.number);
+        let signature = parse_quote! {
+            #[inline(always)]
+            fn #name #generics (&self, #(#parameters),*) -> #returned {}
         };
         syntax::with_body(signature, statements, value)
     }
@@ -350,7 +428,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
         let name = self.names.angles.clone();
-        let printed = self.print(&function.angles, &mut variables, &name);
+        let printed = self.print_angles(&mut variables, &name);
         if printed.statements.is_empty() {
             let texts =
                 printed.results.iter().map(|angle| format!("`{}`", angle.to_token_stream()));
@@ -358,14 +436,6 @@ impl<'s, 'a> Methods<'s, 'a> {
         } else {
             vec![format!("those of `{name}`")]
         }
-    }
-}
-
-/// Out of line on x86-64 with multiply-adds, elsewhere as said.
-fn out_of_line(elsewhere: &TokenStream) -> TokenStream {
-    quote! {
-        #[cfg_attr(target_feature = "fma", inline(never))]
-        #[cfg_attr(not(target_feature = "fma"), #elsewhere)]
     }
 }
 

@@ -15,6 +15,8 @@ pub(super) struct Number {
     stored: Scalar,
     runtime: syn::Path,
     trigonometry: Trigonometry,
+    /// Whether multiply-adds and polynomials are those of the type parameter `A`.
+    arithmetic: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +37,22 @@ impl Number {
             stored: scalar,
             runtime: runtime.clone(),
             trigonometry,
+            arithmetic: false,
         }
+    }
+
+    /// The number with the multiply-adds and polynomials of the type parameter `A`.
+    pub(super) fn with_arithmetic(&self) -> Number {
+        Number { arithmetic: true, ..self.clone() }
+    }
+
+    /// The number as the target is compiled for.
+    pub(super) fn without_arithmetic(&self) -> Number {
+        Number { arithmetic: false, ..self.clone() }
+    }
+
+    pub(super) fn has_arithmetic(&self) -> bool {
+        self.arithmetic
     }
 
     /// The literal for any scalar of the runtime.
@@ -102,6 +119,11 @@ impl Number {
         parse_quote!(#runtime::Scalar::#name)
     }
 
+    /// The multiply-add.
+    pub(super) fn mul_add(&self) -> Expr {
+        if self.arithmetic { parse_quote!(A::mul_add) } else { self.method("mul_add") }
+    }
+
     /// The reciprocal of what is positive: of a float by a function that is `const`, for constructors.
     pub(super) fn recip_positive(&self) -> Expr {
         let runtime = &self.runtime;
@@ -131,7 +153,18 @@ impl Number {
         let runtime = &self.runtime;
         match self.trigonometry {
             Trigonometry::Standard => parse_quote!(#runtime::std_sin_cos_array),
+            Trigonometry::Polynomial if self.arithmetic => parse_quote!(A::sin_cos_array),
             Trigonometry::Polynomial => parse_quote!(#runtime::sin_cos_array),
+        }
+    }
+
+    /// The same by polynomials, for the body of a loop over states.
+    pub(super) fn circular_each(&self) -> Expr {
+        let runtime = &self.runtime;
+        if self.arithmetic {
+            parse_quote!(A::sin_cos_each)
+        } else {
+            parse_quote!(#runtime::sin_cos_each)
         }
     }
 }

@@ -53,7 +53,7 @@ impl<'a> Scope<'a> {
     pub(super) fn new(module: &'a Module, options: &'a RustOptions) -> Result<Scope<'a>, Errors> {
         let runtime = runtime_path(&options.runtime)?;
         check_range(module, options.scalar)?;
-        let mut values = Namer::with(&["Model", "Parameters", "T"]);
+        let mut values = Namer::with(&["Model", "Parameters", "T", "A", "Kernel"]);
         let constants = options.constants.iter();
         let constants = constants.map(|item| values.name(&item.name.to_uppercase())).collect();
         let output_type = |function: &Function| {

@@ -61,14 +61,14 @@ pub(crate) fn in_blocks<const BLOCK: usize, T: Scalar, const N: usize>(
     angles: &[T; N],
     function: impl Fn(T) -> (T, T),
 ) -> ([T; N], [T; N]) {
-    if N < 2 {
+    if const { N < 2 } {
         return one_by_one(angles, function);
     }
-    if !VECTORS {
+    if const { !VECTORS } {
         return one_by_one(angles, |angle| out_of_line(angle, &function));
     }
     let (mut sines, mut cosines) = ([T::ZERO; N], [T::ZERO; N]);
-    if N <= BLOCK {
+    if const { N <= BLOCK } {
         let mut padded = [T::ZERO; BLOCK];
         copy(angles, &mut padded);
         let block = one_by_one(&padded, function);
@@ -81,7 +81,7 @@ pub(crate) fn in_blocks<const BLOCK: usize, T: Scalar, const N: usize>(
         block_out_of_line(angles, sines, cosines, &function);
     }
     let last = (angles.last_chunk::<BLOCK>(), sines.last_chunk_mut(), cosines.last_chunk_mut());
-    if let (false, (Some(angles), Some(sines), Some(cosines))) = (N % BLOCK == 0, last) {
+    if let (true, (Some(angles), Some(sines), Some(cosines))) = (N / BLOCK * BLOCK < N, last) {
         block_out_of_line(angles, sines, cosines, &function);
     }
     (sines, cosines)
@@ -104,7 +104,7 @@ fn block_out_of_line<T: Scalar, const BLOCK: usize>(
 
 /// The elements that both have; unlike `copy_from_slice` it knows no panic.
 #[inline(always)]
-fn copy<T: Copy>(from: &[T], to: &mut [T]) {
+pub(crate) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
     }

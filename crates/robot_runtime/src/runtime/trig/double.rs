@@ -21,7 +21,8 @@
 //! error: see the table of the crate. From there on, and for the infinities and NaN, both are NaN,
 //! by a mask of x's own bits. The sine of −0 is +0.
 
-use super::super::fused::{FUSED, mul_add_f64};
+use super::super::fused::FUSED;
+use super::super::number::Number;
 
 /// Angles are of less than so many radians.
 pub const LIMIT: f64 = 1073741824.0;
@@ -58,70 +59,47 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of `angle` (radians).
 #[inline(always)]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    compute::<FUSED>(angle)
+    compute::<FUSED, _>(angle)
 }
 
 /// Sine and cosine of `angle` (radians) with multiply-adds that round twice on every target: the bits
 /// of [`sin_cos`] if there is no [`FUSED`].
 #[inline(always)]
 pub fn portable_sin_cos(angle: f64) -> (f64, f64) {
-    compute::<false>(angle)
+    compute::<false, _>(angle)
 }
 
+/// Sine and cosine of one angle or of several side by side, with multiply-adds that round once if
+/// `ONCE`.
 #[inline(always)]
-fn mul_add<const ONCE: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if ONCE { mul_add_f64(a, b, c) } else { a * b + c }
-}
-
-#[inline(always)]
-fn compute<const ONCE: bool>(angle: f64) -> (f64, f64) {
-    let shifted = mul_add::<ONCE>(angle, core::f64::consts::FRAC_2_PI, SHIFT);
-    let (r, rest) = reduce::<ONCE>(nan_beyond_limit(angle), shifted - SHIFT);
+pub(in super::super) fn compute<const ONCE: bool, V: Number<f64>>(angle: V) -> (V, V) {
+    let shift = V::splat(SHIFT);
+    let shifted = angle.multiply_add::<ONCE>(V::splat(core::f64::consts::FRAC_2_PI), shift);
+    let (r, rest) = reduce::<ONCE, V>(angle.nan_unless_below(LIMIT), shifted - shift);
 
     let z = r * r;
-    let sine = r + mul_add::<ONCE>(r * z, polynomial::<ONCE>(&SINE, z), -rest);
-    let cosine = mul_add::<ONCE>(z, polynomial::<ONCE>(&COSINE, z), -0.5);
-    select(shifted.to_bits(), sine, mul_add::<ONCE>(z, cosine, 1.0))
-}
-
-/// `angle`, and NaN if it is not below the limit, by a mask that waits for nothing but the angle. The
-/// sum's sign is the carry: LLVM turns what it sees to be a comparison into a jump.
-#[inline(always)]
-fn nan_beyond_limit(angle: f64) -> f64 {
-    const SIGN: u64 = 1 << (u64::BITS - 1);
-    let carried = angle.abs().to_bits().wrapping_add(SIGN - LIMIT.to_bits());
-    let beyond = carried as i64 >> (u64::BITS - 1);
-    f64::from_bits(angle.to_bits() | beyond as u64)
+    let sine = r + (r * z).multiply_add::<ONCE>(polynomial::<ONCE, V>(&SINE, z), -rest);
+    let cosine = z.multiply_add::<ONCE>(polynomial::<ONCE, V>(&COSINE, z), V::splat(-0.5));
+    shifted.turned(sine, z.multiply_add::<ONCE>(cosine, V::splat(1.0)))
 }
 
 /// `angle` less `k` right angles, as a number less a rest that counts if the number is tiny.
 #[inline(always)]
-fn reduce<const ONCE: bool>(angle: f64, k: f64) -> (f64, f64) {
+fn reduce<const ONCE: bool, V: Number<f64>>(angle: V, k: V) -> (V, V) {
+    let less = |angle: V, part: f64| k.multiply_add::<ONCE>(V::splat(-part), angle);
     if ONCE {
-        let r = mul_add::<ONCE>(k, -HALF_PI[0], angle);
-        return (mul_add::<ONCE>(k, -HALF_PI[1], r), k * HALF_PI[2]);
+        let r = less(less(angle, HALF_PI[0]), HALF_PI[1]);
+        return (r, k * V::splat(HALF_PI[2]));
     }
-    let r = mul_add::<ONCE>(k, -SHORT_HALF_PI[0], angle);
-    let r = mul_add::<ONCE>(k, -SHORT_HALF_PI[1], r);
-    (mul_add::<ONCE>(k, -SHORT_HALF_PI[2], r), k * SHORT_HALF_PI[3])
+    let r = less(less(angle, SHORT_HALF_PI[0]), SHORT_HALF_PI[1]);
+    (less(r, SHORT_HALF_PI[2]), k * V::splat(SHORT_HALF_PI[3]))
 }
 
 /// The coefficients' polynomial in Estrin's order, whose parts do not wait for each other.
 #[inline(always)]
-fn polynomial<const ONCE: bool>(c: &[f64; 6], z: f64) -> f64 {
+fn polynomial<const ONCE: bool, V: Number<f64>>(c: &[f64; 6], z: V) -> V {
+    let pair = |low: f64, high: f64| V::splat(high).multiply_add::<ONCE>(z, V::splat(low));
     let z2 = z * z;
-    let low = mul_add::<ONCE>(c[1], z, c[0]);
-    let middle = mul_add::<ONCE>(c[3], z, c[2]);
-    let high = mul_add::<ONCE>(c[5], z, c[4]);
-    mul_add::<ONCE>(mul_add::<ONCE>(high, z2, middle), z2, low)
-}
-
-/// Sine and cosine of r + k·π/2 from those of r; the low bits of `k` count.
-#[inline(always)]
-fn select(k: u64, sine: f64, cosine: f64) -> (f64, f64) {
-    let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
-    let swap = (sine ^ cosine) & (k & 1).wrapping_neg();
-    let sine_sign = (k & 2) << 62;
-    let cosine_sign = (k.wrapping_add(1) & 2) << 62;
-    (f64::from_bits(sine ^ swap ^ sine_sign), f64::from_bits(cosine ^ swap ^ cosine_sign))
+    let (low, middle, high) = (pair(c[0], c[1]), pair(c[2], c[3]), pair(c[4], c[5]));
+    high.multiply_add::<ONCE>(z2, middle).multiply_add::<ONCE>(z2, low)
 }

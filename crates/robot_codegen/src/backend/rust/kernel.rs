@@ -1,0 +1,110 @@
+//! Methods that run on the processor at hand: each is compiled for several, and chooses when it is called.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+use syn::{Expr, Stmt, parse_quote};
+
+use super::function::Methods;
+use super::syntax;
+use super::variables::Variables;
+use crate::module::Function;
+use crate::program::{Limits, Operation, Statements};
+
+/// Functions of fewer operations than this are as fast compiled for any processor.
+const LEAST_OPERATIONS: usize = 16;
+
+/// Whether a function is compiled for several processors: not if it is tiny, and not if it is cut into parts,
+/// whose speed is that of fetching their instructions.
+pub(super) fn is_dispatched(function: &Function, limits: &Limits) -> bool {
+    let operations = function.core.operations().len() + function.angles.operations().len();
+    operations >= LEAST_OPERATIONS && Statements::new(&function.core, limits).parts.len() <= 1
+}
+
+/// Whether a function has operations that round once where the processor can.
+pub(super) fn is_fused(function: &Function) -> bool {
+    let mut operations = function.core.operations().iter();
+    operations.any(|operation| matches!(operation, Operation::MulAdd(..)))
+}
+
+/// The choice that a method makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Choice {
+    /// Inlined if there is nothing to choose.
+    Call,
+    /// Never inlined where multiply-adds are compiled in: after calls of the library's sine and cosine.
+    Apart,
+    /// Never inlined, with the widest vectors: a block of states.
+    Block,
+}
+
+/// What a method hands to its kernel.
+pub(super) struct Handed<'h> {
+    /// The names of the arguments.
+    pub(super) names: Vec<&'h Ident>,
+    /// Their types, with the lifetime `'a` in references.
+    pub(super) types: Vec<TokenStream>,
+}
+
+impl Methods<'_, '_> {
+    /// The statement and the value of a method that runs `method` as a kernel.
+    pub(super) fn kernel(
+        &self,
+        choice: Choice,
+        variables: &Variables,
+        handed: &Handed<'_>,
+        method: &Ident,
+        returned: &syn::Type,
+    ) -> (Vec<Stmt>, Expr) {
+        let runtime = self.number.runtime();
+        let Handed { names, types } = handed;
+        let model = variables.namer.clone().name("model");
+        let dispatch = match choice {
+            Choice::Call => quote!(dispatch),
+            Choice::Apart => quote!(dispatch_apart),
+            Choice::Block => quote!(dispatch_block),
+        };
+        let arithmetic = self.arithmetic_argument();
+        let statements = vec![
+            parse_quote!(struct Kernel<'a>(&'a Model, #(#types),*);),
+            parse_quote! {
+                impl #runtime::Kernel for Kernel<'_> {
+                    type Output = #returned;
+                    #[inline(always)]
+                    fn run<A: #runtime::Arithmetic>(self) -> #returned {
+                        let Kernel(#model, #(#names),*) = self;
+                        #model.#method #arithmetic(#(#names),*)
+                    }
+                }
+            },
+        ];
+        (statements, parse_quote!(#runtime::#dispatch(Kernel(self, #(#names),*))))
+    }
+
+    /// `::<A>` in a kernel whose multiply-adds follow the processor.
+    pub(super) fn arithmetic_argument(&self) -> Option<TokenStream> {
+        self.number.has_arithmetic().then(|| quote!(::<A>))
+    }
+
+    /// `<A: Arithmetic>` of a method that such a kernel calls.
+    pub(super) fn arithmetic_parameter(&self) -> Option<TokenStream> {
+        let runtime = self.number.runtime();
+        self.number.has_arithmetic().then(|| quote!(<A: #runtime::Arithmetic>))
+    }
+
+    /// The inputs that are chosen, handed by reference.
+    pub(super) fn handed<'v>(
+        &self,
+        variables: &'v Variables,
+        include: &[bool],
+        first: &[&'v Ident],
+    ) -> Handed<'v> {
+        let ty = self.number.ty();
+        let angles = syntax::array_type(&ty, self.function.angles.results().len());
+        let lengths = self.function.inputs.iter().zip(include).filter(|(_, include)| **include);
+        let arrays = lengths.map(|(input, _)| syntax::array_type(&ty, input.symbols.len()));
+        let arrays = first.iter().map(|_| angles.clone()).chain(arrays);
+        let mut names = first.to_vec();
+        names.extend(variables.chosen(include));
+        Handed { names, types: arrays.map(|array| quote!(&'a #array)).collect() }
+    }
+}

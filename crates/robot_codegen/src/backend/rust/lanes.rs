@@ -1,0 +1,258 @@
+//! A block of states: one loop whose body is the whole function.
+//!
+//! LLVM's loop vectoriser turns it into vectors of states, whatever the order of the statements, where its
+//! vectoriser of straight-line code would find vectors or not by chance.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+use syn::{Expr, ImplItem, Stmt, Type, parse_quote};
+
+use super::batch::{BatchNames, Layout, Slices};
+use super::doc;
+use super::function::Methods;
+use super::kernel::{Choice, Handed};
+use super::outputs;
+use super::syntax;
+use crate::backend::common::used_inputs;
+use crate::trigonometry::Trigonometry;
+
+impl Methods<'_, '_> {
+    /// What computes a block.
+    pub(super) fn of_block(
+        &mut self,
+        slices: &mut Slices,
+        names: &BatchNames,
+        layout: Layout,
+    ) -> Vec<ImplItem> {
+        let returned = self.block_type(slices, layout);
+        let (parameters, types) = self.block_parameters(slices, layout);
+        let loops = self.loops(slices, layout);
+        let outputs = slices.output_names().into_iter().map(syntax::variable).collect();
+        let value = syntax::tuple(outputs);
+        let (method, with) = names.of(layout);
+        if !self.dispatched {
+            let signature = parse_quote! {
+                #[inline(never)]
+                fn #method(&self, #(#parameters),*) -> #returned {}
+            };
+            return vec![syntax::with_body(signature, loops, value)];
+        }
+        let handed = Handed { names: slices.used().collect(), types };
+        let (kernel, call) =
+            self.kernel(Choice::Block, &slices.variables, &handed, with, &returned);
+        let signature = parse_quote! {
+            #[inline(always)]
+            fn #method(&self, #(#parameters),*) -> #returned {}
+        };
+        let chooses = syntax::with_body(signature, kernel, call);
+        let generics = self.arithmetic_parameter();
+        let signature = parse_quote! {
+            #[inline(always)]
+            fn #with #generics (&self, #(#parameters),*) -> #returned {}
+        };
+        vec![chooses, syntax::with_body(signature, loops, value)]
+    }
+
+    /// The method of one block in memory.
+    pub(super) fn block(&self, slices: &Slices, names: &BatchNames) -> ImplItem {
+        let lanes = self.lane_array(slices);
+        let parameters = slices.inputs.iter().map(|(name, length, _)| {
+            let block = syntax::array_type(&lanes, *length);
+            quote!(#name: &#block)
+        });
+        let unused = slices.inputs.iter().filter(|(_, _, used)| !used).map(|(name, ..)| name);
+        let (used, returned) = (slices.used(), self.block_type(slices, Layout::Lanes));
+        let method = names.of(Layout::Lanes).0;
+        let count = &slices.lanes;
+        let mut text = vec![format!(
+            "`{}` for {count} states side by side: entry i of each array of {count} belongs to state i.",
+            self.names.plain
+        )];
+        let outputs = slices.output_names();
+        if outputs.len() > 1 {
+            let listed: Vec<String> = outputs.iter().map(|name| format!("`{name}`")).collect();
+            text.extend([String::new(), format!("Returns {}.", listed.join(", "))]);
+        }
+        let docs = doc::attributes(&text);
+        let block = &names.block;
+        parse_quote! {
+            #(#docs)*
+            #[inline]
+            #[must_use]
+            pub fn #block(&self, #(#parameters),*) -> #returned {
+                #(let [..] = *#unused;)*
+                self.#method(#(#used.each_ref()),*)
+            }
+        }
+    }
+
+    /// `[f64; 8]`
+    fn lane_array(&self, slices: &Slices) -> Type {
+        let (scalar, lanes) = (self.number.ty(), &slices.lanes);
+        parse_quote!([#scalar; #lanes])
+    }
+
+    /// The outputs of all states.
+    fn block_type(&self, slices: &Slices, layout: Layout) -> Type {
+        let (scalar, array, lanes) = (self.number.ty(), self.lane_array(slices), &slices.lanes);
+        let shapes = slices.outputs.iter().map(|(_, shape)| shape);
+        let types: Vec<Type> = match layout {
+            Layout::Lanes => shapes.map(|shape| syntax::shaped_type(&array, shape)).collect(),
+            Layout::States => {
+                let states = shapes.map(|shape| syntax::shaped_type(&scalar, shape));
+                states.map(|state| parse_quote!([#state; #lanes])).collect()
+            }
+        };
+        match types.as_slice() {
+            [one] => one.clone(),
+            _ => parse_quote!((#(#types),*)),
+        }
+    }
+
+    /// `q: [&[f64; 8]; 6]`, and the types with a lifetime.
+    fn block_parameters(
+        &self,
+        slices: &Slices,
+        layout: Layout,
+    ) -> (Vec<TokenStream>, Vec<TokenStream>) {
+        let (scalar, array, lanes) = (self.number.ty(), self.lane_array(slices), &slices.lanes);
+        let used = slices.inputs.iter().filter(|(_, _, used)| *used);
+        let parameters = used.map(|(name, length, _)| {
+            let length = Literal::usize_unsuffixed(*length);
+            match layout {
+                Layout::Lanes => (quote!(#name: [&#array; #length]), quote!([&'a #array; #length])),
+                Layout::States => (
+                    quote!(#name: &[[#scalar; #length]; #lanes]),
+                    quote!(&'a [[#scalar; #length]; #lanes]),
+                ),
+            }
+        });
+        parameters.unzip()
+    }
+
+    /// The loop over the states of a block.
+    fn loops(&mut self, slices: &mut Slices, layout: Layout) -> Vec<Stmt> {
+        let lanes = slices.lanes.clone();
+        let array = |zero: Expr, length: &Literal| -> Expr { parse_quote!([#zero; #length]) };
+        let zeros = slices.outputs.iter().map(|(name, shape)| -> Stmt {
+            let shape = shape.iter().rev().map(|length| Literal::usize_unsuffixed(*length));
+            let lengths: Vec<Literal> = match layout {
+                Layout::Lanes => [lanes.clone()].into_iter().chain(shape).collect(),
+                Layout::States => shape.chain([lanes.clone()]).collect(),
+            };
+            let zeros = lengths.iter().fold(syntax::float(0.0), array);
+            parse_quote!(let mut #name = #zeros;)
+        });
+        let mut statements: Vec<Stmt> = zeros.collect();
+        if self.function.angles.results().is_empty() {
+            statements.push(self.loop_without_angles(slices, layout));
+            return statements;
+        }
+        match self.scope.options.trigonometry {
+            Trigonometry::Polynomial => statements.push(self.one_loop(slices, layout)),
+            Trigonometry::Standard => statements.extend(self.two_loops(slices, layout)),
+        }
+        statements
+    }
+
+    /// `let q = &lane(q, lane);` for the names.
+    fn states(&self, names: &[&Ident], layout: Layout) -> Vec<Stmt> {
+        let runtime = self.number.runtime();
+        let state = |name: &&Ident| match layout {
+            Layout::Lanes => parse_quote!(let #name = &#runtime::lane(#name, lane);),
+            Layout::States => parse_quote!(let #name = &#runtime::state(#name, lane);),
+        };
+        names.iter().map(state).collect()
+    }
+
+    fn loop_without_angles(&mut self, slices: &Slices, layout: Layout) -> Stmt {
+        let used: Vec<&Ident> = slices.used().collect();
+        let (states, stores) = (self.states(&used, layout), self.stores(slices, layout));
+        let (lanes, method) = (&slices.lanes, self.arithmetic_method());
+        // A method that is not a kernel's takes all inputs.
+        let all = slices.inputs.iter().filter(|(_, _, used)| *used || !self.dispatched);
+        let arguments = all.map(|(name, ..)| name);
+        let unused = slices.inputs.iter().filter(|(_, _, used)| !used && !self.dispatched);
+        let unused = unused.map(|(name, length, _)| -> Stmt {
+            let length = Literal::usize_unsuffixed(*length);
+            parse_quote!(let #name = &[0.0; #length];)
+        });
+        parse_quote! {
+            for lane in 0..#lanes {
+                #(#states)*
+                #(#unused)*
+                let result = self.#method(#(#arguments),*);
+                #(#stores)*
+            }
+        }
+    }
+
+    /// The whole function in one loop.
+    fn one_loop(&mut self, slices: &mut Slices, layout: Layout) -> Stmt {
+        let (takes, angles) = self.angles_argument(&mut slices.variables);
+        let used: Vec<&Ident> = slices.used().collect();
+        let (states, stores) = (self.states(&used, layout), self.stores(slices, layout));
+        let (method, circular) = (self.arithmetic_method(), self.number.circular_each());
+        let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
+        let inputs = slices.variables.chosen(&used_inputs(self.function, &self.function.core));
+        let lanes = &slices.lanes;
+        parse_quote! {
+            for lane in 0..#lanes {
+                #(#states)*
+                #(#takes)*
+                let (#s, #c) = #circular(#angles);
+                let result = self.#method(&#s, &#c, #(#inputs),*);
+                #(#stores)*
+            }
+        }
+    }
+
+    /// Sines and cosines of the standard library in a loop of their own, for they are calls, and a
+    /// loop with calls is not vectorised.
+    fn two_loops(&mut self, slices: &mut Slices, layout: Layout) -> Vec<Stmt> {
+        let function = self.function;
+        let (takes, angles) = self.angles_argument(&mut slices.variables);
+        let angle_inputs = slices.variables.chosen(&used_inputs(function, &function.angles));
+        let angle_states = self.states(&angle_inputs, layout);
+        let inputs = slices.variables.chosen(&used_inputs(function, &function.core));
+        let (states, stores) = (self.states(&inputs, layout), self.stores(slices, layout));
+        let count = Literal::usize_unsuffixed(function.angles.results().len());
+        let (lanes, sin_cos) = (&slices.lanes, self.number.circular_array());
+        let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
+        let method = self.arithmetic_method();
+        vec![
+            parse_quote!(let mut circular = [([0.0; #count], [0.0; #count]); #lanes];),
+            parse_quote! {
+                for (lane, circular) in circular.iter_mut().enumerate() {
+                    #(#angle_states)*
+                    #(#takes)*
+                    *circular = #sin_cos(#angles);
+                }
+            },
+            parse_quote! {
+                for (lane, (#s, #c)) in circular.iter().enumerate() {
+                    #(#states)*
+                    let result = self.#method(#s, #c, #(#inputs),*);
+                    #(#stores)*
+                }
+            },
+        ]
+    }
+
+    /// `State::set_lane(result, &mut tau, lane);`
+    fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Stmt> {
+        let runtime = self.number.runtime();
+        let set: Expr = match layout {
+            Layout::Lanes => parse_quote!(#runtime::State::set_lane),
+            Layout::States => parse_quote!(#runtime::set_state),
+        };
+        let outputs = slices.output_names().into_iter();
+        if self.scope.output_type(self.function).is_none() {
+            return outputs.map(|name| parse_quote!(#set(result, &mut #name, lane);)).collect();
+        }
+        let stores = outputs.zip(outputs::fields(self.function));
+        let store =
+            |(name, field)| -> Stmt { parse_quote!(#set(result.#field, &mut #name, lane);) };
+        stores.map(store).collect()
+    }
+}

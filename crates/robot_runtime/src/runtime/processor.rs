@@ -1,0 +1,229 @@
+//! Code compiled for several processors in one program, and the choice between them when it runs.
+//!
+//! A program for any x86-64 may use neither multiply-adds nor registers of 256 bits, and loses half of the
+//! speed. [`dispatch`] runs a [`Kernel`] compiled for the processor at hand: with feature `std`, on
+//! x86-64, if the program as a whole is not compiled for such processors anyway.
+
+#![allow(unsafe_code)]
+
+use super::real::Real;
+
+/// A computation that is compiled for several processors.
+pub trait Kernel {
+    /// The result.
+    type Output;
+
+    /// The computation; `#[inline(always)]`, or it is compiled for the oldest processor only. The
+    /// multiply-adds and sines that may round once are those of `A`.
+    fn run<A: Arithmetic>(self) -> Self::Output;
+}
+
+/// What a kernel computes with on one kind of processor; [`Compiled`] where it is not dispatched.
+pub trait Arithmetic: sealed::Sealed {
+    /// `a · b + c`, in one instruction with one rounding if the processor has it.
+    fn mul_add<T: Real>(a: T, b: T, c: T) -> T;
+
+    /// [`sin_cos_array`](super::sin_cos_array) with such multiply-adds.
+    fn sin_cos_array<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
+
+    /// [`sin_cos_each`](super::sin_cos_each) with such multiply-adds.
+    fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// The arithmetic of the target that the program is compiled for: fused if [`FUSED`](super::FUSED).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Compiled;
+
+impl sealed::Sealed for Compiled {}
+
+impl Arithmetic for Compiled {
+    #[inline(always)]
+    fn mul_add<T: Real>(a: T, b: T, c: T) -> T {
+        T::mul_add(a, b, c)
+    }
+
+    #[inline(always)]
+    fn sin_cos_array<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+        super::sin_cos_array(angles)
+    }
+
+    #[inline(always)]
+    fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+        super::sin_cos_each(angles)
+    }
+}
+
+/// `kernel` on the processor at hand: with AVX2 and fused multiply-adds if it has them.
+///
+/// The choice is one load and one branch; the kernel then is a function that is not inlined. Where
+/// there is nothing to choose, it is inlined and runs as [`Compiled`].
+#[inline(always)]
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(all(
+        feature = "std",
+        target_arch = "x86_64",
+        not(all(target_feature = "avx2", target_feature = "fma"))
+    ))]
+    return x86::dispatch(kernel);
+    #[cfg(not(all(
+        feature = "std",
+        target_arch = "x86_64",
+        not(all(target_feature = "avx2", target_feature = "fma"))
+    )))]
+    kernel.run::<Compiled>()
+}
+
+/// [`dispatch`] for a kernel that follows calls of the standard library's sine and cosine: on x86-64 never inlined
+/// where multiply-adds are compiled in.
+#[inline(always)]
+pub fn dispatch_apart<K: Kernel>(kernel: K) -> K::Output {
+    if cfg!(all(target_arch = "x86_64", target_feature = "fma")) {
+        return apart(kernel);
+    }
+    dispatch(kernel)
+}
+
+/// [`dispatch`] for a loop over states, with AVX-512 too; never inlined, for the body of such a loop
+/// is vectorised only in a function of its own.
+#[inline(always)]
+pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
+    return x86::dispatch_block(kernel);
+    #[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f"))))]
+    apart(kernel)
+}
+
+/// `kernel` as it is compiled for the target, out of line.
+#[inline(never)]
+fn apart<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run::<Compiled>()
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
+mod x86 {
+    extern crate std;
+
+    use core::sync::atomic::{AtomicU8, Ordering};
+    use std::is_x86_feature_detected;
+
+    use super::super::real::Real;
+    use super::{Arithmetic, Kernel, apart, sealed};
+
+    /// Not asked yet, or nothing beyond what every x86-64 has.
+    const PLAIN: u8 = 0;
+    /// AVX2 and fused multiply-adds.
+    const AVX2: u8 = 1;
+    /// AVX-512 besides: its foundation, its double words and its shorter vectors.
+    const AVX512: u8 = 2;
+
+    /// What the processor has, once somebody asked.
+    static LEVEL: AtomicU8 = AtomicU8::new(PLAIN);
+
+    #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
+    #[inline(always)]
+    pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+        if LEVEL.load(Ordering::Relaxed) >= AVX2 {
+            // SAFETY: the processor was asked.
+            return unsafe { with_avx2(kernel) };
+        }
+        undecided(kernel)
+    }
+
+    #[inline(always)]
+    pub(super) fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
+        if LEVEL.load(Ordering::Relaxed) == AVX512 {
+            // SAFETY: the processor was asked.
+            return unsafe { with_avx512(kernel) };
+        }
+        undecided_block(kernel)
+    }
+
+    /// Asks the processor, in the first call; in each call where it has nothing to choose.
+    #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
+    #[inline(never)]
+    fn undecided<K: Kernel>(kernel: K) -> K::Output {
+        if ask() >= AVX2 {
+            // SAFETY: the processor was asked.
+            return unsafe { with_avx2(kernel) };
+        }
+        apart(kernel)
+    }
+
+    #[inline(never)]
+    fn undecided_block<K: Kernel>(kernel: K) -> K::Output {
+        match ask() {
+            // SAFETY: the processor was asked.
+            AVX512 => unsafe { with_avx512(kernel) },
+            #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
+            AVX2 => unsafe { with_avx2(kernel) },
+            _ => apart(kernel),
+        }
+    }
+
+    #[inline(never)]
+    fn ask() -> u8 {
+        let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+        let avx512 = is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512vl");
+        let level = match (avx2, avx512) {
+            (true, true) => AVX512,
+            (true, false) => AVX2,
+            _ => PLAIN,
+        };
+        LEVEL.store(level, Ordering::Relaxed);
+        level
+    }
+
+    /// `kernel` with AVX2 and fused multiply-adds.
+    ///
+    /// # Safety
+    ///
+    /// The processor has both.
+    #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
+    #[target_feature(enable = "avx2,fma")]
+    #[inline(never)]
+    unsafe fn with_avx2<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run::<Fused>()
+    }
+
+    /// `kernel` with AVX-512.
+    ///
+    /// # Safety
+    ///
+    /// The processor has its foundation, its double words and its shorter vectors, AVX2 and fused
+    /// multiply-adds.
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    #[inline(never)]
+    unsafe fn with_avx512<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run::<Fused>()
+    }
+
+    /// The arithmetic of a processor with AVX2 and fused multiply-adds. Nothing outside of this file can
+    /// name it, so that a kernel meets it only where the processor has both.
+    pub(super) struct Fused;
+
+    impl sealed::Sealed for Fused {}
+
+    impl Arithmetic for Fused {
+        #[inline(always)]
+        fn mul_add<T: Real>(a: T, b: T, c: T) -> T {
+            // SAFETY: here and below, see the type.
+            unsafe { T::mul_add_once(a, b, c) }
+        }
+
+        #[inline(always)]
+        fn sin_cos_array<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+            unsafe { T::sin_cos_array_once(angles) }
+        }
+
+        #[inline(always)]
+        fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
+            unsafe { T::sin_cos_each_once(angles) }
+        }
+    }
+}

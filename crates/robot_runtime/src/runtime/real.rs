@@ -1,0 +1,81 @@
+//! The floating-point numbers themselves, with what they compute on processors that have been asked.
+
+#![allow(unsafe_code)]
+
+use super::number::Number;
+use super::scalar::Scalar;
+use super::trig::{block, double, single};
+
+/// `f64` or `f32`.
+pub trait Real: Scalar + sealed::Sealed + 'static {
+    /// Zeros that live for ever.
+    #[doc(hidden)]
+    fn zeros<const W: usize>() -> &'static [Self; W];
+
+    /// `a · b + c` with one rounding.
+    ///
+    /// # Safety
+    ///
+    /// The processor has fused multiply-adds; the code around is compiled for it, or this is a call of a
+    /// function in software.
+    #[doc(hidden)]
+    unsafe fn mul_add_once(a: Self, b: Self, c: Self) -> Self;
+
+    /// Sines and cosines of `angles` with such multiply-adds, in registers of 256 bits.
+    ///
+    /// # Safety
+    ///
+    /// The processor has fused multiply-adds and, if it is an x86-64, AVX2.
+    #[doc(hidden)]
+    unsafe fn sin_cos_array_once<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]);
+
+    /// Sines and cosines of `angles` with such multiply-adds, one after the other.
+    ///
+    /// # Safety
+    ///
+    /// The processor has fused multiply-adds.
+    #[doc(hidden)]
+    unsafe fn sin_cos_each_once<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]);
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+macro_rules! implement_real {
+    ($float:ident, $polynomials:ident) => {
+        impl sealed::Sealed for $float {}
+
+        impl Real for $float {
+            #[inline(always)]
+            fn zeros<const W: usize>() -> &'static [Self; W] {
+                &[0.0; W]
+            }
+
+            #[inline(always)]
+            unsafe fn mul_add_once(a: Self, b: Self, c: Self) -> Self {
+                a.multiply_add::<true>(b, c)
+            }
+
+            #[inline(always)]
+            unsafe fn sin_cos_array_once<const N: usize>(
+                angles: &[Self; N],
+            ) -> ([Self; N], [Self; N]) {
+                #[cfg(target_arch = "x86_64")]
+                return super::registers::x86::$polynomials::<true, N>(angles);
+                #[cfg(not(target_arch = "x86_64"))]
+                block::unrolled(angles, $polynomials::compute::<true, Self>)
+            }
+
+            #[inline(always)]
+            unsafe fn sin_cos_each_once<const N: usize>(
+                angles: &[Self; N],
+            ) -> ([Self; N], [Self; N]) {
+                block::unrolled(angles, $polynomials::compute::<true, Self>)
+            }
+        }
+    };
+}
+
+implement_real!(f64, double);
+implement_real!(f32, single);

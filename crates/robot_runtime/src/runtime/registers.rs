@@ -1,0 +1,90 @@
+//! Vector registers: the numbers of one act side by side.
+//!
+//! The processor's instructions are functions of `core::arch` that may run only on a processor that
+//! has them. A type of this module exists if the code around it is compiled for such processors;
+//! beyond that [`processor`](super::processor) uses those of 256 bits after it has asked.
+
+#[cfg(target_arch = "x86_64")]
+pub(super) mod x86;
+
+use super::lanewise::{Lanewise, one_by_one};
+use super::scalar::Scalar;
+
+/// A register of `W` numbers of type `F`.
+pub(super) trait Register<F, const W: usize>: Scalar {
+    /// Element i in lane i.
+    fn load(from: &[F; W]) -> Self;
+
+    /// Lane i in element i.
+    fn store(self, to: &mut [F; W]);
+}
+
+/// `operation` of arrays whose length is a multiple of the register's, register by register; without
+/// a loop for the first four.
+#[inline(always)]
+pub(super) fn by_register<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
+    arguments: [&[F; N]; A],
+) -> [[F; N]; R]
+where
+    V: Register<F, W>,
+    O: Lanewise<A, R>,
+    F: Scalar,
+{
+    let mut results = [[F::ZERO; N]; R];
+    let mut at = |index: usize| {
+        let zero = [F::ZERO; W];
+        let loaded = arguments
+            .map(|argument| V::load(argument.as_chunks::<W>().0.get(index).unwrap_or(&zero)));
+        for (result, array) in O::of(loaded).into_iter().zip(&mut results) {
+            if let Some(chunk) = array.as_chunks_mut::<W>().0.get_mut(index) {
+                result.store(chunk);
+            }
+        }
+    };
+    if N >= W {
+        at(0);
+    }
+    if N >= 2 * W {
+        at(1);
+    }
+    if N >= 3 * W {
+        at(2);
+    }
+    if N >= 4 * W {
+        at(3);
+    }
+    for index in 4..(N / W).max(4) {
+        at(index);
+    }
+    results
+}
+
+macro_rules! by_widest {
+    ($float:ident: $narrow:ident $narrow_lanes:literal, $middle:ident $middle_lanes:literal, $wide:ident $wide_lanes:literal) => {
+        /// An operation on each lane of arrays, in the widest registers that their length is a multiple of.
+        #[inline(always)]
+        pub(super) fn $float<O, const A: usize, const R: usize, const N: usize>(
+            arguments: [&[$float; N]; A],
+        ) -> [[$float; N]; R]
+        where
+            O: Lanewise<A, R>,
+        {
+            #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
+            if N % $wide_lanes == 0 {
+                return by_register::<x86::$wide, O, $float, $wide_lanes, A, R, N>(arguments);
+            }
+            #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
+            if N % $middle_lanes == 0 {
+                return by_register::<x86::$middle, O, $float, $middle_lanes, A, R, N>(arguments);
+            }
+            #[cfg(target_arch = "x86_64")]
+            if N % $narrow_lanes == 0 {
+                return by_register::<x86::$narrow, O, $float, $narrow_lanes, A, R, N>(arguments);
+            }
+            one_by_one::<$float, O, A, R, N>(arguments)
+        }
+    };
+}
+
+by_widest!(f64: F64x2 2, F64x4 4, F64x8 8);
+by_widest!(f32: F32x4 4, F32x8 8, F32x16 16);

@@ -1,0 +1,336 @@
+//! Registers of x86-64: of 128 bits everywhere, of 256 with AVX2, of 512 with AVX-512.
+
+#![allow(unsafe_code)]
+
+use core::arch::x86_64::*;
+use core::fmt;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::super::fused::FUSED;
+use super::super::number::Number;
+use super::super::scalar::Scalar;
+use super::super::trig::block::copy;
+use super::super::trig::{double, single};
+use super::Register;
+
+/// A register type.
+///
+/// SAFETY of every `unsafe` block below: the instructions need a processor that has them. The type is
+/// compiled only for such processors, or used only by code that has asked the processor. Loads and
+/// stores go through references to as many numbers as the register holds, at any alignment.
+macro_rules! register {
+    (
+        $(#[$attribute:meta])*
+        $name:ident: [$float:ident; $lanes:literal] as $vector:ident, $integer:ident by $bits:ident,
+        polynomials $polynomials:ident,
+        load $load:ident, store $store:ident, splat $splat:ident, splat_bits $splat_bits:ident,
+        arithmetic $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $mul_add:ident,
+        casts $to_bits:ident $to_float:ident,
+        bits $and:ident $or:ident $xor:ident $add_bits:ident $sub_bits:ident,
+        shift $shift:ident by $by:literal, not_below |$a:ident, $b:ident| $not_below:expr
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy)]
+        #[repr(transparent)]
+        pub(in super::super) struct $name($vector);
+
+        impl $name {
+            #[inline(always)]
+            fn bits(self) -> $integer {
+                unsafe { $to_bits(self.0) }
+            }
+
+            #[inline(always)]
+            fn from_bits(bits: $integer) -> Self {
+                Self(unsafe { $to_float(bits) })
+            }
+
+            #[inline(always)]
+            fn splat_bits(bits: $bits) -> $integer {
+                unsafe { $splat_bits(bits) }
+            }
+
+            #[inline(always)]
+            fn and(self, bits: $integer) -> Self {
+                Self::from_bits(unsafe { $and(self.bits(), bits) })
+            }
+
+            #[inline(always)]
+            fn or(self, bits: $integer) -> Self {
+                Self::from_bits(unsafe { $or(self.bits(), bits) })
+            }
+
+            #[inline(always)]
+            fn xor(self, bits: $integer) -> Self {
+                Self::from_bits(unsafe { $xor(self.bits(), bits) })
+            }
+
+            /// All bits of a lane unless its number is below the limit's.
+            #[inline(always)]
+            fn not_below(self, limit: Self) -> $integer {
+                let (Self($a), Self($b)) = (self, limit);
+                unsafe { $not_below }
+            }
+
+            #[inline(always)]
+            fn lanes(self) -> [$float; $lanes] {
+                let mut lanes = [0.0; $lanes];
+                self.store(&mut lanes);
+                lanes
+            }
+        }
+
+        impl Register<$float, $lanes> for $name {
+            #[inline(always)]
+            fn load(from: &[$float; $lanes]) -> Self {
+                Self(unsafe { $load(from.as_ptr()) })
+            }
+
+            #[inline(always)]
+            fn store(self, to: &mut [$float; $lanes]) {
+                unsafe { $store(to.as_mut_ptr(), self.0) }
+            }
+        }
+
+        register!(@binary $name, Add, add, $add);
+        register!(@binary $name, Sub, sub, $sub);
+        register!(@binary $name, Mul, mul, $mul);
+        register!(@binary $name, Div, div, $div);
+
+        impl Neg for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.xor(Self::splat_bits($bits::MIN))
+            }
+        }
+
+        impl Number<$float> for $name {
+            #[inline(always)]
+            fn splat(value: $float) -> Self {
+                Self(unsafe { $splat(value) })
+            }
+
+            #[inline(always)]
+            fn multiply_add<const ONCE: bool>(self, factor: Self, addend: Self) -> Self {
+                if ONCE {
+                    return Self(unsafe { $mul_add(self.0, factor.0, addend.0) });
+                }
+                self * factor + addend
+            }
+
+            #[inline(always)]
+            fn nan_unless_below(self, limit: $float) -> Self {
+                self.or(self.abs().not_below(<Self as Number<$float>>::splat(limit)))
+            }
+
+            #[inline(always)]
+            fn turned(self, sine: Self, cosine: Self) -> (Self, Self) {
+                let (k, one, two) = (self.bits(), Self::splat_bits(1), Self::splat_bits(2));
+                unsafe {
+                    let odd = $sub_bits(Self::splat_bits(0), $and(k, one));
+                    let swap = $and($xor(sine.bits(), cosine.bits()), odd);
+                    let sine_sign = $shift::<$by>($and(k, two));
+                    let cosine_sign = $shift::<$by>($and($add_bits(k, one), two));
+                    (sine.xor($xor(swap, sine_sign)), cosine.xor($xor(swap, cosine_sign)))
+                }
+            }
+        }
+
+        impl Scalar for $name {
+            const ZERO: Self = {
+                // SAFETY: both are as many numbers, and any bits are numbers.
+                unsafe { core::mem::transmute::<[$float; $lanes], Self>([0.0; $lanes]) }
+            };
+            const ONE: Self = {
+                unsafe { core::mem::transmute::<[$float; $lanes], Self>([1.0; $lanes]) }
+            };
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                <Self as Number<$float>>::splat(value as $float)
+            }
+
+            #[inline(always)]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                self.multiply_add::<FUSED>(factor, addend)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(unsafe { $sqrt(self.0) })
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.and(Self::splat_bits($bits::MAX))
+            }
+
+            #[inline(always)]
+            fn signum0(self) -> Self {
+                let magnitude = self.abs();
+                let sign = self.and(Self::splat_bits($bits::MIN));
+                let unit = sign.or(Self::ONE.bits());
+                // Zero, which has the sign 0, or NaN, which stays one.
+                let neither = Self::ZERO.not_below(magnitude);
+                let kept = Self::from_bits(neither).xor(Self::splat_bits(-1));
+                unit.and(kept.bits()).or(magnitude.and(neither).bits())
+            }
+
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                Self::load(&self.lanes().map(<$float as Scalar>::tanh))
+            }
+
+            #[inline(always)]
+            fn recip_positive(self) -> Self {
+                let infinite = <Self as Number<$float>>::splat($float::INFINITY);
+                let reciprocal = Self::ONE / self;
+                reciprocal.or(Self::ZERO.not_below(self)).or(self.not_below(infinite))
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $polynomials::compute::<FUSED, Self>(self)
+            }
+        }
+
+        impl PartialEq for $name {
+            #[inline]
+            fn eq(&self, other: &Self) -> bool {
+                self.lanes() == other.lanes()
+            }
+        }
+
+        impl fmt::Debug for $name {
+            #[inline]
+            fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                self.lanes().fmt(formatter)
+            }
+        }
+    };
+    (@binary $name:ident, $operator:ident, $method:ident, $instruction:ident) => {
+        impl $operator for $name {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(unsafe { $instruction(self.0, other.0) })
+            }
+        }
+    };
+}
+
+register!(
+    /// Two `f64`.
+    F64x2: [f64; 2] as __m128d, __m128i by i64,
+    polynomials double,
+    load _mm_loadu_pd, store _mm_storeu_pd, splat _mm_set1_pd, splat_bits _mm_set1_epi64x,
+    arithmetic _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_fmadd_pd,
+    casts _mm_castpd_si128 _mm_castsi128_pd,
+    bits _mm_and_si128 _mm_or_si128 _mm_xor_si128 _mm_add_epi64 _mm_sub_epi64,
+    shift _mm_slli_epi64 by 62,
+    not_below |a, b| _mm_castpd_si128(_mm_cmpnlt_pd(a, b))
+);
+
+register!(
+    /// Four `f32`.
+    F32x4: [f32; 4] as __m128, __m128i by i32,
+    polynomials single,
+    load _mm_loadu_ps, store _mm_storeu_ps, splat _mm_set1_ps, splat_bits _mm_set1_epi32,
+    arithmetic _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_fmadd_ps,
+    casts _mm_castps_si128 _mm_castsi128_ps,
+    bits _mm_and_si128 _mm_or_si128 _mm_xor_si128 _mm_add_epi32 _mm_sub_epi32,
+    shift _mm_slli_epi32 by 30,
+    not_below |a, b| _mm_castps_si128(_mm_cmpnlt_ps(a, b))
+);
+
+register!(
+    /// Four `f64`; AVX2.
+    F64x4: [f64; 4] as __m256d, __m256i by i64,
+    polynomials double,
+    load _mm256_loadu_pd, store _mm256_storeu_pd, splat _mm256_set1_pd, splat_bits _mm256_set1_epi64x,
+    arithmetic _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_fmadd_pd,
+    casts _mm256_castpd_si256 _mm256_castsi256_pd,
+    bits _mm256_and_si256 _mm256_or_si256 _mm256_xor_si256 _mm256_add_epi64 _mm256_sub_epi64,
+    shift _mm256_slli_epi64 by 62,
+    not_below |a, b| _mm256_castpd_si256(_mm256_cmp_pd::<_CMP_NLT_UQ>(a, b))
+);
+
+register!(
+    /// Eight `f32`; AVX2.
+    F32x8: [f32; 8] as __m256, __m256i by i32,
+    polynomials single,
+    load _mm256_loadu_ps, store _mm256_storeu_ps, splat _mm256_set1_ps, splat_bits _mm256_set1_epi32,
+    arithmetic _mm256_add_ps _mm256_sub_ps _mm256_mul_ps _mm256_div_ps _mm256_sqrt_ps _mm256_fmadd_ps,
+    casts _mm256_castps_si256 _mm256_castsi256_ps,
+    bits _mm256_and_si256 _mm256_or_si256 _mm256_xor_si256 _mm256_add_epi32 _mm256_sub_epi32,
+    shift _mm256_slli_epi32 by 30,
+    not_below |a, b| _mm256_castps_si256(_mm256_cmp_ps::<_CMP_NLT_UQ>(a, b))
+);
+
+#[cfg(target_feature = "avx512f")]
+register!(
+    /// Eight `f64`; AVX-512.
+    F64x8: [f64; 8] as __m512d, __m512i by i64,
+    polynomials double,
+    load _mm512_loadu_pd, store _mm512_storeu_pd, splat _mm512_set1_pd, splat_bits _mm512_set1_epi64,
+    arithmetic _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_fmadd_pd,
+    casts _mm512_castpd_si512 _mm512_castsi512_pd,
+    bits _mm512_and_si512 _mm512_or_si512 _mm512_xor_si512 _mm512_add_epi64 _mm512_sub_epi64,
+    shift _mm512_slli_epi64 by 62,
+    not_below |a, b| _mm512_maskz_set1_epi64(_mm512_cmp_pd_mask::<_CMP_NLT_UQ>(a, b), -1)
+);
+
+#[cfg(target_feature = "avx512f")]
+register!(
+    /// Sixteen `f32`; AVX-512.
+    F32x16: [f32; 16] as __m512, __m512i by i32,
+    polynomials single,
+    load _mm512_loadu_ps, store _mm512_storeu_ps, splat _mm512_set1_ps, splat_bits _mm512_set1_epi32,
+    arithmetic _mm512_add_ps _mm512_sub_ps _mm512_mul_ps _mm512_div_ps _mm512_sqrt_ps _mm512_fmadd_ps,
+    casts _mm512_castps_si512 _mm512_castsi512_ps,
+    bits _mm512_and_si512 _mm512_or_si512 _mm512_xor_si512 _mm512_add_epi32 _mm512_sub_epi32,
+    shift _mm512_slli_epi32 by 30,
+    not_below |a, b| _mm512_maskz_set1_epi32(_mm512_cmp_ps_mask::<_CMP_NLT_UQ>(a, b), -1)
+);
+
+macro_rules! of_one_state {
+    ($name:ident: $float:ident in $register:ident of $lanes:literal, $($index:literal)*) => {
+        /// Sines and cosines of angles, with multiply-adds that round once if `ONCE`; AVX2. Without a loop for as
+        /// many as four registers hold, one angle after the other beyond.
+        #[inline(always)]
+        pub(in super::super) fn $name<const ONCE: bool, const N: usize>(
+            angles: &[$float; N],
+        ) -> ([$float; N], [$float; N]) {
+            let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
+            let mut rest = (&angles[..], &mut sines[..], &mut cosines[..]);
+            $(
+                if N > $index * $lanes {
+                    let count = (N - $index * $lanes).min($lanes);
+                    let (mut padded, mut sine, mut cosine) =
+                        ([0.0; $lanes], [0.0; $lanes], [0.0; $lanes]);
+                    copy(rest.0, &mut padded);
+                    let (s, c) = $name::compute::<ONCE, _>($register::load(&padded));
+                    s.store(&mut sine);
+                    c.store(&mut cosine);
+                    copy(&sine, rest.1);
+                    copy(&cosine, rest.2);
+                    rest = (
+                        rest.0.get(count..).unwrap_or_default(),
+                        rest.1.get_mut(count..).unwrap_or_default(),
+                        rest.2.get_mut(count..).unwrap_or_default(),
+                    );
+                }
+            )*
+            for (angle, (sine, cosine)) in rest.0.iter().zip(rest.1.iter_mut().zip(rest.2)) {
+                (*sine, *cosine) = $name::compute::<ONCE, _>(*angle);
+            }
+            (sines, cosines)
+        }
+    };
+}
+
+of_one_state!(double: f64 in F64x4 of 4, 0 1 2 3);
+of_one_state!(single: f32 in F32x8 of 8, 0 1 2 3);

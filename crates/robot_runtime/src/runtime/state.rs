@@ -1,0 +1,156 @@
+//! Many states at once: the numbers of one state, and those of several side by side.
+//!
+//! Several states lie in memory state by state (`[[f64; 6]]`), coordinate by coordinate (six `[f64]`, columns), or in
+//! blocks of a few states (`[[f64; 8]; 6]`: lane i of each coordinate belongs to state i).
+
+use super::real::Real;
+use super::scalar::Scalar;
+
+/// The numbers of one state: a number, or an array of such.
+pub trait State: Copy {
+    /// The same of `W` states: each number is an array of `W`.
+    type Lanes<const W: usize>: Copy;
+
+    /// A column for each number, to be written to.
+    type Columns<'c>;
+
+    /// Puts the state into a lane, if there is one.
+    fn set_lane<const W: usize>(self, lanes: &mut Self::Lanes<W>, lane: usize);
+
+    /// The length of the shortest column; no limit if there is none.
+    fn column_length(columns: &Self::Columns<'_>) -> usize;
+
+    /// Copies lanes into the columns from entry `start` on: `count` of them, as far as the columns have entries.
+    fn to_columns<const W: usize>(
+        lanes: &Self::Lanes<W>,
+        columns: &mut Self::Columns<'_>,
+        start: usize,
+        count: usize,
+    );
+}
+
+macro_rules! implement_state {
+    ($float:ident) => {
+        impl State for $float {
+            type Lanes<const W: usize> = [$float; W];
+            type Columns<'c> = &'c mut [$float];
+
+            #[inline(always)]
+            fn set_lane<const W: usize>(self, lanes: &mut [$float; W], lane: usize) {
+                set_state(self, lanes, lane);
+            }
+
+            #[inline(always)]
+            fn column_length(columns: &&mut [$float]) -> usize {
+                columns.len()
+            }
+
+            #[inline(always)]
+            fn to_columns<const W: usize>(
+                lanes: &[$float; W],
+                columns: &mut &mut [$float],
+                start: usize,
+                count: usize,
+            ) {
+                let rest = columns.get_mut(start..).unwrap_or_default();
+                match rest.first_chunk_mut::<W>() {
+                    Some(chunk) if count >= W => *chunk = *lanes,
+                    _ => {
+                        for (to, from) in rest.iter_mut().zip(lanes).take(count) {
+                            *to = *from;
+                        }
+                    }
+                }
+            }
+        }
+    };
+}
+
+implement_state!(f64);
+implement_state!(f32);
+
+impl<S: State, const N: usize> State for [S; N] {
+    type Lanes<const W: usize> = [S::Lanes<W>; N];
+    type Columns<'c> = [S::Columns<'c>; N];
+
+    #[inline(always)]
+    fn set_lane<const W: usize>(self, lanes: &mut [S::Lanes<W>; N], lane: usize) {
+        for (to, from) in lanes.iter_mut().zip(self) {
+            from.set_lane(to, lane);
+        }
+    }
+
+    #[inline(always)]
+    fn column_length(columns: &[S::Columns<'_>; N]) -> usize {
+        columns.iter().map(S::column_length).min().unwrap_or(usize::MAX)
+    }
+
+    #[inline(always)]
+    fn to_columns<const W: usize>(
+        lanes: &[S::Lanes<W>; N],
+        columns: &mut [S::Columns<'_>; N],
+        start: usize,
+        count: usize,
+    ) {
+        for (lanes, column) in lanes.iter().zip(columns) {
+            S::to_columns(lanes, column, start, count);
+        }
+    }
+}
+
+/// Lane `lane` of each coordinate.
+#[inline(always)]
+pub fn lane<T: Scalar, const W: usize, const N: usize>(lanes: [&[T; W]; N], lane: usize) -> [T; N] {
+    lanes.map(|numbers| numbers.get(lane).copied().unwrap_or(T::ZERO))
+}
+
+/// State `index`; zeros beyond the last.
+#[inline(always)]
+pub fn state<T: Scalar, const N: usize, const W: usize>(
+    states: &[[T; N]; W],
+    index: usize,
+) -> [T; N] {
+    states.get(index).copied().unwrap_or([T::ZERO; N])
+}
+
+/// Puts a state where it belongs, if there is such a place.
+#[inline(always)]
+pub fn set_state<S, const W: usize>(state: S, states: &mut [S; W], index: usize) {
+    if let Some(to) = states.get_mut(index) {
+        *to = state;
+    }
+}
+
+/// The length of the shortest column; no limit if there is none.
+#[inline(always)]
+pub fn column_length<T, const N: usize>(columns: &[&[T]; N]) -> usize {
+    columns.iter().map(|column| column.len()).min().unwrap_or(usize::MAX)
+}
+
+/// `W` entries of each column from entry `start` on, in place; zeros for a column that ends before.
+#[inline(always)]
+pub fn chunks<'c, T: Real, const W: usize, const N: usize>(
+    columns: &[&'c [T]; N],
+    start: usize,
+) -> [&'c [T; W]; N] {
+    columns.map(|column| {
+        let rest = column.get(start..).unwrap_or_default();
+        rest.first_chunk().unwrap_or(T::zeros())
+    })
+}
+
+/// The entries of each column from entry `start` on, filled up with zeros.
+#[inline(always)]
+pub fn padded_chunks<T: Scalar, const W: usize, const N: usize>(
+    columns: &[&[T]; N],
+    start: usize,
+) -> [[T; W]; N] {
+    columns.map(|column| {
+        let mut chunk = [T::ZERO; W];
+        let rest = column.get(start..).unwrap_or_default();
+        for (to, from) in chunk.iter_mut().zip(rest) {
+            *to = *from;
+        }
+        chunk
+    })
+}
