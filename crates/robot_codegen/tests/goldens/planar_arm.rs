@@ -102,6 +102,24 @@ pub mod planar_arm {
             qd: &[f64; 2],
             qdd: &[f64; 2],
         ) -> [f64; 2] {
+            struct Kernel<'a>(&'a Model, &'a [f64; 2], &'a [f64; 2], &'a [f64; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f64; 2];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f64; 2] {
+                    let Kernel(model, q, qd, qdd) = self;
+                    model.inverse_dynamics_with(q, qd, qdd)
+                }
+            }
+            ::robot_runtime::dispatch(Kernel(self, q, qd, qdd))
+        }
+        #[inline(always)]
+        fn inverse_dynamics_with(
+            &self,
+            q: &[f64; 2],
+            qd: &[f64; 2],
+            qdd: &[f64; 2],
+        ) -> [f64; 2] {
             let (s, c) = ::robot_runtime::sin_cos_array(
                 &self.inverse_dynamics_angles(q),
             );
@@ -154,42 +172,169 @@ pub mod planar_arm {
             let qd = qd.get(..count).unwrap_or_default();
             let qdd = qdd.get(..count).unwrap_or_default();
             let tau = tau.get_mut(..count).unwrap_or_default();
-            let (q, q_rest) = ::robot_runtime::blocks::<_, 8>(q);
-            let (qd, qd_rest) = ::robot_runtime::blocks::<_, 8>(qd);
-            let (qdd, qdd_rest) = ::robot_runtime::blocks::<_, 8>(qdd);
-            let (tau, tau_rest) = ::robot_runtime::blocks_mut::<_, 8>(tau);
-            for (((q, qd), qdd), tau) in q.zip(qd).zip(qdd).zip(tau) {
-                self.inverse_dynamics_block(q, qd, qdd, tau);
+            let (q, q_rest) = q.as_chunks::<8>();
+            let (qd, qd_rest) = qd.as_chunks::<8>();
+            let (qdd, qdd_rest) = qdd.as_chunks::<8>();
+            let (tau, tau_rest) = tau.as_chunks_mut::<8>();
+            for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(tau) {
+                let tau_states = self.inverse_dynamics_states(q, qd, qdd);
+                *tau = tau_states;
             }
-            if !tau_rest.is_empty() {
-                let mut tau_states = [[0.0; 2]; 8];
-                self.inverse_dynamics_block(
-                    &::robot_runtime::padded_states(q_rest),
-                    &::robot_runtime::padded_states(qd_rest),
-                    &::robot_runtime::padded_states(qdd_rest),
-                    &mut tau_states,
-                );
+            if !count.is_multiple_of(8) {
+                let tau_states = self
+                    .inverse_dynamics_states(
+                        &::robot_runtime::padded_states(q_rest),
+                        &::robot_runtime::padded_states(qd_rest),
+                        &::robot_runtime::padded_states(qdd_rest),
+                    );
                 for (to, from) in tau_rest.iter_mut().zip(tau_states) {
                     *to = from;
                 }
             }
             count
         }
-        #[inline(never)]
-        fn inverse_dynamics_block(
+        #[inline(always)]
+        fn inverse_dynamics_states(
             &self,
             q: &[[f64; 2]; 8],
             qd: &[[f64; 2]; 8],
             qdd: &[[f64; 2]; 8],
-            tau: &mut [[f64; 2]; 8],
-        ) {
-            for (((q, qd), qdd), tau) in q.iter().zip(qd).zip(qdd).zip(tau) {
+        ) -> [[f64; 2]; 8] {
+            struct Kernel<'a>(
+                &'a Model,
+                &'a [[f64; 2]; 8],
+                &'a [[f64; 2]; 8],
+                &'a [[f64; 2]; 8],
+            );
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [[f64; 2]; 8];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [[f64; 2]; 8] {
+                    let Kernel(model, q, qd, qdd) = self;
+                    model.inverse_dynamics_states_with(q, qd, qdd)
+                }
+            }
+            ::robot_runtime::dispatch_block(Kernel(self, q, qd, qdd))
+        }
+        #[inline(always)]
+        fn inverse_dynamics_states_with(
+            &self,
+            q: &[[f64; 2]; 8],
+            qd: &[[f64; 2]; 8],
+            qdd: &[[f64; 2]; 8],
+        ) -> [[f64; 2]; 8] {
+            let mut tau = [[0.0; 2]; 8];
+            for lane in 0..8 {
+                let q = &::robot_runtime::state(q, lane);
+                let qd = &::robot_runtime::state(qd, lane);
+                let qdd = &::robot_runtime::state(qdd, lane);
                 let (s, c) = ::robot_runtime::sin_cos_each(
                     &self.inverse_dynamics_angles(q),
                 );
                 let result = self.inverse_dynamics_sc(&s, &c, qd, qdd);
-                *tau = result;
+                ::robot_runtime::set_state(result, &mut tau, lane);
             }
+            tau
+        }
+        /// `inverse_dynamics` for many states in columns, 8 at a time: entry i of each column belongs to state i.
+        ///
+        /// Computes as many states as the shortest column has, and returns their number.
+        #[inline]
+        pub fn inverse_dynamics_columns(
+            &self,
+            q: [&[f64]; 2],
+            qd: [&[f64]; 2],
+            qdd: [&[f64]; 2],
+            mut tau: [&mut [f64]; 2],
+        ) -> usize {
+            let count = ::robot_runtime::column_length(&q)
+                .min(::robot_runtime::column_length(&qd))
+                .min(::robot_runtime::column_length(&qdd))
+                .min(<[f64; 2] as ::robot_runtime::State>::column_length(&tau));
+            let whole = count - count % 8;
+            for start in (0..whole).step_by(8) {
+                let tau_lanes = self
+                    .inverse_dynamics_lanes(
+                        ::robot_runtime::chunks(&q, start),
+                        ::robot_runtime::chunks(&qd, start),
+                        ::robot_runtime::chunks(&qdd, start),
+                    );
+                <[f64; 2] as ::robot_runtime::State>::to_columns(
+                    &tau_lanes,
+                    &mut tau,
+                    start,
+                    8,
+                );
+            }
+            for start in (whole..count).step_by(8) {
+                let tau_lanes = self
+                    .inverse_dynamics_lanes(
+                        ::robot_runtime::padded_chunks::<_, 8, _>(&q, start).each_ref(),
+                        ::robot_runtime::padded_chunks::<_, 8, _>(&qd, start).each_ref(),
+                        ::robot_runtime::padded_chunks::<_, 8, _>(&qdd, start).each_ref(),
+                    );
+                <[f64; 2] as ::robot_runtime::State>::to_columns(
+                    &tau_lanes,
+                    &mut tau,
+                    start,
+                    count - start,
+                );
+            }
+            count
+        }
+        /// `inverse_dynamics` for 8 states side by side: entry i of each array of 8 belongs to state i.
+        #[inline]
+        #[must_use]
+        pub fn inverse_dynamics_block(
+            &self,
+            q: &[[f64; 8]; 2],
+            qd: &[[f64; 8]; 2],
+            qdd: &[[f64; 8]; 2],
+        ) -> [[f64; 8]; 2] {
+            self.inverse_dynamics_lanes(q.each_ref(), qd.each_ref(), qdd.each_ref())
+        }
+        #[inline(always)]
+        fn inverse_dynamics_lanes(
+            &self,
+            q: [&[f64; 8]; 2],
+            qd: [&[f64; 8]; 2],
+            qdd: [&[f64; 8]; 2],
+        ) -> [[f64; 8]; 2] {
+            struct Kernel<'a>(
+                &'a Model,
+                [&'a [f64; 8]; 2],
+                [&'a [f64; 8]; 2],
+                [&'a [f64; 8]; 2],
+            );
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [[f64; 8]; 2];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [[f64; 8]; 2] {
+                    let Kernel(model, q, qd, qdd) = self;
+                    model.inverse_dynamics_lanes_with(q, qd, qdd)
+                }
+            }
+            ::robot_runtime::dispatch_block(Kernel(self, q, qd, qdd))
+        }
+        #[inline(always)]
+        fn inverse_dynamics_lanes_with(
+            &self,
+            q: [&[f64; 8]; 2],
+            qd: [&[f64; 8]; 2],
+            qdd: [&[f64; 8]; 2],
+        ) -> [[f64; 8]; 2] {
+            let mut tau = [[0.0; 8]; 2];
+            for lane in 0..8 {
+                let q = &::robot_runtime::lane(q, lane);
+                let qd = &::robot_runtime::lane(qd, lane);
+                let qdd = &::robot_runtime::lane(qdd, lane);
+                let (s, c) = ::robot_runtime::sin_cos_each(
+                    &self.inverse_dynamics_angles(q),
+                );
+                let result = self.inverse_dynamics_sc(&s, &c, qd, qdd);
+                ::robot_runtime::State::set_lane(result, &mut tau, lane);
+            }
+            tau
         }
         /// Joint torques of a motion.
         ///
@@ -299,20 +444,17 @@ pub mod planar_arm {
             let q = q.get(..count).unwrap_or_default();
             let m = m.get_mut(..count).unwrap_or_default();
             let trace = trace.get_mut(..count).unwrap_or_default();
-            let (q, q_rest) = ::robot_runtime::blocks::<_, 8>(q);
-            let (m, m_rest) = ::robot_runtime::blocks_mut::<_, 8>(m);
-            let (trace, trace_rest) = ::robot_runtime::blocks_mut::<_, 8>(trace);
-            for ((q, m), trace) in q.zip(m).zip(trace) {
-                self.mass_matrix_block(q, m, trace);
+            let (q, q_rest) = q.as_chunks::<8>();
+            let (m, m_rest) = m.as_chunks_mut::<8>();
+            let (trace, trace_rest) = trace.as_chunks_mut::<8>();
+            for ((q, m), trace) in q.iter().zip(m).zip(trace) {
+                let (m_states, trace_states) = self.mass_matrix_states(q);
+                *m = m_states;
+                *trace = trace_states;
             }
-            if !m_rest.is_empty() {
-                let mut m_states = [[[0.0; 2]; 2]; 8];
-                let mut trace_states = [0.0; 8];
-                self.mass_matrix_block(
-                    &::robot_runtime::padded_states(q_rest),
-                    &mut m_states,
-                    &mut trace_states,
-                );
+            if !count.is_multiple_of(8) {
+                let (m_states, trace_states) = self
+                    .mass_matrix_states(&::robot_runtime::padded_states(q_rest));
                 for (to, from) in m_rest.iter_mut().zip(m_states) {
                     *to = from;
                 }
@@ -323,19 +465,99 @@ pub mod planar_arm {
             count
         }
         #[inline(never)]
-        fn mass_matrix_block(
+        fn mass_matrix_states(
             &self,
             q: &[[f64; 2]; 8],
-            m: &mut [[[f64; 2]; 2]; 8],
-            trace: &mut [f64; 8],
-        ) {
-            for ((q, m), trace) in q.iter().zip(m).zip(trace) {
+        ) -> ([[[f64; 2]; 2]; 8], [f64; 8]) {
+            let mut m = [[[0.0; 2]; 2]; 8];
+            let mut trace = [0.0; 8];
+            for lane in 0..8 {
+                let q = &::robot_runtime::state(q, lane);
                 let [_, q2] = *q;
                 let (s, c) = ::robot_runtime::sin_cos_each(&[q2]);
                 let result = self.mass_matrix_sc(&s, &c);
-                *m = result.m;
-                *trace = result.trace;
+                ::robot_runtime::set_state(result.m, &mut m, lane);
+                ::robot_runtime::set_state(result.trace, &mut trace, lane);
             }
+            (m, trace)
+        }
+        /// `mass_matrix` for many states in columns, 8 at a time: entry i of each column belongs to state i.
+        ///
+        /// Computes as many states as the shortest column has, and returns their number.
+        #[inline]
+        pub fn mass_matrix_columns(
+            &self,
+            q: [&[f64]; 2],
+            mut m: [[&mut [f64]; 2]; 2],
+            mut trace: &mut [f64],
+        ) -> usize {
+            let count = ::robot_runtime::column_length(&q)
+                .min(<[[f64; 2]; 2] as ::robot_runtime::State>::column_length(&m))
+                .min(<f64 as ::robot_runtime::State>::column_length(&trace));
+            let whole = count - count % 8;
+            for start in (0..whole).step_by(8) {
+                let (m_lanes, trace_lanes) = self
+                    .mass_matrix_lanes(::robot_runtime::chunks(&q, start));
+                <[[f64; 2]; 2] as ::robot_runtime::State>::to_columns(
+                    &m_lanes,
+                    &mut m,
+                    start,
+                    8,
+                );
+                <f64 as ::robot_runtime::State>::to_columns(
+                    &trace_lanes,
+                    &mut trace,
+                    start,
+                    8,
+                );
+            }
+            for start in (whole..count).step_by(8) {
+                let (m_lanes, trace_lanes) = self
+                    .mass_matrix_lanes(
+                        ::robot_runtime::padded_chunks::<_, 8, _>(&q, start).each_ref(),
+                    );
+                <[[f64; 2]; 2] as ::robot_runtime::State>::to_columns(
+                    &m_lanes,
+                    &mut m,
+                    start,
+                    count - start,
+                );
+                <f64 as ::robot_runtime::State>::to_columns(
+                    &trace_lanes,
+                    &mut trace,
+                    start,
+                    count - start,
+                );
+            }
+            count
+        }
+        /// `mass_matrix` for 8 states side by side: entry i of each array of 8 belongs to state i.
+        ///
+        /// Returns `m`, `trace`.
+        #[inline]
+        #[must_use]
+        pub fn mass_matrix_block(
+            &self,
+            q: &[[f64; 8]; 2],
+        ) -> ([[[f64; 8]; 2]; 2], [f64; 8]) {
+            self.mass_matrix_lanes(q.each_ref())
+        }
+        #[inline(never)]
+        fn mass_matrix_lanes(
+            &self,
+            q: [&[f64; 8]; 2],
+        ) -> ([[[f64; 8]; 2]; 2], [f64; 8]) {
+            let mut m = [[[0.0; 8]; 2]; 2];
+            let mut trace = [0.0; 8];
+            for lane in 0..8 {
+                let q = &::robot_runtime::lane(q, lane);
+                let [_, q2] = *q;
+                let (s, c) = ::robot_runtime::sin_cos_each(&[q2]);
+                let result = self.mass_matrix_sc(&s, &c);
+                ::robot_runtime::State::set_lane(result.m, &mut m, lane);
+                ::robot_runtime::State::set_lane(result.trace, &mut trace, lane);
+            }
+            (m, trace)
         }
         /// mass_matrix.
         ///

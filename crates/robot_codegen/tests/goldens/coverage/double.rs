@@ -119,9 +119,22 @@ pub mod double {
         #[inline(always)]
         #[must_use]
         pub fn plain(&self, q: &[f64; 2]) -> [f64; 19] {
+            struct Kernel<'a>(&'a Model, &'a [f64; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f64; 19];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f64; 19] {
+                    let Kernel(model, q) = self;
+                    model.plain_with::<A>(q)
+                }
+            }
+            ::robot_runtime::dispatch(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn plain_with<A: ::robot_runtime::Arithmetic>(&self, q: &[f64; 2]) -> [f64; 19] {
             let [x, _] = *q;
-            let (s, c) = ::robot_runtime::sin_cos_array(&[x]);
-            self.plain_sc(&s, &c, q)
+            let (s, c) = A::sin_cos_array(&[x]);
+            self.plain_sc_with::<A>(&s, &c, q)
         }
         /// `plain`, given the sines `s` and cosines `c` of its angles.
         ///
@@ -129,6 +142,15 @@ pub mod double {
         #[inline(always)]
         #[must_use]
         pub fn plain_sc(&self, s: &[f64; 1], c: &[f64; 1], q: &[f64; 2]) -> [f64; 19] {
+            self.plain_sc_with::<::robot_runtime::Compiled>(s, c, q)
+        }
+        #[inline(always)]
+        fn plain_sc_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            s: &[f64; 1],
+            c: &[f64; 1],
+            q: &[f64; 2],
+        ) -> [f64; 19] {
             let [sx] = *s;
             let [cx] = *c;
             let [x, y] = *q;
@@ -141,7 +163,7 @@ pub mod double {
             let t7 = y - self.k1;
             let t8 = y * self.k1;
             let t9 = y / self.k1;
-            let t10 = ::robot_runtime::Scalar::mul_add(y, self.k1, 0.3333333333333333);
+            let t10 = A::mul_add(y, self.k1, 0.3333333333333333);
             let t11 = <::robot_runtime::PolyTrig as ::robot_runtime::Trig<
                 f64,
             >>::sin_cos(y)
@@ -186,31 +208,117 @@ pub mod double {
             let count = q.len().min(values.len());
             let q = q.get(..count).unwrap_or_default();
             let values = values.get_mut(..count).unwrap_or_default();
-            let (q, q_rest) = ::robot_runtime::blocks::<_, 4>(q);
-            let (values, values_rest) = ::robot_runtime::blocks_mut::<_, 4>(values);
-            for (q, values) in q.zip(values) {
-                self.plain_block(q, values);
+            let (q, q_rest) = q.as_chunks::<4>();
+            let (values, values_rest) = values.as_chunks_mut::<4>();
+            for (q, values) in q.iter().zip(values) {
+                let values_states = self.plain_states(q);
+                *values = values_states;
             }
-            if !values_rest.is_empty() {
-                let mut values_states = [[0.0; 19]; 4];
-                self.plain_block(
-                    &::robot_runtime::padded_states(q_rest),
-                    &mut values_states,
-                );
+            if !count.is_multiple_of(4) {
+                let values_states = self
+                    .plain_states(&::robot_runtime::padded_states(q_rest));
                 for (to, from) in values_rest.iter_mut().zip(values_states) {
                     *to = from;
                 }
             }
             count
         }
-        #[inline(never)]
-        fn plain_block(&self, q: &[[f64; 2]; 4], values: &mut [[f64; 19]; 4]) {
-            for (q, values) in q.iter().zip(values) {
-                let [x, _] = *q;
-                let (s, c) = ::robot_runtime::sin_cos_each(&[x]);
-                let result = self.plain_sc(&s, &c, q);
-                *values = result;
+        #[inline(always)]
+        fn plain_states(&self, q: &[[f64; 2]; 4]) -> [[f64; 19]; 4] {
+            struct Kernel<'a>(&'a Model, &'a [[f64; 2]; 4]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [[f64; 19]; 4];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [[f64; 19]; 4] {
+                    let Kernel(model, q) = self;
+                    model.plain_states_with::<A>(q)
+                }
             }
+            ::robot_runtime::dispatch_block(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn plain_states_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            q: &[[f64; 2]; 4],
+        ) -> [[f64; 19]; 4] {
+            let mut values = [[0.0; 19]; 4];
+            for lane in 0..4 {
+                let q = &::robot_runtime::state(q, lane);
+                let [x, _] = *q;
+                let (s, c) = A::sin_cos_each(&[x]);
+                let result = self.plain_sc_with::<A>(&s, &c, q);
+                ::robot_runtime::set_state(result, &mut values, lane);
+            }
+            values
+        }
+        /// `plain` for many states in columns, 4 at a time: entry i of each column belongs to state i.
+        ///
+        /// Computes as many states as the shortest column has, and returns their number.
+        #[inline]
+        pub fn plain_columns(
+            &self,
+            q: [&[f64]; 2],
+            mut values: [&mut [f64]; 19],
+        ) -> usize {
+            let count = ::robot_runtime::column_length(&q)
+                .min(<[f64; 19] as ::robot_runtime::State>::column_length(&values));
+            let whole = count - count % 4;
+            for start in (0..whole).step_by(4) {
+                let values_lanes = self.plain_lanes(::robot_runtime::chunks(&q, start));
+                <[f64; 19] as ::robot_runtime::State>::to_columns(
+                    &values_lanes,
+                    &mut values,
+                    start,
+                    4,
+                );
+            }
+            for start in (whole..count).step_by(4) {
+                let values_lanes = self
+                    .plain_lanes(
+                        ::robot_runtime::padded_chunks::<_, 4, _>(&q, start).each_ref(),
+                    );
+                <[f64; 19] as ::robot_runtime::State>::to_columns(
+                    &values_lanes,
+                    &mut values,
+                    start,
+                    count - start,
+                );
+            }
+            count
+        }
+        /// `plain` for 4 states side by side: entry i of each array of 4 belongs to state i.
+        #[inline]
+        #[must_use]
+        pub fn plain_block(&self, q: &[[f64; 4]; 2]) -> [[f64; 4]; 19] {
+            self.plain_lanes(q.each_ref())
+        }
+        #[inline(always)]
+        fn plain_lanes(&self, q: [&[f64; 4]; 2]) -> [[f64; 4]; 19] {
+            struct Kernel<'a>(&'a Model, [&'a [f64; 4]; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [[f64; 4]; 19];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [[f64; 4]; 19] {
+                    let Kernel(model, q) = self;
+                    model.plain_lanes_with::<A>(q)
+                }
+            }
+            ::robot_runtime::dispatch_block(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn plain_lanes_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            q: [&[f64; 4]; 2],
+        ) -> [[f64; 4]; 19] {
+            let mut values = [[0.0; 4]; 19];
+            for lane in 0..4 {
+                let q = &::robot_runtime::lane(q, lane);
+                let [x, _] = *q;
+                let (s, c) = A::sin_cos_each(&[x]);
+                let result = self.plain_sc_with::<A>(&s, &c, q);
+                ::robot_runtime::State::set_lane(result, &mut values, lane);
+            }
+            values
         }
     }
     impl Model {
@@ -224,8 +332,24 @@ pub mod double {
         #[inline(always)]
         #[must_use]
         pub fn turned(&self, q: &[f64; 2]) -> [f64; 18] {
-            let (s, c) = ::robot_runtime::sin_cos_array(&self.turned_angles(q));
-            self.turned_sc(&s, &c, q)
+            struct Kernel<'a>(&'a Model, &'a [f64; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f64; 18];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f64; 18] {
+                    let Kernel(model, q) = self;
+                    model.turned_with::<A>(q)
+                }
+            }
+            ::robot_runtime::dispatch(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn turned_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            q: &[f64; 2],
+        ) -> [f64; 18] {
+            let (s, c) = A::sin_cos_array(&self.turned_angles(q));
+            self.turned_sc_with::<A>(&s, &c, q)
         }
         /// The angles whose sines and cosines `turned_sc` uses, in rad.
         #[inline(always)]
@@ -240,6 +364,15 @@ pub mod double {
         #[inline(always)]
         #[must_use]
         pub fn turned_sc(&self, s: &[f64; 1], c: &[f64; 1], q: &[f64; 2]) -> [f64; 18] {
+            self.turned_sc_with::<::robot_runtime::Compiled>(s, c, q)
+        }
+        #[inline(always)]
+        fn turned_sc_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            s: &[f64; 1],
+            c: &[f64; 1],
+            q: &[f64; 2],
+        ) -> [f64; 18] {
             let [s1] = *s;
             let [c1] = *c;
             let [_, y] = *q;
@@ -251,7 +384,7 @@ pub mod double {
             let t6 = y - self.k1;
             let t7 = y * self.k1;
             let t8 = y / self.k1;
-            let t9 = ::robot_runtime::Scalar::mul_add(y, self.k1, 0.3333333333333333);
+            let t9 = A::mul_add(y, self.k1, 0.3333333333333333);
             let t10 = <::robot_runtime::PolyTrig as ::robot_runtime::Trig<
                 f64,
             >>::sin_cos(y)
@@ -295,30 +428,115 @@ pub mod double {
             let count = q.len().min(values.len());
             let q = q.get(..count).unwrap_or_default();
             let values = values.get_mut(..count).unwrap_or_default();
-            let (q, q_rest) = ::robot_runtime::blocks::<_, 4>(q);
-            let (values, values_rest) = ::robot_runtime::blocks_mut::<_, 4>(values);
-            for (q, values) in q.zip(values) {
-                self.turned_block(q, values);
+            let (q, q_rest) = q.as_chunks::<4>();
+            let (values, values_rest) = values.as_chunks_mut::<4>();
+            for (q, values) in q.iter().zip(values) {
+                let values_states = self.turned_states(q);
+                *values = values_states;
             }
-            if !values_rest.is_empty() {
-                let mut values_states = [[0.0; 18]; 4];
-                self.turned_block(
-                    &::robot_runtime::padded_states(q_rest),
-                    &mut values_states,
-                );
+            if !count.is_multiple_of(4) {
+                let values_states = self
+                    .turned_states(&::robot_runtime::padded_states(q_rest));
                 for (to, from) in values_rest.iter_mut().zip(values_states) {
                     *to = from;
                 }
             }
             count
         }
-        #[inline(never)]
-        fn turned_block(&self, q: &[[f64; 2]; 4], values: &mut [[f64; 18]; 4]) {
-            for (q, values) in q.iter().zip(values) {
-                let (s, c) = ::robot_runtime::sin_cos_each(&self.turned_angles(q));
-                let result = self.turned_sc(&s, &c, q);
-                *values = result;
+        #[inline(always)]
+        fn turned_states(&self, q: &[[f64; 2]; 4]) -> [[f64; 18]; 4] {
+            struct Kernel<'a>(&'a Model, &'a [[f64; 2]; 4]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [[f64; 18]; 4];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [[f64; 18]; 4] {
+                    let Kernel(model, q) = self;
+                    model.turned_states_with::<A>(q)
+                }
             }
+            ::robot_runtime::dispatch_block(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn turned_states_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            q: &[[f64; 2]; 4],
+        ) -> [[f64; 18]; 4] {
+            let mut values = [[0.0; 18]; 4];
+            for lane in 0..4 {
+                let q = &::robot_runtime::state(q, lane);
+                let (s, c) = A::sin_cos_each(&self.turned_angles(q));
+                let result = self.turned_sc_with::<A>(&s, &c, q);
+                ::robot_runtime::set_state(result, &mut values, lane);
+            }
+            values
+        }
+        /// `turned` for many states in columns, 4 at a time: entry i of each column belongs to state i.
+        ///
+        /// Computes as many states as the shortest column has, and returns their number.
+        #[inline]
+        pub fn turned_columns(
+            &self,
+            q: [&[f64]; 2],
+            mut values: [&mut [f64]; 18],
+        ) -> usize {
+            let count = ::robot_runtime::column_length(&q)
+                .min(<[f64; 18] as ::robot_runtime::State>::column_length(&values));
+            let whole = count - count % 4;
+            for start in (0..whole).step_by(4) {
+                let values_lanes = self.turned_lanes(::robot_runtime::chunks(&q, start));
+                <[f64; 18] as ::robot_runtime::State>::to_columns(
+                    &values_lanes,
+                    &mut values,
+                    start,
+                    4,
+                );
+            }
+            for start in (whole..count).step_by(4) {
+                let values_lanes = self
+                    .turned_lanes(
+                        ::robot_runtime::padded_chunks::<_, 4, _>(&q, start).each_ref(),
+                    );
+                <[f64; 18] as ::robot_runtime::State>::to_columns(
+                    &values_lanes,
+                    &mut values,
+                    start,
+                    count - start,
+                );
+            }
+            count
+        }
+        /// `turned` for 4 states side by side: entry i of each array of 4 belongs to state i.
+        #[inline]
+        #[must_use]
+        pub fn turned_block(&self, q: &[[f64; 4]; 2]) -> [[f64; 4]; 18] {
+            self.turned_lanes(q.each_ref())
+        }
+        #[inline(always)]
+        fn turned_lanes(&self, q: [&[f64; 4]; 2]) -> [[f64; 4]; 18] {
+            struct Kernel<'a>(&'a Model, [&'a [f64; 4]; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [[f64; 4]; 18];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [[f64; 4]; 18] {
+                    let Kernel(model, q) = self;
+                    model.turned_lanes_with::<A>(q)
+                }
+            }
+            ::robot_runtime::dispatch_block(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn turned_lanes_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            q: [&[f64; 4]; 2],
+        ) -> [[f64; 4]; 18] {
+            let mut values = [[0.0; 4]; 18];
+            for lane in 0..4 {
+                let q = &::robot_runtime::lane(q, lane);
+                let (s, c) = A::sin_cos_each(&self.turned_angles(q));
+                let result = self.turned_sc_with::<A>(&s, &c, q);
+                ::robot_runtime::State::set_lane(result, &mut values, lane);
+            }
+            values
         }
     }
 }

@@ -119,9 +119,22 @@ pub mod generic {
         #[inline]
         #[must_use]
         pub fn plain(&self, q: &[f32; 2]) -> [f32; 19] {
+            struct Kernel<'a>(&'a Model, &'a [f32; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f32; 19];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f32; 19] {
+                    let Kernel(model, q) = self;
+                    model.plain_with::<A>(q)
+                }
+            }
+            ::robot_runtime::dispatch(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn plain_with<A: ::robot_runtime::Arithmetic>(&self, q: &[f32; 2]) -> [f32; 19] {
             let [x, _] = *q;
-            let (s, c) = ::robot_runtime::sin_cos_array(&[x]);
-            self.plain_sc(&s, &c, q)
+            let (s, c) = A::sin_cos_array(&[x]);
+            self.plain_sc_with::<A>(&s, &c, q)
         }
         /// `plain`, given the sines `s` and cosines `c` of its angles.
         ///
@@ -129,6 +142,15 @@ pub mod generic {
         #[inline]
         #[must_use]
         pub fn plain_sc(&self, s: &[f32; 1], c: &[f32; 1], q: &[f32; 2]) -> [f32; 19] {
+            self.plain_sc_with::<::robot_runtime::Compiled>(s, c, q)
+        }
+        #[inline(always)]
+        fn plain_sc_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            s: &[f32; 1],
+            c: &[f32; 1],
+            q: &[f32; 2],
+        ) -> [f32; 19] {
             let [sx] = *s;
             let [cx] = *c;
             let [x, y] = *q;
@@ -141,7 +163,7 @@ pub mod generic {
             let t7 = y - self.k1;
             let t8 = y * self.k1;
             let t9 = y / self.k1;
-            let t10 = ::robot_runtime::Scalar::mul_add(y, self.k1, 0.33333334);
+            let t10 = A::mul_add(y, self.k1, 0.33333334);
             let t11 = <::robot_runtime::PolyTrig as ::robot_runtime::Trig<
                 f32,
             >>::sin_cos(y)
@@ -266,8 +288,24 @@ pub mod generic {
         #[inline]
         #[must_use]
         pub fn turned(&self, q: &[f32; 2]) -> [f32; 18] {
-            let (s, c) = ::robot_runtime::sin_cos_array(&self.turned_angles(q));
-            self.turned_sc(&s, &c, q)
+            struct Kernel<'a>(&'a Model, &'a [f32; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f32; 18];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f32; 18] {
+                    let Kernel(model, q) = self;
+                    model.turned_with::<A>(q)
+                }
+            }
+            ::robot_runtime::dispatch(Kernel(self, q))
+        }
+        #[inline(always)]
+        fn turned_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            q: &[f32; 2],
+        ) -> [f32; 18] {
+            let (s, c) = A::sin_cos_array(&self.turned_angles(q));
+            self.turned_sc_with::<A>(&s, &c, q)
         }
         /// The angles whose sines and cosines `turned_sc` uses, in rad.
         #[inline]
@@ -282,6 +320,15 @@ pub mod generic {
         #[inline]
         #[must_use]
         pub fn turned_sc(&self, s: &[f32; 1], c: &[f32; 1], q: &[f32; 2]) -> [f32; 18] {
+            self.turned_sc_with::<::robot_runtime::Compiled>(s, c, q)
+        }
+        #[inline(always)]
+        fn turned_sc_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            s: &[f32; 1],
+            c: &[f32; 1],
+            q: &[f32; 2],
+        ) -> [f32; 18] {
             let [s1] = *s;
             let [c1] = *c;
             let [_, y] = *q;
@@ -293,7 +340,7 @@ pub mod generic {
             let t6 = y - self.k1;
             let t7 = y * self.k1;
             let t8 = y / self.k1;
-            let t9 = ::robot_runtime::Scalar::mul_add(y, self.k1, 0.33333334);
+            let t9 = A::mul_add(y, self.k1, 0.33333334);
             let t10 = <::robot_runtime::PolyTrig as ::robot_runtime::Trig<
                 f32,
             >>::sin_cos(y)

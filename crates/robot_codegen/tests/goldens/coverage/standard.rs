@@ -122,10 +122,27 @@ pub mod standard {
         /// `plain`, given the sines `s` and cosines `c` of its angles.
         ///
         /// The angles: `x`.
-        #[cfg_attr(target_feature = "fma", inline(never))]
-        #[cfg_attr(not(target_feature = "fma"), inline)]
+        #[inline]
         #[must_use]
         pub fn plain_sc(&self, s: &[f64; 1], c: &[f64; 1], q: &[f64; 2]) -> [f64; 19] {
+            struct Kernel<'a>(&'a Model, &'a [f64; 1], &'a [f64; 1], &'a [f64; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f64; 19];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f64; 19] {
+                    let Kernel(model, s, c, q) = self;
+                    model.plain_sc_with::<A>(s, c, q)
+                }
+            }
+            ::robot_runtime::dispatch_apart(Kernel(self, s, c, q))
+        }
+        #[inline(always)]
+        fn plain_sc_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            s: &[f64; 1],
+            c: &[f64; 1],
+            q: &[f64; 2],
+        ) -> [f64; 19] {
             let [sx] = *s;
             let [cx] = *c;
             let [x, y] = *q;
@@ -138,7 +155,7 @@ pub mod standard {
             let t7 = y - self.k1;
             let t8 = y * self.k1;
             let t9 = y / self.k1;
-            let t10 = ::robot_runtime::Scalar::mul_add(y, self.k1, 0.3333333333333333);
+            let t10 = A::mul_add(y, self.k1, 0.3333333333333333);
             let t11 = <::robot_runtime::StdTrig as ::robot_runtime::Trig<
                 f64,
             >>::sin_cos(y)
@@ -196,8 +213,7 @@ pub mod standard {
         /// `plain_generic`, given the sines `s` and cosines `c` of its angles.
         ///
         /// The angles: `x`.
-        #[cfg_attr(target_feature = "fma", inline(never))]
-        #[cfg_attr(not(target_feature = "fma"), inline)]
+        #[inline]
         #[must_use]
         pub fn plain_generic_sc<T: ::robot_runtime::Scalar>(
             &self,
@@ -283,10 +299,27 @@ pub mod standard {
         /// `turned`, given the sines `s` and cosines `c` of its angles.
         ///
         /// The angles: `x + y`.
-        #[cfg_attr(target_feature = "fma", inline(never))]
-        #[cfg_attr(not(target_feature = "fma"), inline)]
+        #[inline]
         #[must_use]
         pub fn turned_sc(&self, s: &[f64; 1], c: &[f64; 1], q: &[f64; 2]) -> [f64; 18] {
+            struct Kernel<'a>(&'a Model, &'a [f64; 1], &'a [f64; 1], &'a [f64; 2]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f64; 18];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f64; 18] {
+                    let Kernel(model, s, c, q) = self;
+                    model.turned_sc_with::<A>(s, c, q)
+                }
+            }
+            ::robot_runtime::dispatch_apart(Kernel(self, s, c, q))
+        }
+        #[inline(always)]
+        fn turned_sc_with<A: ::robot_runtime::Arithmetic>(
+            &self,
+            s: &[f64; 1],
+            c: &[f64; 1],
+            q: &[f64; 2],
+        ) -> [f64; 18] {
             let [s1] = *s;
             let [c1] = *c;
             let [_, y] = *q;
@@ -298,7 +331,7 @@ pub mod standard {
             let t6 = y - self.k1;
             let t7 = y * self.k1;
             let t8 = y / self.k1;
-            let t9 = ::robot_runtime::Scalar::mul_add(y, self.k1, 0.3333333333333333);
+            let t9 = A::mul_add(y, self.k1, 0.3333333333333333);
             let t10 = <::robot_runtime::StdTrig as ::robot_runtime::Trig<
                 f64,
             >>::sin_cos(y)
@@ -369,8 +402,7 @@ pub mod standard {
         /// `turned_generic`, given the sines `s` and cosines `c` of its angles.
         ///
         /// The angles: `x + y`.
-        #[cfg_attr(target_feature = "fma", inline(never))]
-        #[cfg_attr(not(target_feature = "fma"), inline)]
+        #[inline]
         #[must_use]
         pub fn turned_generic_sc<T: ::robot_runtime::Scalar>(
             &self,
