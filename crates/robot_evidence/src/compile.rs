@@ -98,7 +98,7 @@ impl Compiler {
             "--cap-lints=allow",
         ]);
         command.args(["--crate-name", CRATE]).args(profile.flags());
-        if probe.needs_std {
+        if probe.needs_std || self.dispatches() {
             command.args(["--cfg", "feature=\"std\""]);
         }
         if let Some(target) = &self.target {
@@ -115,6 +115,14 @@ impl Compiler {
             return Err(self.refused(&output, folder.path()));
         }
         Ok(std::fs::read(folder.path().join(CRATE).with_extension("o"))?)
+    }
+
+    /// Whether the functions are compiled for several processors, as they are with the default features on x86-64.
+    fn dispatches(&self) -> bool {
+        let target = self.target.as_deref();
+        target.map_or(cfg!(target_arch = "x86_64"), |target| {
+            target.starts_with("x86_64") && !target.contains("-none")
+        })
     }
 
     fn path(&self) -> PathBuf {

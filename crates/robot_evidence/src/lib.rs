@@ -12,6 +12,7 @@
 //! | sines and cosines of the standard library | calls of `sin`, `cos` | calls of `sincos` or such |
 //! | copies of arrays | may call `memcpy` | none |
 //! | zeros of large results, such as the regressor's | may call `memset` | may call `memset` |
+//! | the choice between copies of a kernel, each for another processor | one or two jumps on x86-64; each copy is flat | the same |
 //! | batches, which take slices | shown, nothing claimed | a loop over the states, no panic |
 //!
 //! This is the one part of the project that starts another program. Everything but [`prove`] works

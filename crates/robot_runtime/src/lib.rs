@@ -3,7 +3,7 @@
 //!
 //! The dynamics of a robot are additions and multiplications of its velocities, its accelerations
 //! and the sines and cosines of its angles. Generated code does the former; this crate is the
-//! rest, without dependencies, allocation, `unsafe`, or a branch that depends on a value.
+//! rest, without dependencies, allocation, or a branch that depends on a value.
 //!
 //! ```
 //! use robot_runtime::{Scalar, sin_cos_array, sin_cos_each};
@@ -88,10 +88,45 @@
 //! assert_eq!(friction.to_array(), [-1.1, 0.0, 1.05, 2.5]);
 //! ```
 //!
+//! If their number fills vector registers of the target, `f64` and `f32` are computed in them.
+//!
+//! # The processor at hand
+//!
+//! A program for any x86-64 may use neither fused multiply-adds nor wide registers. With feature `std` a
+//! [`Kernel`] is compiled for several processors, and [`dispatch`] chooses when it runs:
+//!
+//! ```
+//! use robot_runtime::{Arithmetic, Kernel, dispatch};
+//!
+//! #[derive(Clone, Copy)]
+//! struct Energy([f64; 2]);
+//!
+//! impl Kernel for Energy {
+//!     type Output = f64;
+//!
+//!     #[inline(always)]
+//!     fn run<A: Arithmetic>(self) -> f64 {
+//!         let (_, [c1, c2]) = A::sin_cos_array(&self.0);
+//!         A::mul_add(5.0, c1, 2.0 * c2)
+//!     }
+//! }
+//!
+//! assert!((dispatch(Energy([0.3, -0.7])) - 6.3063668).abs() < 1e-6);
+//! ```
+//!
+//! | | levels on x86-64 |
+//! |---|---|
+//! | [`dispatch`], [`dispatch_apart`] | any; AVX2 with fused multiply-adds |
+//! | [`dispatch_block`], for loops over states | AVX-512 besides |
+//!
+//! [`Arithmetic`] rounds once where the processor can; what a kernel computes otherwise has the same bits on
+//! every level. A program that is compiled for such a processor, or for another architecture, has no
+//! choice in it.
+//!
 //! # Features
 //!
-//! - `std` (off): `StdTrig` and `std_sin_cos_array`, the processor's square root, and fused
-//!   multiply-add if the target has it.
+//! - `std` (on): the choice of the processor, `StdTrig` and `std_sin_cos_array`, the processor's square root, and
+//!   fused multiply-add if the target has it. Without it, the crate needs `core` alone.
 //! - `sources` (off): `SOURCES`, the text of the modules, for generators of self-contained crates.
 
 mod runtime;

@@ -7,7 +7,7 @@ pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 ///
 /// A generator of self-contained crates writes them unchanged into a folder `runtime` beside
 /// its crate root and declares `pub mod runtime;` (private, it would warn of unused functions).
-/// The manifest declares a feature `std`, empty; with it the module offers `StdTrig`, without it
+/// The manifest declares a feature `std`, empty; with it code runs on the processor at hand and the module offers `StdTrig`, without it
 /// the module needs `core` alone. Nothing else is asked of the crate around it but that it does not
 /// forbid `unsafe`: no dependency, no edition before 2024.
 pub const SOURCES: &[(&str, &str)] = &[

@@ -18,6 +18,7 @@ fn rounds_once() -> bool {
 }
 
 /// Sines and cosines of angles in either way, and a multiply-add.
+#[derive(Clone, Copy)]
 struct Sines<T, const N: usize>([T; N]);
 
 impl<T: Real, const N: usize> Kernel for Sines<T, N> {
@@ -29,6 +30,7 @@ impl<T: Real, const N: usize> Kernel for Sines<T, N> {
     }
 }
 
+#[derive(Clone, Copy)]
 struct Product<T>(T, T, T);
 
 impl<T: Real> Kernel for Product<T> {

@@ -105,10 +105,11 @@ impl From<ProfileName> for Profile {
 /// A named figure.
 type Column = (&'static str, fn(&Measurements) -> u64);
 
-const COLUMNS: [Column; 7] = [
+const COLUMNS: [Column; 8] = [
     ("functions", |measurements| measurements.functions as u64),
     ("instructions", |measurements| measurements.instructions as u64),
     ("jumps", |measurements| measurements.conditional_jumps as u64),
+    ("choices", |measurements| measurements.choices as u64),
     ("panics", |measurements| measurements.panics as u64),
     ("frame", |measurements| measurements.frame),
     ("stack", |measurements| measurements.stack),

@@ -144,9 +144,8 @@ fn fused_code_gives_the_bits_of_the_interpreter() {
     let options = RustOptions { generic: true, ..RustOptions::default() };
     let code = generate(&module, &options).unwrap().to_text();
     assert!(code.contains("A::mul_add(") && code.contains("Scalar::mul_add("));
-    let text = |method: &str| {
-        format!("#![deny(warnings)]\n{code}\n{}", main_text_of(method, &states))
-    };
+    let text =
+        |method: &str| format!("#![deny(warnings)]\n{code}\n{}", main_text_of(method, &states));
     let printed = support::rustc::output_of("fused", &text("f_generic"), &["-O"]);
     let expected = hold("fused", &module, &states, &printed);
 

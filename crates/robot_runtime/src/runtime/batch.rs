@@ -29,21 +29,3 @@ pub fn padded_states<T: Scalar, const D: usize, const N: usize>(states: &[[T; D]
     }
     block
 }
-
-/// A slice as blocks of `N`, and the rest that is shorter than one. `slice::as_chunks`, for Rust before 1.88.
-#[inline(always)]
-pub fn blocks<T, const N: usize>(slice: &[T]) -> (impl Iterator<Item = &[T; N]>, &[T]) {
-    let blocks = slice.chunks_exact(N);
-    let rest = blocks.remainder();
-    (blocks.filter_map(|block| block.try_into().ok()), rest)
-}
-
-/// [`blocks`] for a slice that is written to.
-#[inline(always)]
-pub fn blocks_mut<T, const N: usize>(
-    slice: &mut [T],
-) -> (impl Iterator<Item = &mut [T; N]>, &mut [T]) {
-    let whole = slice.len() - slice.len() % N;
-    let (blocks, rest) = slice.split_at_mut_checked(whole).unwrap_or_default();
-    (blocks.chunks_exact_mut(N).filter_map(|block| block.try_into().ok()), rest)
-}

@@ -10,9 +10,9 @@ use super::scalar::Scalar;
 
 /// `N` numbers of type `T` on which every operation acts lane by lane.
 ///
-/// A plain array whose loops have a constant length, so that LLVM turns them into vector
-/// instructions of whatever size the target has, at `opt-level` 3 (at 2 it leaves straight-line
-/// code scalar). Four `f64` or eight `f32` fill a 256-bit register, eight or sixteen a 512-bit one.
+/// An array whose operations go through vector registers if `T` is `f64` or `f32` and `N` a multiple of what a
+/// register of the target holds: on x86-64 two `f64` or four `f32`, with AVX2 four or eight, with AVX-512 eight or
+/// sixteen. Else, and on other targets, a loop of constant length, which LLVM may vectorise.
 ///
 /// To evaluate a function of numbers at many states a loop over the states is as fast, at 2
 /// already, and leaves the function as it is: see [`sin_cos_each`](super::sin_cos_each).

@@ -23,7 +23,7 @@ mod std_trig;
 mod tanh;
 pub mod trig;
 
-pub use self::batch::{blocks, blocks_mut, lanes_from_states, padded_states, states_from_lanes};
+pub use self::batch::{lanes_from_states, padded_states, states_from_lanes};
 pub use self::fused::FUSED;
 pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
 #[cfg(not(feature = "std"))]

@@ -8,8 +8,8 @@
 
 use super::real::Real;
 
-/// A computation that is compiled for several processors.
-pub trait Kernel {
+/// A computation that is compiled for several processors. It is copied, so that nothing is left to drop.
+pub trait Kernel: Copy {
     /// The result.
     type Output;
 
@@ -123,10 +123,17 @@ mod x86 {
     /// What the processor has, once somebody asked.
     static LEVEL: AtomicU8 = AtomicU8::new(PLAIN);
 
+    /// What the processor has as far as it was asked. A call in dev, so that whatever calls it stays flat in both.
+    #[cfg_attr(debug_assertions, inline(never))]
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn asked() -> u8 {
+        LEVEL.load(Ordering::Relaxed)
+    }
+
     #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
     #[inline(always)]
     pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
-        if LEVEL.load(Ordering::Relaxed) >= AVX2 {
+        if asked() >= AVX2 {
             // SAFETY: the processor was asked.
             return unsafe { with_avx2(kernel) };
         }
@@ -135,7 +142,7 @@ mod x86 {
 
     #[inline(always)]
     pub(super) fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
-        if LEVEL.load(Ordering::Relaxed) == AVX512 {
+        if asked() == AVX512 {
             // SAFETY: the processor was asked.
             return unsafe { with_avx512(kernel) };
         }

@@ -18,10 +18,10 @@ use crate::error::Errors;
 /// The files of a crate that holds a robot's functions, in a fixed order.
 ///
 /// The crate has no dependencies: the runtime's modules are part of it. Only with
-/// [`Options::parallel`] it has an optional one, `rayon`, for a feature of that name. It is `no_std` where
-/// [`Options::trigonometry`] is the polynomials'; its feature `std` adds fused multiply-add and the
-/// processor's square root. With the standard library's sine and cosine, `std` is a default feature
-/// and needed. [`Options::runtime`] is without effect.
+/// [`Options::parallel`] it has an optional one, `rayon`, for a feature of that name. Its default feature `std`
+/// adds the choice of the processor at run time, fused multiply-add and the processor's square root; without it
+/// the crate is `no_std`, unless [`Options::trigonometry`] is the standard library's, which needs it.
+/// [`Options::runtime`] is without effect.
 ///
 /// # Errors
 ///
@@ -122,7 +122,6 @@ impl Parts<'_> {
 
     fn manifest(&self) -> String {
         let (name, robot) = (self.name(), &self.programs.robot.name);
-        let default = if self.needs_std() { "default = [\"std\"]\n" } else { "" };
         let (feature, dependency) = match self.options.parallel {
             true => (
                 "# Parallel batches.\nrayon = [\"dep:rayon\"]\n",
@@ -141,7 +140,8 @@ impl Parts<'_> {
              readme = \"README.md\"\n\
              publish = false\n\n\
              [features]\n\
-             {default}# Fused multiply-add and square root by the standard library.\n\
+             default = [\"std\"]\n\
+             # Code for the processor at hand, fused multiply-add and square root of the standard library.\n\
              std = []\n{feature}{dependency}",
             header(self.source),
             robot_runtime::RUST_VERSION,

@@ -65,7 +65,10 @@ impl Methods<'_, '_> {
         };
         let arithmetic = self.arithmetic_argument();
         let statements = vec![
-            parse_quote!(struct Kernel<'a>(&'a Model, #(#types),*);),
+            parse_quote! {
+                #[derive(Clone, Copy)]
+                struct Kernel<'a>(&'a Model, #(#types),*);
+            },
             parse_quote! {
                 impl #runtime::Kernel for Kernel<'_> {
                     type Output = #returned;

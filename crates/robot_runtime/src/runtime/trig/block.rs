@@ -1,6 +1,5 @@
 //! Functions of whole arrays of angles, shaped so that LLVM vectorises them.
 
-use super::super::batch::{blocks, blocks_mut};
 use super::super::scalar::Scalar;
 
 /// Whether the target has vector registers of floating-point numbers.
@@ -76,8 +75,8 @@ pub(crate) fn in_blocks<const BLOCK: usize, T: Scalar, const N: usize>(
         copy(&block.1, &mut cosines);
         return (sines, cosines);
     }
-    let results = blocks_mut::<_, BLOCK>(&mut sines).0.zip(blocks_mut(&mut cosines).0);
-    for (angles, (sines, cosines)) in blocks(angles).0.zip(results) {
+    let results = sines.as_chunks_mut::<BLOCK>().0.iter_mut().zip(cosines.as_chunks_mut().0);
+    for (angles, (sines, cosines)) in angles.as_chunks().0.iter().zip(results) {
         block_out_of_line(angles, sines, cosines, &function);
     }
     let last = (angles.last_chunk::<BLOCK>(), sines.last_chunk_mut(), cosines.last_chunk_mut());
