@@ -102,6 +102,7 @@ pub mod planar_arm {
             qd: &[f64; 2],
             qdd: &[f64; 2],
         ) -> [f64; 2] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f64; 2], &'a [f64; 2], &'a [f64; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f64; 2];
@@ -200,6 +201,7 @@ pub mod planar_arm {
             qd: &[[f64; 2]; 8],
             qdd: &[[f64; 2]; 8],
         ) -> [[f64; 2]; 8] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(
                 &'a Model,
                 &'a [[f64; 2]; 8],
@@ -300,6 +302,7 @@ pub mod planar_arm {
             qd: [&[f64; 8]; 2],
             qdd: [&[f64; 8]; 2],
         ) -> [[f64; 8]; 2] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(
                 &'a Model,
                 [&'a [f64; 8]; 2],

@@ -119,6 +119,7 @@ pub mod double {
         #[inline(always)]
         #[must_use]
         pub fn plain(&self, q: &[f64; 2]) -> [f64; 19] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f64; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f64; 19];
@@ -225,6 +226,7 @@ pub mod double {
         }
         #[inline(always)]
         fn plain_states(&self, q: &[[f64; 2]; 4]) -> [[f64; 19]; 4] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [[f64; 2]; 4]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f64; 19]; 4];
@@ -294,6 +296,7 @@ pub mod double {
         }
         #[inline(always)]
         fn plain_lanes(&self, q: [&[f64; 4]; 2]) -> [[f64; 4]; 19] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, [&'a [f64; 4]; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f64; 4]; 19];
@@ -332,6 +335,7 @@ pub mod double {
         #[inline(always)]
         #[must_use]
         pub fn turned(&self, q: &[f64; 2]) -> [f64; 18] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f64; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f64; 18];
@@ -445,6 +449,7 @@ pub mod double {
         }
         #[inline(always)]
         fn turned_states(&self, q: &[[f64; 2]; 4]) -> [[f64; 18]; 4] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [[f64; 2]; 4]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f64; 18]; 4];
@@ -513,6 +518,7 @@ pub mod double {
         }
         #[inline(always)]
         fn turned_lanes(&self, q: [&[f64; 4]; 2]) -> [[f64; 4]; 18] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, [&'a [f64; 4]; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f64; 4]; 18];

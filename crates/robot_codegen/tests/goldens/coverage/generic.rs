@@ -119,6 +119,7 @@ pub mod generic {
         #[inline]
         #[must_use]
         pub fn plain(&self, q: &[f32; 2]) -> [f32; 19] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f32; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f32; 19];
@@ -288,6 +289,7 @@ pub mod generic {
         #[inline]
         #[must_use]
         pub fn turned(&self, q: &[f32; 2]) -> [f32; 18] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f32; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f32; 18];

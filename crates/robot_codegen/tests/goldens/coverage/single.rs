@@ -119,6 +119,7 @@ pub mod single {
         #[inline(always)]
         #[must_use]
         pub fn plain(&self, q: &[f32; 2]) -> [f32; 19] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f32; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f32; 19];
@@ -225,6 +226,7 @@ pub mod single {
         }
         #[inline(always)]
         fn plain_states(&self, q: &[[f32; 2]; 4]) -> [[f32; 19]; 4] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [[f32; 2]; 4]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f32; 19]; 4];
@@ -294,6 +296,7 @@ pub mod single {
         }
         #[inline(always)]
         fn plain_lanes(&self, q: [&[f32; 4]; 2]) -> [[f32; 4]; 19] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, [&'a [f32; 4]; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f32; 4]; 19];
@@ -332,6 +335,7 @@ pub mod single {
         #[inline(always)]
         #[must_use]
         pub fn turned(&self, q: &[f32; 2]) -> [f32; 18] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f32; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f32; 18];
@@ -445,6 +449,7 @@ pub mod single {
         }
         #[inline(always)]
         fn turned_states(&self, q: &[[f32; 2]; 4]) -> [[f32; 18]; 4] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [[f32; 2]; 4]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f32; 18]; 4];
@@ -513,6 +518,7 @@ pub mod single {
         }
         #[inline(always)]
         fn turned_lanes(&self, q: [&[f32; 4]; 2]) -> [[f32; 4]; 18] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, [&'a [f32; 4]; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [[f32; 4]; 18];

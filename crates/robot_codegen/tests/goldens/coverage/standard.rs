@@ -125,6 +125,7 @@ pub mod standard {
         #[inline]
         #[must_use]
         pub fn plain_sc(&self, s: &[f64; 1], c: &[f64; 1], q: &[f64; 2]) -> [f64; 19] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f64; 1], &'a [f64; 1], &'a [f64; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f64; 19];
@@ -302,6 +303,7 @@ pub mod standard {
         #[inline]
         #[must_use]
         pub fn turned_sc(&self, s: &[f64; 1], c: &[f64; 1], q: &[f64; 2]) -> [f64; 18] {
+            #[derive(Clone, Copy)]
             struct Kernel<'a>(&'a Model, &'a [f64; 1], &'a [f64; 1], &'a [f64; 2]);
             impl ::robot_runtime::Kernel for Kernel<'_> {
                 type Output = [f64; 18];
