@@ -63,6 +63,13 @@ fn main_text() -> String {
             for tau in tau { println!(\"{form} {tau:?}\"); }\n\
         }\n\
         fn wide<T: Scalar, const N: usize>(values: &[f64; N]) -> [T; N] { values.map(T::from_f64) }\n\
+        fn columns<const N: usize>(states: &[[f64; N]]) -> [Vec<f64>; N] {\n    \
+            core::array::from_fn(|d| states.iter().map(|state| state[d]).collect())\n\
+        }\n\
+        fn slices<const N: usize>(columns: &[Vec<f64>; N]) -> [&[f64]; N] { columns.each_ref().map(|c| &c[..]) }\n\
+        fn states<const N: usize>(columns: &[Vec<f64>; N]) -> Vec<[f64; N]> {\n    \
+            (0..columns[0].len()).map(|i| core::array::from_fn(|d| columns[d][i])).collect()\n\
+        }\n\
         fn main() {\n"
         .to_owned();
     for (module, dof, model) in [
@@ -90,6 +97,29 @@ fn main_text() -> String {
                  let mut tau = [[0.0; {dof}]; {STATES}];\n\
                  assert_eq!(m.inverse_dynamics_batch(&q, &qd, &qdd, &mut tau), {STATES});\n\
                  show(\"batch\", &tau);\n\
+                 let (cq, cqd, cqdd) = (columns(&q), columns(&qd), columns(&qdd));\n\
+                 let mut ctau = columns(&[[0.0; {dof}]; {STATES}]);\n\
+                 let count = m.inverse_dynamics_columns(slices(&cq), slices(&cqd), slices(&cqdd), \
+                   ctau.each_mut().map(|column| &mut column[..]));\n\
+                 assert_eq!(count, {STATES});\n\
+                 show(\"columns\", &states::<{dof}>(&ctau));\n\
+                 // The bits of a block do not depend on where its states come from.\n\
+                 assert_eq!(states::<{dof}>(&ctau), tau);\n\
+                 let mut short = slices(&cq);\n\
+                 short[1] = &short[1][..11];\n\
+                 ctau.iter_mut().for_each(|column| column.fill(0.0));\n\
+                 let count = m.inverse_dynamics_columns(short, slices(&cqd), slices(&cqdd), \
+                   ctau.each_mut().map(|column| &mut column[..]));\n\
+                 assert_eq!(count, 11);\n\
+                 assert_eq!(states::<{dof}>(&ctau)[..11], tau[..11]);\n\
+                 assert_eq!(states::<{dof}>(&ctau)[11..], [[0.0; {dof}]; {STATES} - 11]);\n\
+                 let block = |c: &[Vec<f64>; {dof}]| -> [[f64; 8]; {dof}] {{\n    \
+                   core::array::from_fn(|d| *c[d].first_chunk().unwrap())\n\
+                 }};\n\
+                 let lanes = m.inverse_dynamics_block(&block(&cq), &block(&cqd), &block(&cqdd));\n\
+                 for (state, tau) in tau[..8].iter().enumerate() {{\n    \
+                   assert_eq!(lanes.map(|lanes| lanes[state]), *tau);\n\
+                 }}\n\
                  let mut masses = [[[0.0; {dof}]; {dof}]; {STATES}];\n\
                  assert_eq!(m.mass_matrix_batch(&q, &mut masses), {STATES});\n\
                  for (q, mass) in q.iter().zip(&masses) {{\n    \
@@ -123,8 +153,8 @@ fn hold(printed: &str) -> bool {
     for (robot, dof) in [(UR5, 6), (TRTTR1, 5)] {
         let expected = expected(robot, dof);
         let size = expected.iter().flatten().fold(0.0_f64, |size, tau| size.max(tau.abs()));
-        // Two sources of sines, six forms each.
-        for _ in 0..2 * 6 {
+        // Two sources of sines, seven forms each.
+        for _ in 0..2 * 7 {
             for expected in &expected {
                 let (form, values) = lines.next().unwrap().split_once(' ').unwrap();
                 let tolerance = if form == "f32" { SINGLE_TOLERANCE } else { TOLERANCE };
