@@ -23,4 +23,4 @@ pub use error::{Centimeters, Error};
 pub use forms::{Equation, EquationOptions, Equations, Form, Group, equations};
 pub use layout::{Order, Rank, SymbolTable, Trigonometry};
 pub use layout::{breaking, math, meaning, width};
-pub use notation::{html, latex, mathml, typst};
+pub use notation::{html, latex, math_font, mathml, typst};

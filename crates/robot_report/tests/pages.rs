@@ -250,7 +250,7 @@ fn hostile_names_are_errors() {
     }
 }
 
-/// The policy names the page's own script and style, and a browser runs no other.
+/// The policy names the page's own script, styles and font, and a browser takes no other.
 #[test]
 fn the_policy_allows_nothing_from_elsewhere() {
     let page = page_of("planar_2r");
@@ -261,6 +261,8 @@ fn the_policy_allows_nothing_from_elsewhere() {
         .and_then(|node| node.attribute("content"))
         .unwrap();
     assert!(policy.starts_with("default-src 'none'; style-src 'sha256-"), "{policy}");
+    assert!(policy.contains("; font-src data:; script-src "), "{policy}");
+    assert!(page.contains("url(data:font/woff2;base64,"));
     assert!(!policy.contains("unsafe") && !policy.contains("http"), "{policy}");
     // Nothing is written where the policy would refuse it.
     for attribute in ["style", "src", "onclick", "onload"] {
@@ -286,7 +288,7 @@ fn a_page_that_reloads_itself_is_the_same_page() {
     let scripts = document.descendants().filter(|node| node.tag_name().name() == "script");
     assert_eq!(scripts.count(), 2);
     let policy = words(&document, "content").filter(|word| word.starts_with("'sha256-"));
-    assert_eq!(policy.count(), 3);
+    assert_eq!(policy.count(), 4);
     assert!(found.page.contains("; img-src 'self' file:;"));
     // The page's own stamp is the size of the picture beside it.
     let own = document.root_element().attribute("data-page").unwrap();

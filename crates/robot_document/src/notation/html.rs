@@ -1,4 +1,4 @@
-//! A page of HTML with equations in MathML: one file that needs no other, no script and no font.
+//! A page of HTML with equations in MathML: one file that needs no other and no script, and contains its font.
 
 use crate::breaking::right_side;
 use crate::error::Error;
@@ -6,6 +6,7 @@ use crate::forms::{Equation, Group};
 use crate::latex::Layout;
 use crate::markup::{Element, Node, element, holding};
 use crate::math::Math;
+use crate::math_font;
 use crate::mathml;
 use crate::width::width;
 
@@ -50,7 +51,11 @@ pub fn page(
             .attribute("displaystyle", "true");
         body.push(holding("math", table).attribute("display", "block"));
     }
-    let style = element("style").with("\n").with(Node::Verbatim(STYLE)).with("\n");
+    let style = element("style")
+        .with("\n")
+        .with(Node::Verbatim(&math_font::RULES))
+        .with(Node::Verbatim(STYLE))
+        .with("\n");
     let head = [element("meta").attribute("charset", "utf-8"), holding("title", title), style];
     let html = element("html").attribute("lang", "en").with("\n");
     let html = [lines("head", head), lines("body", body)]
