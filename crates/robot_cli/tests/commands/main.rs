@@ -18,6 +18,7 @@ mod interrupted;
 mod json_schema;
 mod outputs;
 mod people;
+mod pictures;
 mod plans;
 mod prove;
 mod reading;
