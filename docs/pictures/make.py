@@ -83,8 +83,8 @@ def readme(pictures):
     file = "robots/trttr1.toml"
     drawing = scheme(pictures.printed(f"document {file} --format typst"))
     found = equations(pictures.printed(f"equations {file} --form collected --quantity Q --format typst --width 11.4cm"))
-    # The shorter ones; the first is as long as all of these.
-    body = beside(drawing, aligned(found[1:]), "150pt", "210pt")
+    # The first is as long as all of these.
+    body = beside(drawing, "#set text(size: 11.5pt)\n" + aligned(found[1:]), "190pt", "270pt")
     pictures.add("readme", body, "The robot TRTTR1 and four of its equations of motion")
 
 
