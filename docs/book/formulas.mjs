@@ -1,5 +1,5 @@
-// Sets the formulas of pages as MathML: FOLDER. `$$ … $$` on lines of their own is replaced; above LaTeX that the command
-// printed its equations are shown. A formula that Temml cannot read is an error.
+// Sets the formulas of pages as MathML: FOLDER TOOLS. Blocks of the language `math` are replaced; above LaTeX that the
+// command printed its equations are shown. A formula that Temml cannot read is an error.
 import { readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -29,7 +29,7 @@ for (const page of pages(folder)) {
     const shown = text
         .replace(/^```latex output\n([^]*?)^```$/gm, (block, latex) =>
             latex.includes("…") ? block : `${printed(latex)}\n<details><summary>LaTeX</summary>\n\n${block}\n\n</details>`)
-        .replace(/^\$\$\n([^]*?)^\$\$$/gm, (_, latex) => set(latex));
+        .replace(/^```math\n([^]*?)^```$/gm, (_, latex) => set(latex));
     if (shown !== text) writeFileSync(page, shown);
 }
 console.log(`${count} formulas`);
