@@ -104,7 +104,7 @@ def gallery(pictures):
         found = equations(pictures.printed(f"equations robots/{name}.toml --form grouped --format typst --width 12cm"), *titles)
         assert found, name
         words = " and ".join(title.lower() for title in titles)
-        pictures.add(f"gallery-{name}", beside(drawing, aligned(found), "170pt", "190pt"), f"{name}: {words}")
+        pictures.add(f"gallery-{name}", beside(drawing, aligned(found), "230pt", "230pt"), f"{name}: {words}")
 
 
 def author(pictures):

@@ -52,7 +52,10 @@ fn pictures_are_made_from_what_is_printed() {
         }
     }
     assert!(count >= 10, "{count}");
-    assert!(old.is_empty(), "made from something else, docs/pictures/make makes them anew: {old:#?}");
+    assert!(
+        old.is_empty(),
+        "made from something else, docs/pictures/make makes them anew: {old:#?}"
+    );
 }
 
 /// They are shown in a page of any color, by programs that have no fonts, and are no burden.

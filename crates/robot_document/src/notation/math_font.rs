@@ -45,11 +45,15 @@ mod tests {
     fn it_has_what_formulas_may_have() {
         let known = characters();
         let letters = || ('A'..='Z').chain('a'..='z');
-        let fonts = Font::ALL.iter().flat_map(|font| letters().map(|letter| font.character(letter)));
-        let accents = Accent::ALL.iter().flat_map(|accent| accent.sign().chars().chain(accent.mark()));
+        let fonts =
+            Font::ALL.iter().flat_map(|font| letters().map(|letter| font.character(letter)));
+        let accents =
+            Accent::ALL.iter().flat_map(|accent| accent.sign().chars().chain(accent.mark()));
         let all = LETTERS.iter().map(|letter| letter.character).chain(fonts).chain(accents);
-        let lacking: String =
-            all.chain("0123456789.,+−=/()[]|√".chars()).filter(|one| !known.contains(one)).collect();
+        let lacking: String = all
+            .chain("0123456789.,+−=/()[]|√".chars())
+            .filter(|one| !known.contains(one))
+            .collect();
         assert_eq!(lacking, "");
     }
 
