@@ -84,3 +84,22 @@ fn rgb(Color(parts): Color) -> String {
     let digits: String = parts.iter().map(|part| format!("{part:02x}")).collect();
     format!("rgb(\"#{digits}\")")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Inline;
+
+    /// In a box without a width, Typst breaks a line at every space.
+    #[test]
+    fn labels_are_as_wide_as_their_words() {
+        let words = Inline::Text("0.4 m".to_owned());
+        let color = Color([0; 3]);
+        let label = Label { center: [0.0; 2], words, size: 1.0, is_bold: false, color };
+        let shapes = vec![Shape::Label(label)];
+        let bounds = [[0.0; 2], [10.0; 2]];
+        let typst = super::figure(&Figure { caption: String::new(), bounds, shapes }, 100.0);
+        assert!(typst.contains("4 m])") && typst.contains("width: size.width"), "{typst}");
+        assert!(!typst.contains("width: 0pt"), "{typst}");
+    }
+}
