@@ -98,7 +98,7 @@ mod tests {
         let label = Label { center: [0.0; 2], words, size: 1.0, is_bold: false, color };
         let shapes = vec![Shape::Label(label)];
         let bounds = [[0.0; 2], [10.0; 2]];
-        let typst = super::figure(&Figure { caption: String::new(), bounds, shapes }, 100.0);
+        let typst = figure(&Figure { caption: String::new(), bounds, shapes }, 100.0);
         assert!(typst.contains("4 m])") && typst.contains("width: size.width"), "{typst}");
         assert!(!typst.contains("width: 0pt"), "{typst}");
     }
