@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use robot_build::shown;
-use robot_document::{Error, Form, Trigonometry};
+use robot_document::{Equations, Error, Form, Trigonometry};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
@@ -37,6 +37,10 @@ pub(crate) struct EquationArguments {
     /// In the grouped form, print Christoffel symbols instead of Coriolis and centrifugal coefficients
     #[arg(long)]
     christoffel: bool,
+    /// Vectors as columns and coefficients as matrices, or equations of their entries [default: vectors in LaTeX,
+    /// Typst and MathML, else scalars]
+    #[arg(long, value_enum)]
+    layout: Option<LayoutStyle>,
     /// Include friction in the joint torques
     #[arg(long)]
     friction: bool,
@@ -90,7 +94,32 @@ enum AngleSumStyle {
     Keep,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LayoutStyle {
+    /// Columns and matrices where they fit
+    Vectors,
+    /// An equation for each entry
+    Scalars,
+}
+
 impl EquationArguments {
+    /// Whether vectors are columns, and coefficients matrices.
+    pub(crate) fn has_arrays(&self, typeset: bool) -> bool {
+        self.layout.map_or(typeset, |layout| layout == LayoutStyle::Vectors)
+    }
+
+    /// Refuses a layout of equations without matrices and columns.
+    pub(crate) fn check_layout(&self, equations: &Equations) -> Result<(), Failure> {
+        if self.layout.is_none() || equations.arrays().next().is_some() {
+            return Ok(());
+        }
+        Err(Failure::Usage(vec![
+            "--layout has no effect on these equations, which have neither vectors nor matrices; choose the form \
+             grouped or recursive, or vectors with --quantity, or leave it out"
+                .to_owned(),
+        ]))
+    }
+
     /// Refuses options that would have no effect: in those forms, and where nothing is typeset.
     pub(crate) fn check(&self, forms: &[Form], typeset: bool) -> Result<(), Failure> {
         let mut wrong = vec![];

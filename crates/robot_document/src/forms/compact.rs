@@ -4,7 +4,7 @@ use robot_symbolic::{AngleSums, Expr, Graph, walk};
 use rustc_hash::FxHashSet;
 
 use super::naming::{Named, worth_naming};
-use super::{Equation, Group, Writer, angle_sums, of_generalized_force, shapes};
+use super::{Equation, Group, Writer, angle_sums, of_generalized_force, shapes, vectors};
 use crate::error::Error;
 use crate::layout::is_motion;
 use crate::math::Math;
@@ -30,12 +30,9 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         let (name, left) = (quantity.symbol.to_string(), Math::quantity(quantity.symbol));
         equations.push(writer.of_expression(name, left, named.rewritten(quantity.value))?);
     }
-    groups.push(Group {
-        title: "Equations of motion, compact".to_owned(),
-        introduction: String::new(),
-        definitions: false,
-        equations,
-    });
+    let arrays = vectors::of_quantities(&quantities, &equations);
+    let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
+    groups.push(Group { arrays, ..group });
     Ok(groups)
 }
 

@@ -6,7 +6,7 @@ use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
 use super::loads::{friction_contributions, whole};
-use super::{Equation, Form, Group, Writer, of_generalized_force};
+use super::{Equation, Form, Group, Writer, of_generalized_force, vectors};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -52,11 +52,9 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             "Products are multiplied out, even powers of sines are replaced by cosines, and like terms are merged.",
         ),
     };
-    let (title, introduction) = (title.to_owned(), introduction.to_owned());
-    Ok(vec![
-        Group { title, introduction, definitions: false, equations },
-        Group::of_definitions("Joint wrenches", forces),
-    ])
+    let arrays = vectors::of_quantities(&quantities, &equations);
+    let group = Group::of_quantities(title, introduction.to_owned(), equations);
+    Ok(vec![Group { arrays, ..group }, Group::of_definitions("Joint wrenches", forces)])
 }
 
 /// Adds friction to the joint torques. The forces in the joints that dry friction needs are defined under

@@ -1,17 +1,20 @@
 //! The forms of the equations of motion.
 
 mod angle_sums;
+mod arrays;
 mod coefficients;
 mod compact;
 mod expanded;
 mod grouped;
 mod loads;
+mod matrices;
 mod naming;
 mod parts;
 mod recursive;
 mod references;
 mod regrouped;
 mod shapes;
+mod vectors;
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -28,6 +31,8 @@ use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 use crate::error::Error;
 use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry};
 use crate::math::Math;
+
+pub use arrays::{Array, Cell, Room, Written};
 
 /// The form of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -137,6 +142,11 @@ pub struct Group {
     pub definitions: bool,
     /// The equations.
     pub equations: Vec<Equation>,
+    /// The equations as one of vectors.
+    pub vector: Option<Equation>,
+    /// The matrices and columns with entries that the equations define; `None` if the group has none. Vectors that
+    /// are only other names of what is defined before are not among them.
+    pub arrays: Option<Vec<Array>>,
 }
 
 /// An equation: a quantity or a defined symbol, and what it is.
@@ -156,15 +166,27 @@ impl Group {
     /// Definitions of symbols that other equations use.
     pub(crate) fn of_definitions(title: &str, equations: Vec<Equation>) -> Group {
         let (title, introduction) = (title.to_owned(), String::new());
-        Group { title, introduction, definitions: true, equations }
+        Group { title, introduction, definitions: true, equations, vector: None, arrays: None }
+    }
+
+    /// Quantities of the robot.
+    pub(crate) fn of_quantities(
+        title: &str,
+        introduction: String,
+        equations: Vec<Equation>,
+    ) -> Group {
+        let title = title.to_owned();
+        Group { title, introduction, definitions: false, equations, vector: None, arrays: None }
     }
 }
 
 impl Equation {
-    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component.
+    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component; of a
+    /// matrix without what it depends on.
     #[must_use]
     pub fn label(&self) -> String {
-        self.name.replace('_', "-").replace('.', ":")
+        let name = self.name.split_once('(').map_or(self.name.as_str(), |(name, _)| name);
+        name.replace('_', "-").replace('.', ":")
     }
 }
 
@@ -172,6 +194,11 @@ impl Equations {
     /// The equations of quantities of the robot, without definitions.
     pub fn quantities(&self) -> impl Iterator<Item = &Equation> {
         self.groups.iter().filter(|group| !group.definitions).flat_map(|group| &group.equations)
+    }
+
+    /// The matrices and columns, in order.
+    pub fn arrays(&self) -> impl Iterator<Item = &Array> {
+        self.groups.iter().filter_map(|group| group.arrays.as_ref()).flatten()
     }
 
     /// The definitions that the other equations use, each before it is used by another one.
@@ -203,7 +230,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         order: Order::new(robot),
         parallel: vec![],
     };
-    if writer.angle_sums() == AngleSums::Keep {
+    if writer.angle_sums() == AngleSums::Keep && options.form != Form::Recursive {
         writer.parallel = writer.derivation().mechanism.parallel_angles();
     }
     let groups = match options.form {

@@ -1,6 +1,6 @@
 //! The spelling of symbols and quantities.
 
-use robot_dynamics::quantity::Symbol;
+use robot_dynamics::quantity::{Kind, Symbol};
 use robot_model::signs::{Accent, Letter};
 use robot_model::variable::JointVariable;
 
@@ -25,6 +25,21 @@ impl Math {
             base.push(last.with_lower(lower));
         }
         Math::row(base)
+    }
+
+    /// The look of a vector, `\bar{F}_{l}^{5}`: that of its components without their axis, under a bar.
+    #[must_use]
+    pub fn vector(kind: Kind, number: usize) -> Math {
+        let (letter, index) = kind.name().split_once('_').unwrap_or((kind.name(), ""));
+        let base = Math::Letter(letter.chars().next().unwrap_or('F')).under_bar();
+        let lower = index.chars().next().map(Math::Letter);
+        Math::Script(Box::new(Script { base, lower, upper: Some(Math::integer(number)) }))
+    }
+
+    /// The piece under a bar.
+    #[must_use]
+    pub fn under_bar(self) -> Math {
+        Math::Accent(Accent::Bar, Box::new(self))
     }
 
     /// The look of a quantity, `Q_1`, `F_{l_x}^{5}`, as the paper prints it.
