@@ -17,6 +17,7 @@ use crate::text;
   robot-symbolic equations robots/trttr1.toml
   robot-symbolic equations robots/trttr1.toml --quantity Q,F_l --format json
   robot-symbolic equations robots/trttr1.toml --form grouped --format latex --trig short
+  robot-symbolic equations robots/trttr1.toml --style paper --format latex
   robot-symbolic equations robots/panda.toml --form compact --format latex --width 8.5cm
 
 Quantities: a_c accelerations of the centers of mass, F and M_c inertia forces and moments of the links,
@@ -53,16 +54,18 @@ enum Format {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let typeset = !matches!(self.format, Format::Text | Format::Json);
-        self.equations.check(&[self.form.into()], typeset)?;
+        let forms = self.equations.forms(&[self.form]);
+        self.equations.check(&forms, typeset)?;
         self.layout.check(typeset)?;
-        let options = self.equations.options(&self.robot, self.form.into())?;
+        let form = forms.first().copied().unwrap_or_default();
+        let options = self.equations.options(&self.robot, form)?;
         let robot = self.robot.read(terminal)?.robot;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
         self.equations.check_layout(&equations)?;
-        let has_arrays = self.equations.has_arrays(typeset);
+        let has_arrays = self.equations.has_arrays(&forms, typeset);
         let displayed = |notation| {
             let room = Room::Points(self.layout.line());
             let arranged = has_arrays.then(|| equations.arranged(room));

@@ -57,9 +57,9 @@ fn introduction(writer: &Writer<'_, '_>) -> String {
         false => "coefficients of the products of joint velocities",
     };
     format!(
-        "The coefficients of the accelerations (the entries of the symmetric mass matrix), \
-         {rates}, and the gravity terms. Each depends on the coordinates alone; zeros are \
-         omitted."
+        "The coefficients of the accelerations (the entries of the symmetric mass matrix), the Coriolis and \
+         centrifugal terms by {rates}, and the gravity terms. The coefficients depend on the coordinates alone; \
+         those that are zero have no equation."
     )
 }
 

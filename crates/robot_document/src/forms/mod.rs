@@ -103,6 +103,9 @@ pub struct EquationOptions {
     pub references: bool,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
+    /// Whether quantities are in the order and under the signs of the paper: forces and moments in the joints from the
+    /// last link to the first, vectors with the number of their link below as well, Q with the index m.
+    pub paper: bool,
 }
 
 /// The joint torques, expanded, without friction.
@@ -118,6 +121,7 @@ impl Default for EquationOptions {
             expand: false,
             references: true,
             christoffel: false,
+            paper: false,
         }
     }
 }
@@ -296,7 +300,23 @@ impl<'g> Writer<'_, 'g> {
     fn quantities(&self, friction: bool) -> Vec<Quantity<'g>> {
         let effects = Effects { wrench: true, friction };
         let iterations = self.iterations(effects);
-        self.options.kinds.iter().flat_map(|kind| iterations.quantities(*kind)).collect()
+        let of_kind = |kind: &Kind| {
+            let mut quantities = iterations.quantities(*kind);
+            if self.options.paper && matches!(kind, Kind::LinkForce | Kind::LinkMoment) {
+                // The sort is stable: components stay in order.
+                quantities.sort_by_key(|quantity| std::cmp::Reverse(quantity.symbol.number));
+            }
+            quantities
+        };
+        self.options.kinds.iter().flat_map(of_kind).collect()
+    }
+
+    /// The look of a quantity on the left side.
+    fn look(&self, symbol: Symbol) -> Math {
+        match self.options.paper {
+            true => Math::in_paper(symbol),
+            false => Math::quantity(symbol),
+        }
     }
 
     /// Defines a combination of parameters.

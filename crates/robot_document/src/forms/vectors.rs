@@ -9,6 +9,7 @@ use crate::math::Math;
 pub(super) fn of_quantities(
     quantities: &[Quantity<'_>],
     equations: &[Equation],
+    paper: bool,
 ) -> Option<Vec<Array>> {
     let vector = |symbol: Symbol| symbol.component.map(|_| (symbol.kind, symbol.number));
     let all: Vec<_> = quantities.iter().zip(equations).collect();
@@ -19,7 +20,11 @@ pub(super) fn of_quantities(
         let (kind, number) = vector(components.first()?.0.symbol)?;
         let name = format!("{}{number}", kind.name());
         let cells = components.iter().map(|(_, equation)| cell(equation, false));
-        Some(column(name, Math::vector(kind, number), cells))
+        let left = match paper {
+            true => Math::vector_in_paper(kind, number),
+            false => Math::vector(kind, number),
+        };
+        Some(column(name, left, cells))
     });
     let arrays: Vec<Array> = arrays.collect();
     (!arrays.is_empty()).then_some(arrays)

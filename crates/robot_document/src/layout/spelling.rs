@@ -36,6 +36,31 @@ impl Math {
         Math::Script(Box::new(Script { base, lower, upper: Some(Math::integer(number)) }))
     }
 
+    /// The look of a vector in the paper's relations, `\bar{F}_{l_5}^{5}`: its link below and its axes above.
+    #[must_use]
+    pub fn vector_in_paper(kind: Kind, number: usize) -> Math {
+        let Math::Script(script) = Math::vector(kind, number) else { return Math::default() };
+        let number = Math::integer(number);
+        let lower = match script.lower.clone() {
+            Some(index) => index.with_lower(number),
+            None => number,
+        };
+        Math::Script(Box::new(Script { lower: Some(lower), ..*script }))
+    }
+
+    /// The look of a quantity in the paper: components as those of [`Math::quantity`], `Q_m^{1}`.
+    #[must_use]
+    pub fn in_paper(symbol: Symbol) -> Math {
+        match symbol.kind {
+            Kind::GeneralizedForce => {
+                let (lower, upper) = (Math::Letter('m'), Math::integer(symbol.number));
+                let base = Math::Letter('Q');
+                Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(upper) }))
+            }
+            _ => Math::quantity(symbol),
+        }
+    }
+
     /// The piece under a bar.
     #[must_use]
     pub fn under_bar(self) -> Math {
