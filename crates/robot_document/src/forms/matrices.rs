@@ -1,6 +1,5 @@
 //! The coefficients of the grouped form as matrices and columns.
 
-use robot_model::signs::Accent;
 use robot_model::variable::JointVariable;
 use robot_symbolic::collected::length;
 use robot_symbolic::{Expr, Polynomial, Rational, walk};
@@ -181,7 +180,7 @@ fn masses<'g>(
         }
         rows.push(cells);
     }
-    let (name, left) = called(&base(section), &[position()]);
+    let (name, left) = called(&base(section), &[positions()]);
     let product = times(&name, &left, JointVariable::Acceleration);
     Ok((Array { name: name.clone(), left, rows }, product))
 }
@@ -211,7 +210,7 @@ fn christoffel<'g>(
         rows.push(cells);
     }
     let look = Math::Letter(letter.chars().next().unwrap_or('C'));
-    let (name, left) = called(&look, &[position(), rate(JointVariable::Velocity)]);
+    let (name, left) = called(&look, &[positions(), state(JointVariable::Velocity)]);
     let product = times(&name, &left, JointVariable::Velocity);
     Ok((Array { name, left, rows }, product))
 }
@@ -231,9 +230,9 @@ fn column<'g>(
     let (name, left) = match term {
         Term::Velocities => {
             let look = Math::Letter(letter.chars().next().unwrap_or('h'));
-            called(&look, &[position(), rate(JointVariable::Velocity)])
+            called(&look, &[positions(), state(JointVariable::Velocity)])
         }
-        Term::Positions => called(&base(section), &[position()]),
+        Term::Positions => called(&base(section), &[positions()]),
         _ => called(&base(section), &[]),
     };
     let summand = Written { text: name.clone(), math: left.clone() };
@@ -299,22 +298,18 @@ fn called(base: &Math, arguments: &[(&str, Math)]) -> (String, Math) {
     (name, Math::Row(vec![base.clone(), Math::Fenced(Fence::Parentheses, Box::new(inside))]))
 }
 
-fn position() -> (&'static str, Math) {
-    ("q", Math::Letter('q'))
+fn positions() -> (&'static str, Math) {
+    state(JointVariable::Position)
 }
 
-/// The column of the velocities or of the accelerations.
-fn rate(variable: JointVariable) -> (&'static str, Math) {
-    let (name, accent) = match variable {
-        JointVariable::Acceleration => ("qdd", Accent::DoubleDot),
-        _ => ("qd", Accent::Dot),
-    };
-    (name, Math::Accent(accent, Box::new(Math::Letter('q'))))
+/// The column of a variable of the joints.
+fn state(variable: JointVariable) -> (&'static str, Math) {
+    (variable.name(), Math::spelled(variable.name()))
 }
 
 /// The product of a matrix with a column.
 fn times(name: &str, left: &Math, variable: JointVariable) -> Written {
-    let (rate, look) = rate(variable);
+    let (rate, look) = state(variable);
     let math = Math::Row(left.pieces().iter().cloned().chain([look]).collect());
     Written { text: format!("{name}*{rate}"), math }
 }
