@@ -14,6 +14,9 @@ const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 /// The width of lines where none is given, cm.
 const WIDTH: f64 = 16.0;
 
+/// The number of an equation and its distance from the equation, pt.
+const NUMBER: f64 = 44.0;
+
 /// How displayed equations are laid out.
 #[derive(Args)]
 pub(crate) struct LayoutArguments {
@@ -44,6 +47,12 @@ impl LayoutArguments {
             .map(|(option, _)| no_effect(option))
             .collect();
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
+    }
+
+    /// The width that an equation has without its number, pt.
+    pub(crate) fn line(&self) -> f64 {
+        let layout = Layout::of_centimeters(self.width.unwrap_or(WIDTH));
+        layout.width - if self.numbers { NUMBER } else { 0.0 }
     }
 
     /// Displayed equations, a comment before each group where there are several; a page has the title.

@@ -45,7 +45,7 @@ pub(crate) fn lacking(
 }
 
 /// The width of printed sums, in columns.
-const COLUMNS: usize = 100;
+pub(crate) const COLUMNS: usize = 100;
 
 /// `Q1 = …` on lines, the further ones indented.
 pub(crate) fn sum(whole: &str) -> String {

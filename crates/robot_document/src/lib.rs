@@ -20,6 +20,7 @@ mod notation;
 pub mod robot;
 
 pub use error::{Centimeters, Error};
+pub use forms::{Array, Cell, Room, Written};
 pub use forms::{Equation, EquationOptions, Equations, Form, Group, equations};
 pub use layout::{Order, Rank, SymbolTable, Trigonometry};
 pub use layout::{breaking, math, meaning, width};

@@ -12,12 +12,12 @@ use crate::math::Math;
 
 /// A coefficient is written out if its expansion takes no more than this; else what it has in common with others
 /// gets names.
-const LIMITS: PolynomialOptions =
+pub(super) const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 200_000 };
 /// The most terms of an expansion that is collected.
-const MAX_TERMS: usize = 160;
+pub(super) const MAX_TERMS: usize = 160;
 /// The most printed symbols of a coefficient, some six lines; names make longer ones shorter.
-const MAX_LENGTH: usize = 200;
+pub(super) const MAX_LENGTH: usize = 200;
 
 /// Coefficients of a kind.
 pub(super) struct Section<'g> {
@@ -87,12 +87,8 @@ pub(super) fn by_name<'g>(
         references::refer(writer, sections, &mut shown);
     }
     let zeros = define_all(writer, sections, &shown)?;
-    let mut groups = vec![Group {
-        title: title.to_owned(),
-        introduction,
-        definitions: false,
-        equations: generalized_forces(writer, sums, &zeros)?,
-    }];
+    let forces = generalized_forces(writer, sums, &zeros)?;
+    let mut groups = vec![Group::of_quantities(title, introduction, forces)];
     groups.extend(definitions_of(writer, sections, &shown)?);
     Ok(groups)
 }

@@ -4,10 +4,9 @@ use robot_symbolic::{AngleSums, Expr, Graph, walk};
 use rustc_hash::FxHashSet;
 
 use super::naming::{Named, worth_naming};
-use super::{Equation, Group, Writer, angle_sums, of_generalized_force, shapes};
+use super::{Equation, Group, Writer, angle_sums, of_generalized_force, shapes, vectors};
 use crate::error::Error;
 use crate::layout::is_motion;
-use crate::math::Math;
 
 /// Letters for combinations of parameters, and for expressions of the state.
 const PARAMETER_LETTERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
@@ -27,15 +26,12 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (mut groups, named) = definitions(writer, &values, &target)?;
     let mut equations: Vec<Equation> = vec![];
     for quantity in &quantities {
-        let (name, left) = (quantity.symbol.to_string(), Math::quantity(quantity.symbol));
+        let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
         equations.push(writer.of_expression(name, left, named.rewritten(quantity.value))?);
     }
-    groups.push(Group {
-        title: "Equations of motion, compact".to_owned(),
-        introduction: String::new(),
-        definitions: false,
-        equations,
-    });
+    let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
+    let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
+    groups.push(Group { arrays, ..group });
     Ok(groups)
 }
 

@@ -5,6 +5,7 @@ use robot_symbolic::{Expr, Rational, walk};
 
 use super::coefficients::{Coefficient, Section, Sum, by_name, motions, shown};
 use super::loads::{frictions, gravity, whole, wrenches};
+use super::matrices::{Known, Term, attach};
 use super::{Group, Writer};
 use crate::error::Error;
 
@@ -33,7 +34,21 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     sections.extend(frictions(writer, "Friction", whole, &mut sums));
     let introduction = introduction(writer);
     let shown = shown(writer, &sections);
-    by_name(writer, "Equations of motion, grouped", introduction, &sections, shown, sums)
+    let known = Known::new(writer, &sections, &shown, &sums)?;
+    let title = "Equations of motion, grouped";
+    let mut groups = by_name(writer, title, introduction, &sections, shown, sums)?;
+    let terms: Vec<(Term, &Section<'_>)> =
+        terms(&sections).filter(|(_, section)| !known.is_empty(section)).collect();
+    attach(writer, &mut groups, &terms, &known)?;
+    Ok(groups)
+}
+
+/// The sections that are terms of the joint torques: those of friction end with its contributions, after the forces
+/// that these need.
+fn terms<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = (Term, &'s Section<'g>)> {
+    let terms = [Term::Accelerations, Term::Velocities, Term::Positions, Term::Other];
+    let last = sections.get(terms.len()..).and_then(<[_]>::last).map(|last| (Term::Other, last));
+    terms.into_iter().zip(sections).chain(last)
 }
 
 fn introduction(writer: &Writer<'_, '_>) -> String {
@@ -42,9 +57,9 @@ fn introduction(writer: &Writer<'_, '_>) -> String {
         false => "coefficients of the products of joint velocities",
     };
     format!(
-        "The coefficients of the accelerations (the entries of the symmetric mass matrix), \
-         {rates}, and the gravity terms. Each depends on the coordinates alone; zeros are \
-         omitted."
+        "The coefficients of the accelerations (the entries of the symmetric mass matrix), the Coriolis and \
+         centrifugal terms by {rates}, and the gravity terms. The coefficients depend on the coordinates alone; \
+         those that are zero have no equation."
     )
 }
 

@@ -1,17 +1,20 @@
 //! The forms of the equations of motion.
 
 mod angle_sums;
+mod arrays;
 mod coefficients;
 mod compact;
 mod expanded;
 mod grouped;
 mod loads;
+mod matrices;
 mod naming;
 mod parts;
 mod recursive;
 mod references;
 mod regrouped;
 mod shapes;
+mod vectors;
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -28,6 +31,8 @@ use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 use crate::error::Error;
 use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry};
 use crate::math::Math;
+
+pub use arrays::{Array, Cell, Room, Written};
 
 /// The form of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,6 +103,9 @@ pub struct EquationOptions {
     pub references: bool,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
+    /// Whether quantities are in the order and under the signs of the paper: forces and moments in the joints from the
+    /// last link to the first, vectors with the number of their link below as well, Q with the index m.
+    pub paper: bool,
 }
 
 /// The joint torques, expanded, without friction.
@@ -113,6 +121,7 @@ impl Default for EquationOptions {
             expand: false,
             references: true,
             christoffel: false,
+            paper: false,
         }
     }
 }
@@ -137,6 +146,11 @@ pub struct Group {
     pub definitions: bool,
     /// The equations.
     pub equations: Vec<Equation>,
+    /// The equations as one of vectors.
+    pub vector: Option<Equation>,
+    /// The matrices and columns with entries that the equations define; `None` if the group has none. Vectors that
+    /// are only other names of what is defined before are not among them.
+    pub arrays: Option<Vec<Array>>,
 }
 
 /// An equation: a quantity or a defined symbol, and what it is.
@@ -156,15 +170,27 @@ impl Group {
     /// Definitions of symbols that other equations use.
     pub(crate) fn of_definitions(title: &str, equations: Vec<Equation>) -> Group {
         let (title, introduction) = (title.to_owned(), String::new());
-        Group { title, introduction, definitions: true, equations }
+        Group { title, introduction, definitions: true, equations, vector: None, arrays: None }
+    }
+
+    /// Quantities of the robot.
+    pub(crate) fn of_quantities(
+        title: &str,
+        introduction: String,
+        equations: Vec<Equation>,
+    ) -> Group {
+        let title = title.to_owned();
+        Group { title, introduction, definitions: false, equations, vector: None, arrays: None }
     }
 }
 
 impl Equation {
-    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component.
+    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component; of a
+    /// matrix without what it depends on.
     #[must_use]
     pub fn label(&self) -> String {
-        self.name.replace('_', "-").replace('.', ":")
+        let name = self.name.split_once('(').map_or(self.name.as_str(), |(name, _)| name);
+        name.replace('_', "-").replace('.', ":")
     }
 }
 
@@ -172,6 +198,11 @@ impl Equations {
     /// The equations of quantities of the robot, without definitions.
     pub fn quantities(&self) -> impl Iterator<Item = &Equation> {
         self.groups.iter().filter(|group| !group.definitions).flat_map(|group| &group.equations)
+    }
+
+    /// The matrices and columns, in order.
+    pub fn arrays(&self) -> impl Iterator<Item = &Array> {
+        self.groups.iter().filter_map(|group| group.arrays.as_ref()).flatten()
     }
 
     /// The definitions that the other equations use, each before it is used by another one.
@@ -203,7 +234,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         order: Order::new(robot),
         parallel: vec![],
     };
-    if writer.angle_sums() == AngleSums::Keep {
+    if writer.angle_sums() == AngleSums::Keep && options.form != Form::Recursive {
         writer.parallel = writer.derivation().mechanism.parallel_angles();
     }
     let groups = match options.form {
@@ -269,7 +300,23 @@ impl<'g> Writer<'_, 'g> {
     fn quantities(&self, friction: bool) -> Vec<Quantity<'g>> {
         let effects = Effects { wrench: true, friction };
         let iterations = self.iterations(effects);
-        self.options.kinds.iter().flat_map(|kind| iterations.quantities(*kind)).collect()
+        let of_kind = |kind: &Kind| {
+            let mut quantities = iterations.quantities(*kind);
+            if self.options.paper && matches!(kind, Kind::LinkForce | Kind::LinkMoment) {
+                // The sort is stable: components stay in order.
+                quantities.sort_by_key(|quantity| std::cmp::Reverse(quantity.symbol.number));
+            }
+            quantities
+        };
+        self.options.kinds.iter().flat_map(of_kind).collect()
+    }
+
+    /// The look of a quantity on the left side.
+    fn look(&self, symbol: Symbol) -> Math {
+        match self.options.paper {
+            true => Math::in_paper(symbol),
+            false => Math::quantity(symbol),
+        }
     }
 
     /// Defines a combination of parameters.

@@ -20,7 +20,9 @@ p { max-width: 45rem }
 math { font-size: 1.1rem; margin: 0 0 1.5rem }
 mtd { text-align: left; padding: 0.25rem 0 }
 mtd:first-child { text-align: right; text-align: -webkit-right }
-mtd:nth-child(3) { padding-left: 2rem; text-align: right; text-align: -webkit-right }";
+mtd:nth-child(3) { padding-left: 2rem; text-align: right; text-align: -webkit-right }
+mtd mtd:nth-child(n) { text-align: center; text-align: -webkit-center; padding: 0.15rem 0.4rem }
+mtable[columnalign=left] mtd:nth-child(n) { text-align: left; text-align: -webkit-left; padding: 0 }";
 
 /// The page: a heading and a table of equations for each group, lines broken as in LaTeX.
 ///

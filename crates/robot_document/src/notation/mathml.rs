@@ -48,6 +48,12 @@ pub fn formula(math: &Math) -> Element {
             element("mrow").with_all([open, formula(inside), close])
         }
         Math::Matrix(rows) => matrix(rows),
+        Math::Lines(lines) => {
+            let one = |(place, line)| if place == 0 { formula(line) } else { continued(line) };
+            let row = |line| element("mtr").with(holding("mtd", line));
+            let rows = lines.iter().enumerate().map(one).map(row);
+            element("mtable").with_all(rows).attribute("columnalign", "left")
+        }
     }
 }
 

@@ -22,7 +22,8 @@ const INDICES: [char; 3] = ['i', 'j', 'k'];
 pub(super) fn families(parts: &[(Form, Equations)]) -> Vec<Family> {
     let mut known: Vec<(String, Math)> = vec![];
     let mut families = vec![];
-    for group in parts.iter().flat_map(|(_, part)| &part.groups) {
+    let groups = parts.iter().flat_map(|(_, part)| part.groups.iter().map(move |one| (part, one)));
+    for (part, group) in groups {
         for equation in &group.equations {
             let shape = general(&equation.left, numbers(&equation.name));
             let family = family(&equation.name).to_owned();
@@ -30,7 +31,12 @@ pub(super) fn families(parts: &[(Form, Equations)]) -> Vec<Family> {
                 continue;
             }
             known.push((family.clone(), shape.clone()));
-            if let Some(meaning) = meaning(group, &family) {
+            let meaning = match &equation.right {
+                Math::Matrix(_) => of_array(group, part, &equation.name),
+                _ if equation.name == "Q" => of_name("joint torques (N m) and joint forces (N)"),
+                _ => meaning(group, &family, numbers(&equation.name)),
+            };
+            if let Some(meaning) = meaning {
                 families.push(Family { shape, meaning });
             }
         }
@@ -101,12 +107,48 @@ fn replaced(shape: &Math, number: &mut dyn FnMut(&str) -> Math) -> Math {
     }
 }
 
+fn of_name(text: &str) -> Option<Cell> {
+    Some(vec![Inline::text(text)])
+}
+
+/// What a matrix or a column in a group is.
+fn of_array(group: &Group, part: &Equations, name: &str) -> Option<Cell> {
+    let text = match group.title.as_str() {
+        "Mass matrix" => "mass matrix",
+        "Coriolis and centrifugal coefficients" => "Coriolis and centrifugal terms",
+        "Christoffel symbols" => "matrix of the Coriolis and centrifugal terms",
+        "Gravity" => "gravity terms",
+        "Wrenches of the tips" => "contributions of the wrenches of the tips",
+        "Friction" => "friction of the joints",
+        _ => return of_vector(group, part, name),
+    };
+    of_name(text)
+}
+
+/// What a vector of the links is, and the look of its components if equations use them.
+fn of_vector(group: &Group, part: &Equations, name: &str) -> Option<Cell> {
+    let mut cell = meaning(group, family(name), 1)?;
+    if let Some(Inline::Text(text)) = cell.first_mut() {
+        *text = text.trim_start_matches("component of the ").to_owned();
+        let component = format!("{name}.x");
+        if part.symbols.is_defined(&component) {
+            text.push_str("; its component along x: ");
+            cell.push(Inline::Math(general(&part.symbols.look(&component), 1)));
+        }
+    }
+    Some(cell)
+}
+
 /// What the symbols of a family in a group are.
-fn meaning(group: &Group, family: &str) -> Option<Cell> {
+fn meaning(group: &Group, family: &str, numbers: usize) -> Option<Cell> {
     let text = match (group.title.as_str(), family) {
         ("Standard parameters" | "Base parameters", _) => return None,
-        ("Coriolis and centrifugal coefficients", _) => return Some(product()),
+        ("Coriolis and centrifugal coefficients", _) if numbers == 3 => return Some(product()),
+        ("Coriolis and centrifugal coefficients", _) => "Coriolis and centrifugal term of joint i",
         ("Mass matrix", _) => "entry of the mass matrix",
+        ("Christoffel symbols", _) if numbers == 2 => {
+            "entry of the matrix of the Coriolis and centrifugal terms"
+        }
         ("Christoffel symbols", _) => "Christoffel symbol of the first kind",
         ("Gravity", _) => "gravity term of joint i",
         ("Wrenches of the tips", _) => "contribution of the wrenches of the tips to joint i",

@@ -14,7 +14,7 @@ use robot_model::robot::Robot;
 use crate::document::{Block, Document, Inline};
 use crate::error::Error;
 use crate::figure::Figure;
-use crate::forms::{EquationOptions, Form, equations};
+use crate::forms::{EquationOptions, Form, Room, equations};
 use crate::math::Math;
 pub use check_value::CheckValue;
 
@@ -27,7 +27,13 @@ pub struct Extras<'e> {
     pub figure: Option<Figure>,
     /// The check value.
     pub check: Option<&'e CheckValue>,
+    /// The width of lines, pt, in which matrices and columns are shown where they fit; `None` for equations of their
+    /// entries alone.
+    pub arrays: Option<f64>,
 }
+
+/// The number of an equation and its distance from the equation, pt.
+const NUMBER: f64 = 44.0;
 
 /// The document of a robot with its equations in several forms.
 ///
@@ -42,7 +48,14 @@ pub fn document(
 ) -> Result<Document, Error> {
     let mut parts = vec![];
     for form in forms {
-        parts.push((*form, equations(robot, &EquationOptions { form: *form, ..options.clone() })?));
+        let part = equations(robot, &EquationOptions { form: *form, ..options.clone() })?;
+        parts.push((
+            *form,
+            match extras.arrays {
+                Some(width) => part.arranged(Room::Points(width - NUMBER)),
+                None => part,
+            },
+        ));
     }
     let title = match extras.title {
         Some(title) => title.to_owned(),

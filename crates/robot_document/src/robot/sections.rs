@@ -79,7 +79,7 @@ fn recursion() -> Block {
         text(" and the moment "),
         indexed('M', 'l'),
         text(
-            " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame.",
+            " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame; a bar marks the column of the components along x, y and z. Quantities that are 0 or equal to an earlier one are left out.",
         ),
     ])
 }
