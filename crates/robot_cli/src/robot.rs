@@ -8,6 +8,7 @@ use robot_build::{
     BaseFrames, Bundle, Functions, OptionSpec, Options, RobotFile, Source, Trigonometry, Value,
     robot_inputs,
 };
+use robot_dynamics::mechanism::snapped;
 use robot_model::description::Described;
 use robot_model::robot::Robot;
 use robot_model::snap;
@@ -21,6 +22,10 @@ use crate::plan::pinned_or_searched;
 use crate::reading::ReadingArguments;
 use crate::suggested::FUNCTIONS;
 use crate::text;
+
+/// The tolerance in print for constant angles next to multiples of π/2, rad, if neither an option nor the file gives
+/// one: files write 1.5708 for π/2.
+pub(crate) const PRINT_SNAP: f64 = 1e-5;
 
 /// The robot file.
 #[derive(Args)]
@@ -61,6 +66,27 @@ impl RobotArgument {
     /// The robot; warnings are shown.
     pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
         self.open()?.read(terminal)
+    }
+
+    /// The robot as it is printed; warnings are shown.
+    pub(crate) fn printed(&self, terminal: &mut Terminal<'_>) -> Result<Robot, Failure> {
+        let robot = self.read(terminal)?.robot;
+        self.snapped(&robot, terminal)
+    }
+
+    /// A robot as it is printed: constant angles within the tolerance of a multiple of π/2 are that multiple, which is
+    /// said where neither an option nor the file asks for it.
+    pub(crate) fn snapped(
+        &self,
+        robot: &Robot,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<Robot, Failure> {
+        let given = self.snap.or(robot.snap);
+        let (shown, snaps) = snapped(robot, given.unwrap_or(PRINT_SNAP));
+        if given.is_none() {
+            terminal.errors.write_all(text::snapped_for_print(robot, &snaps).as_bytes())?;
+        }
+        Ok(shown)
     }
 
     /// The snapping tolerance, rad, where one is given.

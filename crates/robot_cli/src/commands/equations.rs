@@ -56,7 +56,7 @@ impl Arguments {
         self.equations.check(&[self.form.into()], typeset)?;
         self.layout.check(typeset)?;
         let options = self.equations.options(&self.robot, self.form.into())?;
-        let robot = self.robot.read(terminal)?.robot;
+        let robot = self.robot.printed(terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let equations =

@@ -19,6 +19,7 @@ mod json_schema;
 mod outputs;
 mod people;
 mod plans;
+mod printing;
 mod prove;
 mod reading;
 mod report;
