@@ -8,6 +8,7 @@ use robot_build::{
     BaseFrames, Bundle, Functions, OptionSpec, Options, RobotFile, Source, Trigonometry, Value,
     robot_inputs,
 };
+use robot_document::Form;
 use robot_dynamics::mechanism::snapped;
 use robot_model::description::Described;
 use robot_model::robot::Robot;
@@ -87,6 +88,20 @@ impl RobotArgument {
             terminal.errors.write_all(text::snapped_for_print(robot, &snaps).as_bytes())?;
         }
         Ok(shown)
+    }
+
+    /// Says that frames of base parameters are given for equations without these.
+    pub(crate) fn check_base_frames(
+        &self,
+        forms: &[Form],
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        if self.base_frames.is_some() && !forms.contains(&Form::Regrouped) {
+            let message =
+                "note: --base-frames has no effect in this form, only in the form regrouped";
+            writeln!(terminal.errors, "{message}")?;
+        }
+        Ok(())
     }
 
     /// The snapping tolerance, rad, where one is given.

@@ -20,7 +20,9 @@ mod notation;
 pub mod robot;
 
 pub use error::{Centimeters, Error};
-pub use forms::{Equation, EquationOptions, Equations, Form, Group, equations};
-pub use layout::{Order, Rank, SymbolTable, Trigonometry};
+pub use forms::{
+    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, equations,
+};
+pub use layout::{Order, Rank, SymbolTable, Trigonometry, tidied_text};
 pub use layout::{breaking, math, meaning, width};
-pub use notation::{html, latex, mathml, typst};
+pub use notation::{html, latex, markdown, mathml, typst};

@@ -1,7 +1,7 @@
 //! `equations`: the equations of motion of a robot.
 
 use clap::{Args, ValueEnum};
-use robot_document::{Equation, Equations, equations};
+use robot_document::{Equation, Equations, equations, tidied_text};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -45,6 +45,8 @@ enum Format {
     Text,
     Latex,
     Typst,
+    /// Markdown with formulas between $$
+    Markdown,
     /// An HTML page with formulas in MathML
     Mathml,
     Json,
@@ -55,8 +57,16 @@ impl Arguments {
         let typeset = !matches!(self.format, Format::Text | Format::Json);
         self.equations.check(&[self.form.into()], typeset)?;
         self.layout.check(typeset)?;
+        if matches!(self.format, Format::Markdown) {
+            self.layout.check_markdown()?;
+        }
+        if self.equations.digits().is_some() && matches!(self.format, Format::Json) {
+            let message = "--digits has no effect on JSON, whose equations are exact; leave it out";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let options = self.equations.options(&self.robot, self.form.into())?;
         let robot = self.robot.printed(terminal)?;
+        self.robot.check_base_frames(&[self.form.into()], terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let equations =
@@ -65,9 +75,10 @@ impl Arguments {
             self.layout.displayed(&robot.name, &equations.groups, notation).map_err(failed)
         };
         let shown = match self.format {
-            Format::Text => plain(&equations),
+            Format::Text => plain(&equations, options.digits),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
+            Format::Markdown => displayed(Notation::Markdown)?,
             Format::Mathml => displayed(Notation::Mathml)?,
             Format::Json => json(&robot.name, &equations),
         };
@@ -76,7 +87,7 @@ impl Arguments {
 }
 
 /// `Q1 = …`, long sums on several lines.
-pub(super) fn plain(equations: &Equations) -> String {
+pub(super) fn plain(equations: &Equations, digits: Option<usize>) -> String {
     let mut shown = String::new();
     for group in &equations.groups {
         if equations.groups.len() > 1 {
@@ -84,7 +95,8 @@ pub(super) fn plain(equations: &Equations) -> String {
             shown.push_str(&format!("{gap}{}\n\n", group.title));
         }
         for equation in &group.equations {
-            shown.push_str(&text::sum(&format!("{} = {}", equation.name, equation.text)));
+            let right = tidied_text(&equation.text, digits);
+            shown.push_str(&text::sum(&format!("{} = {right}", equation.name)));
         }
     }
     shown

@@ -202,8 +202,8 @@ fn a_document_defines_the_symbols_that_occur() {
         r"\(H_{ij}\) & entry of the mass matrix",
         r"\(h_{ijk}\) & coefficient of \(\dot{q}_j \dot{q}_k\) in \(Q_i\)",
         r"\(w_i\) & contribution",
-        r"\(\omega_{i,x}\) & component",
-        r"\(\varepsilon_{i,x}\) & component",
+        r"\(\omega_x^i\) & component",
+        r"\(\varepsilon_x^i\) & component",
         r"\(M_{l_x}^i\) & component",
     ] {
         assert!(symbols.contains(defined), "{defined}: {symbols}");

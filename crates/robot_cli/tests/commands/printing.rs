@@ -75,3 +75,157 @@ fn a_tolerance_that_is_given_is_taken_and_code_keeps_its_own() {
     assert_eq!(output(&["generate", &file, "-o", "-"], ""), code("1e-9"));
     assert_ne!(code("1e-5"), code("1e-9"));
 }
+
+#[test]
+fn letters_are_those_of_the_field() {
+    let of = |arguments: &[&str]| {
+        let file = robot("planar_2r");
+        output(&[&["equations", &file, "--form", "grouped"], arguments].concat(), "")
+    };
+    let usual = of(&[]);
+    assert!(usual.contains("Q1 = M_1_1*qdd1") && usual.contains("g_1 = "), "{usual}");
+    assert_eq!(of(&["--letters", "paper"]), usual);
+    let field = of(&["--letters", "field"]);
+    assert!(field.contains("tau1 = M_1_1*qdd1 + M_1_2*qdd2 + C_1_1_2*qd1*qd2"), "{field}");
+    assert_eq!(of(&["--letters", "tau,M,C,g"]), field);
+    let latex = of(&["--letters", "tau,D,h,G", "--format", "latex"]);
+    assert!(latex.contains(r"\tau_1 &= D_{11} \ddot{q}_1") && latex.contains("G_1 &="), "{latex}");
+    assert!(latex.contains("h_{112} &="), "{latex}");
+    let typst = of(&["--letters", "field", "--format", "typst"]);
+    assert!(typst.contains("τ_1 ") && typst.contains("C_112"), "{typst}");
+    assert!(of(&["--letters", "field", "--format", "mathml"]).contains("<mi>τ</mi>"));
+    for wrong in ["tau,M,C", "tau,M,M,g", "feild"] {
+        let found = complaint(2, &["equations", &robot("planar_2r"), "--letters", wrong], "");
+        assert!(found.contains("letters are `field`, `paper`, or four different ones"), "{found}");
+    }
+    let arguments = ["equations", &robot("planar_2r"), "--quantity", "F", "--letters", "field"];
+    assert!(complaint(2, &arguments, "").contains("--letters has no effect"));
+    let document = ["document", &robot("planar_2r"), "--letters", "field"];
+    let document = output(&document, "");
+    assert!(document.contains(r"$\tau_i$ is the joint torque"), "{document}");
+    assert!(!document.contains("$Q"), "{document}");
+}
+
+#[test]
+fn the_mass_matrix_is_m_unless_masses_are() {
+    let grouped = |name| output(&["equations", &robot(name), "--form", "grouped"], "");
+    // The wrench of a tip has M_x, which is no M_11.
+    for name in ["planar_2r", "puma560", "panda"] {
+        assert!(grouped(name).contains("\nM_1_1 = "), "{name}");
+    }
+    assert!(grouped("trttr1").contains("\nH_1_1 = "), "masses are M1 to M5");
+    let found =
+        output(&["equations", &robot("trttr1"), "--form", "grouped", "--letters", "field"], "");
+    assert!(found.contains("\nM_1_1 = "), "{found}");
+}
+
+#[test]
+fn indices_have_one_style() {
+    let arguments = ["equations", &robot("trttr1"), "--form", "recursive", "--format", "latex"];
+    let shown = output(&arguments, "");
+    assert!(shown.contains(r"\omega_z^{2} &=") && shown.contains("F_x^{2} &="), "{shown}");
+    assert!(!shown.contains(r"\omega_{2"), "{shown}");
+}
+
+#[test]
+fn digits_are_rounded_for_people_alone() {
+    let file = robot("puma560");
+    let grouped = ["equations", &file, "--form", "grouped", "--digits", "3"];
+    let shown = output(&grouped, "");
+    let is_digit = |c: char| c.is_ascii_digit() || c == '.';
+    let numbers = shown.split(|c| !is_digit(c)).filter(|number| number.contains('.'));
+    for number in numbers {
+        let significant = number.trim_start_matches(['0', '.']).replace('.', "");
+        assert!(significant.trim_end_matches('0').len() <= 3, "{number}");
+    }
+    let latex = output(&[&grouped[..], &["--format", "latex"]].concat(), "");
+    assert!(!latex.contains("0.43180") && latex.contains("0.432"), "{latex}");
+    let found = complaint(2, &[&grouped[..], &["--format", "json"]].concat(), "");
+    assert!(found.contains("--digits has no effect on JSON"), "{found}");
+    let document = output(&["document", &file, "--digits", "3"], "");
+    assert!(document.contains("Decimals in the equations are rounded to 3 significant digits."));
+    assert!(!output(&["document", &file], "").contains("significant digits"));
+}
+
+#[test]
+fn no_number_is_a_quotient_of_long_ones_and_constants_are_a_table() {
+    let shown = output(&["document", &robot("panda"), "--form", "compact", "--columns", "2"], "");
+    assert!(!shown.split(|c: char| !c.is_ascii_digit()).any(|digits| digits.len() > 20), "{shown}");
+    assert!(!shown.contains(r"\frac{745"), "{shown}");
+    assert!(shown.contains("Constants."), "{shown}");
+    assert!(!shown.contains("k_{1} &=") && !shown.contains("k_1 &="), "{shown}");
+    let shown = output(&["equations", &robot("panda"), "--form", "compact"], "");
+    let quotient = |line: &str| line.contains(|c: char| c == '/');
+    assert!(!shown.lines().any(quotient), "{shown}");
+}
+
+#[test]
+fn halves_are_fractions_where_no_number_is_a_decimal() {
+    let shown = output(&["equations", &robot("trttr1"), "--friction", "--format", "latex"], "");
+    assert!(shown.contains(r"\frac{1}{2}") && !shown.contains("0.5"), "{shown}");
+}
+
+#[test]
+fn compact_equations_are_in_terms_of_mechanics() {
+    let shown = output(&["equations", &robot("planar_2r"), "--form", "compact"], "");
+    assert!(
+        shown.contains("(m2*r2^2 + I2)") && shown.contains("m1*r1^2 + I1 + m2*l1^2"),
+        "{shown}"
+    );
+    assert!(!shown.contains("0.5*"), "{shown}");
+    assert!(shown.lines().all(|line| !line.starts_with("Q1 = x_2")), "{shown}");
+    let shown = output(&["equations", &robot("trttr1"), "--form", "compact"], "");
+    assert!(
+        shown.contains("Jy5*qdd5") && shown.contains("(Jx5 - Jz5)*sin(q5)*cos(q5)*qd2^2"),
+        "{shown}"
+    );
+    for idle in ["Jx2", "Jy2", "Jx3", "Jx4", "k_1"] {
+        assert!(!shown.contains(idle), "{idle}: {shown}");
+    }
+}
+
+#[test]
+fn markdown_has_displays_that_are_closed() {
+    let file = robot("trttr1");
+    let arguments =
+        ["equations", &file, "--form", "grouped", "--format", "markdown", "--width", "8"];
+    let shown = output(&arguments, "");
+    let fences = shown.lines().filter(|line| *line == "$$").count();
+    assert!(fences > 20 && fences.is_multiple_of(2), "{shown}");
+    assert!(shown.starts_with("## Equations of motion, grouped\n\n$$\n"), "{shown}");
+    assert!(shown.contains("\n## Mass matrix\n\n$$\nH_{11} = "), "{shown}");
+    for name in ["begin{aligned}", "end{aligned}"] {
+        assert!(shown.contains(name), "{shown}");
+    }
+    assert!(!shown.contains("operatorname") && !shown.contains("align*"), "{shown}");
+    let arguments = ["equations", &file, "--format", "markdown", "--numbers"];
+    assert!(complaint(2, &arguments, "").contains("--numbers has no effect on Markdown"));
+}
+
+#[test]
+fn frames_of_base_parameters_without_these_are_noticed() {
+    let file = robot("planar_2r");
+    let arguments = ["equations", &file, "--base-frames", "denavit_hartenberg"];
+    let found = run(&arguments).errors;
+    assert!(found.contains("--base-frames has no effect in this form"), "{found}");
+    assert_eq!(run(&[&arguments[..], &["--form", "regrouped"]].concat()).errors, "");
+}
+
+#[test]
+fn base_parameters_that_are_standard_ones_are_named_once() {
+    let shown = output(&["base", &robot("planar_2r")], "");
+    for line in shown.lines() {
+        assert!(line.split_once(" = ").is_none_or(|(left, right)| left != right), "{shown}");
+    }
+}
+
+#[test]
+fn misspelt_files_of_states_are_suggested() {
+    let folder = folder("misspelt_states");
+    std::fs::write(folder.join("states.csv"), "q1,q2\n0,0\n").unwrap();
+    let file = folder.join("stats.csv");
+    let arguments =
+        ["eval", &robot("planar_2r"), "--function", "gravity", "--states", file.to_str().unwrap()];
+    let found = complaint(1, &arguments, "");
+    assert!(found.contains("did you mean") && found.contains("states.csv?"), "{found}");
+}

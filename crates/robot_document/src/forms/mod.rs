@@ -1,10 +1,12 @@
 //! The forms of the equations of motion.
 
 mod angle_sums;
+mod arranged;
 mod coefficients;
 mod compact;
 mod expanded;
 mod grouped;
+mod letters;
 mod loads;
 mod naming;
 mod parts;
@@ -26,8 +28,9 @@ use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
 use crate::error::Error;
-use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry};
+use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry, tidied};
 use crate::math::Math;
+pub use letters::{InvalidLetters, Letters};
 
 /// The form of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,6 +101,10 @@ pub struct EquationOptions {
     pub references: bool,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
+    /// The letters of joint torques and of what the grouped form defines.
+    pub letters: Letters,
+    /// The most significant digits of decimals, but in [`Equation::text`], which is exact.
+    pub digits: Option<usize>,
 }
 
 /// The joint torques, expanded, without friction.
@@ -113,6 +120,8 @@ impl Default for EquationOptions {
             expand: false,
             references: true,
             christoffel: false,
+            letters: Letters::default(),
+            digits: None,
         }
     }
 }
@@ -216,7 +225,16 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     if graph.is_full() {
         return Err(Error::TooManyExpressions { limit: MAX_NODES });
     }
-    let groups = groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    let mut groups: Vec<Group> =
+        groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    for group in &mut groups {
+        for equation in &mut group.equations {
+            equation.right = tidied(std::mem::take(&mut equation.right), options.digits);
+            if !group.definitions {
+                writer.name_torque(equation);
+            }
+        }
+    }
     Ok(Equations { groups, symbols: writer.symbols })
 }
 

@@ -111,8 +111,9 @@ impl Lines {
         };
         let alone = width(&Math::Row(joined.clone()));
         if !self.line.is_empty() && alone <= self.further(&joined) {
+            let opened = self.opened(&joined);
             self.end();
-            self.line = joined;
+            self.line = [opened, joined].concat();
             return Ok(());
         }
         let is_product = !pieces.iter().any(|piece| matches!(piece, Math::Fenced(..)));
@@ -120,6 +121,24 @@ impl Lines {
             self.end();
         }
         self.split(pieces, joint, alone)
+    }
+
+    /// Takes a parenthesis that has just been opened off the line, with the sign before it, if it has room before the
+    /// first pieces of its sum on the next line: a line does not end with `+ (`.
+    fn opened(&mut self, next: &[Math]) -> Vec<Math> {
+        let is_sign = |piece: &Math| matches!(piece, Math::Sign('+' | '-' | '('));
+        if self.line.last() != Some(&Math::Sign('(')) {
+            return vec![];
+        }
+        let start = self.line.iter().rposition(|piece| !is_sign(piece)).map_or(0, |last| last + 1);
+        let opened = self.line.get(start..).unwrap_or_default().to_vec();
+        let follows = start > 0 && matches!(opened.first(), Some(Math::Sign('+' | '-')));
+        let together = [opened.as_slice(), next].concat();
+        if !follows || width(&Math::Row(together.clone())) > self.further(&together) {
+            return vec![];
+        }
+        self.line.truncate(start);
+        opened
     }
 
     /// Adds pieces that fit no line as they are.

@@ -2,6 +2,7 @@
 
 pub mod html;
 pub mod latex;
+pub mod markdown;
 pub mod mathml;
 mod tabular;
 pub mod typst;

@@ -3,7 +3,7 @@
 use robot_dynamics::quantity::Kind;
 
 use crate::document::{Cell, Inline};
-use crate::forms::{Equations, Form, Group};
+use crate::forms::{Equations, Form, Group, Letters};
 use crate::math::{Math, Script};
 
 /// Symbols of a kind.
@@ -19,7 +19,7 @@ const INDICES: [char; 3] = ['i', 'j', 'k'];
 
 /// The kinds of symbols on the left sides of equations, in order. The names of standard and base parameters are
 /// explained with their definitions.
-pub(super) fn families(parts: &[(Form, Equations)]) -> Vec<Family> {
+pub(super) fn families(parts: &[(Form, Equations)], letters: &Letters) -> Vec<Family> {
     let mut known: Vec<(String, Math)> = vec![];
     let mut families = vec![];
     for group in parts.iter().flat_map(|(_, part)| &part.groups) {
@@ -30,7 +30,7 @@ pub(super) fn families(parts: &[(Form, Equations)]) -> Vec<Family> {
                 continue;
             }
             known.push((family.clone(), shape.clone()));
-            if let Some(meaning) = meaning(group, &family) {
+            if let Some(meaning) = meaning(group, &family, letters) {
                 families.push(Family { shape, meaning });
             }
         }
@@ -102,10 +102,10 @@ fn replaced(shape: &Math, number: &mut dyn FnMut(&str) -> Math) -> Math {
 }
 
 /// What the symbols of a family in a group are.
-fn meaning(group: &Group, family: &str) -> Option<Cell> {
+fn meaning(group: &Group, family: &str, letters: &Letters) -> Option<Cell> {
     let text = match (group.title.as_str(), family) {
         ("Standard parameters" | "Base parameters", _) => return None,
-        ("Coriolis and centrifugal coefficients", _) => return Some(product()),
+        ("Coriolis and centrifugal coefficients", _) => return Some(product(letters)),
         ("Mass matrix", _) => "entry of the mass matrix",
         ("Christoffel symbols", _) => "Christoffel symbol of the first kind",
         ("Gravity", _) => "gravity term of joint i",
@@ -121,7 +121,10 @@ fn meaning(group: &Group, family: &str) -> Option<Cell> {
         (_, "omega") => "component of the angular velocity of link i, rad/s",
         (_, "epsilon") => "component of the angular acceleration of link i, rad/s²",
         (_, "a") => "component of the acceleration of the origin of frame i, m/s²",
-        (_, name) => of_quantity(Kind::from_name(name)?),
+        (_, name) => {
+            let torque = (!group.definitions).then_some(Kind::GeneralizedForce);
+            of_quantity(Kind::from_name(name).or(torque)?)
+        }
     };
     Some(vec![Inline::text(text)])
 }
@@ -140,13 +143,13 @@ const fn of_quantity(kind: Kind) -> &'static str {
 }
 
 /// Of what a coefficient of velocities is one.
-fn product() -> Cell {
+fn product(letters: &Letters) -> Cell {
     let rate = |index| {
         let letter = Box::new(Math::Letter('q'));
         let rate = Math::Accent(robot_model::signs::Accent::Dot, letter);
         rate.with_lower(Math::Letter(index))
     };
-    let force = Math::Letter('Q').with_lower(Math::Letter('i'));
+    let force = letters.torque_sign().with_lower(Math::Letter('i'));
     vec![
         Inline::text("coefficient of "),
         Inline::Math(Math::Row(vec![rate('j'), rate('k')])),

@@ -3,7 +3,7 @@
 use robot_dynamics::quantity::Kind;
 
 use super::paragraph;
-use crate::document::{Block, Inline, NumberedEquation};
+use crate::document::{Block, Inline, NumberedEquation, Table};
 use crate::forms::{Equation, EquationOptions, Equations, Form, Group};
 use crate::math::Math;
 
@@ -22,6 +22,13 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
         if group.definitions && !group.introduction.is_empty() {
             blocks.push(paragraph(&group.introduction));
         }
+        if group.definitions
+            && group.equations.len() >= FEWEST
+            && group.equations.iter().all(is_constant)
+        {
+            blocks.push(constants(group));
+            continue;
+        }
         let numbered = |equation: &Equation| NumberedEquation {
             label: Some(format!("{}:{}", form.name(), equation.label())),
             equation: equation.clone(),
@@ -29,6 +36,39 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
         blocks.push(Block::Equations(group.equations.iter().map(numbered).collect()));
     }
     blocks
+}
+
+/// So many constants or more are a table.
+const FEWEST: usize = 4;
+/// The constants of a line of the table.
+const ACROSS: usize = 3;
+
+/// Whether the right side is a number.
+fn is_constant(equation: &Equation) -> bool {
+    let is_number = |piece: &Math| matches!(piece, Math::Number(_) | Math::Sign('-'));
+    equation.right.pieces().iter().all(is_number)
+}
+
+/// A table of constants, some beside each other, one below the other in each column.
+fn constants(group: &Group) -> Block {
+    let count = group.equations.len().div_ceil(ACROSS);
+    let cell = |math: &Math| vec![Inline::Math(math.clone())];
+    let row = |row: usize| {
+        let places = (0..ACROSS).map(|column| group.equations.get(column * count + row));
+        places
+            .flat_map(|equation| match equation {
+                Some(equation) => [cell(&equation.left), cell(&equation.right)],
+                None => [vec![], vec![]],
+            })
+            .collect()
+    };
+    let head = (0..ACROSS).flat_map(|_| ["Symbol", "Value"].map(|name| vec![Inline::text(name)]));
+    Block::Table(Table {
+        caption: "Constants.".to_owned(),
+        head: head.collect(),
+        rows: (0..count).map(row).collect(),
+        keys: 1,
+    })
 }
 
 /// The title of a part: what is asked for has the title of its section otherwise.
