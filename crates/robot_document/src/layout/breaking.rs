@@ -294,6 +294,15 @@ mod tests {
     }
 
     #[test]
+    fn a_line_does_not_end_with_what_opens_a_sum() {
+        let sum = r"c_1 + c_2 + \left(a_1 a_2 a_3 a_4 + b_2\right) \cos q_2";
+        for first in 40..140 {
+            let broken = lines(sum, f64::from(first), 80.0);
+            assert!(broken.iter().all(|line| !line.ends_with('(')), "{first}: {broken:?}");
+        }
+    }
+
+    #[test]
     fn sums_in_parentheses_break_within() {
         let sum = r"m \left(a_1 + a_2 + a_3 + a_4\right) + b";
         assert_eq!(lines(sum, 80.0, 80.0), ["m( a_1 + a_2 + a_3", "+a_4 ) + b"]);

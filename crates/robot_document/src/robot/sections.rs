@@ -22,18 +22,21 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
         if group.definitions && !group.introduction.is_empty() {
             blocks.push(paragraph(&group.introduction));
         }
-        if group.definitions
-            && group.equations.len() >= FEWEST
-            && group.equations.iter().all(is_constant)
-        {
-            blocks.push(constants(group));
+        let (constant, other): (Vec<&Equation>, Vec<&Equation>) = match group.definitions {
+            true => group.equations.iter().partition(|equation| is_constant(equation)),
+            false => (vec![], group.equations.iter().collect()),
+        };
+        let is_table = constant.len() >= FEWEST;
+        blocks.extend(is_table.then(|| constants(&constant)));
+        let shown = if is_table { other } else { group.equations.iter().collect() };
+        if shown.is_empty() {
             continue;
         }
         let numbered = |equation: &Equation| NumberedEquation {
             label: Some(format!("{}:{}", form.name(), equation.label())),
             equation: equation.clone(),
         };
-        blocks.push(Block::Equations(group.equations.iter().map(numbered).collect()));
+        blocks.push(Block::Equations(shown.into_iter().map(numbered).collect()));
     }
     blocks
 }
@@ -50,11 +53,11 @@ fn is_constant(equation: &Equation) -> bool {
 }
 
 /// A table of constants, some beside each other, one below the other in each column.
-fn constants(group: &Group) -> Block {
-    let count = group.equations.len().div_ceil(ACROSS);
+fn constants(equations: &[&Equation]) -> Block {
+    let count = equations.len().div_ceil(ACROSS);
     let cell = |math: &Math| vec![Inline::Math(math.clone())];
     let row = |row: usize| {
-        let places = (0..ACROSS).map(|column| group.equations.get(column * count + row));
+        let places = (0..ACROSS).map(|column| equations.get(column * count + row));
         places
             .flat_map(|equation| match equation {
                 Some(equation) => [cell(&equation.left), cell(&equation.right)],
