@@ -102,8 +102,8 @@ fn letters_are_those_of_the_field() {
     assert!(complaint(2, &arguments, "").contains("--letters has no effect"));
     let document = ["document", &robot("planar_2r"), "--letters", "field"];
     let document = output(&document, "");
-    assert!(document.contains(r"$\tau_i$ is the joint torque"), "{document}");
-    assert!(!document.contains("$Q"), "{document}");
+    assert!(document.contains(r"\(\tau_i\) is the joint torque"), "{document}");
+    assert!(!document.contains("Q_"), "{document}");
 }
 
 #[test]

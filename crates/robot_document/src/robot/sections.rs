@@ -44,7 +44,7 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
 /// So many constants or more are a table.
 const FEWEST: usize = 4;
 /// The constants of a line of the table.
-const ACROSS: usize = 3;
+const ACROSS: usize = 2;
 
 /// Whether the right side is a number.
 fn is_constant(equation: &Equation) -> bool {
@@ -55,22 +55,19 @@ fn is_constant(equation: &Equation) -> bool {
 /// A table of constants, some beside each other, one below the other in each column.
 fn constants(equations: &[&Equation]) -> Block {
     let count = equations.len().div_ceil(ACROSS);
-    let cell = |math: &Math| vec![Inline::Math(math.clone())];
+    let cell = |equation: &&Equation| {
+        let [left, right] = [&equation.left, &equation.right].map(|side| side.pieces());
+        vec![Inline::Math(Math::Row([left, &[Math::Sign('=')], right].concat()))]
+    };
     let row = |row: usize| {
         let places = (0..ACROSS).map(|column| equations.get(column * count + row));
-        places
-            .flat_map(|equation| match equation {
-                Some(equation) => [cell(&equation.left), cell(&equation.right)],
-                None => [vec![], vec![]],
-            })
-            .collect()
+        places.map(|equation| equation.map(cell).unwrap_or_default()).collect()
     };
-    let head = (0..ACROSS).flat_map(|_| ["Symbol", "Value"].map(|name| vec![Inline::text(name)]));
     Block::Table(Table {
         caption: "Constants.".to_owned(),
-        head: head.collect(),
+        head: vec![vec![Inline::text("Constant")]; ACROSS],
         rows: (0..count).map(row).collect(),
-        keys: 1,
+        keys: 0,
     })
 }
 
