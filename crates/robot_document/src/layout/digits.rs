@@ -14,7 +14,7 @@ const DENOMINATORS: [u64; 2] = [2, 4];
 /// Fractions of π and of roots have no larger denominators.
 const LARGEST: u64 = 12;
 
-/// A formula as people write its numbers: `√2/2` for `0.5 √2`, and `1/2` before a factor if no number in it needs
+/// A formula as people write its numbers: `√2/2` for `0.5 √2`, and `1/2` in sums and products if no number in it needs
 /// decimals; or all rounded to so many significant digits.
 pub(crate) fn tidied(math: Math, digits: Option<usize>) -> Math {
     let math = mapped(math, &|piece| rounded(piece, digits));
@@ -74,7 +74,7 @@ fn is_long(above: &str, below: &str) -> bool {
 
 /// The quotient of two numbers as a decimal with the digits of a double.
 fn quotient(above: &str, below: &str) -> String {
-    let [above_value, below_value] = [above, below].map(|text| Rational::from_decimal(text));
+    let [above_value, below_value] = [above, below].map(Rational::from_decimal);
     match (above_value, below_value) {
         (Some(value), Some(divisor)) => match divisor.recip() {
             Some(reciprocal) => plain((&value * &reciprocal).to_f64()),
@@ -174,6 +174,9 @@ fn fractions(piece: Math, simple: bool) -> Math {
 
 fn row(pieces: Vec<Math>, simple: bool) -> Vec<Math> {
     let mut tidy: Vec<Math> = vec![];
+    // A number alone, perhaps with a sign, is a value.
+    let is_value = |piece: &Math| matches!(piece, Math::Number(_) | Math::Sign(_));
+    let simple = simple && !pieces.iter().all(is_value);
     let mut pieces = pieces.into_iter().peekable();
     while let Some(piece) = pieces.next() {
         let Some([above, below]) = parts(&piece) else {
@@ -192,18 +195,13 @@ fn row(pieces: Vec<Math>, simple: bool) -> Vec<Math> {
                 let above = Math::row(factors.collect());
                 tidy.push(Math::Fraction(Box::new([above, number(below)])));
             }
-            Some(next) if simple && is_factor(next) && matches!(piece, Math::Number(_)) => {
+            _ if simple && matches!(piece, Math::Number(_)) => {
                 tidy.push(Math::Fraction(Box::new([number(above), number(below)])));
             }
             _ => tidy.push(piece),
         }
     }
     tidy
-}
-
-/// Whether a piece continues a product.
-fn is_factor(piece: &Math) -> bool {
-    !matches!(piece, Math::Sign(_) | Math::Word(_) | Math::Number(_))
 }
 
 /// Numerator and denominator of a number that is no integer.
@@ -250,7 +248,8 @@ mod tests {
             (r"l_1 \left(0.25 \pi\right)", r"l_1 \left(\pi/ 4\right)"),
             (r"a - 0.5 c d", r"a-\frac{1}{2} c d"),
             (r"0.123 \pi + 0.5 q", r"0.123 \pi+ 0.5 q"),
-            (r"0.5 + 0.25 q", r"0.5+\frac{1}{4} q"),
+            (r"0.5 + 0.25 q", r"\frac{1}{2}+\frac{1}{4} q"),
+            (r"-0.5", r"-0.5"),
             (
                 r"\frac{745523852833173678489}{559146513121000000000000} q",
                 r"0.0013333246927927124 q",

@@ -46,17 +46,17 @@ const FEWEST: usize = 4;
 /// The constants of a line of the table.
 const ACROSS: usize = 2;
 
-/// Whether the right side is a number.
+/// Whether the right side is a number, and the left side no component of a vector.
 fn is_constant(equation: &Equation) -> bool {
     let is_number = |piece: &Math| matches!(piece, Math::Number(_) | Math::Sign('-'));
-    equation.right.pieces().iter().all(is_number)
+    !equation.name.contains('.') && equation.right.pieces().iter().all(is_number)
 }
 
 /// A table of constants, some beside each other, one below the other in each column.
 fn constants(equations: &[&Equation]) -> Block {
     let count = equations.len().div_ceil(ACROSS);
     let cell = |equation: &&Equation| {
-        let [left, right] = [&equation.left, &equation.right].map(|side| side.pieces());
+        let [left, right] = [&equation.left, &equation.right].map(Math::pieces);
         vec![Inline::Math(Math::Row([left, &[Math::Sign('=')], right].concat()))]
     };
     let row = |row: usize| {
