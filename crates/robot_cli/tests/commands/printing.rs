@@ -157,7 +157,7 @@ fn no_number_is_a_quotient_of_long_ones_and_constants_are_a_table() {
     let recursive = output(&["document", &robot("trttr1"), "--form", "recursive"], "");
     assert!(!recursive.contains("Constants."), "zeros of vectors are no constants");
     let shown = output(&["equations", &robot("panda"), "--form", "compact"], "");
-    let quotient = |line: &str| line.contains(|c: char| c == '/');
+    let quotient = |line: &str| line.contains('/');
     assert!(!shown.lines().any(quotient), "{shown}");
 }
 
