@@ -3,7 +3,7 @@
 use clap::Args;
 use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
-use robot_document::{Equation, Error, Group, html, typst};
+use robot_document::{Equation, Error, Group, html, markdown, typst};
 
 use crate::failure::Failure;
 use crate::forms::no_effect;
@@ -33,6 +33,7 @@ pub(crate) struct LayoutArguments {
 pub(crate) enum Notation {
     Latex,
     Typst,
+    Markdown,
     /// A page of HTML.
     Mathml,
 }
@@ -55,6 +56,12 @@ impl LayoutArguments {
         layout.width - if self.numbers { NUMBER } else { 0.0 }
     }
 
+    /// Refuses numbers in Markdown, whose equations have none.
+    pub(crate) fn check_markdown(&self) -> Result<(), Failure> {
+        let message = "--numbers has no effect on Markdown; leave it out";
+        if self.numbers { Err(Failure::Usage(vec![message.to_owned()])) } else { Ok(()) }
+    }
+
     /// Displayed equations, a comment before each group where there are several; a page has the title.
     pub(crate) fn displayed(
         &self,
@@ -66,12 +73,17 @@ impl LayoutArguments {
         let (comment, print): (_, Print) = match notation {
             Notation::Latex => ("%", latex::equations),
             Notation::Typst => ("//", typst::equations),
+            Notation::Markdown => ("##", markdown::equations),
             Notation::Mathml => return html::page(title, groups, layout, self.numbers),
         };
         let mut shown = String::new();
         for group in groups {
             if groups.len() > 1 {
-                shown.push_str(&format!("{comment} {}\n", group.title));
+                let gap = match notation {
+                    Notation::Markdown if !shown.is_empty() => "\n",
+                    _ => "",
+                };
+                shown.push_str(&format!("{gap}{comment} {}\n", group.title));
             }
             let numbered = |equation: &Equation| NumberedEquation {
                 label: self.numbers.then(|| equation.label()),

@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use robot_build::shown;
-use robot_document::{Equations, Error, Form, Trigonometry};
+use robot_document::{Equations, Error, Form, Letters, Trigonometry};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
@@ -38,14 +38,21 @@ pub(crate) struct EquationArguments {
     #[arg(long)]
     christoffel: bool,
     /// Vectors as columns and coefficients as matrices, or an equation for each entry [default: vectors in the forms
-    /// grouped and recursive in LaTeX, Typst and MathML, else scalars]
+    /// grouped and recursive in LaTeX, Typst, Markdown and MathML, else scalars]
     #[arg(long, value_enum)]
     layout: Option<LayoutStyle>,
     /// Equations in the order, the shape and the signs of the paper on TRTTR1: all quantities expanded, the vectors as
     /// columns, those in the joints from the last link to the first, sines and cosines as sq_2 and cq_2
     #[arg(long, value_enum, conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
-          "no_references"])]
+          "no_references", "letters"])]
     style: Option<StyleName>,
+    /// Letters of joint torques, mass matrix, velocity terms and gravity terms, such as tau,M,C,g; `field` for
+    /// these, `paper` for Q and letters that no symbol of the robot has [default: paper]
+    #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
+    letters: Option<Letters>,
+    /// Round decimals in equations to so many significant digits
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    digits: Option<u8>,
     /// Include friction in the joint torques
     #[arg(long)]
     friction: bool,
@@ -173,10 +180,24 @@ impl EquationArguments {
                     .to_owned(),
             );
         }
+        let only_torques =
+            |form: &Form| matches!(form, Form::Grouped | Form::Regrouped | Form::Recursive);
+        let torque = Kind::GeneralizedForce.name();
+        let has_torques = self.quantities.iter().any(|name| name == torque || name == "all");
+        if self.letters.is_some() && !has_torques && !forms.iter().any(only_torques) {
+            wrong.push(format!(
+                "--letters has no effect on these quantities; add {torque}, or leave it out"
+            ));
+        }
         if self.trig.is_some() && !typeset {
             wrong.push(no_effect("--trig"));
         }
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
+    }
+
+    /// The most significant digits of decimals, if they are rounded.
+    pub(crate) fn digits(&self) -> Option<usize> {
+        self.digits.map(usize::from)
     }
 
     /// Refuses friction that the robot has not.
@@ -218,6 +239,8 @@ impl EquationArguments {
             references: !self.no_references,
             christoffel: self.christoffel,
             paper: self.style.is_some(),
+            letters: self.letters.clone().unwrap_or_default(),
+            digits: self.digits(),
         })
     }
 }

@@ -21,7 +21,9 @@ pub mod robot;
 
 pub use error::{Centimeters, Error};
 pub use forms::{Array, Cell, Room, Written};
-pub use forms::{Equation, EquationOptions, Equations, Form, Group, equations};
+pub use forms::{
+    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, equations,
+};
 pub use layout::{Order, Rank, SymbolTable, Trigonometry};
 pub use layout::{breaking, math, meaning, width};
-pub use notation::{html, latex, math_font, mathml, typst};
+pub use notation::{html, latex, markdown, math_font, mathml, typst};

@@ -11,7 +11,13 @@ use roxmltree::{Document, Node, ParsingOptions};
 fn page(name: &str, text: &str) -> String {
     let source = Source { name: name.to_owned(), text: text.to_owned() };
     let compiled = Compiled::Unread { reason: "a test.".to_owned() };
-    let input = Input { source: &source, options: &Options::default(), compiled: &compiled, judge };
+    let input = Input {
+        source: &source,
+        options: &Options::default(),
+        snap: 1e-5,
+        compiled: &compiled,
+        judge,
+    };
     report(&input).unwrap()
 }
 
@@ -243,8 +249,13 @@ fn hostile_names_are_errors() {
     for (text, reason) in [(hostile("link"), "cannot be the name of"), (turned, "U+202E")] {
         let source = Source { name: "swing.toml".to_owned(), text };
         let compiled = Compiled::Unread { reason: String::new() };
-        let input =
-            Input { source: &source, options: &Options::default(), compiled: &compiled, judge };
+        let input = Input {
+            source: &source,
+            options: &Options::default(),
+            snap: 1e-5,
+            compiled: &compiled,
+            judge,
+        };
         let message = report(&input).unwrap_err().to_string();
         assert!(message.contains(reason), "{message}");
     }
@@ -278,8 +289,14 @@ fn a_page_that_reloads_itself_is_the_same_page() {
         let source = Source { name: "planar_2r.toml".to_owned(), text: text.to_owned() };
         let compiled = Compiled::Unread { reason: "a test.".to_owned() };
         let options = Options::default();
-        reloading(&Input { source: &source, options: &options, compiled: &compiled, judge })
-            .unwrap()
+        reloading(&Input {
+            source: &source,
+            options: &options,
+            snap: 1e-5,
+            compiled: &compiled,
+            judge,
+        })
+        .unwrap()
     };
     let found = of(text);
     assert_eq!(found.still, page("planar_2r.toml", text));

@@ -83,7 +83,8 @@ impl Arguments {
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
         let options = self.equations.options(&self.robot, Form::default())?;
-        let robot = self.robot.read(terminal)?.robot;
+        let robot = self.robot.printed(terminal)?;
+        self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let check = robot_check::check_value(&robot, options.friction);

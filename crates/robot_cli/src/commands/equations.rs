@@ -46,6 +46,8 @@ enum Format {
     Text,
     Latex,
     Typst,
+    /// Markdown with formulas between $$
+    Markdown,
     /// An HTML page with formulas in MathML
     Mathml,
     Json,
@@ -57,9 +59,17 @@ impl Arguments {
         let forms = self.equations.forms(&[self.form]);
         self.equations.check(&forms, typeset)?;
         self.layout.check(typeset)?;
+        if matches!(self.format, Format::Markdown) {
+            self.layout.check_markdown()?;
+        }
+        if self.equations.digits().is_some() && matches!(self.format, Format::Json) {
+            let message = "--digits has no effect on JSON, whose equations are exact; leave it out";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let form = forms.first().copied().unwrap_or_default();
         let options = self.equations.options(&self.robot, form)?;
-        let robot = self.robot.read(terminal)?.robot;
+        let robot = self.robot.printed(terminal)?;
+        self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let equations =
@@ -73,13 +83,15 @@ impl Arguments {
             self.layout.displayed(&robot.name, groups, notation).map_err(failed)
         };
         let shown = match self.format {
-            Format::Text if has_arrays => {
-                plain(&equations.arranged(Room::Characters(text::COLUMNS)))
+            Format::Text => {
+                let equations = equations.readable(options.digits);
+                let room = Room::Characters(text::COLUMNS);
+                plain(&if has_arrays { equations.arranged(room) } else { equations })
             }
-            Format::Text => plain(&equations),
             Format::Json if has_arrays => json(&robot.name, &equations, Some(arrays(&equations))),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
+            Format::Markdown => displayed(Notation::Markdown)?,
             Format::Mathml => displayed(Notation::Mathml)?,
             Format::Json => json(&robot.name, &equations, None),
         };

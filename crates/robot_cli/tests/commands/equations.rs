@@ -203,7 +203,7 @@ fn a_document_defines_the_symbols_that_occur() {
         r"\(H\left(q\right)\) & mass matrix",
         r"\(n\left(q, \dot{q}\right)\) & Coriolis and centrifugal terms",
         r"\(w\) & contribution",
-        r"\(\bar{\omega}_i\) & angular velocity of link i, rad/s; its component along x: \(\omega_{i,x}\)",
+        r"\(\bar{\omega}^i\) & angular velocity of link i, rad/s; its component along x: \(\omega_x^i\)",
         r"\(\bar{M}_l^i\) & moment that link i receives",
     ] {
         assert!(symbols.contains(defined), "{defined}: {symbols}");
@@ -318,7 +318,7 @@ fn matrices_are_printed_in_every_notation_where_they_fit() {
     for (format, matrix) in [
         (
             "text",
-            "H(q) = [ m1*r1^2 + I1 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) + I2,  m2*r2*(r2 + l1*cos(q2)) + I2 ]\n       [ m2*r2*(r2 + l1*cos(q2)) + I2 ",
+            "M(q) = [ m1*r1^2 + I1 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) + I2,  m2*r2*(r2 + l1*cos(q2)) + I2 ]\n       [ m2*r2*(r2 + l1*cos(q2)) + I2 ",
         ),
         ("latex", r" &= \begin{bmatrix} m_1 r_1^{2} + I_1 + "),
         ("typst", "mat(delim: \"[\", row-gap: #0.35em, m_1 r_1^2 + I_1 + "),
@@ -332,8 +332,8 @@ fn matrices_are_printed_in_every_notation_where_they_fit() {
         assert_eq!(shown(format, &[]), if format == "text" { scalars } else { vectors });
     }
     let json: Value = serde_json::from_str(&shown("json", &["--layout", "vectors"])).unwrap();
-    let rows = &json["arrays"]["H(q)"];
-    assert_eq!(*rows, serde_json::json!([["H_1_1", "H_1_2"], ["H_1_2", "H_2_2"]]));
+    let rows = &json["arrays"]["M(q)"];
+    assert_eq!(*rows, serde_json::json!([["M_1_1", "M_1_2"], ["M_1_2", "M_2_2"]]));
     let plain: Value = serde_json::from_str(&shown("json", &[])).unwrap();
     assert!(plain["arrays"].is_null() && plain["quantities"] == json["quantities"]);
 }
@@ -346,10 +346,10 @@ fn entries_that_do_not_fit_have_names_and_matrices_that_do_not_are_lists() {
         output(&[&command[..], &[width]].concat(), "")
     };
     let wide = shown("16cm");
-    assert!(wide.contains(r"\begin{bmatrix} m_1 r_1^{2}") && !wide.contains("H_{11}"), "{wide}");
+    assert!(wide.contains(r"\begin{bmatrix} m_1 r_1^{2}") && !wide.contains("M_{11}"), "{wide}");
     let narrow = shown("12cm");
-    assert!(narrow.contains(r"\begin{bmatrix} H_{11} & m_2 r_2"), "{narrow}");
-    assert!(narrow.contains("\n  H_{11} &= "), "{narrow}");
+    assert!(narrow.contains(r"\begin{bmatrix} M_{11} & m_2 r_2"), "{narrow}");
+    assert!(narrow.contains("\n  M_{11} &= "), "{narrow}");
     let file = robot("trttr1");
     let command = ["equations", &file, "--form", "grouped", "--format", "latex", "--width", "6.5"];
     let list = output(&command, "");

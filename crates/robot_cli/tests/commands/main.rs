@@ -20,6 +20,7 @@ mod outputs;
 mod people;
 mod pictures;
 mod plans;
+mod printing;
 mod prove;
 mod reading;
 mod report;

@@ -123,6 +123,9 @@ fn a_first_robot_is_written_and_kept() {
     assert_eq!((checked.code, checked.errors.as_str()), (Some(0), ""));
     let text = shell.run("cat two_link.toml").output;
     assert!(text.starts_with("#:schema ") && text.contains("name = \"two_link\""), "{text}");
+    let untouched = shell.run("robot-symbolic init two_link");
+    let message = "two_link.toml is there already, as init writes it; it is not written again\n";
+    assert_eq!((untouched.code, untouched.errors.as_str()), (Some(0), message));
     let again = shell.run("echo '# mine' >> two_link.toml; robot-symbolic init two_link.toml");
     assert_eq!(again.code, Some(1));
     assert!(again.errors.contains("two_link.toml is not replaced"), "{}", again.errors);

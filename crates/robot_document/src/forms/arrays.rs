@@ -182,6 +182,10 @@ impl<'a> List<'a> {
 }
 
 impl Array {
+    pub(super) fn cells_mut(&mut self) -> impl Iterator<Item = &mut Cell> {
+        self.rows.iter_mut().flatten()
+    }
+
     fn has(&self, name: &str) -> bool {
         self.rows.iter().flatten().any(|cell| cell.name == name)
     }

@@ -6,7 +6,7 @@ use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
-use super::{Equation, Group, Writer, generalized_force, references, shapes};
+use super::{Equation, Group, Writer, generalized_force, letters, references, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -36,7 +36,7 @@ pub(super) struct Coefficient<'g> {
 
 impl<'g> Coefficient<'g> {
     pub(super) fn new(letter: &str, numbers: &[usize], value: Expr<'g>) -> Coefficient<'g> {
-        let shape = shapes::indexed(letter.chars().next().unwrap_or('x'), numbers);
+        let shape = shapes::indexed(letters::character(letter), numbers);
         Coefficient { name: shapes::indexed_name(letter, numbers), shape, value }
     }
 }

@@ -65,7 +65,7 @@ fn introduction(writer: &Writer<'_, '_>) -> String {
 
 /// The entries of the mass matrix on and above its diagonal, row by row: Mᵢⱼ = ∂Qᵢ/∂q̈ⱼ.
 fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]) -> Section<'g> {
-    let letter = writer.symbols.free_letter(&MASS);
+    let letter = writer.letter(writer.options.letters.mass.as_deref(), &MASS);
     let rates = motions(writer, JointVariable::Acceleration);
     let columns: Vec<_> = rates.iter().map(|rate| walk::derivatives(forces, *rate)).collect();
     let mut coefficients = vec![];
@@ -75,7 +75,7 @@ fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]
             if value.is_zero() {
                 continue;
             }
-            let entry = Coefficient::new(letter, &[row + 1, column + 1], value);
+            let entry = Coefficient::new(&letter, &[row + 1, column + 1], value);
             sums[row].push((entry.name.clone(), rates[column]));
             if row != column {
                 sums[column].push((entry.name.clone(), rates[row]));
@@ -98,7 +98,7 @@ fn velocities<'g>(
         true => (&CHRISTOFFEL, "Christoffel symbols"),
         false => (&VELOCITY, "Coriolis and centrifugal coefficients"),
     };
-    let letter = writer.symbols.free_letter(letters);
+    let letter = writer.letter(writer.options.letters.velocity.as_deref(), letters);
     let graph = writer.graph;
     let half = graph.number(Rational::new(1, 2).unwrap_or(Rational::ONE));
     let rates = motions(writer, JointVariable::Velocity);
@@ -121,7 +121,7 @@ fn velocities<'g>(
                     (false, false) => (slope, 1),
                 };
                 let numbers = [index + 1, first + 1, other + 1];
-                let coefficient = Coefficient::new(letter, &numbers, value);
+                let coefficient = Coefficient::new(&letter, &numbers, value);
                 let rates = rates[first] * rates[other] * graph.integer(factor);
                 sum.push((coefficient.name.clone(), rates));
                 coefficients.push(coefficient);

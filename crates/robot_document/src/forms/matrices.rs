@@ -1,12 +1,13 @@
 //! The coefficients of the grouped form as matrices and columns.
 
+use robot_dynamics::quantity::Kind;
 use robot_model::variable::JointVariable;
 use robot_symbolic::collected::length;
 use robot_symbolic::{Expr, Polynomial, Rational, walk};
 use rustc_hash::FxHashMap;
 
 use super::coefficients::{LIMITS, MAX_LENGTH, MAX_TERMS, Section, Shown, Sum, motions};
-use super::{Array, Cell, Equation, Group, Writer, Written, shapes};
+use super::{Array, Cell, Equation, Group, Writer, Written, letters, shapes};
 use crate::error::Error;
 use crate::math::{Fence, Math};
 
@@ -147,12 +148,10 @@ pub(super) fn attach<'g>(
         text.push(summand.text);
         group.arrays = Some(vec![array]);
     }
-    if let Some(sums) = groups.first_mut()
-        && let Some(left) = sums.equations.first().map(|first| letter(&first.left))
-        && let Math::Letter(name) = left
-    {
-        let (name, text, right) = (name.to_string(), text.join(" + "), Math::row(right));
-        sums.vector = Some(Equation { name, text, left, right });
+    if let Some(sums) = groups.first_mut() {
+        let name = Kind::GeneralizedForce.name().to_owned();
+        let (text, left) = (text.join(" + "), Math::spelled(&name));
+        sums.vector = Some(Equation { name, text, left, right: Math::row(right) });
     }
     Ok(())
 }
@@ -192,7 +191,7 @@ fn christoffel<'g>(
     section: &Section<'g>,
     known: &Known<'g>,
 ) -> Result<(Array, Written), Error> {
-    let letter = writer.symbols.free_letter(&MATRIX);
+    let letter = writer.letter(writer.options.letters.velocity.as_deref(), &MATRIX);
     let rates = motions(writer, JointVariable::Velocity);
     let half = writer.graph.number(Rational::new(1, 2).unwrap_or(Rational::ONE));
     let mut rows = vec![];
@@ -205,12 +204,11 @@ fn christoffel<'g>(
             let names = sum.iter().map(|(name, _)| name.clone());
             let own = names.zip(slopes).filter(|(_, slope)| !slope.is_zero()).collect();
             let numbers = [row + 1, column + 1];
-            cells.push(indexed(writer, known, letter, &numbers, &own)?);
+            cells.push(indexed(writer, known, &letter, &numbers, &own)?);
         }
         rows.push(cells);
     }
-    let look = Math::Letter(letter.chars().next().unwrap_or('C'));
-    let (name, left) = called(&look, &[positions(), state(JointVariable::Velocity)]);
+    let (name, left) = called(&sign(&letter), &[positions(), state(JointVariable::Velocity)]);
     let product = times(&name, &left, JointVariable::Velocity);
     Ok((Array { name, left, rows }, product))
 }
@@ -222,16 +220,14 @@ fn column<'g>(
     section: &Section<'g>,
     known: &Known<'g>,
 ) -> Result<(Array, Written), Error> {
-    let letter = writer.symbols.free_letter(&COLUMN);
+    let given = writer.options.letters.velocity.as_deref();
+    let letter = writer.letter(given.filter(|_| term == Term::Velocities), &COLUMN);
     let mut rows = vec![];
     for row in 0..known.sums.len() {
-        rows.push(vec![indexed(writer, known, letter, &[row + 1], &known.row(section, row))?]);
+        rows.push(vec![indexed(writer, known, &letter, &[row + 1], &known.row(section, row))?]);
     }
     let (name, left) = match term {
-        Term::Velocities => {
-            let look = Math::Letter(letter.chars().next().unwrap_or('h'));
-            called(&look, &[positions(), state(JointVariable::Velocity)])
-        }
+        Term::Velocities => called(&sign(&letter), &[positions(), state(JointVariable::Velocity)]),
         Term::Positions => called(&base(section), &[positions()]),
         _ => called(&base(section), &[]),
     };
@@ -251,7 +247,7 @@ fn indexed<'g>(
     if sum.is_empty() {
         return Ok(zero(&name));
     }
-    let look = shapes::indexed(letter.chars().next().unwrap_or('h'), numbers);
+    let look = shapes::indexed(letters::character(letter), numbers);
     known.entry(writer, name, look, sum)
 }
 
@@ -264,30 +260,28 @@ fn written(equation: Equation) -> Written {
     Written { text: equation.text, math: equation.right }
 }
 
-/// The letter of a section's coefficients, with the index that is not a number.
-fn base(section: &Section<'_>) -> Math {
-    let Some(first) = section.coefficients.first() else { return Math::default() };
-    match &first.shape {
+/// A letter by its name, and as it looks.
+fn sign(letter: &str) -> (&str, Math) {
+    (letter, Math::Letter(letters::character(letter)))
+}
+
+/// The letter of a section's coefficients, with the index that is not a number, by its name and as it looks.
+fn base<'s>(section: &'s Section<'_>) -> (&'s str, Math) {
+    let Some(first) = section.coefficients.first() else { return Default::default() };
+    let name = first.name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_');
+    let look = match &first.shape {
         Math::Script(script) => match script.lower.as_ref().map(Math::pieces) {
             Some([index @ Math::Letter(_), ..]) => script.base.clone().with_lower(index.clone()),
             _ => script.base.clone(),
         },
         other => other.clone(),
-    }
-}
-
-/// The letter of a symbol with an index.
-fn letter(look: &Math) -> Math {
-    match look {
-        Math::Symbol(symbol) => letter(&symbol.shape),
-        Math::Script(script) => script.base.clone(),
-        other => other.clone(),
-    }
+    };
+    (name, look)
 }
 
 /// A symbol of an array with what it depends on, in text and in print.
-fn called(base: &Math, arguments: &[(&str, Math)]) -> (String, Math) {
-    let mut name = crate::latex::formula(base);
+fn called((name, base): &(&str, Math), arguments: &[(&str, Math)]) -> (String, Math) {
+    let mut name = (*name).to_owned();
     let names: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
     let looks: Vec<Vec<Math>> = arguments.iter().map(|(_, look)| vec![look.clone()]).collect();
     if names.is_empty() {

@@ -1,11 +1,13 @@
 //! The forms of the equations of motion.
 
 mod angle_sums;
+mod arranged;
 mod arrays;
 mod coefficients;
 mod compact;
 mod expanded;
 mod grouped;
+mod letters;
 mod loads;
 mod matrices;
 mod naming;
@@ -29,8 +31,9 @@ use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
 use crate::error::Error;
-use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry};
+use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry, tidied, tidied_text};
 use crate::math::Math;
+pub use letters::{InvalidLetters, Letters};
 
 pub use arrays::{Array, Cell, Room, Written};
 
@@ -106,6 +109,10 @@ pub struct EquationOptions {
     /// Whether quantities are in the order and under the signs of the paper: forces and moments in the joints from the
     /// last link to the first, vectors with the number of their link below as well, Q with the index m.
     pub paper: bool,
+    /// The letters of joint torques and of what the grouped form defines.
+    pub letters: Letters,
+    /// The most significant digits of decimals, but in [`Equation::text`], which is exact.
+    pub digits: Option<usize>,
 }
 
 /// The joint torques, expanded, without friction.
@@ -122,6 +129,8 @@ impl Default for EquationOptions {
             references: true,
             christoffel: false,
             paper: false,
+            letters: Letters::default(),
+            digits: None,
         }
     }
 }
@@ -167,6 +176,17 @@ pub struct Equation {
 }
 
 impl Group {
+    /// Writes the numbers of right sides as people do.
+    fn tidy(&mut self, digits: Option<usize>) {
+        let cells = self.arrays.iter_mut().flatten().flat_map(Array::cells_mut);
+        let written = cells.flat_map(|cell| [&mut cell.whole, &mut cell.parts]).flatten();
+        let entries = written.map(|written| &mut written.math);
+        let equations = self.equations.iter_mut().chain(&mut self.vector);
+        for math in equations.map(|equation| &mut equation.right).chain(entries) {
+            *math = tidied(std::mem::take(math), digits);
+        }
+    }
+
     /// Definitions of symbols that other equations use.
     pub(crate) fn of_definitions(title: &str, equations: Vec<Equation>) -> Group {
         let (title, introduction) = (title.to_owned(), String::new());
@@ -198,6 +218,23 @@ impl Equations {
     /// The equations of quantities of the robot, without definitions.
     pub fn quantities(&self) -> impl Iterator<Item = &Equation> {
         self.groups.iter().filter(|group| !group.definitions).flat_map(|group| &group.equations)
+    }
+
+    /// The equations with texts for readers, which are not exact: decimals are rounded to so many significant digits, or
+    /// to those of a double.
+    #[must_use]
+    pub fn readable(&self, digits: Option<usize>) -> Equations {
+        let mut equations = self.clone();
+        for group in &mut equations.groups {
+            let cells = group.arrays.iter_mut().flatten().flat_map(Array::cells_mut);
+            let written = cells.flat_map(|cell| [&mut cell.whole, &mut cell.parts]).flatten();
+            let entries = written.map(|written| &mut written.text);
+            let all = group.equations.iter_mut().chain(&mut group.vector);
+            for text in all.map(|equation| &mut equation.text).chain(entries) {
+                *text = tidied_text(text, digits);
+            }
+        }
+        equations
     }
 
     /// The matrices and columns, in order.
@@ -247,7 +284,13 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     if graph.is_full() {
         return Err(Error::TooManyExpressions { limit: MAX_NODES });
     }
-    let groups = groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    let mut groups: Vec<Group> =
+        groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    for group in &mut groups {
+        group.tidy(options.digits);
+        let own = group.equations.iter_mut().filter(|_| !group.definitions);
+        own.chain(&mut group.vector).for_each(|equation| writer.name_torque(equation));
+    }
     Ok(Equations { groups, symbols: writer.symbols })
 }
 

@@ -97,7 +97,7 @@ impl Look {
     fn vector(self, number: usize) -> Math {
         match self {
             Look::Letter(letter) => {
-                Math::Letter(letter).under_bar().with_lower(Math::integer(number))
+                Math::Letter(letter).under_bar().with_upper(Math::integer(number))
             }
             Look::Paper(kind) => Math::vector(kind, number),
         }

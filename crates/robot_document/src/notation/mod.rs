@@ -2,6 +2,7 @@
 
 pub mod html;
 pub mod latex;
+pub mod markdown;
 pub mod math_font;
 pub mod mathml;
 mod tabular;

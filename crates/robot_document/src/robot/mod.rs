@@ -73,10 +73,10 @@ pub fn document(
     for (form, part) in &parts {
         blocks.extend(sections::blocks(*form, part, options));
     }
-    blocks.extend(symbols::blocks(robot, &parts, &blocks));
+    blocks.extend(symbols::blocks(robot, &parts, &blocks, &options.letters));
     if let Some(check) = extras.check {
         let has_tip = robot.tips().next().is_some();
-        blocks.extend(check_value::blocks(check, has_tip, &first.symbols));
+        blocks.extend(check_value::blocks(check, has_tip, &first.symbols, &options.letters));
     }
     Ok(Document { title, blocks })
 }
@@ -96,6 +96,13 @@ fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
         true => "Joint friction is included.",
         false => "Joint friction is not included.",
     };
+    let rounded = match options.digits {
+        Some(1) => " Decimals in the equations are rounded to 1 significant digit.".to_owned(),
+        Some(digits) => {
+            format!(" Decimals in the equations are rounded to {digits} significant digits.")
+        }
+        None => String::new(),
+    };
     Ok(vec![
         heading("Frames and signs"),
         Block::Paragraph(vec![
@@ -111,14 +118,14 @@ fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
             Inline::text(", or translated along it by "),
             Inline::Math(indexed('q')),
             Inline::text(". All vectors are given in the axes of their own link. "),
-            Inline::Math(indexed('Q')),
+            Inline::Math(options.letters.torque_sign().with_lower(Math::Letter('i'))),
             Inline::text(
                 " is the joint torque of a revolute joint or the joint force of a prismatic \
                  joint, positive along the axis. The wrench of a tip is the wrench that the tip \
                  exerts on its surroundings; the external wrench, which acts on the tip, is its \
                  negative. Units are SI and radians. ",
             ),
-            Inline::text(friction),
+            Inline::text(format!("{friction}{rounded}")),
         ]),
     ])
 }
