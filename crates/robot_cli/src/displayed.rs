@@ -2,9 +2,11 @@
 
 use clap::Args;
 use robot_document::document::NumberedEquation;
+use robot_document::html::{self, PageOptions};
 use robot_document::latex::{self, Layout};
-use robot_document::{Equation, Error, Group, html, markdown, typst};
+use robot_document::{Equation, Error, Group, markdown, typst};
 
+use crate::Terminal;
 use crate::failure::Failure;
 use crate::forms::no_effect;
 
@@ -35,7 +37,24 @@ pub(crate) enum Notation {
     Typst,
     Markdown,
     /// A page of HTML.
-    Mathml,
+    Mathml {
+        /// Whether it contains the font of its equations.
+        has_font: bool,
+    },
+}
+
+impl Notation {
+    /// A page of HTML, on a screen without its font, which is a long line: that is said.
+    pub(crate) fn page(terminal: &mut Terminal<'_>) -> Result<Notation, Failure> {
+        let has_font = terminal.screen.is_none();
+        if !has_font {
+            writeln!(
+                terminal.errors,
+                "note: on a terminal the page is printed without its font; write it into a file, such as > page.html"
+            )?;
+        }
+        Ok(Notation::Mathml { has_font })
+    }
 }
 
 impl LayoutArguments {
@@ -74,7 +93,10 @@ impl LayoutArguments {
             Notation::Latex => ("%", latex::equations),
             Notation::Typst => ("//", typst::equations),
             Notation::Markdown => ("##", markdown::equations),
-            Notation::Mathml => return html::page(title, groups, layout, self.numbers),
+            Notation::Mathml { has_font } => {
+                let options = PageOptions { layout, numbered: self.numbers, has_font };
+                return html::page(title, groups, options);
+            }
         };
         let mut shown = String::new();
         for group in groups {

@@ -9,7 +9,7 @@ use robot_build::{
     robot_inputs,
 };
 use robot_document::Form;
-use robot_dynamics::mechanism::snapped;
+use robot_dynamics::mechanism::{Snap, snapped};
 use robot_model::description::Described;
 use robot_model::robot::Robot;
 use robot_model::snap;
@@ -71,6 +71,14 @@ impl RobotArgument {
 
     /// The robot as it is printed; warnings are shown.
     pub(crate) fn printed(&self, terminal: &mut Terminal<'_>) -> Result<Robot, Failure> {
+        Ok(self.printed_with_snaps(terminal)?.0)
+    }
+
+    /// The same, with the angles that differ from those of the file.
+    pub(crate) fn printed_with_snaps(
+        &self,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(Robot, Vec<Snap>), Failure> {
         let robot = self.read(terminal)?.robot;
         self.snapped(&robot, terminal)
     }
@@ -81,13 +89,13 @@ impl RobotArgument {
         &self,
         robot: &Robot,
         terminal: &mut Terminal<'_>,
-    ) -> Result<Robot, Failure> {
+    ) -> Result<(Robot, Vec<Snap>), Failure> {
         let given = self.snap.or(robot.snap);
         let (shown, snaps) = snapped(robot, given.unwrap_or(PRINT_SNAP));
         if given.is_none() {
             terminal.errors.write_all(text::snapped_for_print(robot, &snaps).as_bytes())?;
         }
-        Ok(shown)
+        Ok((shown, snaps))
     }
 
     /// Says that frames of base parameters are given for equations without these.

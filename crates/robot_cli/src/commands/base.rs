@@ -61,7 +61,7 @@ impl Arguments {
             Format::Text => plain(&robot, &set),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
-            Format::Mathml => displayed(Notation::Mathml)?,
+            Format::Mathml => displayed(Notation::page(terminal)?)?,
             Format::Json => json(&robot, &set),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)

@@ -83,7 +83,7 @@ impl Arguments {
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
         let options = self.equations.options(&self.robot, Form::default())?;
-        let robot = self.robot.printed(terminal)?;
+        let (robot, snaps) = self.robot.printed_with_snaps(terminal)?;
         self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
@@ -96,6 +96,7 @@ impl Arguments {
             title: self.title.as_deref(),
             figure: Some(robot_report::scheme::figure(&robot)),
             check: check.as_ref(),
+            snaps: &snaps,
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
         let (comment, shown) = match self.format() {

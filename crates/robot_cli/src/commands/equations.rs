@@ -92,7 +92,7 @@ impl Arguments {
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
             Format::Markdown => displayed(Notation::Markdown)?,
-            Format::Mathml => displayed(Notation::Mathml)?,
+            Format::Mathml => displayed(Notation::page(terminal)?)?,
             Format::Json => json(&robot.name, &equations, None),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)

@@ -221,3 +221,17 @@ fn warnings_of_a_kind_are_one_and_in_json_each() {
     let json = run(&["check", path, "--format", "json"]).output;
     assert_eq!(json.matches("\"R0603\"").count(), 6, "{json}");
 }
+
+#[test]
+fn a_terminal_is_not_flooded_with_a_font() {
+    let file = robot("planar_2r");
+    for command in ["equations", "base"] {
+        let arguments = [command, &file, "--format", "mathml"];
+        let shown = run_on(terminal(100), &arguments);
+        assert!(!shown.output.contains("font/woff2") && shown.output.contains("<math"));
+        assert!(shown.output.len() < 20_000, "{}", shown.output.len());
+        assert!(shown.errors.contains("without its font"), "{}", shown.errors);
+        let whole = run(&arguments);
+        assert!(whole.output.contains("font/woff2") && whole.errors.is_empty());
+    }
+}

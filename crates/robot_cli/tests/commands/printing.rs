@@ -174,6 +174,26 @@ fn entries_of_matrices_have_fractions_and_rounded_numbers() {
 }
 
 #[test]
+fn documents_say_which_angles_are_rounded() {
+    let file = rounded("rounded_document");
+    for format in ["latex", "typst"] {
+        let shown = run(&["document", &file, "--format", format]).output;
+        let sentence = "3 constant angles of the robot file are rounded: tables and equations have the multiples of π/2, \
+                        which differ by at most 7e-6 rad (upper, fore).";
+        let words: String = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+        let words = words.replace(r"\(\pi\)", "π").replace("\\", "");
+        assert!(words.contains(sentence), "{words}");
+        for as_they_are in [&["--snap", "0"][..], &["--snap", "1e-9"]] {
+            let arguments = ["document", &file, "--format", format];
+            let shown = output(&[&arguments[..], as_they_are].concat(), "");
+            assert!(!shown.contains("of the robot file are rounded"), "{shown}");
+        }
+    }
+    let exact = output(&["document", &robot("trttr1")], "");
+    assert!(!exact.contains("of the robot file"), "{exact}");
+}
+
+#[test]
 fn vectors_have_right_angles_where_the_file_has_rounded_ones() {
     let file = rounded("rounded_vectors");
     let recursive = ["equations", &file, "--form", "recursive", "--format", "latex"];

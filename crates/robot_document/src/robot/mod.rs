@@ -9,7 +9,9 @@ mod symbols;
 mod tables;
 pub mod words;
 
+use robot_dynamics::mechanism::Snap;
 use robot_model::robot::Robot;
+use robot_model::snap;
 
 use crate::document::{Block, Document, Inline};
 use crate::error::Error;
@@ -27,6 +29,8 @@ pub struct Extras<'e> {
     pub figure: Option<Figure>,
     /// The check value.
     pub check: Option<&'e CheckValue>,
+    /// The constant angles that the robot has as multiples of π/2 though the file has other values.
+    pub snaps: &'e [Snap],
     /// The width of lines, pt, in which matrices and columns are shown where they fit; `None` for equations of their
     /// entries alone.
     pub arrays: Option<f64>,
@@ -69,7 +73,7 @@ pub fn document(
         return Ok(Document { title, blocks });
     };
     blocks.extend(tables::blocks(robot, &first.symbols, extras.figure)?);
-    blocks.extend(conventions(options)?);
+    blocks.extend(conventions(options, extras.snaps)?);
     for (form, part) in &parts {
         blocks.extend(sections::blocks(*form, part, options));
     }
@@ -90,7 +94,7 @@ fn heading(text: &str) -> Block {
 }
 
 /// The frame and sign conventions.
-fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
+fn conventions(options: &EquationOptions, snaps: &[Snap]) -> Result<Vec<Block>, Error> {
     let indexed = |letter: char| Math::Letter(letter).with_lower(Math::Letter('i'));
     let friction = match options.friction {
         true => "Joint friction is included.",
@@ -125,7 +129,38 @@ fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
                  exerts on its surroundings; the external wrench, which acts on the tip, is its \
                  negative. Units are SI and radians. ",
             ),
-            Inline::text(format!("{friction}{rounded}")),
+            Inline::text(format!("{friction}{rounded}{}", snapped(snaps))),
         ]),
     ])
+}
+
+/// The names in a sentence before the others are counted.
+const NAMED: usize = 4;
+
+/// What is said of constant angles that are not those of the file.
+fn snapped(snaps: &[Snap]) -> String {
+    // What is rounded by the tolerance that code has is only rounding.
+    let changed = || snaps.iter().filter(|snap| snap.change.abs() > snap::DEFAULT);
+    let mut names: Vec<&str> = vec![];
+    for snap in changed() {
+        if !names.contains(&snap.name.as_str()) {
+            names.push(&snap.name);
+        }
+    }
+    let (count, most) = changed()
+        .fold((0, 0.0_f64), |(count, most), snap| (count + 1, most.max(snap.change.abs())));
+    let (subject, are) = match count {
+        0 => return String::new(),
+        1 => ("One constant angle of the robot file is".to_owned(), "the multiple"),
+        count => (format!("{count} constant angles of the robot file are"), "the multiples"),
+    };
+    let more = match names.len().checked_sub(NAMED) {
+        Some(more @ 1..) => format!(" and {more} more"),
+        _ => String::new(),
+    };
+    names.truncate(NAMED);
+    format!(
+        " {subject} rounded: tables and equations have {are} of π/2, which differ by at most {most:.0e} rad ({}{more}).",
+        names.join(", ")
+    )
 }
