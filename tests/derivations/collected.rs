@@ -11,17 +11,9 @@ use robot_numeric::robots::{self, Random, Recipe};
 use robot_symbolic::polynomial::equal;
 use robot_symbolic::{AngleSums, Expr, Graph};
 
-const OPTIONS: EquationOptions = EquationOptions {
-    form: Form::Grouped,
-    kinds: vec![],
-    friction: false,
-    snap: None,
-    trigonometry: robot_document::Trigonometry::Named,
-    angle_sums: None,
-    expand: false,
-    references: false,
-    christoffel: false,
-};
+fn usual() -> EquationOptions {
+    EquationOptions { form: Form::Grouped, references: false, ..EquationOptions::default() }
+}
 
 /// Definitions and quantities of a robot by name.
 fn printed(robot: &Robot, options: &EquationOptions) -> BTreeMap<String, String> {
@@ -37,7 +29,7 @@ fn fixture(name: &str) -> Robot {
 }
 
 fn assert_prints(robot: &Robot, expected: &[(&str, &str)]) {
-    let found = printed(robot, &OPTIONS);
+    let found = printed(robot, &usual());
     for (name, expected) in expected {
         assert_eq!(found.get(*name).map(String::as_str), Some(*expected), "{}: {name}", robot.name);
     }
@@ -108,7 +100,7 @@ fn a_scara_prints_as_in_textbooks() {
 /// The mass matrix and the gravity terms; the textbooks have no coefficients of velocities for this arm.
 #[test]
 fn the_first_three_joints_of_a_puma_print_as_in_textbooks() {
-    let found = printed(&fixture("elbow"), &OPTIONS);
+    let found = printed(&fixture("elbow"), &usual());
     for (name, expected) in [
         ("M_1_1", "m2*r2^2*cos(q2)^2 + m3*(a2*cos(q2) + r3*cos(q2 + q3))^2 + I1"),
         ("M_2_2", "m2*r2^2 + m3*(a2^2 + r3^2 + 2*a2*r3*cos(q3))"),
@@ -171,9 +163,9 @@ fn equations_are_short() {
                 .sum()
         };
         let found = [
-            total(&OPTIONS, false),
-            total(&EquationOptions { references: true, ..OPTIONS.clone() }, false),
-            total(&EquationOptions { form: Form::Collected, ..OPTIONS.clone() }, true),
+            total(&usual(), false),
+            total(&EquationOptions { references: true, ..usual() }, false),
+            total(&EquationOptions { form: Form::Collected, ..usual() }, true),
         ];
         let bounds = [bound, by_others, whole];
         assert!(found.iter().zip(&bounds).all(|(a, b)| a <= b), "{name}: {found:?} {bounds:?}");
@@ -247,7 +239,7 @@ fn equations_of_a_hundred_random_robots_are_those_derived() {
             if form != Form::Grouped && first > 1 && joints > 1 {
                 continue;
             }
-            let options = EquationOptions { form, angle_sums, references: true, ..OPTIONS.clone() };
+            let options = EquationOptions { form, angle_sums, references: true, ..usual() };
             let found = torques(&graph, &robot, &options);
             for (found, derived) in found.iter().zip(&derived) {
                 // Equal terms prove equality; roots in the directions of tilted axes may hide it.

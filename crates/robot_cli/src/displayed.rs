@@ -2,9 +2,11 @@
 
 use clap::Args;
 use robot_document::document::NumberedEquation;
+use robot_document::html::{self, PageOptions};
 use robot_document::latex::{self, Layout};
-use robot_document::{Equation, Error, Group, html, typst};
+use robot_document::{Equation, Error, Group, markdown, typst};
 
+use crate::Terminal;
 use crate::failure::Failure;
 use crate::forms::no_effect;
 
@@ -13,6 +15,9 @@ const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 
 /// The width of lines where none is given, cm.
 const WIDTH: f64 = 16.0;
+
+/// The number of an equation and its distance from the equation, pt.
+const NUMBER: f64 = 44.0;
 
 /// How displayed equations are laid out.
 #[derive(Args)]
@@ -30,8 +35,26 @@ pub(crate) struct LayoutArguments {
 pub(crate) enum Notation {
     Latex,
     Typst,
+    Markdown,
     /// A page of HTML.
-    Mathml,
+    Mathml {
+        /// Whether it contains the font of its equations.
+        has_font: bool,
+    },
+}
+
+impl Notation {
+    /// A page of HTML, on a screen without its font, which is a long line: that is said.
+    pub(crate) fn page(terminal: &mut Terminal<'_>) -> Result<Notation, Failure> {
+        let has_font = terminal.screen.is_none();
+        if !has_font {
+            writeln!(
+                terminal.errors,
+                "note: on a terminal the page is printed without its font; write it into a file, such as > page.html"
+            )?;
+        }
+        Ok(Notation::Mathml { has_font })
+    }
 }
 
 impl LayoutArguments {
@@ -46,6 +69,18 @@ impl LayoutArguments {
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
     }
 
+    /// The width that an equation has without its number, pt.
+    pub(crate) fn line(&self) -> f64 {
+        let layout = Layout::of_centimeters(self.width.unwrap_or(WIDTH));
+        layout.width - if self.numbers { NUMBER } else { 0.0 }
+    }
+
+    /// Refuses numbers in Markdown, whose equations have none.
+    pub(crate) fn check_markdown(&self) -> Result<(), Failure> {
+        let message = "--numbers has no effect on Markdown; leave it out";
+        if self.numbers { Err(Failure::Usage(vec![message.to_owned()])) } else { Ok(()) }
+    }
+
     /// Displayed equations, a comment before each group where there are several; a page has the title.
     pub(crate) fn displayed(
         &self,
@@ -57,12 +92,20 @@ impl LayoutArguments {
         let (comment, print): (_, Print) = match notation {
             Notation::Latex => ("%", latex::equations),
             Notation::Typst => ("//", typst::equations),
-            Notation::Mathml => return html::page(title, groups, layout, self.numbers),
+            Notation::Markdown => ("##", markdown::equations),
+            Notation::Mathml { has_font } => {
+                let options = PageOptions { layout, numbered: self.numbers, has_font };
+                return html::page(title, groups, options);
+            }
         };
         let mut shown = String::new();
         for group in groups {
             if groups.len() > 1 {
-                shown.push_str(&format!("{comment} {}\n", group.title));
+                let gap = match notation {
+                    Notation::Markdown if !shown.is_empty() => "\n",
+                    _ => "",
+                };
+                shown.push_str(&format!("{gap}{comment} {}\n", group.title));
             }
             let numbered = |equation: &Equation| NumberedEquation {
                 label: self.numbers.then(|| equation.label()),

@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use robot_build::shown;
-use robot_document::{Error, Form, Trigonometry};
+use robot_document::{Equations, Error, Form, Letters, Trigonometry};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
@@ -37,6 +37,22 @@ pub(crate) struct EquationArguments {
     /// In the grouped form, print Christoffel symbols instead of Coriolis and centrifugal coefficients
     #[arg(long)]
     christoffel: bool,
+    /// Vectors as columns and coefficients as matrices, or an equation for each entry [default: vectors in the forms
+    /// grouped and recursive in LaTeX, Typst, Markdown and MathML, else scalars]
+    #[arg(long, value_enum)]
+    layout: Option<LayoutStyle>,
+    /// Equations in the order, the shape and the signs of the paper on TRTTR1: all quantities expanded, the vectors as
+    /// columns, those in the joints from the last link to the first, sines and cosines as sq_2 and cq_2
+    #[arg(long, value_enum, conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
+          "no_references", "letters"])]
+    style: Option<StyleName>,
+    /// Letters of joint torques, mass matrix, velocity terms and gravity terms, such as tau,M,C,g; `field` for
+    /// these, `paper` for Q and letters that no symbol of the robot has [default: paper]
+    #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
+    letters: Option<Letters>,
+    /// Round decimals in equations to so many significant digits
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    digits: Option<u8>,
     /// Include friction in the joint torques
     #[arg(long)]
     friction: bool,
@@ -90,7 +106,52 @@ enum AngleSumStyle {
     Keep,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LayoutStyle {
+    /// Columns and matrices where they fit
+    Vectors,
+    /// An equation for each entry
+    Scalars,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum StyleName {
+    /// That of "The dynamic model of TRTTR1 modular serial robot"
+    Paper,
+}
+
 impl EquationArguments {
+    /// The forms in which a style prints, or those that are asked for.
+    pub(crate) fn forms(&self, asked: &[FormName]) -> Vec<Form> {
+        let mut forms: Vec<Form> = vec![];
+        for form in asked.iter().map(|form| Form::from(*form)) {
+            if !forms.contains(&form) {
+                forms.push(form);
+            }
+        }
+        if self.style.is_some() { vec![Form::Expanded] } else { forms }
+    }
+
+    /// Whether vectors are columns, and coefficients matrices: if nothing is said, where formulas are set in a form
+    /// that consists of them.
+    pub(crate) fn has_arrays(&self, forms: &[Form], typeset: bool) -> bool {
+        let consists = forms.iter().any(|form| matches!(form, Form::Grouped | Form::Recursive));
+        let usual = typeset && consists || self.style.is_some();
+        self.layout.map_or(usual, |layout| layout == LayoutStyle::Vectors)
+    }
+
+    /// Refuses a layout of equations without matrices and columns.
+    pub(crate) fn check_layout(&self, equations: &Equations) -> Result<(), Failure> {
+        if self.layout.is_none() || equations.arrays().next().is_some() {
+            return Ok(());
+        }
+        Err(Failure::Usage(vec![
+            "--layout has no effect on these equations, which have neither vectors nor matrices; choose the form \
+             grouped or recursive, or vectors with --quantity, or leave it out"
+                .to_owned(),
+        ]))
+    }
+
     /// Refuses options that would have no effect: in those forms, and where nothing is typeset.
     pub(crate) fn check(&self, forms: &[Form], typeset: bool) -> Result<(), Failure> {
         let mut wrong = vec![];
@@ -119,10 +180,24 @@ impl EquationArguments {
                     .to_owned(),
             );
         }
+        let only_torques =
+            |form: &Form| matches!(form, Form::Grouped | Form::Regrouped | Form::Recursive);
+        let torque = Kind::GeneralizedForce.name();
+        let has_torques = self.quantities.iter().any(|name| name == torque || name == "all");
+        if self.letters.is_some() && !has_torques && !forms.iter().any(only_torques) {
+            wrong.push(format!(
+                "--letters has no effect on these quantities; add {torque}, or leave it out"
+            ));
+        }
         if self.trig.is_some() && !typeset {
             wrong.push(no_effect("--trig"));
         }
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
+    }
+
+    /// The most significant digits of decimals, if they are rounded.
+    pub(crate) fn digits(&self) -> Option<usize> {
+        self.digits.map(usize::from)
     }
 
     /// Refuses friction that the robot has not.
@@ -142,10 +217,16 @@ impl EquationArguments {
     ) -> Result<robot_document::EquationOptions, Failure> {
         Ok(robot_document::EquationOptions {
             form,
-            kinds: kinds(&self.quantities)?,
+            kinds: match self.style {
+                Some(StyleName::Paper) => Kind::ALL.to_vec(),
+                None => kinds(&self.quantities)?,
+            },
             friction: self.friction,
             snap: robot.snap(),
-            trigonometry: match self.trig.unwrap_or(TrigonometryStyle::Named) {
+            trigonometry: match self.trig.unwrap_or(match self.style {
+                Some(StyleName::Paper) => TrigonometryStyle::Paper,
+                None => TrigonometryStyle::Named,
+            }) {
                 TrigonometryStyle::Named => Trigonometry::Named,
                 TrigonometryStyle::Short => Trigonometry::Short,
                 TrigonometryStyle::Paper => Trigonometry::Paper,
@@ -157,6 +238,9 @@ impl EquationArguments {
             expand: self.expand,
             references: !self.no_references,
             christoffel: self.christoffel,
+            paper: self.style.is_some(),
+            letters: self.letters.clone().unwrap_or_default(),
+            digits: self.digits(),
         })
     }
 }

@@ -8,6 +8,8 @@ use robot_build::{
     BaseFrames, Bundle, Functions, OptionSpec, Options, RobotFile, Source, Trigonometry, Value,
     robot_inputs,
 };
+use robot_document::Form;
+use robot_dynamics::mechanism::{Snap, snapped};
 use robot_model::description::Described;
 use robot_model::robot::Robot;
 use robot_model::snap;
@@ -21,6 +23,10 @@ use crate::plan::pinned_or_searched;
 use crate::reading::ReadingArguments;
 use crate::suggested::FUNCTIONS;
 use crate::text;
+
+/// The tolerance in print for constant angles next to multiples of π/2, rad, if neither an option nor the file gives
+/// one: files write 1.5708 for π/2.
+pub(crate) const PRINT_SNAP: f64 = 1e-5;
 
 /// The robot file.
 #[derive(Args)]
@@ -61,6 +67,49 @@ impl RobotArgument {
     /// The robot; warnings are shown.
     pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
         self.open()?.read(terminal)
+    }
+
+    /// The robot as it is printed; warnings are shown.
+    pub(crate) fn printed(&self, terminal: &mut Terminal<'_>) -> Result<Robot, Failure> {
+        Ok(self.printed_with_snaps(terminal)?.0)
+    }
+
+    /// The same, with the angles that differ from those of the file.
+    pub(crate) fn printed_with_snaps(
+        &self,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(Robot, Vec<Snap>), Failure> {
+        let robot = self.read(terminal)?.robot;
+        self.snapped(&robot, terminal)
+    }
+
+    /// A robot as it is printed: constant angles within the tolerance of a multiple of π/2 are that multiple, which is
+    /// said where neither an option nor the file asks for it.
+    pub(crate) fn snapped(
+        &self,
+        robot: &Robot,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(Robot, Vec<Snap>), Failure> {
+        let given = self.snap.or(robot.snap);
+        let (shown, snaps) = snapped(robot, given.unwrap_or(PRINT_SNAP));
+        if given.is_none() {
+            terminal.errors.write_all(text::snapped_for_print(robot, &snaps).as_bytes())?;
+        }
+        Ok((shown, snaps))
+    }
+
+    /// Says that frames of base parameters are given for equations without these.
+    pub(crate) fn check_base_frames(
+        &self,
+        forms: &[Form],
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        if self.base_frames.is_some() && !forms.contains(&Form::Regrouped) {
+            let message =
+                "note: --base-frames has no effect in this form, only in the form regrouped";
+            writeln!(terminal.errors, "{message}")?;
+        }
+        Ok(())
     }
 
     /// The snapping tolerance, rad, where one is given.

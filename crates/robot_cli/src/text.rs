@@ -5,11 +5,13 @@ use std::fmt::Write as _;
 use robot_build::{Options, Robot, Snapping, unsolvable};
 use robot_dynamics::mechanism::Snap;
 use robot_model::diagnostic::{Diagnostics, Style, quote};
+use robot_model::snap;
 use robot_symbolic::nearest_word;
 
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::options::in_flags;
+use crate::robot::PRINT_SNAP;
 
 /// `there is no function `invers`; did you mean `inverse`? There are …`
 pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
@@ -45,7 +47,7 @@ pub(crate) fn lacking(
 }
 
 /// The width of printed sums, in columns.
-const COLUMNS: usize = 100;
+pub(crate) const COLUMNS: usize = 100;
 
 /// `Q1 = …` on lines, the further ones indented.
 pub(crate) fn sum(whole: &str) -> String {
@@ -160,6 +162,39 @@ pub(crate) fn snapping(snapping: &Snapping) -> String {
         );
     }
     text
+}
+
+/// The most links that are named where angles are snapped for print.
+const NAMED: usize = 3;
+
+/// Says which constant angles print as multiples of π/2 though code takes them as they are; empty if none does.
+pub(crate) fn snapped_for_print(robot: &Robot, snaps: &[Snap]) -> String {
+    let changed = |snap: &&Snap| snap.change.abs() > snap::DEFAULT;
+    let changed: Vec<&Snap> = snaps.iter().filter(changed).collect();
+    let mut names: Vec<&str> = vec![];
+    for snap in &changed {
+        let link = robot.links.iter().find(|link| link.name == snap.name);
+        let name = link.map_or(snap.name.as_str(), |link| link.joint.name.as_str());
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let more = match names.len().checked_sub(NAMED) {
+        Some(more @ 1..) => format!(" and {more} more"),
+        _ => String::new(),
+    };
+    names.truncate(NAMED);
+    let (angles, are) = match changed.len() {
+        0 => return String::new(),
+        1 => ("1 constant angle".to_owned(), "is printed as that multiple"),
+        count => (format!("{count} constant angles"), "are printed as multiples"),
+    };
+    format!(
+        "note: {}: {angles} within {PRINT_SNAP:e} rad of a multiple of π/2 {are} ({}{more}); --snap 0 prints them \
+         as they are\n",
+        robot.name,
+        names.join(", ")
+    )
 }
 
 #[cfg(test)]

@@ -20,7 +20,10 @@ mod notation;
 pub mod robot;
 
 pub use error::{Centimeters, Error};
-pub use forms::{Equation, EquationOptions, Equations, Form, Group, equations};
+pub use forms::{Array, Cell, Room, Written};
+pub use forms::{
+    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, equations,
+};
 pub use layout::{Order, Rank, SymbolTable, Trigonometry};
 pub use layout::{breaking, math, meaning, width};
-pub use notation::{html, latex, mathml, typst};
+pub use notation::{html, latex, markdown, math_font, mathml, typst};

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use robot_document::latex::{Page, document};
+use robot_document::latex::{Layout, Page, document};
 use robot_document::{EquationOptions, Form, robot};
 use robot_model::description::read_toml;
 
@@ -31,12 +31,16 @@ fn no_line_is_too_long() {
         let text = std::fs::read_to_string(&path).unwrap();
         let model = read_toml(name, &text).unwrap().robot;
         let forms = [Form::Grouped, Form::Recursive];
-        let described =
-            robot::document(&model, &EquationOptions::default(), &forms, robot::Extras::default())
-                .unwrap();
-        for columns in [1, 2] {
-            let latex = document(&described, Page::with_columns(columns)).unwrap();
-            let Some(log) = log(&folder, &format!("{name}{columns}"), &latex) else {
+        for (columns, has_arrays) in [(1, false), (2, false), (1, true), (2, true)] {
+            let page = Page::with_columns(columns);
+            let width = Layout::of_centimeters(page.width).width;
+            let extras =
+                robot::Extras { arrays: has_arrays.then_some(width), ..robot::Extras::default() };
+            let options = EquationOptions::default();
+            let described = robot::document(&model, &options, &forms, extras).unwrap();
+            let latex = document(&described, page).unwrap();
+            assert_eq!(latex.contains("bmatrix"), has_arrays, "{name}");
+            let Some(log) = log(&folder, &format!("{name}{columns}{has_arrays}"), &latex) else {
                 println!("there is no pdflatex here: nothing was tried");
                 return;
             };

@@ -11,7 +11,9 @@ use robot_document::document::NumberedEquation;
 use robot_document::latex::{self, Layout};
 use robot_document::math::Math;
 use robot_document::meaning::{Looks, meaning};
-use robot_document::{EquationOptions, Equations, Form, Trigonometry, equations};
+use robot_document::{
+    Cell, Equation, EquationOptions, Equations, Form, Room, Trigonometry, equations,
+};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::newton_euler::newton_euler;
@@ -19,6 +21,7 @@ use robot_dynamics::quantity::Kind;
 use robot_model::description::read_toml;
 use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::{BaseFrames, Robot};
+use robot_symbolic::walk::derivatives;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 /// What a proof by polynomials may cost.
@@ -216,6 +219,146 @@ fn friction_reads_back() {
     for robot in with_friction {
         for form in Form::ALL {
             check(robot, &EquationOptions { friction: true, ..in_form(form) }, &[8.2, 16.0]);
+        }
+    }
+}
+
+/// The matrices and columns printed as LaTeX of that width and read back, by their names; those that did not fit by
+/// their entries.
+fn arrays<'g>(
+    printed: &Equations,
+    width: f64,
+    graph: &'g Graph,
+) -> (BTreeMap<String, Vec<Vec<Expr<'g>>>>, usize) {
+    let values = read_back(printed, width, graph).unwrap();
+    let looks = Looks::new(&printed.symbols).unwrap();
+    let layout = Layout::of_centimeters(width);
+    let arranged = printed.arranged(Room::Points(layout.width - 44.0));
+    let mut shown: BTreeMap<String, Math> = BTreeMap::new();
+    for group in &arranged.groups {
+        let numbered =
+            |one: &Equation| NumberedEquation { label: Some(one.label()), equation: one.clone() };
+        let list: Vec<NumberedEquation> = group.equations.iter().map(numbered).collect();
+        let latex = latex::equations(&list, layout).unwrap();
+        let read = latex::read_equations(&latex).unwrap_or_else(|error| panic!("{error}: {latex}"));
+        assert_eq!(read.len(), list.len(), "{latex}");
+        for ([_, right], one) in read.into_iter().zip(list) {
+            shown.insert(one.equation.name, right);
+        }
+    }
+    let value = |math: &Math| {
+        let value =
+            meaning(math, graph, &looks).unwrap_or_else(|error| panic!("{error}: {math:?}"));
+        // Entries in rows that are shown are known by these names too.
+        value.substitute(|name| values.get(name).copied())
+    };
+    let mut found = BTreeMap::new();
+    let mut matrices = 0;
+    for array in printed.arrays() {
+        let rows = match shown.get(&array.name) {
+            Some(Math::Matrix(rows)) => {
+                matrices += 1;
+                rows.iter().map(|row| row.iter().map(value).collect()).collect()
+            }
+            _ => {
+                let entry = |cell: &Cell| match shown.get(&cell.name) {
+                    Some(math) => value(math),
+                    None => value(&cell.whole.as_ref().unwrap().math),
+                };
+                array.rows.iter().map(|row| row.iter().map(entry).collect()).collect()
+            }
+        };
+        found.insert(array.name.clone(), rows);
+    }
+    (found, matrices)
+}
+
+#[test]
+fn joint_torques_are_those_of_the_matrices() {
+    let mut matrices = 0;
+    for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() > 1) {
+        // Long robots take seconds for each width.
+        let widths: &[f64] =
+            if robot.degrees_of_freedom() < 6 { &[8.2, 16.0, 60.0] } else { &[16.0] };
+        for christoffel in [false, true] {
+            for width in widths.iter().copied() {
+                let options = EquationOptions { christoffel, ..in_form(Form::Grouped) };
+                let (printed, graph) = (equations(robot, &options).unwrap(), Graph::new());
+                let (found, shown) = arrays(&printed, width, &graph);
+                matrices += shown;
+                let rate = |name: &str, place: usize| graph.symbol(&format!("{name}{}", place + 1));
+                for row in 0..robot.degrees_of_freedom() {
+                    let mut force = graph.zero();
+                    for (name, rows) in &found {
+                        let cells = rows[row].iter().enumerate();
+                        force += match (name.as_str(), rows[row].len()) {
+                            (_, 1) => rows[row][0],
+                            (name, _) if name.ends_with("(q)") => cells
+                                .fold(graph.zero(), |sum, (at, cell)| {
+                                    sum + *cell * rate("qdd", at)
+                                }),
+                            _ => cells
+                                .fold(graph.zero(), |sum, (at, cell)| sum + *cell * rate("qd", at)),
+                        };
+                    }
+                    let name = format!("Q{}", row + 1);
+                    let expected = expected(robot, &graph, &options)[&name];
+                    assert_equal(
+                        &format!("{} {name} {width}", robot.name),
+                        &graph,
+                        force,
+                        expected,
+                    );
+                }
+            }
+        }
+    }
+    assert!(matrices > 100, "{matrices}");
+}
+
+#[test]
+fn the_velocity_matrix_by_christoffel_symbols_leaves_a_skew_symmetric_rest() {
+    for robot in robots().iter().filter(|robot| (2..6).contains(&robot.degrees_of_freedom())) {
+        let options = EquationOptions { christoffel: true, ..in_form(Form::Grouped) };
+        let (printed, graph) = (equations(robot, &options).unwrap(), Graph::new());
+        let (found, _) = arrays(&printed, 60.0, &graph);
+        let matrix = |end: &str| {
+            let mut all = found.iter();
+            all.find(|(name, rows)| name.ends_with(end) && rows[0].len() > 1).map(|(_, rows)| rows)
+        };
+        let Some((masses, velocities)) = matrix("(q)").zip(matrix("(q, qd)")) else { continue };
+        let count = robot.degrees_of_freedom();
+        let change = |row: usize, column: usize| {
+            (1..=count).fold(graph.zero(), |sum, joint| {
+                let slope = derivatives(&[masses[row][column]], graph.symbol(&format!("q{joint}")));
+                sum + slope[0] * graph.symbol(&format!("qd{joint}"))
+            })
+        };
+        for (row, column) in (0..count).flat_map(|row| (0..=row).map(move |column| (row, column))) {
+            let both = velocities[row][column] + velocities[column][row];
+            let what = format!("{} {row} {column}", robot.name);
+            assert_equal(&what, &graph, change(row, column), both);
+        }
+    }
+}
+
+#[test]
+fn columns_of_vectors_read_back_as_the_program() {
+    for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() < 6) {
+        let all = EquationOptions { kinds: Kind::ALL.to_vec(), ..EquationOptions::default() };
+        for form in [Form::Recursive, Form::Expanded, Form::Compact] {
+            let options = EquationOptions { form, ..all.clone() };
+            let (printed, graph) = (equations(robot, &options).unwrap(), Graph::new());
+            let (found, shown) = arrays(&printed, 16.0, &graph);
+            assert!(shown > 0, "{} {form:?}", robot.name);
+            let expected = expected(robot, &graph, &options);
+            for (name, rows) in found {
+                for (row, axis) in rows.iter().zip(["x", "y", "z"]) {
+                    let component = format!("{name}.{axis}");
+                    let Some(expected) = expected.get(&component) else { continue };
+                    assert_equal(&format!("{} {component}", robot.name), &graph, row[0], *expected);
+                }
+            }
         }
     }
 }

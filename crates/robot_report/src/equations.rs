@@ -1,13 +1,13 @@
 //! The equations of motion in each form, as MathML whose terms point at the links and parameters that
 //! they come from.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use robot_document::breaking::terms;
 use robot_document::markup::{Element, Node, element, holding};
 use robot_document::math::Math;
 use robot_document::width::width;
-use robot_document::{Equation, EquationOptions, Equations, Form, Group, equations};
+use robot_document::{Equation, EquationOptions, Equations, Form, Group, Room, equations};
 use robot_document::{latex, mathml, typst};
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, Variable};
@@ -25,7 +25,10 @@ const MOST_COORDINATES: usize = 24;
 /// The width of a piece of an equation that is not broken, in points of 10 pt type: about that of a phone.
 const PIECE: f64 = 190.0;
 
-/// The forms of the page in their order.
+/// The room of a matrix or a column with its left side, in points of 10 pt type: on a phone they scroll.
+const LINE: f64 = 470.0;
+
+/// The forms of the page in their order, but for the one that is open.
 const FORMS: [(Form, &str); 6] = [
     (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
     (Form::Collected, "Collected: common factors before brackets, without friction"),
@@ -38,10 +41,14 @@ const FORMS: [(Form, &str); 6] = [
 /// All forms, each to be opened, but for one that is open.
 pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
     let found: Vec<_> = FORMS.map(|(form, title)| (form, title, in_form(robot, form))).into();
-    let lengths =
-        found.iter().filter_map(|(form, _, found)| Some((*form, length(found.as_ref().ok()?))));
+    let lengths = found
+        .iter()
+        .filter_map(|(form, _, found)| Some((*form, length(&found.as_ref().ok()?.arranged))));
     let opened = opened(&lengths.collect::<Vec<_>>());
-    let forms = found.iter().map(|(form, title, found)| {
+    // The form that is open comes first.
+    let (first, others): (Vec<_>, Vec<_>) =
+        found.iter().partition(|(form, _, _)| opened == Some(*form));
+    let forms = first.into_iter().chain(others).map(|(form, title, found)| {
         let details = element("details").with(holding("summary", *title));
         match found {
             Err(reason) => details.with(note(reason)),
@@ -74,14 +81,48 @@ fn note(words: &str) -> Element {
     holding("p", words).class("note")
 }
 
-/// The characters of the equations, definitions included.
+/// The characters of the equations without spaces, definitions included.
 fn length(found: &Equations) -> usize {
     let all = found.groups.iter().flat_map(|group| &group.equations);
-    all.map(|equation| equation.name.len() + equation.text.len()).sum()
+    let texts = all.flat_map(|equation| [&equation.name, &equation.text]);
+    texts.flat_map(|text| text.split_whitespace()).map(str::len).sum()
+}
+
+/// Equations of the page.
+struct Shown {
+    /// With matrices and columns where they fit.
+    arranged: Equations,
+    /// The names and the looks of these.
+    arrays: Vec<(String, Math)>,
+    /// The names of their entries that have no equation of their own, each with the name of its matrix or column.
+    entries: BTreeMap<String, String>,
+}
+
+impl Shown {
+    fn new(found: &Equations) -> Shown {
+        let arranged = found.arranged(Room::Points(LINE));
+        let equations = || arranged.groups.iter().flat_map(|group| &group.equations);
+        let (mut arrays, mut entries) = (vec![], BTreeMap::new());
+        for array in found.arrays() {
+            let is_shown = |equation: &Equation| {
+                equation.name == array.name && matches!(equation.right, Math::Matrix(_))
+            };
+            if !equations().any(is_shown) {
+                continue;
+            }
+            arrays.push((array.name.clone(), array.left.clone()));
+            for cell in array.rows.iter().flatten() {
+                if !equations().any(|equation| equation.name == cell.name) {
+                    entries.insert(cell.name.clone(), array.name.clone());
+                }
+            }
+        }
+        Shown { arranged, arrays, entries }
+    }
 }
 
 /// The equations in a form, or why they are not shown.
-fn in_form(robot: &Robot, form: Form) -> Result<Equations, String> {
+fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     let coordinates = robot.degrees_of_freedom();
     let link_by_link = matches!(form, Form::Recursive | Form::Compact);
     if coordinates > MOST_COORDINATES && !link_by_link {
@@ -103,21 +144,21 @@ fn in_form(robot: &Robot, form: Form) -> Result<Equations, String> {
             form.name()
         ));
     }
-    Ok(found)
+    Ok(Shown::new(&found))
 }
 
 /// The meaning of symbols.
 struct Sources<'r> {
     robot: &'r Robot,
     form: Form,
-    found: &'r Equations,
+    found: &'r Shown,
     /// The symbols that the form's own equations define.
     names: BTreeSet<&'r str>,
 }
 
 impl<'r> Sources<'r> {
-    fn of(robot: &'r Robot, form: Form, found: &'r Equations) -> Sources<'r> {
-        let all = found.groups.iter().flat_map(|group| &group.equations);
+    fn of(robot: &'r Robot, form: Form, found: &'r Shown) -> Sources<'r> {
+        let all = found.arranged.groups.iter().flat_map(|group| &group.equations);
         let names = all.map(|equation| equation.name.as_str()).collect();
         Sources { robot, form, found, names }
     }
@@ -136,7 +177,7 @@ impl<'r> Sources<'r> {
             let content = std::iter::once(holding("h3", group.title.as_str())).chain(content);
             if is_open { content.collect() } else { vec![deferred(content)] }
         };
-        self.found.groups.iter().flat_map(one).collect()
+        self.found.arranged.groups.iter().flat_map(one).collect()
     }
 
     /// An equation that breaks between pieces of some terms.
@@ -145,10 +186,47 @@ impl<'r> Sources<'r> {
         let mut whole = vec![equation.left.clone(), Math::Sign('=')];
         whole.extend_from_slice(equation.right.pieces());
         let whole = Math::Row(whole);
-        let mut lines = vec![vec![mathml::formula(&left)]];
-        let mut taken = width(&left);
+        let (lines, has_stop) = match &equation.right {
+            Math::Matrix(rows) => {
+                let (matrix, has_stop) = self.matrix(rows);
+                (vec![vec![mathml::formula(&left), matrix]], has_stop)
+            }
+            _ => self.lines(&left, equation.right.pieces()),
+        };
+        let shown = element("p")
+            .class("equation")
+            .attribute("id", self.defined(&equation.name))
+            .attribute("data-terms", "")
+            .attribute("data-is", self.defined(&equation.name))
+            .attribute("data-latex", latex::formula(&whole))
+            .attribute("data-typst", typst::formula(&whole))
+            .with_all(lines.into_iter().map(|line| element("math").with_all(line)));
+        // Each equation is a stop of the tabulator.
+        if has_stop { shown } else { shown.attribute("tabindex", "0") }
+    }
+
+    /// A matrix whose entries are terms, and whether one is the stop of the tabulator.
+    fn matrix(&self, rows: &[Vec<Math>]) -> (Element, bool) {
         let mut has_stop = false;
-        for (place, pieces) in terms(equation.right.pieces()).enumerate() {
+        let mut shown = vec![];
+        for row in rows {
+            let mut cells = vec![];
+            for entry in row {
+                let (term, is_stop) = self.term(0, std::slice::from_ref(entry), !has_stop);
+                has_stop |= is_stop;
+                cells.push(term);
+            }
+            shown.push(cells);
+        }
+        (mathml::bracketed(shown), has_stop)
+    }
+
+    /// The terms of a sum behind its left side, as pieces, and whether one is the stop of the tabulator.
+    fn lines(&self, left: &Math, right: &[Math]) -> (Vec<Vec<Element>>, bool) {
+        let mut lines = vec![vec![mathml::formula(left)]];
+        let mut taken = width(left);
+        let mut has_stop = false;
+        for (place, pieces) in terms(right).enumerate() {
             let (term, is_stop) = self.term(place, pieces, !has_stop);
             has_stop |= is_stop;
             let needed = width(&Math::Row(pieces.to_vec()));
@@ -163,24 +241,17 @@ impl<'r> Sources<'r> {
                 }
             }
         }
-        let shown = element("p")
-            .class("equation")
-            .attribute("id", self.defined(&equation.name))
-            .attribute("data-terms", "")
-            .attribute("data-is", self.defined(&equation.name))
-            .attribute("data-latex", latex::formula(&whole))
-            .attribute("data-typst", typst::formula(&whole))
-            .with_all(lines.into_iter().map(|line| element("math").with_all(line)));
-        // Each equation is a stop of the tabulator.
-        if has_stop { shown } else { shown.attribute("tabindex", "0") }
+        (lines, has_stop)
     }
 
     /// A term with what it depends on, and whether it is the stop of the tabulator.
     fn term(&self, place: usize, pieces: &[Math], may_stop: bool) -> (Element, bool) {
         let term = Math::Row(pieces.to_vec());
         let mut tokens: Vec<String> = vec![];
-        for name in term.symbols() {
-            for token in self.tokens(name) {
+        let arrays = self.arrays(pieces).map(|name| vec![self.defined(name)]);
+        let symbols = term.symbols();
+        for own in arrays.chain(symbols.into_iter().map(|name| self.tokens(name))) {
+            for token in own {
                 if !tokens.contains(&token) {
                     tokens.push(token);
                 }
@@ -196,8 +267,22 @@ impl<'r> Sources<'r> {
         (shown.attribute("data-of", tokens.join(" ")).attribute("tabindex", stop), may_stop)
     }
 
+    /// The matrices and columns that a term starts with.
+    fn arrays<'t>(&self, term: &'t [Math]) -> impl Iterator<Item = &'r str> + use<'r, 't> {
+        let product = match term {
+            [Math::Sign(_), product @ ..] => product,
+            whole => whole,
+        };
+        let known = self.found.arrays.iter();
+        let own = known.filter(move |(_, left)| product.starts_with(left.pieces()));
+        own.map(|(name, _)| name.as_str())
+    }
+
     /// The origin of a symbol.
     fn tokens(&self, name: &str) -> Vec<String> {
+        if let Some(array) = self.found.entries.get(name) {
+            return vec![self.defined(array)];
+        }
         let parameter = self.robot.parameter(name).is_some();
         if !parameter && self.names.contains(name) {
             return vec![self.defined(name)];
@@ -221,8 +306,9 @@ impl<'r> Sources<'r> {
         }
     }
 
-    /// The token of an equation of this form, and its anchor: its label.
+    /// The token of an equation of this form, and its anchor: its label, of a matrix without what it depends on.
     fn defined(&self, name: &str) -> String {
+        let name = name.split_once('(').map_or(name, |(name, _)| name);
         let plain = |letter: char| match letter {
             '.' => ':',
             _ if letter.is_ascii_alphanumeric() => letter,

@@ -30,8 +30,10 @@ use robot_build::{
     Effects, Errors, FunctionKind, Functions, Options, Programs, Source, Unsolvable, programs,
     unsolvable,
 };
-use robot_document::markup::{Node, element, holding};
+use robot_document::markup::{Element, Node, element, holding};
+use robot_dynamics::mechanism::{self, Snap};
 use robot_model::robot::Robot;
+use robot_model::snap;
 
 use formula::Symbols;
 use page::{Section, page};
@@ -45,6 +47,9 @@ pub struct Input<'a> {
     pub source: &'a Source,
     /// The options of making its code; the page chooses the functions.
     pub options: &'a Options,
+    /// The tolerance, rad, within which constant angles are shown as multiples of π/2, in tables and equations, if neither the
+    /// options nor the file have one. Code is made of the angles as they are.
+    pub snap: f64,
     /// The evidence from the compiler.
     pub compiled: &'a Compiled,
     /// Holds the programs against an independent solver, or says why it cannot.
@@ -105,6 +110,9 @@ pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
 /// The robot of a file, and what the page says of it.
 fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     let robot = robot_build::read_with(input.source, input.options)?.robot;
+    let tolerance = input.options.snap.or(robot.snap).unwrap_or(input.snap);
+    let (shown, snaps) = mechanism::snapped(&robot, tolerance);
+    let snapped = changed(&robot, input, &snaps, tolerance);
     let symbols = Symbols::of(&robot);
     let lacking = unsolvable(&robot, input.options);
     let has = |kind: &FunctionKind| {
@@ -114,15 +122,15 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     let functions = Functions::Chosen(FUNCTIONS.into_iter().filter(has).collect());
     let programs = programs(input.source, &Options { functions, ..input.options.clone() })?;
     let sections = vec![
-        kinematics(&robot),
+        kinematics(&shown, &snapped),
         Section {
             id: "masses",
             title: "Masses",
-            body: vec![tables::masses(&robot, &symbols).into()],
+            body: vec![tables::masses(&shown, &symbols).into()],
         },
-        parameters(&robot, &symbols),
-        Section { id: "equations", title: "Equations of motion", body: equations::forms(&robot) },
-        structure(&robot),
+        parameters(&shown, &symbols),
+        Section { id: "equations", title: "Equations of motion", body: equations::forms(&shown) },
+        structure(&shown),
         Section { id: "motion", title: "Joint torques by cause", body: motion::torques(&programs) },
         costs(input, &programs, lacking.as_ref()),
         evidence(input, &programs),
@@ -130,14 +138,31 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     Ok((robot, sections))
 }
 
-fn kinematics(robot: &Robot) -> Section {
+/// What the page says of constant angles that it shows as multiples of π/2 while code takes them as they are.
+fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> Option<Element> {
+    let of_code = input.options.snap.or(robot.snap).unwrap_or(snap::DEFAULT);
+    let count = snaps.iter().filter(|snap| snap.change.abs() > of_code).count();
+    let (angles, are) = match count {
+        0 => return None,
+        1 => ("1 constant angle".to_owned(), "is shown as that multiple"),
+        count => (format!("{count} constant angles"), "are shown as multiples"),
+    };
+    let words = format!(
+        "In tables and equations, {angles} within {tolerance:e} rad of a multiple of π/2 {are}; the generated code takes \
+         the values of the file."
+    );
+    Some(holding("p", words).class("note"))
+}
+
+fn kinematics(robot: &Robot, snapped: &Option<Element>) -> Section {
     let caption = holding("figcaption", scheme::CAPTION);
     let figure = element("figure").with(scheme::scheme(robot)).with(caption);
-    let parts = [Some(figure), Some(tables::kinematics(robot)), tables::frames(robot)];
+    let tables = [Some(tables::kinematics(robot)), tables::frames(robot)];
+    let parts = [Some(figure), snapped.clone()].into_iter().chain(tables);
     Section {
         id: "kinematics",
         title: "Kinematics",
-        body: parts.into_iter().flatten().map(Node::from).collect(),
+        body: parts.flatten().map(Node::from).collect(),
     }
 }
 

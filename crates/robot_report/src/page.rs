@@ -4,6 +4,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use robot_build::MARKER;
 use robot_document::markup::{Element, Node, element, holding};
+use robot_document::math_font;
 use robot_model::robot::Robot;
 
 use crate::reload::Stamp;
@@ -75,9 +76,10 @@ fn head(robot: &Robot, reloads: bool) -> Element {
         .with(meta("referrer", "no-referrer"))
         .with(holding("title", format!("{}: equations of motion", robot.name)))
         .with(element("style").with(Node::Verbatim(STYLE)))
+        .with(element("style").with(Node::Verbatim(&math_font::RULES)))
 }
 
-/// The page's own style and scripts, by their hashes, and nothing else; of a page that reloads itself the
+/// The page's own styles and scripts, by their hashes, the font of equations within them, and nothing else; of a page that reloads itself the
 /// picture beside it, too.
 fn policy(reloads: bool) -> String {
     let hash = |text: &str| {
@@ -89,8 +91,10 @@ fn policy(reloads: bool) -> String {
         true => format!(" {}; img-src 'self' file:", hash(RELOAD)),
     };
     format!(
-        "default-src 'none'; style-src {}; script-src {}{more}; base-uri 'none'; form-action 'none'",
+        "default-src 'none'; style-src {} {}; font-src data:; script-src {}{more}; base-uri 'none'; \
+         form-action 'none'",
         hash(STYLE),
+        hash(&math_font::RULES),
         hash(SCRIPT)
     )
 }

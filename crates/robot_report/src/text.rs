@@ -19,8 +19,14 @@ pub(crate) fn with_value(robot: &Robot, formula: &Formula) -> String {
     format!("{text} = {}", number(value))
 }
 
-/// A formula as people write it.
+/// Numbers of more characters are rounded in tables.
+const LONG: usize = 12;
+
+/// A formula as people write it; a long number with six digits.
 pub(crate) fn plain(formula: &Formula) -> String {
+    if let Some(long) = formula.as_number().filter(|_| formula.text().len() > LONG) {
+        return number(long.to_f64());
+    }
     let is_word = |character: char| character.is_ascii_alphanumeric() || character == '_';
     let words = formula.text().split_inclusive(|character| !is_word(character));
     let words = words.map(|piece| match piece.strip_prefix("pi") {
@@ -105,6 +111,7 @@ mod tests {
     fn only_the_word_pi_is_pi() {
         let shown = |text| plain(&Formula::parse(text).unwrap());
         assert_eq!(shown("-pi/2 + pitch*pi"), "−π/2 + pitch*π");
+        assert_eq!(shown("-1.5707963267949"), "−1.5708");
     }
 
     #[test]

@@ -98,15 +98,21 @@ fn check_not_empty(path: &Path) -> Result<(), Error> {
 fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {
     path.canonicalize().map_err(|error| {
         let reason = match error.kind() {
-            std::io::ErrorKind::NotFound => missing(path, given),
+            std::io::ErrorKind::NotFound => missing_at(path, given),
             _ => error.to_string(),
         };
         cannot_read(given, &reason)
     })
 }
 
-/// That there is no file, and the one whose name is nearest.
-fn missing(path: &Path, given: &Path) -> String {
+/// That there is no file of that path, and the one in its folder whose name is nearest.
+#[must_use]
+pub fn missing(path: &Path) -> String {
+    missing_at(path, path)
+}
+
+/// The same of a file that was looked for at a path made of the one given.
+fn missing_at(path: &Path, given: &Path) -> String {
     let place =
         if path == given { String::new() } else { format!(" (looked for {})", shown(path)) };
     let mut near =

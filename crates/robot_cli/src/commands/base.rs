@@ -61,7 +61,7 @@ impl Arguments {
             Format::Text => plain(&robot, &set),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
-            Format::Mathml => displayed(Notation::Mathml)?,
+            Format::Mathml => displayed(Notation::page(terminal)?)?,
             Format::Json => json(&robot, &set),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
@@ -77,6 +77,10 @@ fn plain(robot: &Robot, set: &BaseSet) -> String {
     }
     shown.push_str(if set.rounded { ", with rounded coefficients\n" } else { "\n" });
     for entry in &set.list {
+        if entry.formula.text == entry.name {
+            shown.push_str(&text::sum(&format!("{} = {}", entry.name, entry.value.text)));
+            continue;
+        }
         shown.push_str(&text::sum(&format!("{} = {}", entry.name, entry.formula.text)));
         shown.push_str(&text::sum(&format!("  = {}", entry.value.text)));
     }

@@ -34,7 +34,7 @@ impl Arguments {
         let mut shown = String::from(
             "The equations of motion of TRTTR1, joint torques without friction, expanded:\n\n",
         );
-        shown.push_str(&plain(&equations));
+        shown.push_str(&plain(&equations.readable(None)));
         let function = "inverse_dynamics";
         let plan = Pin::from_text(PLAN).ok().map(|pin| pin.plan);
         let programs = programs(&source, &Options { plan, ..Options::default() })?;

@@ -80,26 +80,25 @@ impl Arguments {
         let writer =
             self.force.writer(self.robot.inputs(), file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
-        let mut forms: Vec<Form> = vec![];
-        for form in self.form.iter().map(|form| Form::from(*form)) {
-            if !forms.contains(&form) {
-                forms.push(form);
-            }
-        }
+        let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
         let options = self.equations.options(&self.robot, Form::default())?;
-        let robot = self.robot.read(terminal)?.robot;
+        let (robot, snaps) = self.robot.printed_with_snaps(terminal)?;
+        self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let check = robot_check::check_value(&robot, options.friction);
+        let usual = Page::with_columns(self.columns);
+        let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
+        let width = latex::Layout::of_centimeters(page.width).width;
         let extras = Extras {
+            arrays: self.equations.has_arrays(&forms, true).then_some(width),
             title: self.title.as_deref(),
             figure: Some(robot_report::scheme::figure(&robot)),
             check: check.as_ref(),
+            snaps: &snaps,
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
-        let usual = Page::with_columns(self.columns);
-        let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
         let (comment, shown) = match self.format() {
             Format::Latex => ("%", latex::document(&document, page)),
             Format::Typst => ("//", typst::document(&document, page)),

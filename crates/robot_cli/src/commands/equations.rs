@@ -1,7 +1,7 @@
 //! `equations`: the equations of motion of a robot.
 
 use clap::{Args, ValueEnum};
-use robot_document::{Equation, Equations, equations};
+use robot_document::{Equation, Equations, Room, equations};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -17,6 +17,7 @@ use crate::text;
   robot-symbolic equations robots/trttr1.toml
   robot-symbolic equations robots/trttr1.toml --quantity Q,F_l --format json
   robot-symbolic equations robots/trttr1.toml --form grouped --format latex --trig short
+  robot-symbolic equations robots/trttr1.toml --style paper --format latex
   robot-symbolic equations robots/panda.toml --form compact --format latex --width 8.5cm
 
 Quantities: a_c accelerations of the centers of mass, F and M_c inertia forces and moments of the links,
@@ -45,6 +46,8 @@ enum Format {
     Text,
     Latex,
     Typst,
+    /// Markdown with formulas between $$
+    Markdown,
     /// An HTML page with formulas in MathML
     Mathml,
     Json,
@@ -53,23 +56,44 @@ enum Format {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let typeset = !matches!(self.format, Format::Text | Format::Json);
-        self.equations.check(&[self.form.into()], typeset)?;
+        let forms = self.equations.forms(&[self.form]);
+        self.equations.check(&forms, typeset)?;
         self.layout.check(typeset)?;
-        let options = self.equations.options(&self.robot, self.form.into())?;
-        let robot = self.robot.read(terminal)?.robot;
+        if matches!(self.format, Format::Markdown) {
+            self.layout.check_markdown()?;
+        }
+        if self.equations.digits().is_some() && matches!(self.format, Format::Json) {
+            let message = "--digits has no effect on JSON, whose equations are exact; leave it out";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
+        let form = forms.first().copied().unwrap_or_default();
+        let options = self.equations.options(&self.robot, form)?;
+        let robot = self.robot.printed(terminal)?;
+        self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
+        self.equations.check_layout(&equations)?;
+        let has_arrays = self.equations.has_arrays(&forms, typeset);
         let displayed = |notation| {
-            self.layout.displayed(&robot.name, &equations.groups, notation).map_err(failed)
+            let room = Room::Points(self.layout.line());
+            let arranged = has_arrays.then(|| equations.arranged(room));
+            let groups = &arranged.as_ref().unwrap_or(&equations).groups;
+            self.layout.displayed(&robot.name, groups, notation).map_err(failed)
         };
         let shown = match self.format {
-            Format::Text => plain(&equations),
+            Format::Text => {
+                let equations = equations.readable(options.digits);
+                let room = Room::Characters(text::COLUMNS);
+                plain(&if has_arrays { equations.arranged(room) } else { equations })
+            }
+            Format::Json if has_arrays => json(&robot.name, &equations, Some(arrays(&equations))),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
-            Format::Mathml => displayed(Notation::Mathml)?,
-            Format::Json => json(&robot.name, &equations),
+            Format::Markdown => displayed(Notation::Markdown)?,
+            Format::Mathml => displayed(Notation::page(terminal)?)?,
+            Format::Json => json(&robot.name, &equations, None),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
@@ -84,23 +108,41 @@ pub(super) fn plain(equations: &Equations) -> String {
             shown.push_str(&format!("{gap}{}\n\n", group.title));
         }
         for equation in &group.equations {
-            shown.push_str(&text::sum(&format!("{} = {}", equation.name, equation.text)));
+            let head = format!("{} = ", equation.name);
+            match equation.text.starts_with("[ ") {
+                true => shown.push_str(&rows(&head, &equation.text)),
+                false => shown.push_str(&text::sum(&format!("{head}{}", equation.text))),
+            }
         }
     }
     shown
 }
 
+/// The rows of a matrix below each other, behind its name.
+fn rows(head: &str, rows: &str) -> String {
+    let indent = format!("\n{}", " ".repeat(head.len()));
+    format!("{head}{}\n", rows.lines().collect::<Vec<_>>().join(&indent))
+}
+
+/// The rows of each matrix and column: entries by name, or in terms of definitions.
+fn arrays(equations: &Equations) -> Map<String, Value> {
+    equations.arrays().map(|array| (array.name.clone(), json!(array.names()))).collect()
+}
+
 /// `{"robot": …, "definitions": {…}, "quantities": {"Q1": …, …}}`; the definitions, each before it is
 /// used by another, are left out where there are none.
-fn json(robot: &str, equations: &Equations) -> String {
+fn json(robot: &str, equations: &Equations, arrays: Option<Map<String, Value>>) -> String {
     let all = |list: &mut dyn Iterator<Item = &Equation>| -> Map<String, Value> {
         list.map(|equation| (equation.name.clone(), Value::String(equation.text.clone()))).collect()
     };
     let definitions = all(&mut equations.definitions());
     let quantities = all(&mut equations.quantities());
-    let shown = match definitions.is_empty() {
+    let mut shown = match definitions.is_empty() {
         true => json!({ "robot": robot, "quantities": quantities }),
         false => json!({ "robot": robot, "definitions": definitions, "quantities": quantities }),
     };
+    if let Some(arrays) = arrays {
+        shown["arrays"] = Value::Object(arrays);
+    }
     format!("{shown:#}\n")
 }

@@ -49,10 +49,17 @@ impl Arguments {
         let text = ROBOT.replace(NAME, &self.name);
         let writer = self.force.writer([], true)?;
         let (bytes, ownership) = (text.as_bytes(), Ownership::Edited);
-        let output = Output { path: path.clone(), bytes, ownership };
-        writer.check(&[(&path, ownership)])?;
-        write(&writer, &[output], terminal)?;
         let file = shown(&path);
+        if std::fs::read(&path).is_ok_and(|present| present == bytes) {
+            writeln!(
+                terminal.errors,
+                "{file} is there already, as init writes it; it is not written again"
+            )?;
+        } else {
+            let output = Output { path: path.clone(), bytes, ownership };
+            writer.check(&[(&path, ownership)])?;
+            write(&writer, &[output], terminal)?;
+        }
         writeln!(
             terminal.output,
             "Next:\n  robot-symbolic show {file}\n  robot-symbolic equations {file}\n  robot-symbolic report {file} \

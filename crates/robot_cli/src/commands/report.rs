@@ -11,7 +11,7 @@ use crate::Terminal;
 use crate::delivery::{Delivery, OutputArguments};
 use crate::failure::Failure;
 use crate::progress::watched;
-use crate::robot::RobotArgument;
+use crate::robot::{PRINT_SNAP, RobotArgument};
 use crate::text;
 
 #[derive(Args)]
@@ -48,6 +48,7 @@ impl Arguments {
         // Read first, so that warnings are shown and no compiler starts for a robot that is refused.
         let robot = self.robot.read(terminal)?.robot;
         text::lacking(&robot, &options, terminal)?;
+        self.robot.snapped(&robot, terminal)?;
         let source = self.robot.source()?;
         let page = watched("writing", terminal, || self.page(&source, &planned(&robot, &options)))?;
         output.deliver(&page, terminal)?;
@@ -90,7 +91,7 @@ impl Arguments {
         } else {
             compiled(source, options)?
         };
-        Ok(report(&Input { source, options, compiled: &compiled, judge })?)
+        Ok(report(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge })?)
     }
 }
 

@@ -179,7 +179,7 @@ fn typst_is_a_notation_of_equations_and_documents() {
     assert!(shown.output.contains("$ <eq:Q5>\n"), "{}", shown.output);
     let shown = super::run(&["document", &file, "--format", "typst", "--columns", "2"]);
     assert_eq!((shown.code, shown.errors.as_str()), (0, ""));
-    assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q1>"));
+    assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q>"));
 }
 
 /// The part of a document between two marks.
@@ -200,11 +200,11 @@ fn a_document_defines_the_symbols_that_occur() {
         r"\(\ddot{q}_i\) & second time derivative of \(q_i\)",
         r"\(M_1\) & mass of link 1 & \(45 \mathrm{\ } \mathrm{kg}\)",
         r"\(H_{ij}\) & entry of the mass matrix",
-        r"\(h_{ijk}\) & coefficient of \(\dot{q}_j \dot{q}_k\) in \(Q_i\)",
-        r"\(w_i\) & contribution",
-        r"\(\omega_{i,x}\) & component",
-        r"\(\varepsilon_{i,x}\) & component",
-        r"\(M_{l_x}^i\) & component",
+        r"\(H\left(q\right)\) & mass matrix",
+        r"\(n\left(q, \dot{q}\right)\) & Coriolis and centrifugal terms",
+        r"\(w\) & contribution",
+        r"\(\bar{\omega}^i\) & angular velocity of link i, rad/s; its component along x: \(\omega_x^i\)",
+        r"\(\bar{M}_l^i\) & moment that link i receives",
     ] {
         assert!(symbols.contains(defined), "{defined}: {symbols}");
     }
@@ -306,4 +306,103 @@ fn mathml_is_a_page_of_its_own() {
     assert!(count(&narrow) > count(&page));
     let page = output(&["base", &file, "--format", "mathml", "--numbers"], "");
     assert!(page.contains("<mtext>(20)</mtext>"), "{page}");
+}
+
+#[test]
+fn matrices_are_printed_in_every_notation_where_they_fit() {
+    let shown = |format: &str, more: &[&str]| {
+        let file = robot("planar_2r");
+        let all = [&["equations", &file, "--form", "grouped", "--format", format], more].concat();
+        output(&all, "")
+    };
+    for (format, matrix) in [
+        (
+            "text",
+            "M(q) = [ m1*r1^2 + I1 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) + I2,  m2*r2*(r2 + l1*cos(q2)) + I2 ]\n       [ m2*r2*(r2 + l1*cos(q2)) + I2 ",
+        ),
+        ("latex", r" &= \begin{bmatrix} m_1 r_1^{2} + I_1 + "),
+        ("typst", "mat(delim: \"[\", row-gap: #0.35em, m_1 r_1^2 + I_1 + "),
+        ("mathml", "<mo fence=\"true\" form=\"prefix\">[</mo><mtable><mtr><mtd>"),
+    ] {
+        let vectors = shown(format, &["--layout", "vectors"]);
+        assert!(vectors.contains(matrix), "{matrix}: {vectors}");
+        let scalars = shown(format, &["--layout", "scalars"]);
+        assert!(!scalars.contains(matrix) && scalars != vectors, "{format}: {scalars}");
+        // Vectors are the default where formulas are set.
+        assert_eq!(shown(format, &[]), if format == "text" { scalars } else { vectors });
+    }
+    let json: Value = serde_json::from_str(&shown("json", &["--layout", "vectors"])).unwrap();
+    let rows = &json["arrays"]["M(q)"];
+    assert_eq!(*rows, serde_json::json!([["M_1_1", "M_1_2"], ["M_1_2", "M_2_2"]]));
+    let plain: Value = serde_json::from_str(&shown("json", &[])).unwrap();
+    assert!(plain["arrays"].is_null() && plain["quantities"] == json["quantities"]);
+}
+
+#[test]
+fn entries_that_do_not_fit_have_names_and_matrices_that_do_not_are_lists() {
+    let shown = |width: &str| {
+        let file = robot("planar_2r");
+        let command = ["equations", &file, "--form", "grouped", "--format", "latex", "--width"];
+        output(&[&command[..], &[width]].concat(), "")
+    };
+    let wide = shown("16cm");
+    assert!(wide.contains(r"\begin{bmatrix} m_1 r_1^{2}") && !wide.contains("M_{11}"), "{wide}");
+    let narrow = shown("12cm");
+    assert!(narrow.contains(r"\begin{bmatrix} M_{11} & m_2 r_2"), "{narrow}");
+    assert!(narrow.contains("\n  M_{11} &= "), "{narrow}");
+    let file = robot("trttr1");
+    let command = ["equations", &file, "--form", "grouped", "--format", "latex", "--width", "6.5"];
+    let list = output(&command, "");
+    assert!(list.contains("\n  H_{12} &= ") && list.contains("\n  H_{55} &= "), "{list}");
+    assert!(!list.contains(r"H\left(q\right) &= "), "{list}");
+    // The column of gravity fits still.
+    assert!(list.contains(r"g\left(q\right) &= \begin{bmatrix} 0"), "{list}");
+}
+
+#[test]
+fn a_layout_without_effect_is_refused() {
+    let file = robot("trttr1");
+    let told = complaint(2, &["equations", &file, "--layout", "vectors"], "");
+    assert!(told.contains("--layout has no effect on these equations"), "{told}");
+    let told = complaint(2, &["equations", &file, "--style", "paper", "--trig", "short"], "");
+    assert!(told.contains("--style"), "{told}");
+}
+
+/// The vectors of the paper in its order, (9) to (24) outward and (31) to (39) inward, one column each; the moments (45)
+/// to (51), which fill pages, by components; then the joint torques (53) to (61). Of the recursion, what is 0 or another
+/// name of something is left out.
+#[test]
+fn the_vectors_of_trttr1_are_in_the_shape_and_the_order_of_the_paper() {
+    let file = robot("trttr1");
+    let paper = output(&["equations", &file, "--style", "paper", "--format", "latex"], "");
+    let lefts: Vec<&str> =
+        paper.lines().filter_map(|line| Some(line.trim().split_once(" &= ")?.0)).collect();
+    let outward = |letter: &str| [1, 2, 3, 4, 5].map(|link| vector(letter, link));
+    let inward = |letter: &str, last: usize| {
+        (last..=5).rev().map(|link| vector(letter, link)).collect::<Vec<_>>()
+    };
+    let mut expected: Vec<String> = ["a_c", "F", "M_c"].into_iter().flat_map(outward).collect();
+    expected.extend(inward("F_l", 1));
+    expected.extend(inward("M_l", 3));
+    for link in [2, 1] {
+        expected.extend(["x", "y", "z"].map(|axis| format!("M_{{l_{axis}}}^{{{link}}}")));
+    }
+    expected.extend((1..=5).map(|joint| format!("Q_m^{{{joint}}}")));
+    assert_eq!(lefts, expected);
+    let column = r"\bar{a}_{c_4}^{4} &= \begin{bmatrix} -l_4 \dot{q}_2^{2} + sq_2 \ddot{q}_1 - q_4 \dot{q}_2^{2} + \ddot{q}_4 \\ ";
+    assert!(paper.contains(column), "{paper}");
+    let recursion = output(&["equations", &file, "--form", "recursive", "--format", "latex"], "");
+    assert!(!recursion.contains("&= 0") && !recursion.contains(r"\bar{a}_c"), "{recursion}");
+    assert!(
+        recursion.contains(r"\bar{F}_l^{3} &= \begin{bmatrix} F_x^{3} + F_{l_x}^{4} \\ "),
+        "{recursion}"
+    );
+}
+
+/// `\bar{F}_{l_5}^{5}`, `\bar{F}_5^{5}`
+fn vector(name: &str, link: usize) -> String {
+    match name.split_once('_') {
+        Some((letter, index)) => format!(r"\bar{{{letter}}}_{{{index}_{link}}}^{{{link}}}"),
+        None => format!(r"\bar{{{name}}}_{link}^{{{link}}}"),
+    }
 }

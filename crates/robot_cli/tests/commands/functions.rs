@@ -129,9 +129,13 @@ fn help_and_completions_list_the_functions() {
 
 #[test]
 fn the_page_lists_every_function() {
-    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/generated-code.md");
-    let page = std::fs::read_to_string(page).unwrap();
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let [page, readme] = ["docs/generated-code.md", "README.md"]
+        .map(|name| std::fs::read_to_string(root.join(name)).unwrap());
     for kind in robot_build::FunctionKind::ALL {
         assert!(page.contains(&format!("`{}`", kind.name())), "{}", kind.name());
     }
+    let (_, table) = page.split_once("| function | arguments | result |").unwrap();
+    let (table, _) = table.split_once("\n\n").unwrap();
+    assert!(readme.contains(table), "README.md shows another table of functions");
 }

@@ -123,6 +123,9 @@ fn a_first_robot_is_written_and_kept() {
     assert_eq!((checked.code, checked.errors.as_str()), (Some(0), ""));
     let text = shell.run("cat two_link.toml").output;
     assert!(text.starts_with("#:schema ") && text.contains("name = \"two_link\""), "{text}");
+    let untouched = shell.run("robot-symbolic init two_link");
+    let message = "two_link.toml is there already, as init writes it; it is not written again\n";
+    assert_eq!((untouched.code, untouched.errors.as_str()), (Some(0), message));
     let again = shell.run("echo '# mine' >> two_link.toml; robot-symbolic init two_link.toml");
     assert_eq!(again.code, Some(1));
     assert!(again.errors.contains("two_link.toml is not replaced"), "{}", again.errors);
@@ -217,4 +220,18 @@ fn warnings_of_a_kind_are_one_and_in_json_each() {
     assert!(shown.contains("= note: also `gear`; on lines 4, 6, 8\n"), "{shown}");
     let json = run(&["check", path, "--format", "json"]).output;
     assert_eq!(json.matches("\"R0603\"").count(), 6, "{json}");
+}
+
+#[test]
+fn a_terminal_is_not_flooded_with_a_font() {
+    let file = robot("planar_2r");
+    for command in ["equations", "base"] {
+        let arguments = [command, &file, "--format", "mathml"];
+        let shown = run_on(terminal(100), &arguments);
+        assert!(!shown.output.contains("font/woff2") && shown.output.contains("<math"));
+        assert!(shown.output.len() < 20_000, "{}", shown.output.len());
+        assert!(shown.errors.contains("without its font"), "{}", shown.errors);
+        let whole = run(&arguments);
+        assert!(whole.output.contains("font/woff2") && whole.errors.is_empty());
+    }
 }

@@ -6,18 +6,18 @@ use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
-use super::{Equation, Group, Writer, generalized_force, references, shapes};
+use super::{Equation, Group, Writer, generalized_force, letters, references, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
 /// A coefficient is written out if its expansion takes no more than this; else what it has in common with others
 /// gets names.
-const LIMITS: PolynomialOptions =
+pub(super) const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 200_000 };
 /// The most terms of an expansion that is collected.
-const MAX_TERMS: usize = 160;
+pub(super) const MAX_TERMS: usize = 160;
 /// The most printed symbols of a coefficient, some six lines; names make longer ones shorter.
-const MAX_LENGTH: usize = 200;
+pub(super) const MAX_LENGTH: usize = 200;
 
 /// Coefficients of a kind.
 pub(super) struct Section<'g> {
@@ -36,7 +36,7 @@ pub(super) struct Coefficient<'g> {
 
 impl<'g> Coefficient<'g> {
     pub(super) fn new(letter: &str, numbers: &[usize], value: Expr<'g>) -> Coefficient<'g> {
-        let shape = shapes::indexed(letter.chars().next().unwrap_or('x'), numbers);
+        let shape = shapes::indexed(letters::character(letter), numbers);
         Coefficient { name: shapes::indexed_name(letter, numbers), shape, value }
     }
 }
@@ -87,12 +87,8 @@ pub(super) fn by_name<'g>(
         references::refer(writer, sections, &mut shown);
     }
     let zeros = define_all(writer, sections, &shown)?;
-    let mut groups = vec![Group {
-        title: title.to_owned(),
-        introduction,
-        definitions: false,
-        equations: generalized_forces(writer, sums, &zeros)?,
-    }];
+    let forces = generalized_forces(writer, sums, &zeros)?;
+    let mut groups = vec![Group::of_quantities(title, introduction, forces)];
     groups.extend(definitions_of(writer, sections, &shown)?);
     Ok(groups)
 }

@@ -1,12 +1,14 @@
 //! The compact form: what is used again has a name.
 
-use robot_symbolic::{AngleSums, Expr, Graph, walk};
+use robot_symbolic::collected::{Collector, length};
+use robot_symbolic::print::{ArrangedTerm, arranged_text, arranged_value};
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
-use super::naming::{Named, worth_naming};
-use super::{Equation, Group, Writer, angle_sums, of_generalized_force, shapes};
+use super::naming::{Named, is_leaf, worth_naming};
+use super::{Equation, Group, Writer, angle_sums, arranged, of_generalized_force, shapes, vectors};
 use crate::error::Error;
-use crate::layout::is_motion;
+use crate::layout::{BRACKETS, is_motion};
 use crate::math::Math;
 
 /// Letters for combinations of parameters, and for expressions of the state.
@@ -23,19 +25,20 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         quantity.value = of_generalized_force(quantity, &forces).unwrap_or(quantity.value);
     }
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
+    let values = with_short_parameters(writer, &values);
+    for (quantity, value) in quantities.iter_mut().zip(&values) {
+        quantity.value = *value;
+    }
     let target = Graph::new();
     let (mut groups, named) = definitions(writer, &values, &target)?;
     let mut equations: Vec<Equation> = vec![];
     for quantity in &quantities {
-        let (name, left) = (quantity.symbol.to_string(), Math::quantity(quantity.symbol));
-        equations.push(writer.of_expression(name, left, named.rewritten(quantity.value))?);
+        let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
+        equations.push(tidy(writer, name, left, named.rewritten(quantity.value))?);
     }
-    groups.push(Group {
-        title: "Equations of motion, compact".to_owned(),
-        introduction: String::new(),
-        definitions: false,
-        equations,
-    });
+    let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
+    let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
+    groups.push(Group { arrays, ..group });
     Ok(groups)
 }
 
@@ -63,12 +66,63 @@ pub(super) fn definitions<'h>(
             let value = named.rewritten(*expr);
             writer.define(&name, left)?;
             let left = writer.symbols.look(&name);
-            equations.push(writer.of_expression(name.clone(), left, value)?);
+            equations.push(tidy(writer, name.clone(), left, value)?);
             named.name(*expr, &name);
         }
         groups.push(Group::of_definitions(title, equations));
     }
     Ok((groups, named))
+}
+
+/// Sums of more terms are not multiplied out to be collected.
+const MAX_TERMS: usize = 60;
+
+/// An equation whose right side has its powers collected and its factors sorted; with common factors in front of
+/// brackets if that takes no more operations.
+fn tidy(
+    writer: &Writer<'_, '_>,
+    name: String,
+    left: Math,
+    value: Expr<'_>,
+) -> Result<Equation, Error> {
+    let terms = short_terms(writer, value);
+    let (text, right) = (arranged_text(&terms)?, writer.symbols.terms(&terms)?);
+    Ok(Equation { name, text, left, right })
+}
+
+/// The terms of an expression as it is built, or collected if that is shorter and takes no more operations.
+fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<ArrangedTerm<'h>> {
+    let built = arranged::terms(value, &writer.order);
+    let limits =
+        PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
+    // Sums of angles stay as they are.
+    if walk::reachable(&[value]).iter().any(|part| is_of_sum(*part)) {
+        return built;
+    }
+    let Ok(polynomial) = Polynomial::of(value, &limits) else { return built };
+    let collector = Collector { angles: &[], factors: true };
+    let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
+    let is_shorter = length(&collected) < length(&built)
+        && arranged::operations(&collected) <= arranged::operations(&built);
+    if is_shorter { collected } else { built }
+}
+
+/// Whether an expression is a function of a sum.
+fn is_of_sum(expr: Expr<'_>) -> bool {
+    matches!(expr.view(), View::Call(_, argument) if !is_leaf(argument))
+}
+
+/// The expressions with each part that has parameters alone in its shortest form: sums of pseudo-inertias become the
+/// moments of inertia that they stand for.
+fn with_short_parameters<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let moving = moving(roots);
+    walk::rebuild_above(roots, writer.graph, |part| {
+        if moving.contains(&part.id()) || is_leaf(part) {
+            return None;
+        }
+        let terms = short_terms(writer, part);
+        Some(arranged_value(&terms, writer.graph))
+    })
 }
 
 /// The expressions that depend on the state.

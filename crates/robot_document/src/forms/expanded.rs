@@ -6,9 +6,8 @@ use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
 use super::loads::{friction_contributions, whole};
-use super::{Equation, Form, Group, Writer, of_generalized_force};
+use super::{Equation, Form, Group, Writer, of_generalized_force, vectors};
 use crate::error::Error;
-use crate::math::Math;
 
 /// The limits of an expansion: under a second, and more terms than anybody reads.
 const LIMITS: PolynomialOptions = PolynomialOptions {
@@ -36,7 +35,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (of_quantities, of_joints) = polynomials.split_at(quantities.len().min(polynomials.len()));
     let (mut forces, mut equations): (Vec<Equation>, Vec<Equation>) = (vec![], vec![]);
     for (quantity, polynomial) in quantities.iter().zip(of_quantities) {
-        let left = Math::quantity(quantity.symbol);
+        let left = writer.look(quantity.symbol);
         equations.push(writer.of_collected(quantity.symbol.to_string(), left, polynomial)?);
     }
     for (force, polynomial) in joints.into_iter().zip(of_joints) {
@@ -52,11 +51,9 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             "Products are multiplied out, even powers of sines are replaced by cosines, and like terms are merged.",
         ),
     };
-    let (title, introduction) = (title.to_owned(), introduction.to_owned());
-    Ok(vec![
-        Group { title, introduction, definitions: false, equations },
-        Group::of_definitions("Joint wrenches", forces),
-    ])
+    let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
+    let group = Group::of_quantities(title, introduction.to_owned(), equations);
+    Ok(vec![Group { arrays, ..group }, Group::of_definitions("Joint wrenches", forces)])
 }
 
 /// Adds friction to the joint torques. The forces in the joints that dry friction needs are defined under

@@ -5,6 +5,7 @@ use robot_symbolic::{Expr, Rational, walk};
 
 use super::coefficients::{Coefficient, Section, Sum, by_name, motions, shown};
 use super::loads::{frictions, gravity, whole, wrenches};
+use super::matrices::{Known, Term, attach};
 use super::{Group, Writer};
 use crate::error::Error;
 
@@ -33,7 +34,21 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     sections.extend(frictions(writer, "Friction", whole, &mut sums));
     let introduction = introduction(writer);
     let shown = shown(writer, &sections);
-    by_name(writer, "Equations of motion, grouped", introduction, &sections, shown, sums)
+    let known = Known::new(writer, &sections, &shown, &sums)?;
+    let title = "Equations of motion, grouped";
+    let mut groups = by_name(writer, title, introduction, &sections, shown, sums)?;
+    let terms: Vec<(Term, &Section<'_>)> =
+        terms(&sections).filter(|(_, section)| !known.is_empty(section)).collect();
+    attach(writer, &mut groups, &terms, &known)?;
+    Ok(groups)
+}
+
+/// The sections that are terms of the joint torques: those of friction end with its contributions, after the forces
+/// that these need.
+fn terms<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = (Term, &'s Section<'g>)> {
+    let terms = [Term::Accelerations, Term::Velocities, Term::Positions, Term::Other];
+    let last = sections.get(terms.len()..).and_then(<[_]>::last).map(|last| (Term::Other, last));
+    terms.into_iter().zip(sections).chain(last)
 }
 
 fn introduction(writer: &Writer<'_, '_>) -> String {
@@ -42,15 +57,15 @@ fn introduction(writer: &Writer<'_, '_>) -> String {
         false => "coefficients of the products of joint velocities",
     };
     format!(
-        "The coefficients of the accelerations (the entries of the symmetric mass matrix), \
-         {rates}, and the gravity terms. Each depends on the coordinates alone; zeros are \
-         omitted."
+        "The coefficients of the accelerations (the entries of the symmetric mass matrix), the Coriolis and \
+         centrifugal terms by {rates}, and the gravity terms. The coefficients depend on the coordinates alone; \
+         those that are zero have no equation."
     )
 }
 
 /// The entries of the mass matrix on and above its diagonal, row by row: Mᵢⱼ = ∂Qᵢ/∂q̈ⱼ.
 fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]) -> Section<'g> {
-    let letter = writer.symbols.free_letter(&MASS);
+    let letter = writer.letter(writer.options.letters.mass.as_deref(), &MASS);
     let rates = motions(writer, JointVariable::Acceleration);
     let columns: Vec<_> = rates.iter().map(|rate| walk::derivatives(forces, *rate)).collect();
     let mut coefficients = vec![];
@@ -60,7 +75,7 @@ fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]
             if value.is_zero() {
                 continue;
             }
-            let entry = Coefficient::new(letter, &[row + 1, column + 1], value);
+            let entry = Coefficient::new(&letter, &[row + 1, column + 1], value);
             sums[row].push((entry.name.clone(), rates[column]));
             if row != column {
                 sums[column].push((entry.name.clone(), rates[row]));
@@ -83,7 +98,7 @@ fn velocities<'g>(
         true => (&CHRISTOFFEL, "Christoffel symbols"),
         false => (&VELOCITY, "Coriolis and centrifugal coefficients"),
     };
-    let letter = writer.symbols.free_letter(letters);
+    let letter = writer.letter(writer.options.letters.velocity.as_deref(), letters);
     let graph = writer.graph;
     let half = graph.number(Rational::new(1, 2).unwrap_or(Rational::ONE));
     let rates = motions(writer, JointVariable::Velocity);
@@ -106,7 +121,7 @@ fn velocities<'g>(
                     (false, false) => (slope, 1),
                 };
                 let numbers = [index + 1, first + 1, other + 1];
-                let coefficient = Coefficient::new(letter, &numbers, value);
+                let coefficient = Coefficient::new(&letter, &numbers, value);
                 let rates = rates[first] * rates[other] * graph.integer(factor);
                 sum.push((coefficient.name.clone(), rates));
                 coefficients.push(coefficient);

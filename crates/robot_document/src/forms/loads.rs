@@ -25,7 +25,8 @@ pub(super) fn gravity<'g>(
 ) -> Section<'g> {
     let wrenches = wrench_names(writer);
     let values = at_rest(writer, forces, &|name| wrenches.iter().any(|known| known == name));
-    single(writer, "Gravity", writer.symbols.free_letter(&GRAVITY), values, sums)
+    let letter = writer.letter(writer.options.letters.gravity.as_deref(), &GRAVITY);
+    single(writer, "Gravity", &letter, values, sums)
 }
 
 /// The contributions of the wrenches of the tips, Jᵀ times the wrench.
@@ -84,10 +85,11 @@ pub(super) fn frictions<'g>(
     let mut contributions = Section { title, by_symbols: true, coefficients: vec![] };
     for (index, (value, sum)) in values.into_iter().zip(sums).enumerate() {
         if !value.is_zero() {
-            let name = format!("Q_f{}", index + 1);
+            let letters = &writer.options.letters;
+            let name = format!("{}_f{}", letters.torque(), index + 1);
             let lower =
                 Math::Row(vec![Math::Letter('f'), Math::Sign(','), Math::integer(index + 1)]);
-            let shape = Math::Letter('Q').with_lower(lower);
+            let shape = letters.torque_sign().with_lower(lower);
             sum.push((name.clone(), writer.graph.one()));
             contributions.coefficients.push(Coefficient { name, shape, value });
         }

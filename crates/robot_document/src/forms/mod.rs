@@ -1,17 +1,22 @@
 //! The forms of the equations of motion.
 
 mod angle_sums;
+mod arranged;
+mod arrays;
 mod coefficients;
 mod compact;
 mod expanded;
 mod grouped;
+mod letters;
 mod loads;
+mod matrices;
 mod naming;
 mod parts;
 mod recursive;
 mod references;
 mod regrouped;
 mod shapes;
+mod vectors;
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -26,8 +31,11 @@ use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
 use crate::error::Error;
-use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry};
+use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry, tidied, tidied_text};
 use crate::math::Math;
+pub use letters::{InvalidLetters, Letters};
+
+pub use arrays::{Array, Cell, Room, Written};
 
 /// The form of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,6 +106,13 @@ pub struct EquationOptions {
     pub references: bool,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
+    /// Whether quantities are in the order and under the signs of the paper: forces and moments in the joints from the
+    /// last link to the first, vectors with the number of their link below as well, Q with the index m.
+    pub paper: bool,
+    /// The letters of joint torques and of what the grouped form defines.
+    pub letters: Letters,
+    /// The most significant digits of decimals, but in [`Equation::text`], which is exact.
+    pub digits: Option<usize>,
 }
 
 /// The joint torques, expanded, without friction.
@@ -113,6 +128,9 @@ impl Default for EquationOptions {
             expand: false,
             references: true,
             christoffel: false,
+            paper: false,
+            letters: Letters::default(),
+            digits: None,
         }
     }
 }
@@ -137,6 +155,11 @@ pub struct Group {
     pub definitions: bool,
     /// The equations.
     pub equations: Vec<Equation>,
+    /// The equations as one of vectors.
+    pub vector: Option<Equation>,
+    /// The matrices and columns with entries that the equations define; `None` if the group has none. Vectors that
+    /// are only other names of what is defined before are not among them.
+    pub arrays: Option<Vec<Array>>,
 }
 
 /// An equation: a quantity or a defined symbol, and what it is.
@@ -153,18 +176,41 @@ pub struct Equation {
 }
 
 impl Group {
+    /// Writes the numbers of right sides as people do.
+    fn tidy(&mut self, digits: Option<usize>) {
+        let cells = self.arrays.iter_mut().flatten().flat_map(Array::cells_mut);
+        let written = cells.flat_map(|cell| [&mut cell.whole, &mut cell.parts]).flatten();
+        let entries = written.map(|written| &mut written.math);
+        let equations = self.equations.iter_mut().chain(&mut self.vector);
+        for math in equations.map(|equation| &mut equation.right).chain(entries) {
+            *math = tidied(std::mem::take(math), digits);
+        }
+    }
+
     /// Definitions of symbols that other equations use.
     pub(crate) fn of_definitions(title: &str, equations: Vec<Equation>) -> Group {
         let (title, introduction) = (title.to_owned(), String::new());
-        Group { title, introduction, definitions: true, equations }
+        Group { title, introduction, definitions: true, equations, vector: None, arrays: None }
+    }
+
+    /// Quantities of the robot.
+    pub(crate) fn of_quantities(
+        title: &str,
+        introduction: String,
+        equations: Vec<Equation>,
+    ) -> Group {
+        let title = title.to_owned();
+        Group { title, introduction, definitions: false, equations, vector: None, arrays: None }
     }
 }
 
 impl Equation {
-    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component.
+    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component; of a
+    /// matrix without what it depends on.
     #[must_use]
     pub fn label(&self) -> String {
-        self.name.replace('_', "-").replace('.', ":")
+        let name = self.name.split_once('(').map_or(self.name.as_str(), |(name, _)| name);
+        name.replace('_', "-").replace('.', ":")
     }
 }
 
@@ -172,6 +218,28 @@ impl Equations {
     /// The equations of quantities of the robot, without definitions.
     pub fn quantities(&self) -> impl Iterator<Item = &Equation> {
         self.groups.iter().filter(|group| !group.definitions).flat_map(|group| &group.equations)
+    }
+
+    /// The equations with texts for readers, which are not exact: decimals are rounded to so many significant digits, or
+    /// to those of a double.
+    #[must_use]
+    pub fn readable(&self, digits: Option<usize>) -> Equations {
+        let mut equations = self.clone();
+        for group in &mut equations.groups {
+            let cells = group.arrays.iter_mut().flatten().flat_map(Array::cells_mut);
+            let written = cells.flat_map(|cell| [&mut cell.whole, &mut cell.parts]).flatten();
+            let entries = written.map(|written| &mut written.text);
+            let all = group.equations.iter_mut().chain(&mut group.vector);
+            for text in all.map(|equation| &mut equation.text).chain(entries) {
+                *text = tidied_text(text, digits);
+            }
+        }
+        equations
+    }
+
+    /// The matrices and columns, in order.
+    pub fn arrays(&self) -> impl Iterator<Item = &Array> {
+        self.groups.iter().filter_map(|group| group.arrays.as_ref()).flatten()
     }
 
     /// The definitions that the other equations use, each before it is used by another one.
@@ -203,7 +271,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         order: Order::new(robot),
         parallel: vec![],
     };
-    if writer.angle_sums() == AngleSums::Keep {
+    if writer.angle_sums() == AngleSums::Keep && options.form != Form::Recursive {
         writer.parallel = writer.derivation().mechanism.parallel_angles();
     }
     let groups = match options.form {
@@ -216,7 +284,13 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     if graph.is_full() {
         return Err(Error::TooManyExpressions { limit: MAX_NODES });
     }
-    let groups = groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    let mut groups: Vec<Group> =
+        groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    for group in &mut groups {
+        group.tidy(options.digits);
+        let own = group.equations.iter_mut().filter(|_| !group.definitions);
+        own.chain(&mut group.vector).for_each(|equation| writer.name_torque(equation));
+    }
     Ok(Equations { groups, symbols: writer.symbols })
 }
 
@@ -269,7 +343,23 @@ impl<'g> Writer<'_, 'g> {
     fn quantities(&self, friction: bool) -> Vec<Quantity<'g>> {
         let effects = Effects { wrench: true, friction };
         let iterations = self.iterations(effects);
-        self.options.kinds.iter().flat_map(|kind| iterations.quantities(*kind)).collect()
+        let of_kind = |kind: &Kind| {
+            let mut quantities = iterations.quantities(*kind);
+            if self.options.paper && matches!(kind, Kind::LinkForce | Kind::LinkMoment) {
+                // The sort is stable: components stay in order.
+                quantities.sort_by_key(|quantity| std::cmp::Reverse(quantity.symbol.number));
+            }
+            quantities
+        };
+        self.options.kinds.iter().flat_map(of_kind).collect()
+    }
+
+    /// The look of a quantity on the left side.
+    fn look(&self, symbol: Symbol) -> Math {
+        match self.options.paper {
+            true => Math::in_paper(symbol),
+            false => Math::quantity(symbol),
+        }
     }
 
     /// Defines a combination of parameters.

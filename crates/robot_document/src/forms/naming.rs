@@ -70,6 +70,7 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     for root in roots {
         *users.entry(root.id()).or_default() += 1;
     }
+    let is_root = |expr: &Expr<'g>| roots.iter().any(|root| root.id() == expr.id());
     let mut sizes: FxHashMap<Id, usize> = FxHashMap::default();
     let mut worthy = vec![];
     for expr in all {
@@ -81,7 +82,10 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
         };
         let used = users.get(&expr.id()).copied().unwrap_or_default();
         let long = (used > 1 && size >= SHORT && !is_leaf(expr)) || size > LONG;
-        let named = (long && !matches!(expr.view(), View::Neg(_))) || is_long_constant(expr);
+        // What is a quantity, and no part of another, has a name.
+        let is_quantity = used == 1 && is_root(&expr);
+        let is_negative = matches!(expr.view(), View::Neg(_));
+        let named = (long && !is_negative && !is_quantity) || is_long_constant(expr);
         if named {
             worthy.push(expr);
         }

@@ -3,11 +3,13 @@
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
-use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions};
+use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions, View};
+use rustc_hash::FxHashSet;
 
 use super::compact::definitions;
 use super::naming::{Named, is_leaf, is_long_constant};
-use super::{Equation, Group, Writer, generalized_force, shapes};
+use super::vectors::{cell, column};
+use super::{Cell, Equation, Group, Writer, generalized_force, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -16,9 +18,10 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let iterations = writer.iterations(effects);
     let target = Graph::new();
     let (mut groups, mut named) = link_values(writer, &target)?;
+    let mut printed = FxHashSet::default();
     for (index, motion) in iterations.motions.iter().enumerate() {
         let number = index + 1;
-        let mut group = Group::of_definitions(&format!("Link {number}, outward"), vec![]);
+        let mut group = Vectors::new(&format!("Link {number}, outward"));
         let paper = |kind| Look::Paper(kind);
         for (name, look, vector) in [
             ("omega", Look::Letter('ω'), motion.angular_velocity),
@@ -28,24 +31,20 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             ("F", paper(Kind::Force), motion.force),
             ("M_c", paper(Kind::Moment), motion.moment),
         ] {
-            group
-                .equations
-                .extend(vector_equations(writer, &mut named, name, look, number, vector)?);
+            group.add(writer, &mut named, (name, look, number), vector, &mut printed)?;
         }
-        groups.push(group);
+        groups.push(group.0);
     }
     for (index, wrench) in iterations.wrenches.iter().enumerate().rev() {
         let number = index + 1;
-        let mut group = Group::of_definitions(&format!("Link {number}, inward"), vec![]);
+        let mut group = Vectors::new(&format!("Link {number}, inward"));
         for (name, kind, vector) in
             [("F_l", Kind::LinkForce, wrench.force), ("M_l", Kind::LinkMoment, wrench.moment)]
         {
             let look = Look::Paper(kind);
-            group
-                .equations
-                .extend(vector_equations(writer, &mut named, name, look, number, vector)?);
+            group.add(writer, &mut named, (name, look, number), vector, &mut printed)?;
         }
-        groups.push(group);
+        groups.push(group.0);
     }
     groups.push(generalized_forces(writer, &iterations.generalized_forces, &named)?);
     Ok(groups)
@@ -95,6 +94,15 @@ enum Look {
 }
 
 impl Look {
+    fn vector(self, number: usize) -> Math {
+        match self {
+            Look::Letter(letter) => {
+                Math::Letter(letter).under_bar().with_upper(Math::integer(number))
+            }
+            Look::Paper(kind) => Math::vector(kind, number),
+        }
+    }
+
     fn shape(self, number: usize, component: usize) -> Math {
         match self {
             Look::Letter(letter) => shapes::component(letter, number, &[component]),
@@ -105,28 +113,69 @@ impl Look {
     }
 }
 
-/// The equations of the components of a vector; those that are no more than a number or a symbol are
-/// printed but get no name, so that their value is put where they are used.
-fn vector_equations(
-    writer: &mut Writer<'_, '_>,
-    named: &mut Named<'_>,
-    name: &str,
-    look: Look,
-    number: usize,
-    vector: Vector<'_>,
-) -> Result<Vec<Equation>, Error> {
-    let mut equations = vec![];
-    for (component, expr) in vector.0.into_iter().enumerate() {
-        let name = format!("{name}{number}.{}", shapes::axis_name(component));
-        let value = named.rewritten(expr);
-        writer.define(&name, look.shape(number, component))?;
-        let left = writer.symbols.look(&name);
-        equations.push(sum(writer, name.clone(), left, value)?);
-        if !is_leaf(expr) {
-            named.name(expr, &name);
-        }
+/// A group of vectors.
+struct Vectors(Group);
+
+impl Vectors {
+    fn new(title: &str) -> Vectors {
+        let group = Group::of_definitions(title, vec![]);
+        Vectors(Group { arrays: Some(vec![]), ..group })
     }
-    Ok(equations)
+
+    /// Adds the equations of the components of a vector; those that are no more than a number or a symbol are
+    /// printed but get no name, so that their value is put where they are used.
+    ///
+    /// A vector of numbers and symbols has no column if one of these is another name, if it is 0, or if it is one of
+    /// those `printed` before.
+    fn add(
+        &mut self,
+        writer: &mut Writer<'_, '_>,
+        named: &mut Named<'_>,
+        (name, look, number): (&str, Look, usize),
+        vector: Vector<'_>,
+        printed: &mut FxHashSet<Vec<String>>,
+    ) -> Result<(), Error> {
+        let (mut cells, mut leaves) = (vec![], vec![]);
+        for (component, expr) in vector.0.into_iter().enumerate() {
+            let name = format!("{name}{number}.{}", shapes::axis_name(component));
+            let value = named.rewritten(expr);
+            let is_plain = is_known(writer, value);
+            writer.define(&name, look.shape(number, component))?;
+            let left = writer.symbols.look(&name);
+            let equation = sum(writer, name.clone(), left, value)?;
+            if is_leaf(value) {
+                leaves.push(equation.text.clone());
+            }
+            cells.push(cell(&equation, is_plain));
+            self.0.equations.push(equation);
+            if !is_leaf(expr) {
+                named.name(expr, &name);
+            }
+        }
+        let is_short = leaves.len() == cells.len();
+        let is_zero = leaves.iter().all(|text| text == "0");
+        let is_other = is_zero || cells.iter().any(is_name);
+        let is_known = is_short && (is_other || !printed.insert(leaves));
+        if let Some(arrays) = self.0.arrays.as_mut().filter(|_| !is_known) {
+            let left = look.vector(number);
+            arrays.push(column(format!("{name}{number}"), left, cells.into_iter()));
+        }
+        Ok(())
+    }
+}
+
+/// Whether a component is another one.
+fn is_name(cell: &Cell) -> bool {
+    cell.is_plain && cell.whole.as_ref().is_some_and(|whole| whole.text != "0")
+}
+
+/// Whether a value is 0 or what another name stands for, perhaps with another sign.
+fn is_known(writer: &Writer<'_, '_>, value: Expr<'_>) -> bool {
+    match value.view() {
+        View::Neg(inside) => is_known(writer, inside),
+        View::Symbol(symbol) => writer.symbols.is_defined(&value.graph().symbol_name(symbol)),
+        _ => value.is_zero(),
+    }
 }
 
 fn generalized_forces(
@@ -140,12 +189,7 @@ fn generalized_forces(
         let value = named.rewritten(*force);
         equations.push(sum(writer, symbol.to_string(), Math::quantity(symbol), value)?);
     }
-    Ok(Group {
-        title: "Joint torques".to_owned(),
-        introduction: String::new(),
-        definitions: false,
-        equations,
-    })
+    Ok(Group::of_quantities("Joint torques", String::new(), equations))
 }
 
 /// The equation as a sum of products if that is short, else as the expression is built.

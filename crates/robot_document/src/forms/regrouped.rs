@@ -268,8 +268,7 @@ fn inline<'g>(
         let (name, left) = (symbol.to_string(), Math::quantity(symbol));
         equations.push(writer.of_terms(name, left, &terms)?);
     }
-    let title = TITLE.to_owned();
-    let mut groups = vec![Group { title, introduction, definitions: false, equations }];
+    let mut groups = vec![Group::of_quantities(TITLE, introduction, equations)];
     groups.extend(definitions_of(writer, others, others_shown)?);
     Ok(groups)
 }

@@ -1,12 +1,12 @@
 //! The layout of quantities and defined symbols.
 
-use crate::math::Math;
+use crate::math::{Math, Script};
 
-/// `ω_{2,x}`, `J_{2,xy}`
+/// `ω_x^2`, `J_{xy}^2`: the link above, as the paper's quantities have it.
 pub(super) fn component(letter: char, number: usize, axes: &[usize]) -> Math {
-    let mut lower = vec![Math::integer(number), Math::Sign(',')];
-    lower.extend(axes.iter().map(|place| axis(*place)));
-    Math::Letter(letter).with_lower(Math::Row(lower))
+    let lower = Some(Math::row(axes.iter().map(|place| axis(*place)).collect()));
+    let upper = Some(Math::integer(number));
+    Math::Script(Box::new(Script { base: Math::Letter(letter), lower, upper }))
 }
 
 /// A letter with numbers below: `M_{12}`, with commas if one has several digits.

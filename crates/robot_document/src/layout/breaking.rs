@@ -111,8 +111,9 @@ impl Lines {
         };
         let alone = width(&Math::Row(joined.clone()));
         if !self.line.is_empty() && alone <= self.further(&joined) {
+            let opened = self.opened(&joined);
             self.end();
-            self.line = joined;
+            self.line = [opened, joined].concat();
             return Ok(());
         }
         let is_product = !pieces.iter().any(|piece| matches!(piece, Math::Fenced(..)));
@@ -120,6 +121,24 @@ impl Lines {
             self.end();
         }
         self.split(pieces, joint, alone)
+    }
+
+    /// Takes a parenthesis that has just been opened off the line, with the sign before it, if it has room before the
+    /// first pieces of its sum on the next line: a line does not end with `+ (`.
+    fn opened(&mut self, next: &[Math]) -> Vec<Math> {
+        let is_sign = |piece: &Math| matches!(piece, Math::Sign('+' | '-' | '('));
+        if self.line.last() != Some(&Math::Sign('(')) {
+            return vec![];
+        }
+        let start = self.line.iter().rposition(|piece| !is_sign(piece)).map_or(0, |last| last + 1);
+        let opened = self.line.get(start..).unwrap_or_default().to_vec();
+        let follows = start > 0 && matches!(opened.first(), Some(Math::Sign('+' | '-')));
+        let together = [opened.as_slice(), next].concat();
+        if !follows || width(&Math::Row(together.clone())) > self.further(&together) {
+            return vec![];
+        }
+        self.line.truncate(start);
+        opened
     }
 
     /// Adds pieces that fit no line as they are.
@@ -272,6 +291,15 @@ mod tests {
         assert_eq!(lines(product, 95.0, 95.0), ["m( a_1 + a_2 + a_3", r"+a_4 ) \cos q_2 + b"]);
         let alone = r"-\left(a_1 + a_2 + a_3 + a_4\right) \sin q_5";
         assert_eq!(lines(alone, 95.0, 95.0), ["-( a_1 + a_2 + a_3", r"+a_4 ) \sin q_5"]);
+    }
+
+    #[test]
+    fn a_line_does_not_end_with_what_opens_a_sum() {
+        let sum = r"c_1 + c_2 + \left(a_1 a_2 a_3 a_4 + b_2\right) \cos q_2";
+        for first in 40..140 {
+            let broken = lines(sum, f64::from(first), 80.0);
+            assert!(broken.iter().all(|line| !line.ends_with('(')), "{first}: {broken:?}");
+        }
     }
 
     #[test]

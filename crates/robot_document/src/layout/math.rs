@@ -36,6 +36,8 @@ pub enum Math {
     Fenced(Fence, Box<Math>),
     /// Rows of entries, in brackets.
     Matrix(Vec<Vec<Math>>),
+    /// The lines of a sum that does not fit one, below each other.
+    Lines(Vec<Math>),
 }
 
 /// A symbol of the equations, with what it looks like.
@@ -188,6 +190,7 @@ impl Math {
             | Math::Fenced(_, inside) => vec![inside],
             Math::Fraction(parts) => parts.iter().collect(),
             Math::Matrix(rows) => rows.iter().flatten().collect(),
+            Math::Lines(lines) => lines.iter().collect(),
             _ => vec![],
         }
     }

@@ -155,6 +155,10 @@ impl<'g> Reader<'g, '_> {
             },
             Math::Letter('π') => Ok(self.graph.pi()),
             Math::Row(pieces) => self.sum(pieces),
+            Math::Lines(lines) => {
+                let pieces = lines.iter().flat_map(Math::pieces).cloned();
+                self.sum(&pieces.collect::<Vec<_>>())
+            }
             Math::Fraction(parts) => {
                 let [above, below] = parts.as_ref();
                 Ok(self.sum(above.pieces())? / self.sum(below.pieces())?)

@@ -2,6 +2,7 @@
 //! polynomials, [`breaking`] cuts it into lines by its [`width`], [`meaning`] goes the way back.
 
 pub mod breaking;
+mod digits;
 mod expression;
 pub mod math;
 pub mod meaning;
@@ -14,6 +15,7 @@ mod tests;
 mod trigonometry;
 pub mod width;
 
+pub(crate) use digits::{tidied, tidied_text};
 pub(crate) use order::BRACKETS;
 pub use order::{Order, Rank};
 pub(crate) use order::{is_motion, is_rate};

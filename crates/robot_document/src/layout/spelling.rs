@@ -1,6 +1,6 @@
 //! The spelling of symbols and quantities.
 
-use robot_dynamics::quantity::Symbol;
+use robot_dynamics::quantity::{Kind, Symbol};
 use robot_model::signs::{Accent, Letter};
 use robot_model::variable::JointVariable;
 
@@ -25,6 +25,46 @@ impl Math {
             base.push(last.with_lower(lower));
         }
         Math::row(base)
+    }
+
+    /// The look of a vector, `\bar{F}_{l}^{5}`: that of its components without their axis, under a bar.
+    #[must_use]
+    pub fn vector(kind: Kind, number: usize) -> Math {
+        let (letter, index) = kind.name().split_once('_').unwrap_or((kind.name(), ""));
+        let base = Math::Letter(letter.chars().next().unwrap_or('F')).under_bar();
+        let lower = index.chars().next().map(Math::Letter);
+        Math::Script(Box::new(Script { base, lower, upper: Some(Math::integer(number)) }))
+    }
+
+    /// The look of a vector in the paper's relations, `\bar{F}_{l_5}^{5}`: its link below and its axes above.
+    #[must_use]
+    pub fn vector_in_paper(kind: Kind, number: usize) -> Math {
+        let Math::Script(script) = Math::vector(kind, number) else { return Math::default() };
+        let number = Math::integer(number);
+        let lower = match script.lower.clone() {
+            Some(index) => index.with_lower(number),
+            None => number,
+        };
+        Math::Script(Box::new(Script { lower: Some(lower), ..*script }))
+    }
+
+    /// The look of a quantity in the paper: components as those of [`Math::quantity`], `Q_m^{1}`.
+    #[must_use]
+    pub fn in_paper(symbol: Symbol) -> Math {
+        match symbol.kind {
+            Kind::GeneralizedForce => {
+                let (lower, upper) = (Math::Letter('m'), Math::integer(symbol.number));
+                let base = Math::Letter('Q');
+                Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(upper) }))
+            }
+            _ => Math::quantity(symbol),
+        }
+    }
+
+    /// The piece under a bar.
+    #[must_use]
+    pub fn under_bar(self) -> Math {
+        Math::Accent(Accent::Bar, Box::new(self))
     }
 
     /// The look of a quantity, `Q_1`, `F_{l_x}^{5}`, as the paper prints it.

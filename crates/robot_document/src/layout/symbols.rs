@@ -115,16 +115,21 @@ impl SymbolTable {
         self.defined.iter().any(|known| known == name)
     }
 
-    /// A letter that no symbol has with an index, neither in text nor in print; the last one where
-    /// all are taken.
+    /// A letter that no symbol has with a number as its first index, neither in text nor in print; the last one
+    /// where all are taken. The index x of M_x is not mistaken for that of M_12.
     #[must_use]
     pub fn free_letter(&self, candidates: &[&'static str]) -> &'static str {
         let taken = |letter: &str| {
+            let is_number = |tail: &str| {
+                tail.trim_start_matches(['_', '{']).starts_with(|c: char| c.is_ascii_digit())
+            };
             let sine = self.trigonometry != Trigonometry::Named && matches!(letter, "s" | "c");
             sine || self.entries.iter().any(|(name, Entry { latex, .. })| {
                 let tail = name.strip_prefix(letter);
-                tail.is_some_and(|tail| tail.starts_with(|c: char| c.is_ascii_digit() || c == '_'))
-                    || latex.strip_prefix(letter).is_some_and(|tail| tail.starts_with(['_', '^']))
+                tail.is_some_and(is_number)
+                    || latex.strip_prefix(letter).is_some_and(|tail| {
+                        tail.starts_with('^') || tail.starts_with('_') && is_number(tail)
+                    })
             })
         };
         let free = candidates.iter().find(|letter| !taken(letter));

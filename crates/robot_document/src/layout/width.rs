@@ -147,13 +147,18 @@ fn measure(math: &Math, size: Size) -> f64 {
             let widest = |column| rows.iter().map(|row| cell(row, column)).fold(0.0, f64::max);
             (0..columns).map(|column| widest(column) + points).sum::<f64>() + points
         }
+        Math::Lines(lines) => {
+            // A sign at the start of a line takes the spaces of one within a sum.
+            let line = |line| measure(line, Size::Text) + 2.0 * SPACES[1];
+            lines.iter().map(line).fold(0.0, f64::max)
+        }
     }
 }
 
 /// Whether fences around the piece grow.
 fn is_tall(math: &Math) -> bool {
     match math {
-        Math::Fraction(_) | Math::Root(_) | Math::Matrix(_) => true,
+        Math::Fraction(_) | Math::Root(_) | Math::Matrix(_) | Math::Lines(_) => true,
         Math::Row(pieces) => pieces.iter().any(is_tall),
         Math::Fenced(_, inside) => is_tall(inside),
         Math::Script(script) => is_tall(&script.base),

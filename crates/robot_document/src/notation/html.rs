@@ -1,4 +1,4 @@
-//! A page of HTML with equations in MathML: one file that needs no other, no script and no font.
+//! A page of HTML with equations in MathML: one file that needs no other and no script, and contains its font.
 
 use crate::breaking::right_side;
 use crate::error::Error;
@@ -6,6 +6,7 @@ use crate::forms::{Equation, Group};
 use crate::latex::Layout;
 use crate::markup::{Element, Node, element, holding};
 use crate::math::Math;
+use crate::math_font;
 use crate::mathml;
 use crate::width::width;
 
@@ -19,19 +20,28 @@ p { max-width: 45rem }
 math { font-size: 1.1rem; margin: 0 0 1.5rem }
 mtd { text-align: left; padding: 0.25rem 0 }
 mtd:first-child { text-align: right; text-align: -webkit-right }
-mtd:nth-child(3) { padding-left: 2rem; text-align: right; text-align: -webkit-right }";
+mtd:nth-child(3) { padding-left: 2rem; text-align: right; text-align: -webkit-right }
+mtd mtd:nth-child(n) { text-align: center; text-align: -webkit-center; padding: 0.15rem 0.4rem }
+mtable[columnalign=left] mtd:nth-child(n) { text-align: left; text-align: -webkit-left; padding: 0 }";
+
+/// How a page is made.
+#[derive(Clone, Copy, Debug)]
+pub struct PageOptions {
+    /// The width of lines.
+    pub layout: Layout,
+    /// Whether equations are numbered.
+    pub numbered: bool,
+    /// Whether the page contains the font of its equations, some 70 kB; without, browsers take one that is installed.
+    pub has_font: bool,
+}
 
 /// The page: a heading and a table of equations for each group, lines broken as in LaTeX.
 ///
 /// # Errors
 ///
 /// A piece of an equation that cannot be broken and does not fit a line.
-pub fn page(
-    title: &str,
-    groups: &[Group],
-    layout: Layout,
-    numbered: bool,
-) -> Result<String, Error> {
+pub fn page(title: &str, groups: &[Group], options: PageOptions) -> Result<String, Error> {
+    let PageOptions { layout, numbered, has_font } = options;
     let mut body = vec![holding("h1", title)];
     let mut numbers = numbered.then_some(1);
     for group in groups {
@@ -50,7 +60,12 @@ pub fn page(
             .attribute("displaystyle", "true");
         body.push(holding("math", table).attribute("display", "block"));
     }
-    let style = element("style").with("\n").with(Node::Verbatim(STYLE)).with("\n");
+    let font = if has_font { math_font::RULES.as_str() } else { "" };
+    let style = element("style")
+        .with("\n")
+        .with(Node::Verbatim(font))
+        .with(Node::Verbatim(STYLE))
+        .with("\n");
     let head = [element("meta").attribute("charset", "utf-8"), holding("title", title), style];
     let html = element("html").attribute("lang", "en").with("\n");
     let html = [lines("head", head), lines("body", body)]
@@ -95,6 +110,20 @@ fn rows(equation: &Equation, layout: Layout, number: Option<usize>) -> Result<Ve
 mod tests {
     use super::*;
 
+    fn options(width: f64, numbered: bool) -> PageOptions {
+        PageOptions { layout: Layout::of_centimeters(width), numbered, has_font: true }
+    }
+
+    #[test]
+    fn a_page_without_the_font_is_short() {
+        let one = |has_font| {
+            let options = PageOptions { has_font, ..options(8.0, false) };
+            page("arm", &[group(Math::Letter('m'))], options).unwrap()
+        };
+        assert!(one(true).contains("data:font/woff2") && one(true).len() > 50_000);
+        assert!(!one(false).contains("font/woff2") && one(false).len() < 2_000, "{}", one(false));
+    }
+
     fn group(right: Math) -> Group {
         let left = Math::Letter('Q').with_lower(Math::integer(1));
         let equation = Equation { name: "Q1".to_owned(), text: String::new(), left, right };
@@ -105,7 +134,7 @@ mod tests {
     fn long_sums_take_several_rows() {
         let term = [Math::Sign('+'), Math::Letter('m')];
         let sum = Math::Row(term.iter().cycle().take(60).cloned().collect());
-        let page = page("arm", &[group(sum)], Layout::of_centimeters(8.0), true).unwrap();
+        let page = page("arm", &[group(sum)], options(8.0, true)).unwrap();
         assert!(page.matches("<mtr>").count() > 2, "{page}");
         assert_eq!(page.matches("<mtext>(1)</mtext>").count(), 1);
         assert!(page.contains("<mo form=\"infix\">+</mo>"), "{page}");
@@ -116,7 +145,7 @@ mod tests {
     fn text_of_a_robot_is_never_markup() {
         let hostile = "</title><script>alert(1)</script>&";
         let word = Math::Word(hostile.to_owned());
-        let page = page(hostile, &[group(word)], Layout::of_centimeters(30.0), false).unwrap();
+        let page = page(hostile, &[group(word)], options(30.0, false)).unwrap();
         assert!(!page.contains("<script"), "{page}");
         assert_eq!(page.matches("&lt;script&gt;").count(), 3);
     }

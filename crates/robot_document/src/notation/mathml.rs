@@ -48,6 +48,12 @@ pub fn formula(math: &Math) -> Element {
             element("mrow").with_all([open, formula(inside), close])
         }
         Math::Matrix(rows) => matrix(rows),
+        Math::Lines(lines) => {
+            let one = |(place, line)| if place == 0 { formula(line) } else { continued(line) };
+            let row = |line| element("mtr").with(holding("mtd", line));
+            let rows = lines.iter().enumerate().map(one).map(row);
+            element("mtable").with_all(rows).attribute("columnalign", "left")
+        }
     }
 }
 
@@ -56,7 +62,8 @@ pub fn formula(math: &Math) -> Element {
 #[must_use]
 pub fn continued(math: &Math) -> Element {
     let mut markup = formula(math);
-    if let Some(sign) = markup.first_mut().filter(|first| first.name() == "mo") {
+    let has_sign = matches!(math.pieces().first(), Some(Math::Sign(_)));
+    if let Some(sign) = markup.first_mut().filter(|first| has_sign && first.name() == "mo") {
         sign.set("form", "infix");
     }
     markup
@@ -174,8 +181,13 @@ fn styled(font: Font, inside: &Math) -> Element {
 }
 
 fn matrix(rows: &[Vec<Math>]) -> Element {
-    let cell = |entry: &Math| element("mtd").with(formula(entry));
-    let rows = rows.iter().map(|row| element("mtr").with_all(row.iter().map(cell)));
+    bracketed(rows.iter().map(|row| row.iter().map(formula).collect()))
+}
+
+/// A matrix of these entries, row by row.
+pub fn bracketed(rows: impl IntoIterator<Item = Vec<Element>>) -> Element {
+    let cell = |entry: Element| element("mtd").with(entry);
+    let rows = rows.into_iter().map(|row| element("mtr").with_all(row.into_iter().map(cell)));
     let table = element("mtable").with_all(rows);
     let [open, close] = [("[", "prefix"), ("]", "postfix")]
         .map(|(sign, form)| holding("mo", sign).attribute("fence", "true").attribute("form", form));
@@ -231,6 +243,15 @@ mod tests {
         ]);
         assert_eq!(shown(&row).matches("<mspace width=\"0.167em\"></mspace>").count(), 2);
         assert!(shown(&row).contains("<mo>−</mo><mi>cos</mi><mrow><mo fence"));
+    }
+
+    #[test]
+    fn a_line_that_goes_on_has_its_sign_between() {
+        let sum = |first| Math::Row(vec![first, Math::Letter('m')]);
+        assert!(continued(&sum(Math::Sign('+'))).to_string().contains("<mo form=\"infix\">+"));
+        let fenced = Math::Fenced(Fence::Parentheses, Box::new(Math::Letter('x')));
+        assert_eq!(continued(&fenced).to_string().matches("form=\"prefix\"").count(), 1);
+        assert!(!continued(&fenced).to_string().contains("infix"));
     }
 
     #[test]

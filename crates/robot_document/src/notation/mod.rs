@@ -2,6 +2,8 @@
 
 pub mod html;
 pub mod latex;
+pub mod markdown;
+pub mod math_font;
 pub mod mathml;
 mod tabular;
 pub mod typst;

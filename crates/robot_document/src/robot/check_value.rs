@@ -4,6 +4,7 @@ use robot_model::variable::JointVariable;
 
 use super::{heading, numbers, paragraph};
 use crate::document::{Block, Inline, Table};
+use crate::forms::Letters;
 use crate::layout::SymbolTable;
 use crate::math::Math;
 
@@ -23,7 +24,12 @@ pub struct CheckValue {
 }
 
 /// The check value as a table.
-pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -> Vec<Block> {
+pub(super) fn blocks(
+    value: &CheckValue,
+    has_tip: bool,
+    symbols: &SymbolTable,
+    letters: &Letters,
+) -> Vec<Block> {
     let CheckValue { positions, velocities, accelerations, wrench, forces } = value;
     let mut rows = vec![];
     for (index, force) in forces.iter().enumerate() {
@@ -38,7 +44,7 @@ pub(super) fn blocks(value: &CheckValue, has_tip: bool, symbols: &SymbolTable) -
         let shape = symbols.look(&format!("{prefix}1"));
         vec![Inline::Math(without_index(shape))]
     };
-    let driving = vec![Inline::Math(Math::Letter('Q'))];
+    let driving = vec![Inline::Math(letters.torque_sign())];
     let [q, qd, qdd] = JointVariable::MOTION.map(|variable| name(variable.name()));
     let joint = vec![Inline::Math(Math::Letter('i'))];
     let head = vec![joint, q, qd, qdd, driving];

@@ -3,7 +3,7 @@
 use robot_dynamics::quantity::Kind;
 
 use crate::document::{Cell, Inline};
-use crate::forms::{Equations, Form, Group};
+use crate::forms::{Equations, Form, Group, Letters};
 use crate::math::{Math, Script};
 
 /// Symbols of a kind.
@@ -19,18 +19,30 @@ const INDICES: [char; 3] = ['i', 'j', 'k'];
 
 /// The kinds of symbols on the left sides of equations, in order. The names of standard and base parameters are
 /// explained with their definitions.
-pub(super) fn families(parts: &[(Form, Equations)]) -> Vec<Family> {
-    let mut known: Vec<(String, Math)> = vec![];
+pub(super) fn families(parts: &[(Form, Equations)], letters: &Letters) -> Vec<Family> {
+    let mut known: Vec<(String, usize, Math)> = vec![];
     let mut families = vec![];
-    for group in parts.iter().flat_map(|(_, part)| &part.groups) {
+    let groups = parts.iter().flat_map(|(_, part)| part.groups.iter().map(move |one| (part, one)));
+    for (part, group) in groups {
         for equation in &group.equations {
-            let shape = general(&equation.left, numbers(&equation.name));
+            let count = numbers(&equation.name);
+            let shape = general(&equation.left, count);
             let family = family(&equation.name).to_owned();
-            if known.iter().any(|(name, look)| *name == family && same(look, &shape)) {
+            let is_one = |(name, numbers, look): &(String, usize, Math)| {
+                *name == family && *numbers == count && same(look, &shape)
+            };
+            if known.iter().any(is_one) {
                 continue;
             }
-            known.push((family.clone(), shape.clone()));
-            if let Some(meaning) = meaning(group, &family) {
+            known.push((family.clone(), count, shape.clone()));
+            let meaning = match &equation.right {
+                Math::Matrix(_) => of_array(group, part, &equation.name, letters),
+                _ if equation.name == letters.torque() => {
+                    of_name("joint torques (N m) and joint forces (N)")
+                }
+                _ => meaning(group, &family, count, letters),
+            };
+            if let Some(meaning) = meaning {
                 families.push(Family { shape, meaning });
             }
         }
@@ -101,12 +113,50 @@ fn replaced(shape: &Math, number: &mut dyn FnMut(&str) -> Math) -> Math {
     }
 }
 
+fn of_name(text: &str) -> Option<Cell> {
+    Some(vec![Inline::text(text)])
+}
+
+/// What a matrix or a column in a group is.
+fn of_array(group: &Group, part: &Equations, name: &str, letters: &Letters) -> Option<Cell> {
+    let text = match group.title.as_str() {
+        "Mass matrix" => "mass matrix",
+        "Coriolis and centrifugal coefficients" => "Coriolis and centrifugal terms",
+        "Christoffel symbols" => "matrix of the Coriolis and centrifugal terms",
+        "Gravity" => "gravity terms",
+        "Wrenches of the tips" => "contributions of the wrenches of the tips",
+        "Friction" => "friction of the joints",
+        _ => return of_vector(group, part, name, letters),
+    };
+    of_name(text)
+}
+
+/// What a vector of the links is, and the look of its components if equations use them.
+fn of_vector(group: &Group, part: &Equations, name: &str, letters: &Letters) -> Option<Cell> {
+    let mut cell = meaning(group, family(name), 1, letters)?;
+    if let Some(Inline::Text(text)) = cell.first_mut() {
+        *text = text.trim_start_matches("component of the ").to_owned();
+        let component = format!("{name}.x");
+        if part.symbols.is_defined(&component) {
+            text.push_str("; its component along x: ");
+            cell.push(Inline::Math(general(&part.symbols.look(&component), 1)));
+        }
+    }
+    Some(cell)
+}
+
 /// What the symbols of a family in a group are.
-fn meaning(group: &Group, family: &str) -> Option<Cell> {
+fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Option<Cell> {
     let text = match (group.title.as_str(), family) {
         ("Standard parameters" | "Base parameters", _) => return None,
-        ("Coriolis and centrifugal coefficients", _) => return Some(product()),
+        ("Coriolis and centrifugal coefficients", _) if numbers == 3 => {
+            return Some(product(letters));
+        }
+        ("Coriolis and centrifugal coefficients", _) => "Coriolis and centrifugal term of joint i",
         ("Mass matrix", _) => "entry of the mass matrix",
+        ("Christoffel symbols", _) if numbers == 2 => {
+            "entry of the matrix of the Coriolis and centrifugal terms"
+        }
         ("Christoffel symbols", _) => "Christoffel symbol of the first kind",
         ("Gravity", _) => "gravity term of joint i",
         ("Wrenches of the tips", _) => "contribution of the wrenches of the tips to joint i",
@@ -121,7 +171,10 @@ fn meaning(group: &Group, family: &str) -> Option<Cell> {
         (_, "omega") => "component of the angular velocity of link i, rad/s",
         (_, "epsilon") => "component of the angular acceleration of link i, rad/s²",
         (_, "a") => "component of the acceleration of the origin of frame i, m/s²",
-        (_, name) => of_quantity(Kind::from_name(name)?),
+        (_, name) => {
+            let torque = (!group.definitions).then_some(Kind::GeneralizedForce);
+            of_quantity(Kind::from_name(name).or(torque)?)
+        }
     };
     Some(vec![Inline::text(text)])
 }
@@ -140,13 +193,13 @@ const fn of_quantity(kind: Kind) -> &'static str {
 }
 
 /// Of what a coefficient of velocities is one.
-fn product() -> Cell {
+fn product(letters: &Letters) -> Cell {
     let rate = |index| {
         let letter = Box::new(Math::Letter('q'));
         let rate = Math::Accent(robot_model::signs::Accent::Dot, letter);
         rate.with_lower(Math::Letter(index))
     };
-    let force = Math::Letter('Q').with_lower(Math::Letter('i'));
+    let force = letters.torque_sign().with_lower(Math::Letter('i'));
     vec![
         Inline::text("coefficient of "),
         Inline::Math(Math::Row(vec![rate('j'), rate('k')])),

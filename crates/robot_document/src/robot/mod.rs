@@ -9,12 +9,14 @@ mod symbols;
 mod tables;
 pub mod words;
 
+use robot_dynamics::mechanism::Snap;
 use robot_model::robot::Robot;
+use robot_model::snap;
 
 use crate::document::{Block, Document, Inline};
 use crate::error::Error;
 use crate::figure::Figure;
-use crate::forms::{EquationOptions, Form, equations};
+use crate::forms::{EquationOptions, Form, Room, equations};
 use crate::math::Math;
 pub use check_value::CheckValue;
 
@@ -27,7 +29,15 @@ pub struct Extras<'e> {
     pub figure: Option<Figure>,
     /// The check value.
     pub check: Option<&'e CheckValue>,
+    /// The constant angles that the robot has as multiples of π/2 though the file has other values.
+    pub snaps: &'e [Snap],
+    /// The width of lines, pt, in which matrices and columns are shown where they fit; `None` for equations of their
+    /// entries alone.
+    pub arrays: Option<f64>,
 }
+
+/// The number of an equation and its distance from the equation, pt.
+const NUMBER: f64 = 44.0;
 
 /// The document of a robot with its equations in several forms.
 ///
@@ -42,7 +52,14 @@ pub fn document(
 ) -> Result<Document, Error> {
     let mut parts = vec![];
     for form in forms {
-        parts.push((*form, equations(robot, &EquationOptions { form: *form, ..options.clone() })?));
+        let part = equations(robot, &EquationOptions { form: *form, ..options.clone() })?;
+        parts.push((
+            *form,
+            match extras.arrays {
+                Some(width) => part.arranged(Room::Points(width - NUMBER)),
+                None => part,
+            },
+        ));
     }
     let title = match extras.title {
         Some(title) => title.to_owned(),
@@ -56,14 +73,14 @@ pub fn document(
         return Ok(Document { title, blocks });
     };
     blocks.extend(tables::blocks(robot, &first.symbols, extras.figure)?);
-    blocks.extend(conventions(options)?);
+    blocks.extend(conventions(options, extras.snaps)?);
     for (form, part) in &parts {
         blocks.extend(sections::blocks(*form, part, options));
     }
-    blocks.extend(symbols::blocks(robot, &parts, &blocks));
+    blocks.extend(symbols::blocks(robot, &parts, &blocks, &options.letters));
     if let Some(check) = extras.check {
         let has_tip = robot.tips().next().is_some();
-        blocks.extend(check_value::blocks(check, has_tip, &first.symbols));
+        blocks.extend(check_value::blocks(check, has_tip, &first.symbols, &options.letters));
     }
     Ok(Document { title, blocks })
 }
@@ -77,11 +94,18 @@ fn heading(text: &str) -> Block {
 }
 
 /// The frame and sign conventions.
-fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
+fn conventions(options: &EquationOptions, snaps: &[Snap]) -> Result<Vec<Block>, Error> {
     let indexed = |letter: char| Math::Letter(letter).with_lower(Math::Letter('i'));
     let friction = match options.friction {
         true => "Joint friction is included.",
         false => "Joint friction is not included.",
+    };
+    let rounded = match options.digits {
+        Some(1) => " Decimals in the equations are rounded to 1 significant digit.".to_owned(),
+        Some(digits) => {
+            format!(" Decimals in the equations are rounded to {digits} significant digits.")
+        }
+        None => String::new(),
     };
     Ok(vec![
         heading("Frames and signs"),
@@ -98,14 +122,45 @@ fn conventions(options: &EquationOptions) -> Result<Vec<Block>, Error> {
             Inline::text(", or translated along it by "),
             Inline::Math(indexed('q')),
             Inline::text(". All vectors are given in the axes of their own link. "),
-            Inline::Math(indexed('Q')),
+            Inline::Math(options.letters.torque_sign().with_lower(Math::Letter('i'))),
             Inline::text(
                 " is the joint torque of a revolute joint or the joint force of a prismatic \
                  joint, positive along the axis. The wrench of a tip is the wrench that the tip \
                  exerts on its surroundings; the external wrench, which acts on the tip, is its \
                  negative. Units are SI and radians. ",
             ),
-            Inline::text(friction),
+            Inline::text(format!("{friction}{rounded}{}", snapped(snaps))),
         ]),
     ])
+}
+
+/// The names in a sentence before the others are counted.
+const NAMED: usize = 4;
+
+/// What is said of constant angles that are not those of the file.
+fn snapped(snaps: &[Snap]) -> String {
+    // What is rounded by the tolerance that code has is only rounding.
+    let changed = || snaps.iter().filter(|snap| snap.change.abs() > snap::DEFAULT);
+    let mut names: Vec<&str> = vec![];
+    for snap in changed() {
+        if !names.contains(&snap.name.as_str()) {
+            names.push(&snap.name);
+        }
+    }
+    let (count, most) = changed()
+        .fold((0, 0.0_f64), |(count, most), snap| (count + 1, most.max(snap.change.abs())));
+    let (subject, are) = match count {
+        0 => return String::new(),
+        1 => ("One constant angle of the robot file is".to_owned(), "the multiple"),
+        count => (format!("{count} constant angles of the robot file are"), "the multiples"),
+    };
+    let more = match names.len().checked_sub(NAMED) {
+        Some(more @ 1..) => format!(" and {more} more"),
+        _ => String::new(),
+    };
+    names.truncate(NAMED);
+    format!(
+        " {subject} rounded: tables and equations have {are} of π/2, which differ by at most {most:.0e} rad ({}{more}).",
+        names.join(", ")
+    )
 }

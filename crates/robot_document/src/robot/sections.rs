@@ -3,7 +3,7 @@
 use robot_dynamics::quantity::Kind;
 
 use super::paragraph;
-use crate::document::{Block, Inline, NumberedEquation};
+use crate::document::{Block, Inline, NumberedEquation, Table};
 use crate::forms::{Equation, EquationOptions, Equations, Form, Group};
 use crate::math::Math;
 
@@ -22,13 +22,53 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
         if group.definitions && !group.introduction.is_empty() {
             blocks.push(paragraph(&group.introduction));
         }
+        let (constant, other): (Vec<&Equation>, Vec<&Equation>) = match group.definitions {
+            true => group.equations.iter().partition(|equation| is_constant(equation)),
+            false => (vec![], group.equations.iter().collect()),
+        };
+        let is_table = constant.len() >= FEWEST;
+        blocks.extend(is_table.then(|| constants(&constant)));
+        let shown = if is_table { other } else { group.equations.iter().collect() };
+        if shown.is_empty() {
+            continue;
+        }
         let numbered = |equation: &Equation| NumberedEquation {
             label: Some(format!("{}:{}", form.name(), equation.label())),
             equation: equation.clone(),
         };
-        blocks.push(Block::Equations(group.equations.iter().map(numbered).collect()));
+        blocks.push(Block::Equations(shown.into_iter().map(numbered).collect()));
     }
     blocks
+}
+
+/// So many constants or more are a table.
+const FEWEST: usize = 4;
+/// The constants of a line of the table.
+const ACROSS: usize = 2;
+
+/// Whether the right side is a number, and the left side no component of a vector.
+fn is_constant(equation: &Equation) -> bool {
+    let is_number = |piece: &Math| matches!(piece, Math::Number(_) | Math::Sign('-'));
+    !equation.name.contains('.') && equation.right.pieces().iter().all(is_number)
+}
+
+/// A table of constants, some beside each other, one below the other in each column.
+fn constants(equations: &[&Equation]) -> Block {
+    let count = equations.len().div_ceil(ACROSS);
+    let cell = |equation: &&Equation| {
+        let [left, right] = [&equation.left, &equation.right].map(Math::pieces);
+        vec![Inline::Math(Math::Row([left, &[Math::Sign('=')], right].concat()))]
+    };
+    let row = |row: usize| {
+        let places = (0..ACROSS).map(|column| equations.get(column * count + row));
+        places.map(|equation| equation.map(cell).unwrap_or_default()).collect()
+    };
+    Block::Table(Table {
+        caption: "Constants.".to_owned(),
+        head: vec![vec![Inline::text("Constant")]; ACROSS],
+        rows: (0..count).map(row).collect(),
+        keys: 0,
+    })
 }
 
 /// The title of a part: what is asked for has the title of its section otherwise.
@@ -79,7 +119,7 @@ fn recursion() -> Block {
         text(" and the moment "),
         indexed('M', 'l'),
         text(
-            " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame.",
+            " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame; a bar marks the column of the components along x, y and z. Quantities that are 0 or equal to an earlier one are left out.",
         ),
     ])
 }

@@ -7,13 +7,18 @@ use rustc_hash::FxHashSet;
 use super::families::families;
 use super::{heading, numbers};
 use crate::document::{Block, Cell, Inline, Table};
-use crate::forms::{Equations, Form};
+use crate::forms::{Equations, Form, Letters};
 use crate::layout::SymbolTable;
 use crate::math::Math;
 use crate::robot::rows::{self, ParameterRow};
 
 /// The symbols of a robot that occur in these blocks, and those that the forms define.
-pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)], document: &[Block]) -> Vec<Block> {
+pub(super) fn blocks(
+    robot: &Robot,
+    parts: &[(Form, Equations)],
+    document: &[Block],
+    letters: &Letters,
+) -> Vec<Block> {
     let Some((_, first)) = parts.first() else { return vec![] };
     let symbols = &first.symbols;
     let occurring = Occurring::new(document);
@@ -23,7 +28,7 @@ pub(super) fn blocks(robot: &Robot, parts: &[(Form, Equations)], document: &[Blo
         rows.push(parameter(symbols.look(&row.parameter.name), &row));
     }
     rows.extend(wrenches(robot, symbols, &occurring));
-    for family in families(parts) {
+    for family in families(parts, letters) {
         rows.push(vec![vec![Inline::Math(family.shape)], family.meaning, vec![]]);
     }
     let mut head: Vec<Cell> =

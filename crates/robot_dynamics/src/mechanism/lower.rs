@@ -1,12 +1,11 @@
 //! Lowering: formulas to expressions, moves to rotations and translations, bodies to one body.
 
-use std::f64::consts::FRAC_PI_2;
-
 use robot_model::robot::{Axis, Body, Frame, Friction, Inertia, Link, Move, Placement, Robot};
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Formula, Graph, Number, walk};
 
 use super::direction::unit_vector;
+use super::snapped::quarters;
 use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap};
 use crate::vector::{Matrix, Vector};
 
@@ -145,17 +144,13 @@ impl<'g> Lowering<'g, '_> {
         let Some(number) = exact.as_number() else {
             return exact;
         };
-        let angle = number.to_f64();
-        let quarters = (angle / FRAC_PI_2).round();
-        let change = quarters * FRAC_PI_2 - angle;
-        if number.is_zero() || change.abs() > self.options.snap || quarters.abs() > 1e6 {
+        let Some((quarters, change)) = quarters(&number, self.options.snap) else {
             return exact;
-        }
+        };
         if change != 0.0 {
-            self.snapped.push(Snap { name: name.to_owned(), angle, change });
+            self.snapped.push(Snap { name: name.to_owned(), angle: number.to_f64(), change });
         }
-        // |quarters| is below 1e6, so the cast is exact.
-        self.graph.pi() * quarters as i64 / 2
+        self.graph.pi() * quarters / 2
     }
 
     fn coordinate_axis(&self, axis: Axis) -> Vector<'g> {

@@ -3,6 +3,7 @@
 mod direction;
 mod lower;
 mod parallel;
+mod snapped;
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::snap;
@@ -10,6 +11,7 @@ use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Graph};
 
 use crate::vector::{Matrix, Vector};
+pub use snapped::snapped;
 
 /// The choices in making expressions of a robot's values.
 #[derive(Clone, Debug, PartialEq)]

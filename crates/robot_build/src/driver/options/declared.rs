@@ -208,7 +208,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         name: "snap",
         title: "angles near multiples of π/2",
         help: "Snap constant angles within RAD of a multiple of π/2 to it [default: the robot file's `snap`, else \
-               1e-9]",
+               1e-9 for code and 1e-5 in print]",
         group: Group::Derive,
         kind: Kind::Angle,
         value_name: "RAD",

@@ -9,6 +9,7 @@ use robot_report::{Compiled, Input, Reloading, reloading};
 
 use crate::commands::report::judge;
 use crate::failure::Failure;
+use crate::robot::PRINT_SNAP;
 
 /// A page that reloads itself, and the image beside it that triggers the reload.
 pub(super) struct Page {
@@ -49,7 +50,7 @@ impl Page {
     pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Errors> {
         let reason = "the page was made without a compiler, while the file was watched.".to_owned();
         let compiled = Compiled::Unread { reason };
-        reloading(&Input { source, options, compiled: &compiled, judge })
+        reloading(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge })
     }
 
     /// The state of the path if no page can be made.

@@ -121,7 +121,7 @@ enum Cut {
 }
 
 /// A further line: the sign that it starts with is set apart from what follows, as in a sum.
-fn continued(line: &Math) -> String {
+pub(super) fn continued(line: &Math) -> String {
     match line.pieces() {
         [Math::Sign(_), rest @ ..] => {
             let sign = formula(&Math::row(line.pieces().iter().take(1).cloned().collect()));

@@ -2,6 +2,7 @@
 
 use robot_model::signs::Letter;
 
+use super::equations::continued;
 use crate::math::{Fence, Math, Script};
 
 /// The LaTeX of a formula, for math mode.
@@ -95,6 +96,7 @@ impl Writer {
                 self.push(close);
             }
             Math::Matrix(rows) => self.matrix(rows),
+            Math::Lines(lines) => self.lines(lines),
         }
     }
 
@@ -135,14 +137,34 @@ impl Writer {
 
     fn matrix(&mut self, rows: &[Vec<Math>]) {
         self.push(r"\begin{bmatrix}");
+        // Entries of several lines are set further apart than these.
+        let apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
         for (place, row) in rows.iter().enumerate() {
-            self.push(if place == 0 { " " } else { r" \\ " });
+            self.push(match (place, apart) {
+                (0, _) => " ",
+                (_, false) => r" \\ ",
+                (_, true) => r" \\[6pt] ",
+            });
             for (column, entry) in row.iter().enumerate() {
                 self.push(if column == 0 { "" } else { " & " });
                 self.write(entry, Spacing::Wide);
             }
         }
         self.push(r" \end{bmatrix}");
+    }
+
+    fn lines(&mut self, lines: &[Math]) {
+        self.push(r"\begin{array}{@{}l@{}}");
+        for (place, line) in lines.iter().enumerate() {
+            match place {
+                0 => {
+                    self.push(" ");
+                    self.write(line, Spacing::Wide);
+                }
+                _ => self.push(&format!(r" \\ {}", continued(line))),
+            }
+        }
+        self.push(r" \end{array}");
     }
 }
 

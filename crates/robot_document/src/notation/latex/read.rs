@@ -45,6 +45,8 @@ enum End {
     Brace,
     Parenthesis,
     Right(char),
+    /// Of an entry of a matrix, or of a line.
+    Entry,
 }
 
 impl<'t> Reader<'t> {
@@ -66,13 +68,14 @@ impl<'t> Reader<'t> {
         found
     }
 
-    fn skip_space(&mut self) {
+    fn skip_space(&mut self, end: End) {
         loop {
             let rest = self.rest();
             let trimmed = rest.trim_start();
             self.place += rest.len() - trimmed.len();
-            let space = [r"\,", r"\;", r"\ ", r"\quad", "&", "{}", r"\bigl", r"\bigr"]
+            let space = [r"\,", r"\;", r"\ ", r"\quad", "{}", r"\bigl", r"\bigr", "&"]
                 .iter()
+                .filter(|space| end != End::Entry || **space != "&")
                 .any(|space| self.take(space));
             if !space {
                 return;
@@ -87,7 +90,7 @@ impl<'t> Reader<'t> {
         }
         let mut pieces = vec![];
         loop {
-            self.skip_space();
+            self.skip_space(end);
             if self.ends(end)? {
                 break;
             }
@@ -103,6 +106,7 @@ impl<'t> Reader<'t> {
             End::Text => self.rest().is_empty(),
             End::Brace => self.take("}"),
             End::Parenthesis => self.take(")"),
+            End::Entry => ["&", r"\\", r"\end{"].iter().any(|end| self.rest().starts_with(end)),
             End::Right(fence) => {
                 let closed = self.take(r"\right");
                 if closed && !self.take(fence.encode_utf8(&mut [0; 4])) {
@@ -165,6 +169,8 @@ impl<'t> Reader<'t> {
             "sqrt" => Ok(Math::Root(Box::new(self.argument()?))),
             "left" => self.fenced(),
             "cdot" => Ok(Math::Sign('·')),
+            "begin" if self.take("{bmatrix}") => Ok(Math::Matrix(self.entries("bmatrix")?)),
+            "begin" if self.take("{array}{@{}l@{}}") => self.lines(),
             "" => match self.rest().chars().next() {
                 Some(sign @ ('#' | '$' | '%' | '&' | '{' | '}' | '_')) => {
                     self.place += 1;
@@ -202,9 +208,43 @@ impl<'t> Reader<'t> {
         self.fault("an unknown fence")
     }
 
+    /// The rows of entries up to the end of an environment.
+    fn entries(&mut self, environment: &str) -> Result<Vec<Vec<Math>>, ReadError> {
+        let mut rows = vec![vec![]];
+        loop {
+            let entry = self.row(End::Entry)?;
+            if let Some(row) = rows.last_mut() {
+                row.push(entry);
+            }
+            if self.take("&") {
+                continue;
+            }
+            if self.take(r"\\") {
+                self.take("[6pt]");
+                rows.push(vec![]);
+                continue;
+            }
+            return match self.take(&format!(r"\end{{{environment}}}")) {
+                true => Ok(rows),
+                false => self.fault("another environment was opened"),
+            };
+        }
+    }
+
+    /// The lines of a sum: parentheses may open in one and close in another, so they are one.
+    fn lines(&mut self) -> Result<Math, ReadError> {
+        let end = r"\end{array}";
+        let Some((lines, _)) = self.rest().split_once(end) else {
+            return self.fault("an environment is never closed");
+        };
+        let sum = Reader { latex: &lines.replace(r"\\", " "), place: 0, ..*self }.whole()?;
+        self.place += lines.len() + end.len();
+        Ok(Math::Lines(vec![sum]))
+    }
+
     /// A group, or one piece.
     fn argument(&mut self) -> Result<Math, ReadError> {
-        self.skip_space();
+        self.skip_space(End::Text);
         if self.take("{") {
             return self.row(End::Brace);
         }

@@ -1,11 +1,11 @@
 //! Displayed equations and whole documents.
 
+use super::formula::{Place, continued};
 use super::{formula, text};
-use crate::breaking::{is_within_product, right_side};
+use crate::breaking::right_side;
 use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
 use crate::latex::{Layout, Page};
-use crate::math::Math;
 use crate::notation::tabular::{Part, SIZES, parts};
 use crate::width::width;
 
@@ -41,8 +41,8 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
             for (place, line) in lines.iter().enumerate() {
                 shown.push(match (part, place) {
                     (0, 0) => format!("{left} & = {}", formula(line)),
-                    (_, 0) => format!("#hide(${left}$) & quad {}", continued(line)),
-                    _ => format!("& quad {}", continued(line)),
+                    (_, 0) => format!("#hide(${left}$) & quad {}", continued(line, Place::Free)),
+                    _ => format!("& quad {}", continued(line, Place::Free)),
                 });
             }
             let shown = shown.join(" \\\n    ");
@@ -55,17 +55,6 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     }
     typst.push_str("]\n");
     Ok(typst)
-}
-
-/// A further line: the sign that it starts with is set apart from what follows, as in a sum.
-fn continued(line: &Math) -> String {
-    match line.pieces() {
-        [first @ Math::Sign('+' | '-'), rest @ ..] => {
-            format!("{} med {}", formula(first), formula(&Math::Row(rest.to_vec())))
-        }
-        pieces if is_within_product(pieces) => format!("quad {}", formula(line)),
-        _ => formula(line),
-    }
 }
 
 /// The document as the source of a Typst run; it needs no package, and the fonts that Typst brings.

@@ -11,7 +11,7 @@ pub(super) fn figure(figure: &Figure, available: f64) -> String {
     let pen = Pen { scale, corner: figure.bounds[0] };
     let mut typst = format!(
         "#block(breakable: false)[
-#let label(x, y, body) = place(dx: x, dy: y, box(width: 0pt, height: 0pt, place(center + horizon, box(fill: white, outset: 0.5pt, body))))
+#let label(x, y, body) = context {{ let size = measure(body); place(dx: x - size.width / 2, dy: y - size.height / 2, box(width: size.width, fill: white, outset: 0.5pt, body)) }}
 #box(width: {width}pt, height: {height}pt)[
 "
     );
@@ -83,4 +83,23 @@ impl Pen {
 fn rgb(Color(parts): Color) -> String {
     let digits: String = parts.iter().map(|part| format!("{part:02x}")).collect();
     format!("rgb(\"#{digits}\")")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Inline;
+
+    /// In a box without a width, Typst breaks a line at every space.
+    #[test]
+    fn labels_are_as_wide_as_their_words() {
+        let words = Inline::Text("0.4 m".to_owned());
+        let color = Color([0; 3]);
+        let label = Label { center: [0.0; 2], words, size: 1.0, is_bold: false, color };
+        let shapes = vec![Shape::Label(label)];
+        let bounds = [[0.0; 2], [10.0; 2]];
+        let typst = figure(&Figure { caption: String::new(), bounds, shapes }, 100.0);
+        assert!(typst.contains("4 m])") && typst.contains("width: size.width"), "{typst}");
+        assert!(!typst.contains("width: 0pt"), "{typst}");
+    }
 }

@@ -3,6 +3,7 @@
 use robot_model::signs::FunctionName;
 
 use super::text::quoted;
+use crate::breaking::is_within_product;
 use crate::math::{Fence, Math, Script};
 
 /// The Typst of a formula, for math mode.
@@ -13,7 +14,7 @@ pub fn formula(math: &Math) -> String {
 
 /// Where a formula is: among the arguments of a call, a comma would start the next one.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Place {
+pub(super) enum Place {
     Free,
     Argument,
 }
@@ -44,9 +45,31 @@ fn shown(math: &Math, place: Place) -> String {
         Math::Matrix(rows) => {
             let cell = |entry: &Math| shown(entry, Place::Argument);
             let row = |row: &Vec<Math>| row.iter().map(cell).collect::<Vec<_>>().join(", ");
+            // Entries of several lines are set further apart than these.
+            let is_apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
+            let gap = if is_apart { 0.8 } else { 0.35 };
             let rows: Vec<String> = rows.iter().map(row).collect();
-            format!("mat(delim: \"[\", {})", rows.join("; "))
+            format!("mat(delim: \"[\", row-gap: #{gap}em, {})", rows.join("; "))
         }
+        Math::Lines(lines) => {
+            let line = |(index, line)| match index {
+                0 => format!("inline({})", shown(line, Place::Argument)),
+                _ => format!("inline({})", continued(line, Place::Argument)),
+            };
+            let lines: Vec<String> = lines.iter().enumerate().map(line).collect();
+            format!("mat(delim: #none, align: #left, row-gap: #0.35em, {})", lines.join("; "))
+        }
+    }
+}
+
+/// A further line: the sign that it starts with is set apart from what follows, as in a sum.
+pub(super) fn continued(line: &Math, place: Place) -> String {
+    match line.pieces() {
+        [first @ Math::Sign('+' | '-'), rest @ ..] => {
+            format!("{} med {}", shown(first, place), row(rest, place))
+        }
+        pieces if is_within_product(pieces) => format!("quad {}", shown(line, place)),
+        _ => shown(line, place),
     }
 }
 

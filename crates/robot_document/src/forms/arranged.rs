@@ -1,0 +1,214 @@
+//! Expressions as sums of products in the order of the robot's symbols, as they are built: nothing is multiplied out.
+//!
+//! Powers are collected, factors sorted, like terms merged, sums within sums flattened. Each step leaves no more
+//! operations than there were.
+
+use std::cmp::Reverse;
+
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
+use robot_symbolic::{Expr, Number, View, walk};
+use rustc_hash::FxHashMap;
+
+use crate::layout::{BRACKETS, Order, Rank};
+
+type Terms<'h> = Vec<ArrangedTerm<'h>>;
+type Power<'h> = (ArrangedFactor<'h>, i32);
+
+/// The terms of an expression.
+pub(super) fn terms<'h>(expr: Expr<'h>, order: &Order<'_>) -> Terms<'h> {
+    let mut known: FxHashMap<robot_symbolic::Id, Terms<'h>> = FxHashMap::default();
+    // Operands come before results, so that no walk is deep.
+    for part in walk::reachable(&[expr]) {
+        let of = |operand: Expr<'h>| known.get(&operand.id()).cloned().unwrap_or_default();
+        let terms = match part.view() {
+            View::Number(number) => constant(&number),
+            View::Add(a, b) => merged(of(a), of(b)),
+            View::Sub(a, b) => merged(of(a), negated(of(b))),
+            View::Neg(a) => negated(of(a)),
+            View::Mul(a, b) => vec![times(of(a), of(b), 1, order)],
+            View::Div(a, b) => vec![times(of(a), of(b), -1, order)],
+            View::Symbol(_) | View::Pi | View::Call(..) => {
+                vec![of_factors(vec![(ArrangedFactor::Atom(part), 1)])]
+            }
+        };
+        known.insert(
+            part.id(),
+            terms.into_iter().filter(|term| !term.coefficient.is_zero()).collect(),
+        );
+    }
+    sorted(known.remove(&expr.id()).unwrap_or_default(), order)
+}
+
+/// The terms of a sum in the order of their factors, numbers last.
+fn sorted<'h>(mut terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
+    terms.sort_by_cached_key(|term| {
+        let factor = |(factor, exponent): &Power<'h>| (rank(factor, order), Reverse(*exponent));
+        (term.factors.is_empty(), term.factors.iter().map(factor).collect::<Vec<_>>())
+    });
+    terms
+}
+
+fn rank(factor: &ArrangedFactor<'_>, order: &Order<'_>) -> Rank {
+    factor.as_atom().map_or(BRACKETS, |atom| order.rank(atom))
+}
+
+/// The operations of a sum of terms, each factor of a power counted; sines and cosines and their angles apart.
+pub(super) fn operations(terms: &[ArrangedTerm<'_>]) -> usize {
+    let factor = |(factor, exponent): &Power<'_>| {
+        let within = match factor {
+            ArrangedFactor::Atom(_) => 0,
+            ArrangedFactor::Sum(terms) => operations(terms),
+        };
+        within + exponent.unsigned_abs() as usize
+    };
+    let term = |term: &ArrangedTerm<'_>| {
+        let number = usize::from(!term.coefficient.is_one() || term.factors.is_empty());
+        (number + term.factors.iter().map(factor).sum::<usize>()).saturating_sub(1)
+    };
+    terms.len().saturating_sub(1) + terms.iter().map(term).sum::<usize>()
+}
+
+fn of_factors(factors: Vec<Power<'_>>) -> ArrangedTerm<'_> {
+    ArrangedTerm { negative: false, coefficient: Number::integer(1), factors }
+}
+
+fn constant<'h>(number: &Number) -> Terms<'h> {
+    let coefficient = if number.is_negative() { -number } else { number.clone() };
+    vec![ArrangedTerm { negative: number.is_negative(), coefficient, factors: vec![] }]
+}
+
+fn negated(mut terms: Terms<'_>) -> Terms<'_> {
+    for term in &mut terms {
+        term.negative = !term.negative;
+    }
+    terms
+}
+
+/// The sum of two sums: terms with the same factors are one.
+fn merged<'h>(mut terms: Terms<'h>, more: Terms<'h>) -> Terms<'h> {
+    let signed = |term: &ArrangedTerm<'h>| match term.negative {
+        true => -&term.coefficient,
+        false => term.coefficient.clone(),
+    };
+    for term in more {
+        let Some(like) = terms.iter_mut().find(|known| known.factors == term.factors) else {
+            terms.push(term);
+            continue;
+        };
+        let sum = &signed(like) + &signed(&term);
+        like.negative = sum.is_negative();
+        like.coefficient = if sum.is_negative() { -&sum } else { sum };
+    }
+    terms.retain(|term| !term.coefficient.is_zero());
+    terms
+}
+
+/// The product of two sums, or their quotient; of a sum of several terms a factor in brackets.
+fn times<'h>(a: Terms<'h>, b: Terms<'h>, power: i32, order: &Order<'_>) -> ArrangedTerm<'h> {
+    let (a, b) = (one_term(sorted(a, order)), one_term(sorted(b, order)));
+    let mut factors = a.factors;
+    for (factor, exponent) in b.factors {
+        let exponent = exponent * power;
+        match factors.iter_mut().find(|(known, _)| *known == factor) {
+            Some((_, known)) => *known += exponent,
+            None => factors.push((factor, exponent)),
+        }
+    }
+    factors.retain(|(_, exponent)| *exponent != 0);
+    factors.sort_by_key(|(factor, _)| rank(factor, order));
+    let coefficient = match power {
+        1 => &a.coefficient * &b.coefficient,
+        _ => &a.coefficient * &b.coefficient.recip(),
+    };
+    ArrangedTerm { negative: a.negative != b.negative, coefficient, factors }
+}
+
+/// A sum as one term; 0 if it has none.
+fn one_term(mut terms: Terms<'_>) -> ArrangedTerm<'_> {
+    match (terms.len(), terms.pop()) {
+        (_, None) => ArrangedTerm { coefficient: Number::integer(0), ..of_factors(vec![]) },
+        (1, Some(single)) => single,
+        (_, Some(last)) => {
+            terms.push(last);
+            ArrangedTerm::product(&terms, vec![])
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_symbolic::Graph;
+    use robot_symbolic::print::arranged_text;
+
+    use super::*;
+
+    fn robot() -> robot_model::robot::Robot {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/planar_2r.toml");
+        let text = std::fs::read_to_string(path).unwrap();
+        robot_model::description::read_toml(path, &text).unwrap().robot
+    }
+
+    #[test]
+    fn products_have_powers_and_sums_like_terms() {
+        let robot = robot();
+        let order = Order::new(&robot);
+        for (given, expected) in [
+            ("0.5*I2 + r2*m2*r2 + 0.5*I2", "m2*r2^2 + I2"),
+            ("x*qd1*(x*qd2)", "x^2*qd1*qd2"),
+            ("(sin(q1)*qd1)^2*(2*qd1)", "2*sin(q1)^2*qd1^3"),
+            ("a - (b - (c + a))", "2*a - b + c"),
+            ("(a - b)*m1*(a - b)", "m1*(a - b)^2"),
+            ("a/m1 + (a - a)*b", "a/m1"),
+            ("2*(a + b)/4", "0.5*(a + b)"),
+        ] {
+            let graph = Graph::new();
+            let expr = graph.parse(given).unwrap();
+            let terms = terms(expr, &order);
+            assert_eq!(arranged_text(&terms).unwrap(), expected, "{given}");
+        }
+    }
+
+    /// The operations of an expression as a tree, arguments of functions apart.
+    fn operations_of(expr: Expr<'_>) -> usize {
+        let both = |a, b| operations_of(a) + operations_of(b);
+        match expr.view() {
+            View::Add(a, b) | View::Sub(a, b) | View::Mul(a, b) | View::Div(a, b) => 1 + both(a, b),
+            View::Neg(a) => operations_of(a),
+            _ => 0,
+        }
+    }
+
+    #[test]
+    fn values_stay_and_operations_do_not_grow() {
+        use crate::{EquationOptions, Form, equations};
+        for name in ["planar_2r", "trttr1", "puma560", "stanford", "ur5"] {
+            let path = format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+            let text = std::fs::read_to_string(&path).unwrap();
+            let robot = robot_model::description::read_toml(&path, &text).unwrap().robot;
+            let order = Order::new(&robot);
+            let options = EquationOptions { form: Form::Recursive, ..EquationOptions::default() };
+            let found = equations(&robot, &options).unwrap();
+            for equation in found.groups.iter().flat_map(|group| &group.equations) {
+                let graph = Graph::new();
+                let formula = robot_symbolic::Formula::parse_with_dots(&equation.text).unwrap();
+                let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
+                let terms = terms(expr, &order);
+                let place = format!("{name}: {} = {}", equation.name, equation.text);
+                assert!(operations(&terms) <= operations_of(expr), "{place}");
+                let value = |symbol| 0.3 + f64::from(graph.symbol_name(symbol).len() as u32) / 7.0;
+                let arranged = robot_symbolic::print::arranged_value(&terms, &graph);
+                let (before, after) = (expr.evaluate(value), arranged.evaluate(value));
+                assert!((before - after).abs() <= 1e-12 * before.abs().max(1.0), "{place}");
+            }
+        }
+    }
+
+    #[test]
+    fn operations_are_counted() {
+        let robot = robot();
+        let order = Order::new(&robot);
+        let graph = Graph::new();
+        let count = |text: &str| operations(&terms(graph.parse(text).unwrap(), &order));
+        assert_eq!(["a", "2*a*b^2", "a*(b + c) - 1", "a/b"].map(count), [0, 3, 3, 1]);
+    }
+}

@@ -1,0 +1,304 @@
+//! Matrices and columns made of the equations of a group, if they fit.
+
+use super::{Equation, Equations, Group};
+use crate::breaking::broken;
+use crate::math::Math;
+use crate::width::width;
+
+/// A matrix or a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Array {
+    /// Its name in text: `M`, `F_l5`.
+    pub name: String,
+    /// Its look, on the left side.
+    pub left: Math,
+    /// The rows of its entries.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+/// An entry of a matrix or a column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// The name of the entry in text: `M_1_2`, `F_l5.x`. Entries that are equal have the same one.
+    pub name: String,
+    /// The look of the entry's symbol.
+    pub look: Math,
+    /// The entry written out, unless that is too long.
+    pub whole: Option<Written>,
+    /// The entry by symbols that other equations of its group define.
+    pub parts: Option<Written>,
+    /// Whether the entry is 0, or known by another name.
+    pub is_plain: bool,
+}
+
+/// A value as text and as layout.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Infix text.
+    pub text: String,
+    /// The layout.
+    pub math: Math,
+}
+
+/// The room that an array has with its left side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Room {
+    /// In print, in points of 10 pt type.
+    Points(f64),
+    /// In text, in characters.
+    Characters(usize),
+}
+
+/// An equals sign with its spaces and the error of estimates, pt.
+const EQUALS: f64 = 18.0;
+/// The brackets of a column with the spaces within, pt.
+const BRACKETS: f64 = 20.0;
+/// The spaces around the sign that a line starts with, pt.
+const SIGN: f64 = 4.5;
+/// The columns that a `bmatrix` has at most.
+const MAX_COLUMNS: usize = 10;
+/// The lines of a column, and of one of its entries: a column is never on two pages.
+const MAX_LINES: usize = 16;
+const MAX_ENTRY: usize = 6;
+
+impl Equations {
+    /// The equations with those that are entries of matrices and columns replaced by these, if they fit: groups
+    /// that are left without equations are dropped.
+    ///
+    /// An entry that is too long is printed by its name, or by symbols, that equations after the matrix define. What
+    /// does not fit even so is a list of entries. Entries of columns that are 0, or only another name of something,
+    /// have no equation of their own.
+    #[must_use]
+    pub fn arranged(&self, room: Room) -> Equations {
+        let groups = self.groups.iter().map(|group| group.arranged(room));
+        let groups = groups.filter(|group| !group.equations.is_empty()).collect();
+        Equations { groups, symbols: self.symbols.clone() }
+    }
+}
+
+impl Group {
+    fn arranged(&self, room: Room) -> Group {
+        let mut group = self.clone();
+        group.arrays = None;
+        if let Some(vector) = &self.vector {
+            group.equations = vec![vector.clone()];
+        } else if let Some(arrays) = &self.arrays {
+            group.equations = self.with_arrays(arrays, room);
+        }
+        group
+    }
+
+    fn with_arrays(&self, arrays: &[Array], room: Room) -> Vec<Equation> {
+        let room = self.beside_left_sides(arrays, room);
+        let mut list = List { shown: vec![], known: vec![], used: vec![] };
+        let mut rest = self.equations.iter().peekable();
+        let is_entry = |equation: &Equation| arrays.iter().any(|array| array.has(&equation.name));
+        for array in arrays {
+            // Quantities that are no entries stay where they are.
+            while let Some(equation) = rest.next_if(|equation| !array.has(&equation.name)) {
+                if !self.definitions && !is_entry(equation) {
+                    list.shown.push(equation.clone());
+                }
+            }
+            while rest.next_if(|equation| array.has(&equation.name)).is_some() {}
+            list.add(array, room);
+        }
+        match self.definitions {
+            true => list.add_definitions(&self.equations),
+            false => list.shown.extend(rest.cloned()),
+        }
+        list.shown
+    }
+
+    /// The room that the widest left side leaves.
+    fn beside_left_sides(&self, arrays: &[Array], room: Room) -> Room {
+        let cells = || arrays.iter().flat_map(|array| array.rows.iter().flatten());
+        match room {
+            Room::Points(points) => {
+                let all = arrays.iter().map(|array| &array.left);
+                let all = all.chain(cells().map(|cell| &cell.look));
+                let all = all.chain(self.equations.iter().map(|equation| &equation.left));
+                Room::Points(points - EQUALS - all.map(width).fold(0.0, f64::max))
+            }
+            Room::Characters(characters) => {
+                let widest = arrays.iter().map(|array| array.name.len()).max();
+                Room::Characters(
+                    characters.saturating_sub(widest.unwrap_or_default() + " = ".len()),
+                )
+            }
+        }
+    }
+}
+
+/// The equations that are shown of a group.
+struct List<'a> {
+    shown: Vec<Equation>,
+    /// The names of the entries that are shown.
+    known: Vec<&'a str>,
+    /// The names that entries without an equation are shown by.
+    used: Vec<&'a str>,
+}
+
+impl<'a> List<'a> {
+    /// Adds an array, or its entries.
+    fn add(&mut self, array: &'a Array, room: Room) {
+        let cells = array.rows.iter().flatten();
+        if let Some((equation, by_parts)) = array.fitted(room) {
+            self.shown.push(equation);
+            let names = cells.map(|cell| cell.name.as_str());
+            self.known.extend(names.filter(|name| !by_parts.contains(name)));
+            return;
+        }
+        for cell in cells.filter(|cell| !cell.is_plain) {
+            match cell.equation() {
+                Some(equation) if !self.known.contains(&cell.name.as_str()) => {
+                    self.shown.push(equation);
+                    self.known.push(&cell.name);
+                }
+                _ => self.used.push(&cell.name),
+            }
+        }
+    }
+
+    /// Adds the equations that define what is used, in their order.
+    fn add_definitions(&mut self, equations: &[Equation]) {
+        let others = equations.iter().filter(|one| !self.known.contains(&one.name.as_str()));
+        let others: Vec<&Equation> = others.collect();
+        let mut is_used = vec![false; others.len()];
+        let mut pending: Vec<Vec<&str>> = vec![self.used.clone()];
+        pending.extend(self.shown.iter().map(|equation| equation.right.symbols()));
+        while let Some(symbols) = pending.pop() {
+            for (other, is_used) in others.iter().zip(&mut is_used) {
+                if !*is_used && symbols.contains(&other.name.as_str()) {
+                    *is_used = true;
+                    pending.push(other.right.symbols());
+                }
+            }
+        }
+        let used = others.into_iter().zip(is_used).filter(|(_, is_used)| *is_used);
+        let used: Vec<Equation> = used.map(|(equation, _)| equation.clone()).collect();
+        self.shown.extend(used);
+    }
+}
+
+impl Array {
+    pub(super) fn cells_mut(&mut self) -> impl Iterator<Item = &mut Cell> {
+        self.rows.iter_mut().flatten()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.rows.iter().flatten().any(|cell| cell.name == name)
+    }
+
+    /// The array as an equation, the longest entries by parts as far as that is needed, and the names of these.
+    fn fitted(&self, room: Room) -> Option<(Equation, Vec<&str>)> {
+        let mut by_parts: Vec<&str> = vec![];
+        loop {
+            let chosen = |cell: &'_ Cell| -> Option<Written> {
+                let whole = cell.whole.as_ref().filter(|_| !by_parts.contains(&&*cell.name));
+                whole.or(cell.parts.as_ref()).cloned()
+            };
+            let row = |row: &Vec<Cell>| row.iter().map(chosen).collect::<Option<Vec<Written>>>();
+            let rows = self.rows.iter().map(row).collect::<Option<Vec<_>>>()?;
+            if let Some(right) = set(&rows, room) {
+                let (name, left) = (self.name.clone(), self.left.clone());
+                return Some((Equation { name, text: text(&rows), left, right }, by_parts));
+            }
+            let cells = self.rows.iter().flatten();
+            let wide = cells.filter(|cell| !by_parts.contains(&&*cell.name));
+            let wide = wide.filter_map(|cell| {
+                let whole = room.size(cell.whole.as_ref()?);
+                (whole > room.size(cell.parts.as_ref()?)).then_some((cell, whole))
+            });
+            let widest = wide.reduce(|most, next| if next.1 > most.1 { next } else { most });
+            by_parts.push(&widest?.0.name);
+        }
+    }
+
+    /// The entries by their names, or as they are if they are short, row by row.
+    #[must_use]
+    pub fn names(&self) -> Vec<Vec<&str>> {
+        self.rows.iter().map(|row| row.iter().map(Cell::short).collect()).collect()
+    }
+}
+
+impl Cell {
+    /// The entry as an equation, unless others define it: by parts, long sums are defined by short ones.
+    fn equation(&self) -> Option<Equation> {
+        let Written { text, math } = self.parts.as_ref().or(self.whole.as_ref())?.clone();
+        let (name, left) = (self.name.clone(), self.look.clone());
+        (math != self.look).then_some(Equation { name, text, left, right: math })
+    }
+
+    fn short(&self) -> &str {
+        match (&self.parts, &self.whole) {
+            (Some(parts), _) => &parts.text,
+            (None, Some(whole)) if self.is_plain => &whole.text,
+            _ => &self.name,
+        }
+    }
+}
+
+impl Room {
+    fn size(self, written: &Written) -> f64 {
+        match self {
+            Room::Points(_) => width(&written.math),
+            Room::Characters(_) => written.text.len() as f64,
+        }
+    }
+}
+
+/// The matrix of these entries, if it fits.
+fn set(rows: &[Vec<Written>], room: Room) -> Option<Math> {
+    let entries = |row: &Vec<Written>| row.iter().map(|one| one.math.clone()).collect();
+    let matrix: Vec<Vec<Math>> = rows.iter().map(entries).collect();
+    match room {
+        Room::Characters(available) => {
+            let lines = text(rows);
+            let fits = lines.lines().all(|line| line.len() <= available);
+            fits.then_some(Math::Matrix(matrix))
+        }
+        Room::Points(available) if rows.iter().all(|row| row.len() == 1) => {
+            column(&matrix, available - BRACKETS).filter(|column| width(column) <= available)
+        }
+        Room::Points(available) => {
+            let columns = matrix.iter().map(Vec::len).max().unwrap_or_default();
+            let matrix = Math::Matrix(matrix);
+            (columns <= MAX_COLUMNS && width(&matrix) <= available).then_some(matrix)
+        }
+    }
+}
+
+/// A column whose entries may take several lines.
+fn column(rows: &[Vec<Math>], available: f64) -> Option<Math> {
+    let mut column = vec![];
+    let mut all = 0;
+    for entry in rows.iter().flatten() {
+        let mut lines = broken(entry, available - SIGN, available - SIGN).ok()?;
+        all += lines.len();
+        if lines.len() > MAX_ENTRY || all > MAX_LINES {
+            return None;
+        }
+        let entry = if lines.len() > 1 { Math::Lines(lines) } else { lines.pop()? };
+        column.push(vec![entry]);
+    }
+    Some(Math::Matrix(column))
+}
+
+/// The rows as text, one a line, the entries below each other.
+fn text(rows: &[Vec<Written>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or_default();
+    let length = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.text.len()).max().unwrap_or_default()
+    };
+    let lengths: Vec<usize> = (0..columns).map(length).collect();
+    let one = |row: &Vec<Written>| {
+        let cells = row.iter().zip(&lengths).map(|(cell, length)| {
+            let text = &cell.text;
+            format!("{text:<length$}")
+        });
+        format!("[ {} ]", cells.collect::<Vec<_>>().join(",  "))
+    };
+    rows.iter().map(one).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,119 @@
+//! The letters of joint torques and of what the grouped form defines.
+
+use robot_dynamics::quantity::Kind;
+use robot_model::signs;
+use robot_model::variable::JointVariable;
+
+use super::{Equation, Writer};
+use crate::math::{Math, Script};
+
+/// Letters, of which some may be given; the others are those that no symbol of the robot has.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Letters {
+    /// Of the joint torques; Q if none is given.
+    pub torque: Option<String>,
+    /// Of the entries of the mass matrix.
+    pub mass: Option<String>,
+    /// Of the velocity terms: their column, their matrix, and the coefficients of products of velocities.
+    pub velocity: Option<String>,
+    /// Of the gravity terms.
+    pub gravity: Option<String>,
+}
+
+impl Letters {
+    /// The sets of letters that have names: the field's, and the paper's.
+    pub const SETS: [&'static str; 2] = ["field", "paper"];
+
+    /// Reads four letters between commas, each a Latin one or the name of a Greek one, or the name of a set.
+    ///
+    /// # Errors
+    ///
+    /// Not as many letters, what is no letter, and the same letter twice.
+    pub fn parse(text: &str) -> Result<Letters, InvalidLetters> {
+        let [field, paper] = Letters::SETS;
+        if text == paper {
+            return Ok(Letters::default());
+        }
+        let usual = [JointVariable::Torque.name(), "M", "C", "g"];
+        let letters: Vec<&str> = match text == field {
+            true => usual.into(),
+            false => text.split(',').map(str::trim).collect(),
+        };
+        let is_letter = |letter: &&str| {
+            let mut characters = letter.chars();
+            let single = characters.next().is_some_and(|first| first.is_ascii_alphabetic());
+            (single && characters.next().is_none()) || signs::Letter::greek(letter).is_some()
+        };
+        let differ = letters.iter().enumerate().all(|(place, one)| !letters[..place].contains(one));
+        let valid = differ && letters.iter().all(is_letter);
+        let letters: Vec<Option<String>> =
+            letters.into_iter().map(|letter| Some(letter.to_owned())).collect();
+        match <[Option<String>; 4]>::try_from(letters) {
+            Ok([torque, mass, velocity, gravity]) if valid => {
+                Ok(Letters { torque, mass, velocity, gravity })
+            }
+            _ => Err(InvalidLetters),
+        }
+    }
+
+    /// The letter of the joint torques in text.
+    pub(crate) fn torque(&self) -> &str {
+        self.torque.as_deref().unwrap_or(Kind::GeneralizedForce.name())
+    }
+
+    /// The sign of the joint torques.
+    pub(crate) fn torque_sign(&self) -> Math {
+        Math::Letter(character(self.torque()))
+    }
+}
+
+/// What are no letters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "letters are `field`, `paper`, or four different ones, of joint torques, mass matrix, velocity terms and gravity \
+     terms, such as tau,M,C,g"
+)]
+pub struct InvalidLetters;
+
+/// The character of a letter by its name.
+pub(super) fn character(name: &str) -> char {
+    let greek = signs::Letter::greek(name).map(|letter| letter.character);
+    greek.or(name.chars().next()).unwrap_or('x')
+}
+
+impl Writer<'_, '_> {
+    /// The letter that is given, or one that no symbol has.
+    pub(super) fn letter(&self, given: Option<&str>, candidates: &[&'static str]) -> String {
+        given.unwrap_or_else(|| self.symbols.free_letter(candidates)).to_owned()
+    }
+
+    /// Gives the joint torques their letter.
+    pub(super) fn name_torque(&self, equation: &mut Equation) {
+        let usual = Kind::GeneralizedForce.name();
+        let Some(letter) = &self.options.letters.torque else { return };
+        let Some(number) = equation.name.strip_prefix(usual) else { return };
+        equation.name = format!("{letter}{number}");
+        let base = self.options.letters.torque_sign();
+        equation.left = match &equation.left {
+            Math::Script(script) => Math::Script(Box::new(Script { base, ..*script.clone() })),
+            _ => base,
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_are_four_or_a_set() {
+        let field = Letters::parse("field").unwrap();
+        assert_eq!(Letters::parse("tau, M,C,g"), Ok(field.clone()));
+        assert_eq!(field.torque_sign(), Math::Letter('τ'));
+        assert_eq!(Letters::parse("paper"), Ok(Letters::default()));
+        assert_eq!(Letters::default().torque_sign(), Math::Letter('Q'));
+        for wrong in ["tau,M,C", "tau,M,M,g", "tau,M,C,gg", "feild", ",,,", "1,2,3,4"] {
+            assert_eq!(Letters::parse(wrong), Err(InvalidLetters), "{wrong}");
+        }
+    }
+}

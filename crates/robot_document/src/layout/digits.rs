@@ -1,0 +1,284 @@
+//! Numbers for readers: fractions that people write, decimals in place of others, and rounding.
+
+use robot_symbolic::Rational;
+use robot_symbolic::print::exact_text;
+
+use super::math::{Math, Script};
+
+/// Quotients of more digits, above and below together, are printed as decimals.
+const MOST_DIGITS: usize = 8;
+/// Exact decimals of more digits are printed with those of the nearest double.
+const DOUBLE: usize = 17;
+/// Decimals that are fractions with these denominators may be printed as such.
+const DENOMINATORS: [u64; 2] = [2, 4];
+/// Fractions of π and of roots have no larger denominators, other fractions no larger numerators.
+const LARGEST: u64 = 12;
+
+/// A formula as people write its numbers: `√2/2` for `0.5 √2`, and `1/2` in sums and products if no number in it needs
+/// decimals; or all rounded to so many significant digits.
+pub(crate) fn tidied(math: Math, digits: Option<usize>) -> Math {
+    let tidy = mapped(math.clone(), &|piece| rounded(piece, digits));
+    // A rounded number is no fraction.
+    let simple = is_simple(&math) && (digits.is_none() || tidy == math);
+    mapped(tidy, &|piece| fractions(piece, simple))
+}
+
+/// Text with its decimals and long quotients rounded to so many significant digits, or as they are but for quotients
+/// that nobody would write.
+pub(crate) fn tidied_text(text: &str, digits: Option<usize>) -> String {
+    let mut shown = String::new();
+    let mut rest = text;
+    let mut in_name = false;
+    while let Some(first) = rest.chars().next() {
+        if in_name || !first.is_ascii_digit() {
+            in_name = first.is_ascii_alphanumeric() || matches!(first, '_' | '.');
+            shown.push(first);
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        let (number, after) = split_number(rest);
+        let below = after.strip_prefix('/').map(split_number);
+        let is_power = shown.ends_with('^');
+        match below.filter(|(below, _)| !below.is_empty() && !after.starts_with("/(") && !is_power)
+        {
+            Some((below, after)) if is_long(number, below) => {
+                shown.push_str(&short(&quotient(number, below), digits));
+                rest = after;
+            }
+            _ => {
+                shown.push_str(&short(number, digits.filter(|_| !is_power)));
+                rest = after;
+            }
+        }
+    }
+    shown
+}
+
+/// The digits of a number at the beginning, with its point and exponent.
+fn split_number(text: &str) -> (&str, &str) {
+    let is_digit = |c: char| c.is_ascii_digit() || c == '.';
+    let mut end = text.find(|c| !is_digit(c)).unwrap_or(text.len());
+    if let Some(exponent) = text[end..].strip_prefix('e') {
+        let digits = exponent.trim_start_matches('-');
+        let length = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+        if length > 0 {
+            end = text.len() - digits.len() + length;
+        }
+    }
+    text.split_at(end)
+}
+
+fn is_long(above: &str, below: &str) -> bool {
+    above.len() + below.len() > MOST_DIGITS
+}
+
+/// The quotient of two numbers as a decimal with the digits of a double.
+fn quotient(above: &str, below: &str) -> String {
+    let [above_value, below_value] = [above, below].map(Rational::from_decimal);
+    match (above_value, below_value) {
+        (Some(value), Some(divisor)) => match divisor.recip() {
+            Some(reciprocal) => plain((&value * &reciprocal).to_f64()),
+            None => format!("{above}/{below}"),
+        },
+        _ => format!("{above}/{below}"),
+    }
+}
+
+/// A number in digits, without an exponent.
+fn plain(value: f64) -> String {
+    format!("{value}")
+}
+
+/// A number to so many significant digits, or to those of a double if it has more; integers are as they are.
+fn short(number: &str, digits: Option<usize>) -> String {
+    let (mantissa, exponent) = number.split_once('e').map_or((number, ""), |(m, e)| (m, e));
+    let significant = mantissa.trim_start_matches(['0', '.']).replace('.', "").len();
+    let Some((_, value)) = mantissa.split_once('.').zip(mantissa.parse::<f64>().ok()) else {
+        return number.to_owned();
+    };
+    let text = match digits {
+        Some(digits) if significant > digits => significantly(value, digits),
+        None if significant > DOUBLE => plain(value),
+        _ => mantissa.to_owned(),
+    };
+    if exponent.is_empty() { text } else { format!("{text}e{exponent}") }
+}
+
+/// A value to so many significant digits.
+fn significantly(value: f64, digits: usize) -> String {
+    let scientific = format!("{value:.*e}", digits.saturating_sub(1));
+    let rounded = Rational::from_decimal(&scientific);
+    rounded.map_or_else(|| plain(value), |rounded| exact_text(&rounded))
+}
+
+/// A piece rounded; an index is not a number.
+fn rounded(piece: Math, digits: Option<usize>) -> Math {
+    match piece {
+        Math::Number(text) => Math::Number(short(&text, digits)),
+        other => other,
+    }
+}
+
+/// A formula with each of its pieces mapped, those within others first; symbols and indices stay.
+fn mapped(math: Math, map: &dyn Fn(Math) -> Math) -> Math {
+    let inside = |math: Math| mapped(math, map);
+    let math = match math {
+        Math::Row(pieces) => Math::Row(pieces.into_iter().map(inside).collect()),
+        Math::Fenced(fence, part) => Math::Fenced(fence, Box::new(inside(*part))),
+        Math::Root(part) => Math::Root(Box::new(inside(*part))),
+        Math::Fraction(parts) => Math::Fraction(Box::new(parts.map(inside))),
+        Math::Matrix(rows) => {
+            let row = |row: Vec<Math>| row.into_iter().map(inside).collect();
+            Math::Matrix(rows.into_iter().map(row).collect())
+        }
+        Math::Script(script) => match script.base {
+            Math::Fenced(..) => {
+                let Script { base, lower, upper } = *script;
+                Math::Script(Box::new(Script { base: inside(base), lower, upper }))
+            }
+            _ => Math::Script(script),
+        },
+        other => other,
+    };
+    map(math)
+}
+
+/// Whether no number in a formula needs decimals, for all are halves or quarters, and few.
+fn is_simple(math: &Math) -> bool {
+    let simple = std::cell::Cell::new(true);
+    mapped(math.clone(), &|piece| {
+        if let Math::Number(text) = &piece
+            && text.contains('.')
+            && fraction(text)
+                .is_none_or(|[above, below]| above > LARGEST || !DENOMINATORS.contains(&below))
+        {
+            simple.set(false);
+        }
+        piece
+    });
+    simple.get()
+}
+
+/// Products with fractions in place of decimals.
+fn fractions(piece: Math, simple: bool) -> Math {
+    match piece {
+        Math::Row(pieces) => Math::Row(row(pieces, simple)),
+        Math::Fraction(parts) => match parts.as_ref() {
+            [Math::Number(above), Math::Number(below)] if is_long(above, below) => {
+                Math::Number(quotient(above, below))
+            }
+            _ => Math::Fraction(parts),
+        },
+        other => other,
+    }
+}
+
+fn row(pieces: Vec<Math>, simple: bool) -> Vec<Math> {
+    let mut tidy: Vec<Math> = vec![];
+    // A number alone, perhaps with a sign, is a value.
+    let is_value = |piece: &Math| matches!(piece, Math::Number(_) | Math::Sign(_));
+    let simple = simple && !pieces.iter().all(is_value);
+    let mut pieces = pieces.into_iter().peekable();
+    while let Some(piece) = pieces.next() {
+        let Some([above, below]) = parts(&piece) else {
+            tidy.push(piece);
+            continue;
+        };
+        let number = |value: u64| Math::Number(value.to_string());
+        match pieces.peek() {
+            Some(Math::Letter('π')) => {
+                tidy.extend((above > 1).then(|| number(above)));
+                tidy.extend(pieces.next());
+                tidy.extend([Math::Sign('/'), number(below)]);
+            }
+            Some(Math::Root(_)) => {
+                let factors = (above > 1).then(|| number(above)).into_iter().chain(pieces.next());
+                let above = Math::row(factors.collect());
+                tidy.push(Math::Fraction(Box::new([above, number(below)])));
+            }
+            _ if simple && matches!(piece, Math::Number(_)) => {
+                tidy.push(Math::Fraction(Box::new([number(above), number(below)])));
+            }
+            _ => tidy.push(piece),
+        }
+    }
+    tidy
+}
+
+/// Numerator and denominator of a number that is no integer.
+fn parts(piece: &Math) -> Option<[u64; 2]> {
+    match piece {
+        Math::Number(digits) => fraction(digits),
+        Math::Fraction(parts) => match parts.as_ref() {
+            [Math::Number(above), Math::Number(below)] => {
+                Some([above.parse().ok()?, below.parse().ok()?])
+                    .filter(|[_, below]| *below <= LARGEST)
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// A decimal as a fraction with a small denominator, if it is one and no integer.
+fn fraction(digits: &str) -> Option<[u64; 2]> {
+    let (whole, part) = digits.split_once('.')?;
+    let below = 10_u64.checked_pow(u32::try_from(part.len()).ok()?)?;
+    let above: u64 = format!("{whole}{part}").parse().ok()?;
+    let fraction = (2..=LARGEST).find_map(|denominator| {
+        let product = above.checked_mul(denominator)?;
+        product.is_multiple_of(below).then_some([product / below, denominator])
+    });
+    fraction.filter(|_| !above.is_multiple_of(below))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::latex::{formula, read};
+
+    #[test]
+    fn exact_parts_are_fractions() {
+        for (given, expected) in [
+            (r"0.5 \pi", r"\pi/ 2"),
+            (r"-0.75 \pi", r"-3 \pi/ 4"),
+            (r"\frac{2}{3} \pi", r"2 \pi/ 3"),
+            (r"2 \pi + 1.5 \pi", r"2 \pi+ 3 \pi/ 2"),
+            (r"0.5 \sqrt{2}", r"\frac{\sqrt{2}}{2}"),
+            (r"1.5 \sqrt{2} l_1", r"\frac{3 \sqrt{2}}{2} l_1"),
+            (r"l_1 \left(0.25 \pi\right)", r"l_1 \left(\pi/ 4\right)"),
+            (r"a - 0.5 c d", r"a-\frac{1}{2} c d"),
+            (r"0.123 \pi + 0.5 q", r"0.123 \pi+ 0.5 q"),
+            (r"0.5 + 0.25 q", r"\frac{1}{2}+\frac{1}{4} q"),
+            (r"-0.5", r"-0.5"),
+            (r"63.5 q", r"63.5 q"),
+            (r"2.75 q", r"\frac{11}{4} q"),
+            (
+                r"\frac{745523852833173678489}{559146513121000000000000} q",
+                r"0.0013333246927927124 q",
+            ),
+            (r"\frac{2}{3} q", r"\frac{2}{3} q"),
+        ] {
+            let shown = formula(&tidied(read(given).unwrap(), None));
+            assert_eq!(shown.replace(' ', ""), expected.replace(' ', ""), "{given}");
+        }
+    }
+
+    #[test]
+    fn digits_are_significant_and_indices_stay() {
+        let shown = |text: &str| formula(&tidied(read(text).unwrap(), Some(4))).replace(' ', "");
+        assert_eq!(
+            shown(r"0.0002338560 q_{12345} + 12.34567 x^{2}"),
+            r"0.0002339q_{12345}+12.35x^{2}"
+        );
+        let rounded = tidied(read(r"1.49999 q + 0.5").unwrap(), Some(2));
+        assert_eq!(formula(&rounded).replace(' ', ""), "1.5q+0.5");
+        assert_eq!(
+            tidied_text("k_12345 = 0.123456*x^12 - 99999.5 + 0.5", Some(4)),
+            "k_12345 = 0.1235*x^12 - 100000 + 0.5"
+        );
+        let long = "745523852833173678489/559146513121000000000000*q1 + 2/3*q2";
+        assert_eq!(tidied_text(long, None), "0.0013333246927927124*q1 + 2/3*q2");
+        assert_eq!(tidied_text("F_l5.x = 1.23456e-7*a", Some(3)), "F_l5.x = 1.23e-7*a");
+    }
+}

@@ -1,0 +1,87 @@
+//! Constant angles next to multiples of π/2.
+
+use std::f64::consts::FRAC_PI_2;
+
+use robot_model::robot::{Move, Placement, Robot};
+use robot_symbolic::{Formula, Number};
+
+use super::Snap;
+
+/// The multiple of π/2, in quarter turns, that a constant angle is within the tolerance of, and the multiple minus the
+/// angle, rad.
+pub(super) fn quarters(angle: &Number, tolerance: f64) -> Option<(i64, f64)> {
+    let value = angle.to_f64();
+    let quarters = (value / FRAC_PI_2).round();
+    let change = quarters * FRAC_PI_2 - value;
+    if angle.is_zero() || change.abs() > tolerance || quarters.abs() > 1e6 {
+        return None;
+    }
+    // |quarters| is below 1e6, so the cast is exact.
+    Some((quarters as i64, change))
+}
+
+/// The robot with `pi/2` and the like in place of the constant angles of its poses that are within `tolerance` (rad) of
+/// a multiple of π/2, and the angles that this changes.
+#[must_use]
+pub fn snapped(robot: &Robot, tolerance: f64) -> (Robot, Vec<Snap>) {
+    let mut robot = robot.clone();
+    let mut snaps = vec![];
+    for link in &mut robot.links {
+        place(&link.name, &mut link.placement, tolerance, &mut snaps);
+        for body in &mut link.bodies {
+            place(&link.name, &mut body.placement, tolerance, &mut snaps);
+        }
+    }
+    for frame in &mut robot.frames {
+        place(&frame.name, &mut frame.placement, tolerance, &mut snaps);
+    }
+    (robot, snaps)
+}
+
+fn place(name: &str, placement: &mut Placement, tolerance: f64, snaps: &mut Vec<Snap>) {
+    for step in &mut placement.0 {
+        let Move::Rotate(_, formula) = step else { continue };
+        let Some(number) = formula.as_number() else { continue };
+        let Some((quarters, change)) = quarters(&number, tolerance) else { continue };
+        if let Ok(multiple) = Formula::parse(&multiple_text(quarters)) {
+            *formula = multiple;
+        }
+        if change != 0.0 {
+            snaps.push(Snap { name: name.to_owned(), angle: number.to_f64(), change });
+        }
+    }
+}
+
+/// `-pi/2`, `3*pi/2`, `2*pi`
+fn multiple_text(quarters: i64) -> String {
+    let sign = if quarters < 0 { "-" } else { "" };
+    let (count, below) = match quarters.unsigned_abs() {
+        even if even.is_multiple_of(2) => (even / 2, ""),
+        odd => (odd, "/2"),
+    };
+    match count {
+        0 => "0".to_owned(),
+        1 => format!("{sign}pi{below}"),
+        _ => format!("{sign}{count}*pi{below}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn multiples_are_as_people_write_them() {
+        let texts = [0, 1, -1, 2, -2, 3, -3, 4].map(multiple_text);
+        let expected = ["0", "pi/2", "-pi/2", "pi", "-pi", "3*pi/2", "-3*pi/2", "2*pi"];
+        assert_eq!(texts, expected);
+    }
+
+    #[test]
+    fn an_angle_is_a_multiple_up_to_the_tolerance() {
+        let of = |value: f64| quarters(&Number::Real(value), 1e-5).map(|(quarters, _)| quarters);
+        let near = [FRAC_PI_2 + 4e-6, -2.0 * FRAC_PI_2 - 8e-6, 1e-12, 0.0].map(of);
+        assert_eq!(near, [Some(1), Some(-2), Some(0), None]);
+        assert_eq!([FRAC_PI_2 + 2e-5, 0.785, 1e-4].map(of), [None; 3]);
+    }
+}
