@@ -4,6 +4,7 @@
 //! show; all else is done by the other crates.
 
 mod commands;
+mod complaints;
 mod counts;
 mod delivery;
 mod displayed;
@@ -17,6 +18,7 @@ mod help;
 mod messages;
 mod motion;
 mod options;
+mod outgoing;
 mod plan;
 mod progress;
 mod reading;
