@@ -1,7 +1,7 @@
 //! Files that commands read.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use robot_build::shown;
@@ -20,8 +20,8 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
         let read = (&mut *terminal.input).take(MAX_BYTES + 1).read_to_end(&mut bytes);
         read.map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
     } else {
-        let read = File::open(path)
-            .and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
+        let read =
+            File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
         read.map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
     }
     if bytes.len() as u64 > MAX_BYTES {
@@ -37,6 +37,19 @@ pub(crate) enum Bytes<'t> {
     /// A regular file, which can be read again.
     File(File),
     Stream(Box<dyn Read + 't>),
+}
+
+/// A reader of a file or a stream.
+pub(crate) type Reader<'t> = BufReader<Box<dyn Read + 't>>;
+
+impl<'t> Bytes<'t> {
+    pub(crate) fn reader(self) -> Reader<'t> {
+        let bytes = match self {
+            Bytes::File(file) => Box::new(file),
+            Bytes::Stream(stream) => stream,
+        };
+        BufReader::with_capacity(1 << 16, bytes)
+    }
 }
 
 /// The name of a file as messages show it, and its bytes; `-` is standard input.

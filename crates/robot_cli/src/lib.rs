@@ -88,6 +88,18 @@ pub struct Terminal<'a> {
     pub screen: Option<Screen>,
 }
 
+impl Terminal<'_> {
+    /// Standard input, and the terminal without it.
+    fn without_input<'t>(
+        &'t mut self,
+        nothing: &'t mut std::io::Empty,
+    ) -> (&'t mut dyn Read, Terminal<'t>) {
+        let (output, errors) = (&mut *self.output, &mut *self.errors);
+        let Terminal { colors, progress, screen, .. } = *self;
+        (&mut *self.input, Terminal { input: nothing, output, errors, colors, progress, screen })
+    }
+}
+
 /// Whether a stream shows colors: on a terminal, unless the variable `NO_COLOR` is set and not
 /// empty (<https://no-color.org>).
 #[must_use]

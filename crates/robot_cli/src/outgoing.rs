@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use robot_build::{Pending, shown};
+use robot_simulation::Table;
 
 use crate::delivery::size;
 use crate::failure::Failure;
@@ -44,18 +45,30 @@ impl<'t> Outgoing<'t> {
         if self.text.len() >= HELD { self.write() } else { Ok(()) }
     }
 
+    /// Appends the rows of a table; the first part has a header.
+    pub(crate) fn push_table(&mut self, table: &Table, is_first: bool) -> Result<(), Failure> {
+        if is_first {
+            self.push(|text| text.push_str(&table.header()))?;
+        }
+        (0..table.rows()).try_for_each(|row| self.push(|text| table.push_row(row, text)))
+    }
+
     /// Appends lines to standard error.
     pub(crate) fn warn(&mut self, lines: &str) {
         self.warnings.push_str(lines);
     }
 
-    /// Writes what waits, and puts a file in its place. Before that, `others` writes what belongs to it.
+    /// Writes what waits, and puts a file in its place. `others` writes what belongs to it: before standard output
+    /// has the last piece, and when the file has all but is not in its place.
     pub(crate) fn end(
         mut self,
         others: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        self.write()?;
+        if let Destination::File(..) = self.destination {
+            self.write()?;
+        }
         others(self.errors)?;
+        self.write()?;
         if let Destination::File(file, path) = self.destination
             && let Some(length) = file.put()?
         {

@@ -97,20 +97,17 @@ impl Trajectory {
         }
     }
 
-    /// The parts of so many samples, one after the other.
-    pub fn parts(&self, size: usize) -> impl Iterator<Item = Trajectory> {
-        let size = size.max(1);
-        (0..self.t.len()).step_by(size).map(move |start| {
-            let range = start..self.t.len().min(start + size);
-            let of = |samples: &Vec<Vec<f64>>| samples[range.clone()].to_vec();
-            Trajectory {
-                t: self.t[range.clone()].to_vec(),
-                q: of(&self.q),
-                qd: of(&self.qd),
-                qdd: of(&self.qdd),
-                wrenches: self.wrenches.as_ref().map(of),
-            }
-        })
+    /// Up to so many samples from the one of that number on.
+    #[must_use]
+    pub fn part(&self, start: usize, size: usize) -> Trajectory {
+        let of = |samples: &Vec<Vec<f64>>| samples.iter().skip(start).take(size).cloned().collect();
+        Trajectory {
+            t: self.t.iter().skip(start).take(size).copied().collect(),
+            q: of(&self.q),
+            qd: of(&self.qd),
+            qdd: of(&self.qdd),
+            wrenches: self.wrenches.as_ref().map(of),
+        }
     }
 
     /// Expressions such as `q1 = 0.5*sin(t)`, one for each coordinate, of t (s) and the robot's

@@ -51,7 +51,7 @@ impl Arguments {
         let (bytes, ownership) = (text.as_bytes(), Ownership::Edited);
         let output = Output { path: path.clone(), bytes, ownership };
         writer.check(&[(&path, ownership)])?;
-        write(&writer, &[output], terminal)?;
+        write(&writer, &[output], terminal.errors)?;
         let file = shown(&path);
         writeln!(
             terminal.output,

@@ -41,11 +41,7 @@ impl StateArguments {
     }
 
     /// The state, and all that is wrong with it.
-    pub(crate) fn state<'l>(
-        &self,
-        robot: &Robot,
-        layout: &'l Layout,
-    ) -> (State<'l>, Vec<String>) {
+    pub(crate) fn state<'l>(&self, robot: &Robot, layout: &'l Layout) -> (State<'l>, Vec<String>) {
         let (mut state, mut wrong) = (State::new(layout), vec![]);
         let given = [&self.q, &self.qd, &self.qdd, &self.tau];
         for (variable, text) in JointVariable::ALL.into_iter().zip(given) {

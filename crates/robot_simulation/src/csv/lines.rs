@@ -51,7 +51,8 @@ impl<R: BufRead> Lines<R> {
     fn fill(&mut self) -> Result<(), Error> {
         self.offset += self.line.len() as u64;
         self.line.clear();
-        let read = self.reader.by_ref().take(MAX_BYTES as u64 + 1).read_until(b'\n', &mut self.line);
+        let read =
+            self.reader.by_ref().take(MAX_BYTES as u64 + 1).read_until(b'\n', &mut self.line);
         let source = &self.source;
         read.map_err(|error| Error::input(format!("cannot read {source}: {error}")))?;
         self.number += 1;

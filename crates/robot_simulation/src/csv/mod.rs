@@ -33,7 +33,8 @@ pub fn numbers(line: &str, found: &mut Vec<f64>) -> bool {
     loop {
         let length = match fast_float2::parse_partial::<f64, _>(rest) {
             Ok((number, length))
-                if number.is_finite() && matches!(rest.as_bytes().get(length), None | Some(b',')) =>
+                if number.is_finite()
+                    && matches!(rest.as_bytes().get(length), None | Some(b',')) =>
             {
                 found.push(number);
                 length

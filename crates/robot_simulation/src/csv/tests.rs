@@ -70,9 +70,34 @@ fn numbers_are_read_as_the_standard_library_does() {
         }
     }
     for text in [
-        "", "+1", "1.", ".5", ".", "-", "+-1", "1e", "1e+", "1e5", "1E-5", "1e400", "1e-400", "nan",
-        "inf", "-infinity", "1_0", "0x10", "1 2", "１", " 7 ", "\"7\"", "\" 7\"", "1d", "1f64",
-        "\u{a0}3", "00012", "179769313486231580793728971405301e277",
+        "",
+        "+1",
+        "1.",
+        ".5",
+        ".",
+        "-",
+        "+-1",
+        "1e",
+        "1e+",
+        "1e5",
+        "1E-5",
+        "1e400",
+        "1e-400",
+        "nan",
+        "inf",
+        "-infinity",
+        "1_0",
+        "0x10",
+        "1 2",
+        "１",
+        " 7 ",
+        "\"7\"",
+        "\" 7\"",
+        "1d",
+        "1f64",
+        "\u{a0}3",
+        "00012",
+        "179769313486231580793728971405301e277",
     ] {
         let expected = cells(text).first().and_then(|cell| number(cell));
         assert_eq!(numbers(text, &mut found), expected.is_some(), "{text:?}");
@@ -99,7 +124,12 @@ fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, String> {
 #[test]
 fn lines_are_those_of_the_whole_text() {
     for text in [
-        "", "a", "\n\na\r\n \t\nb", "\u{feff}a\n\u{feff}b\n", "\u{feff}\n\u{a0}\nä\n", "\u{b}\u{c}\nq\r",
+        "",
+        "a",
+        "\n\na\r\n \t\nb",
+        "\u{feff}a\n\u{feff}b\n",
+        "\u{feff}\n\u{a0}\nä\n",
+        "\u{b}\u{c}\nq\r",
     ] {
         let whole = text.strip_prefix('\u{feff}').unwrap_or(text);
         let whole = whole.lines().zip(1..).filter(|(line, _)| !line.trim().is_empty());
@@ -111,7 +141,9 @@ fn lines_are_those_of_the_whole_text() {
 
 #[test]
 fn what_is_not_text_is_told_with_its_place_in_the_whole() {
-    for bytes in [&b"ab\nc\xff\nd"[..], b"ab\nc\xe2\x82\nd", b"ab\nc\xe2\x82", b"\xef\xbb\xbf1\n\x80"] {
+    for bytes in
+        [&b"ab\nc\xff\nd"[..], b"ab\nc\xe2\x82\nd", b"ab\nc\xe2\x82", b"\xef\xbb\xbf1\n\x80"]
+    {
         let whole = String::from_utf8(bytes.to_vec()).unwrap_err();
         assert_eq!(lines(bytes), Err(format!("a is not UTF-8 text: {whole}")));
     }

@@ -265,7 +265,12 @@ impl Writer {
     }
 
     /// `path` is for the message, `target` has its symbolic links followed.
-    pub(super) fn check_owner(&self, path: &Path, target: &Path, ownership: Ownership) -> Result<(), Error> {
+    pub(super) fn check_owner(
+        &self,
+        path: &Path,
+        target: &Path,
+        ownership: Ownership,
+    ) -> Result<(), Error> {
         if self.force {
             return Ok(());
         }

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::functions::named;
 use robot_build::{
-    Bundle, Effects, FunctionKind, Functions, Options, Trigonometry, programs_of,
+    Bundle, Effects, FunctionKind, Functions, Options, Ownership, Trigonometry, programs_of,
 };
 use robot_codegen::Interpreter;
 use robot_model::description::Described;
@@ -21,6 +21,7 @@ use self::digits::Digits;
 use self::evaluation::{Evaluation, Task, failed};
 use self::output::Printer;
 use crate::Terminal;
+use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
 use crate::options::help;
 use crate::outgoing::Outgoing;
@@ -59,6 +60,11 @@ pub(crate) struct Arguments {
     settings: Settings,
     #[arg(long, help = help("trigonometry"), default_value = "polynomial", value_parser = trigonometry())]
     trigonometry: Trigonometry,
+    /// The file to write, when all states are computed; `-` is standard output, state by state [default: -]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgument,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
@@ -76,6 +82,11 @@ impl Arguments {
             let message = "a state is needed: --q, --qd, …, or --states with a file of states";
             return Err(Failure::Usage(vec![message.to_owned()]));
         }
+        let inputs = self.robot.inputs().into_iter().chain(self.states.clone());
+        let path = file_of(self.output.as_deref());
+        let writer = self.force.writer(inputs, path.is_some())?;
+        writer
+            .check(&path.map(|path| (path, Ownership::Edited)).into_iter().collect::<Vec<_>>())?;
         let file = self.robot.open()?;
         let described = file.read(terminal)?;
         let Described { robot, code, .. } = &described;
@@ -87,9 +98,9 @@ impl Arguments {
             self.settings.check(&file, &described, terminal)?;
         }
         let layout = Layout::of(robot);
-        let (standard, mut nothing) = (&mut *terminal.input, std::io::empty());
-        let (output, errors) = (&mut *terminal.output, &mut *terminal.errors);
-        let terminal = &mut Terminal { input: &mut nothing, output, errors, ..*terminal };
+        let mut nothing = std::io::empty();
+        let (standard, mut terminal) = terminal.without_input(&mut nothing);
+        let terminal = &mut terminal;
         let mut states = self.states(robot, &layout, standard)?;
         let loaded = kind.map(|kind| with_wrench(kind, robot, &layout, &mut states)).transpose()?;
         let (kind, unloadable) = loaded.unzip();
@@ -126,7 +137,9 @@ impl Arguments {
             file: name,
             source: states.source(),
         };
-        let outgoing = Outgoing::new(None, terminal.output, terminal.errors);
+        let begin = |path| Ok::<_, Failure>((writer.begin(path, Ownership::Edited)?, path));
+        let pending = path.map(begin).transpose()?;
+        let outgoing = Outgoing::new(pending, terminal.output, terminal.errors);
         let before = before.into_iter().collect();
         let mut evaluation = Evaluation::new(task, &layout, before, outgoing);
         states.read(&layout, &mut evaluation)?;

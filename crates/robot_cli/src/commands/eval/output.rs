@@ -52,7 +52,12 @@ impl Printer {
     }
 
     /// Appends the entries of all outputs at a state.
-    pub(super) fn state(&self, is_first: bool, values: impl Iterator<Item = f64>, text: &mut String) {
+    pub(super) fn state(
+        &self,
+        is_first: bool,
+        values: impl Iterator<Item = f64>,
+        text: &mut String,
+    ) {
         match self {
             Printer::Json(fields) => {
                 text.push_str(if is_first { "[\n" } else { ",\n" });
@@ -146,7 +151,9 @@ mod tests {
     #[test]
     fn numbers_are_those_of_serde_json() {
         let numbers = [0.0, -0.0, 1.0, 1e-4, 1e-5, 1e-7, 0.1 + 0.2, 1e16, 1.5e300, 5e-324, -2e22];
-        for number in numbers.into_iter().chain((0..10_000).map(|k| f64::from(k) / 2_f64.powi(k % 70))) {
+        for number in
+            numbers.into_iter().chain((0..10_000).map(|k| f64::from(k) / 2_f64.powi(k % 70)))
+        {
             let mut text = String::new();
             push_json(&mut text, number);
             assert_eq!(text, json!(number).to_string());
