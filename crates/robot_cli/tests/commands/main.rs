@@ -28,6 +28,7 @@ mod shell;
 mod simulate;
 mod singular;
 mod stats;
+mod streams;
 mod usage;
 mod watch;
 

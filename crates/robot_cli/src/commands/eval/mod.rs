@@ -43,7 +43,8 @@ wrench_NAME for each of several tips), or CSV with a header such as q1,q2,qd1,qd
 A function needs all its inputs except the wrench, whose default is 0. The wrench is the one that the tip
 exerts on its surroundings. If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench,
 inverse_dynamics_friction means inverse_dynamics_wrench_friction, and likewise for forward_dynamics. Values
-are computed by the straight-line program that the generated code is printed from.")]
+are computed by the straight-line program that the generated code is printed from. States are read and their
+outputs printed one after the other, however many there are; -o writes a file when all are computed.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
