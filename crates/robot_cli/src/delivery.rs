@@ -1,6 +1,7 @@
 //! Files that commands write, and the check that they are up to date.
 
 use std::borrow::Cow;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -141,7 +142,7 @@ impl<'a> Delivery<'a> {
         }
         let ownership = self.ownership;
         let output = Output { path: path.to_owned(), bytes: text.as_bytes(), ownership };
-        write(&self.writer, &[output], terminal)
+        write(&self.writer, &[output], terminal.errors)
     }
 }
 
@@ -149,7 +150,7 @@ impl<'a> Delivery<'a> {
 pub(crate) fn write(
     writer: &Writer,
     outputs: &[Output<'_>],
-    terminal: &mut Terminal<'_>,
+    errors: &mut dyn Write,
 ) -> Result<(), Failure> {
     let is_same = |output: &&Output<'_>| {
         output.path.is_file() && std::fs::read(&output.path).is_ok_and(|old| old == output.bytes)
@@ -159,7 +160,7 @@ pub(crate) fn write(
     writer.write(outputs)?;
     for output in outputs.iter().filter(|output| !same.contains(&output.path.as_path())) {
         let size = size(output.bytes.len());
-        writeln!(terminal.errors, "wrote {} ({size})", shown(&output.path))?;
+        writeln!(errors, "wrote {} ({size})", shown(&output.path))?;
     }
     Ok(())
 }

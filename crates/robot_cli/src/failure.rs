@@ -6,10 +6,8 @@ use robot_build::{Error, Errors};
 use robot_model::diagnostic::Style;
 
 use crate::Terminal;
+use crate::complaints::Complaints;
 use crate::options::in_flags;
-
-/// More messages than this are counted, not shown.
-const MAX_SHOWN: usize = 20;
 
 /// Why a command ended without having done its work.
 #[derive(Debug)]
@@ -18,6 +16,8 @@ pub(crate) enum Failure {
     Robot(Errors),
     /// Other inputs, a message each.
     Input(Vec<String>),
+    /// Other inputs, of which more may be wrong than is kept.
+    Inputs(Complaints),
     /// Arguments that do not fit together, or name what there is not.
     Usage(Vec<String>),
     /// A failure that has been shown already.
@@ -75,6 +75,7 @@ impl Failure {
                 (robot_messages(errors, terminal.colors), code)
             }
             Failure::Input(messages) => (shown(messages), 1),
+            Failure::Inputs(complaints) => (complaints.lines(), 1),
             Failure::Usage(messages) => (shown(messages), 2),
             Failure::Shown => (vec![], 1),
             Failure::Refused(failure) => {
@@ -129,10 +130,5 @@ pub(crate) fn in_command_words(error: &Error) -> String {
 }
 
 fn shown(messages: &[String]) -> Vec<String> {
-    let mut lines: Vec<String> =
-        messages.iter().take(MAX_SHOWN).map(|message| format!("error: {message}")).collect();
-    if let Some(more @ 1..) = messages.len().checked_sub(MAX_SHOWN) {
-        lines.push(format!("({more} more not shown)"));
-    }
-    lines
+    messages.iter().cloned().collect::<Complaints>().lines()
 }

@@ -1,6 +1,7 @@
 //! Files that commands read.
 
-use std::io::Read;
+use std::fs::File;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 use robot_build::{missing, shown};
@@ -27,7 +28,7 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
         let read = (&mut *terminal.input).take(MAX_BYTES + 1).read_to_end(&mut bytes);
         read.map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
     } else {
-        let read = std::fs::File::open(path)
+        let read = File::open(path)
             .and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
         read.map_err(|error| {
             Failure::input(format!("cannot read {name}: {}", reason(path, &error)))
@@ -39,4 +40,43 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
     let text = String::from_utf8(bytes)
         .map_err(|error| Failure::input(format!("{name} is not UTF-8 text: {error}")))?;
     Ok((name, text))
+}
+
+/// What is read.
+pub(crate) enum Bytes<'t> {
+    /// A regular file, which can be read again.
+    File(File),
+    Stream(Box<dyn Read + 't>),
+}
+
+/// A reader of a file or a stream.
+pub(crate) type Reader<'t> = BufReader<Box<dyn Read + 't>>;
+
+impl<'t> Bytes<'t> {
+    pub(crate) fn reader(self) -> Reader<'t> {
+        let bytes = match self {
+            Bytes::File(file) => Box::new(file),
+            Bytes::Stream(stream) => stream,
+        };
+        BufReader::with_capacity(1 << 16, bytes)
+    }
+}
+
+/// The name of a file as messages show it, and its bytes; `-` is standard input.
+pub(crate) fn open<'t>(
+    path: &Path,
+    standard: &'t mut dyn Read,
+) -> Result<(String, Bytes<'t>), Failure> {
+    let name = shown(path);
+    if name == "-" {
+        return Ok(("standard input".to_owned(), Bytes::Stream(Box::new(standard))));
+    }
+    let file = File::open(path).map_err(|error| cannot_read(&name, &error))?;
+    let is_regular = file.metadata().is_ok_and(|metadata| metadata.is_file());
+    let bytes = if is_regular { Bytes::File(file) } else { Bytes::Stream(Box::new(file)) };
+    Ok((name, bytes))
+}
+
+pub(crate) fn cannot_read(name: &str, error: &std::io::Error) -> Failure {
+    Failure::input(format!("cannot read {name}: {error}"))
 }

@@ -4,6 +4,7 @@
 //! show; all else is done by the other crates.
 
 mod commands;
+mod complaints;
 mod counts;
 mod delivery;
 mod displayed;
@@ -17,6 +18,7 @@ mod help;
 mod messages;
 mod motion;
 mod options;
+mod outgoing;
 mod plan;
 mod progress;
 mod reading;
@@ -84,6 +86,18 @@ pub struct Terminal<'a> {
     pub progress: bool,
     /// The terminal that standard output is, if it is one: results are then shown for people.
     pub screen: Option<Screen>,
+}
+
+impl Terminal<'_> {
+    /// Standard input, and the terminal without it.
+    fn without_input<'t>(
+        &'t mut self,
+        nothing: &'t mut std::io::Empty,
+    ) -> (&'t mut dyn Read, Terminal<'t>) {
+        let (output, errors) = (&mut *self.output, &mut *self.errors);
+        let Terminal { colors, progress, screen, .. } = *self;
+        (&mut *self.input, Terminal { input: nothing, output, errors, colors, progress, screen })
+    }
 }
 
 /// Whether a stream shows colors: on a terminal, unless the variable `NO_COLOR` is set and not

@@ -1,13 +1,14 @@
 //! The output of commands about motions: a table, and a plot of it.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use robot_build::{Output, Ownership, Writer};
 use robot_simulation::plot::Figure;
 
-use crate::Terminal;
 use crate::delivery::{file_of, write};
 use crate::failure::Failure;
+use crate::outgoing::Outgoing;
 
 /// A path that says what picture to write.
 pub(crate) fn plot_path(text: &str) -> Result<PathBuf, String> {
@@ -50,31 +51,34 @@ impl<'a> Recording<'a> {
         Ok(Recording { table, plot, writer })
     }
 
-    /// Writes or prints the table, and writes the plot if one is wanted.
-    pub(crate) fn write(
+    /// Whether a plot is wanted.
+    pub(crate) fn has_plot(&self) -> bool {
+        self.plot.is_some()
+    }
+
+    /// Begins the table.
+    pub(crate) fn begin<'t>(
+        &'t self,
+        output: &'t mut dyn Write,
+        errors: &'t mut dyn Write,
+    ) -> Result<Outgoing<'t>, Failure> {
+        let begin = |path: &'t Path| Ok::<_, Failure>((self.writer.begin(path, TABLE)?, path));
+        Ok(Outgoing::new(self.table.map(begin).transpose()?, output, errors))
+    }
+
+    /// Ends the table, and writes the plot if one is wanted.
+    pub(crate) fn end(
         &self,
-        csv: &str,
+        table: Outgoing<'_>,
         figure: impl FnOnce() -> Figure,
-        terminal: &mut Terminal<'_>,
     ) -> Result<(), Failure> {
-        let plot = self.plot.map(|path| Ok::<_, Failure>((path, picture(path, &figure())?)));
-        let plot = plot.transpose()?;
-        let plot = plot.as_ref().map(|(path, bytes)| Output {
-            path: path.to_path_buf(),
-            bytes,
-            ownership: Ownership::Marked,
-        });
-        let table = self.table.map(|path| Output {
-            path: path.to_owned(),
-            bytes: csv.as_bytes(),
-            ownership: TABLE,
-        });
-        let outputs: Vec<Output<'_>> = plot.into_iter().chain(table).collect();
-        write(&self.writer, &outputs, terminal)?;
-        if self.table.is_none() {
-            terminal.output.write_all(csv.as_bytes())?;
-        }
-        Ok(())
+        table.end(|errors| {
+            let Some(path) = self.plot else { return Ok(()) };
+            let bytes = picture(path, &figure())?;
+            let ownership = Ownership::Marked;
+            let output = Output { path: path.to_owned(), bytes: &bytes, ownership };
+            write(&self.writer, &[output], errors)
+        })
     }
 }
 

@@ -67,6 +67,21 @@ impl TorqueContributions {
         contributions
     }
 
+    /// Appends those of the samples behind these.
+    pub fn append(&mut self, next: TorqueContributions) {
+        let TorqueContributions { t, total, inertia, coriolis, gravity, friction, wrench } = next;
+        self.t.extend(t);
+        self.total.extend(total);
+        self.inertia.extend(inertia);
+        self.coriolis.extend(coriolis);
+        self.gravity.extend(gravity);
+        for (series, next) in [(&mut self.friction, friction), (&mut self.wrench, wrench)] {
+            if let Some(next) = next {
+                series.get_or_insert_default().extend(next);
+            }
+        }
+    }
+
     /// The columns t, tau1 …, then those of each contribution: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
     /// wrench1 ….
     #[must_use]

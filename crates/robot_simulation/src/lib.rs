@@ -18,6 +18,7 @@
 //! ```
 
 mod contributions;
+pub mod csv;
 mod dynamics;
 mod error;
 mod events;
@@ -30,6 +31,7 @@ mod kinks;
 mod motion;
 pub mod plot;
 mod program;
+mod samples;
 mod simulation;
 mod system;
 mod table;
@@ -41,6 +43,7 @@ pub use dynamics::{DryFriction, Dynamics, Features, State, TorqueLaw, from_fn};
 pub use error::{Cause, Error};
 pub use motion::{Energies, Motion};
 pub use program::RobotProgram;
+pub use samples::Samples;
 pub use simulation::{SimulationOptions, simulate};
 pub use table::Table;
 pub use torques::Torques;

@@ -1,5 +1,7 @@
 //! Motions: what a simulation gives.
 
+use std::ops::Range;
+
 use robot_model::variable::JointVariable;
 
 use crate::dynamics::State;
@@ -60,17 +62,25 @@ impl Motion {
     /// The columns t, q1 …, qd1 …, qdd1 …, tau1 …, kinetic, potential, energy.
     #[must_use]
     pub fn table(&self, energies: &Energies) -> Table {
-        let q: Vec<&[f64]> = self.states.iter().map(|state| state.q.as_slice()).collect();
-        let qd: Vec<&[f64]> = self.states.iter().map(|state| state.qd.as_slice()).collect();
+        self.table_of(energies, 0..self.t.len())
+    }
+
+    /// [`Motion::table`] of some of its samples; there are no others.
+    #[must_use]
+    pub fn table_of(&self, energies: &Energies, samples: Range<usize>) -> Table {
+        let range = samples.start.min(self.t.len())..samples.end.min(self.t.len());
+        let states = &self.states[range.clone()];
+        let q: Vec<&[f64]> = states.iter().map(|state| state.q.as_slice()).collect();
+        let qd: Vec<&[f64]> = states.iter().map(|state| state.qd.as_slice()).collect();
         let mut table = Table::default();
-        table.push("t", self.t.clone());
+        table.push("t", self.t[range.clone()].to_vec());
         table.push_numbered(JointVariable::Position.name(), &q);
         table.push_numbered(JointVariable::Velocity.name(), &qd);
-        table.push_numbered(JointVariable::Acceleration.name(), &self.qdd);
-        table.push_numbered(JointVariable::Torque.name(), &self.tau);
-        table.push("kinetic", energies.kinetic.clone());
-        table.push("potential", energies.potential.clone());
-        table.push("energy", energies.total.clone());
+        table.push_numbered(JointVariable::Acceleration.name(), &self.qdd[range.clone()]);
+        table.push_numbered(JointVariable::Torque.name(), &self.tau[range.clone()]);
+        table.push("kinetic", energies.kinetic[range.clone()].to_vec());
+        table.push("potential", energies.potential[range.clone()].to_vec());
+        table.push("energy", energies.total[range].to_vec());
         table
     }
 }

@@ -1,9 +1,10 @@
 //! Named columns of numbers, and CSV.
 
-use std::fmt::Write as _;
+use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
 
+use crate::csv::{Lines, cells, number, numbers, push_number};
 use crate::error::Error;
 
 /// Named columns of numbers, all of one length.
@@ -51,18 +52,34 @@ impl Table {
     /// CSV: a header, then a line for each row. Numbers read back to the last bit.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut text = self.names().collect::<Vec<_>>().join(",");
-        text.push('\n');
-        for row in 0..self.rows() {
-            let cells = self.columns.iter().filter_map(|(_, values)| values.get(row));
-            for (column, value) in cells.enumerate() {
-                let comma = if column == 0 { "" } else { "," };
-                // Writing to a string does not fail.
-                let _ = write!(text, "{comma}{value:?}");
-            }
-            text.push('\n');
-        }
+        let mut text = self.header();
+        self.push_rows(&mut text);
         text
+    }
+
+    /// The header of CSV, with its line end.
+    #[must_use]
+    pub fn header(&self) -> String {
+        format!("{}\n", self.names().collect::<Vec<_>>().join(","))
+    }
+
+    /// Appends the lines of CSV below the header.
+    pub fn push_rows(&self, text: &mut String) {
+        for row in 0..self.rows() {
+            self.push_row(row, text);
+        }
+    }
+
+    /// Appends a line of CSV below the header.
+    pub fn push_row(&self, row: usize, text: &mut String) {
+        let cells = self.columns.iter().filter_map(|(_, values)| values.get(row));
+        for (column, value) in cells.enumerate() {
+            if column > 0 {
+                text.push(',');
+            }
+            push_number(text, *value);
+        }
+        text.push('\n');
     }
 
     /// Reads CSV: a header of names, then lines of finite numbers. `source` is the file's name in
@@ -72,63 +89,123 @@ impl Table {
     ///
     /// Everything that is wrong, each with its line.
     pub fn read(source: &str, text: &str) -> Result<Table, Error> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut lines = text.lines().zip(1..).filter(|(line, _)| !line.trim().is_empty());
-        let Some((header, _)) = lines.next() else {
-            return Err(Error::input(format!("{source}: there is no header, such as t,q1,q2")));
-        };
-        let names = cells(header);
-        let (mut table, mut wrong) = (Table::default(), vec![]);
-        for name in names {
-            if table.column(name).is_some() {
-                wrong.push(format!("{source}: `{}` appears twice in the header", quote(name)));
-            }
-            table.push(name, vec![]);
-        }
-        for (line, number) in lines {
-            if wrong.len() > MAX_MESSAGES {
-                break;
-            }
-            table.read_line(&format!("{source}: line {number}"), line, &mut wrong);
-        }
-        if table.rows() == 0 && wrong.is_empty() {
-            wrong.push(format!("{source}: there are no lines below the header"));
-        }
-        Error::check(wrong, table)
+        Table::read_from(source, text.as_bytes())
     }
 
-    fn read_line(&mut self, place: &str, line: &str, wrong: &mut Vec<String>) {
-        let cells = cells(line);
-        let (found, expected) = (cells.len(), self.columns.len());
-        if found != expected {
-            wrong.push(format!("{place}: {found} entries, but the header has {expected}"));
-            return;
-        }
-        for ((name, values), cell) in self.columns.iter_mut().zip(cells) {
-            let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-            if number.is_none() {
-                let (name, cell) = (quote(name), quote(cell));
-                wrong.push(format!("{place}: `{name}` is `{cell}`, not a number"));
-            }
-            values.extend(number);
-        }
+    /// [`Table::read`] of a reader.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Table::read`]; what the reader says; text that is not UTF-8.
+    pub fn read_from(source: &str, reader: impl BufRead) -> Result<Table, Error> {
+        let table = TableReader::new(source, reader)?.rows(usize::MAX)?;
+        Ok(table.unwrap_or_default())
     }
 }
 
-fn cells(line: &str) -> Vec<&str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"')).collect()
+/// A table that is read some rows at a time.
+#[derive(Debug)]
+pub(crate) struct TableReader<R> {
+    source: String,
+    lines: Lines<R>,
+    names: Vec<String>,
+    /// The numbers of a line.
+    found: Vec<f64>,
+    /// Rows that have been read.
+    count: usize,
+    wrong: Vec<String>,
+}
+
+impl<R: BufRead> TableReader<R> {
+    /// Reads the header.
+    pub(crate) fn new(source: &str, reader: R) -> Result<TableReader<R>, Error> {
+        let mut lines = Lines::new(source, reader);
+        let Some((_, header)) = lines.next()? else {
+            return Err(Error::input(format!("{source}: there is no header, such as t,q1,q2")));
+        };
+        let names: Vec<String> = cells(header).into_iter().map(str::to_owned).collect();
+        let twice = names.iter().enumerate().filter(|(index, name)| names[..*index].contains(name));
+        let twice = twice
+            .map(|(_, name)| format!("{source}: `{}` appears twice in the header", quote(name)));
+        let (wrong, source) = (twice.collect(), source.to_owned());
+        Ok(TableReader { source, lines, names, found: vec![], count: 0, wrong })
+    }
+
+    /// The next rows, up to so many; `None` at the end. Where anything is wrong with the file, it is read to its
+    /// end.
+    pub(crate) fn rows(&mut self, most: usize) -> Result<Option<Table>, Error> {
+        let columns = self.names.iter().map(|name| (name.clone(), vec![]));
+        let mut table = Table { columns: columns.collect() };
+        while table.rows() < most && self.wrong.len() <= MAX_MESSAGES {
+            let Some((number, line)) = self.lines.next()? else { break };
+            if numbers(line, &mut self.found) && self.found.len() == self.names.len() {
+                if self.wrong.is_empty() {
+                    let columns = table.columns.iter_mut().zip(&self.found);
+                    columns.for_each(|((_, values), number)| values.push(*number));
+                    self.count += 1;
+                }
+            } else {
+                let place = format!("{}: line {number}", self.source);
+                self.wrong.extend(wrong_cells(&place, &self.names, line));
+                table = Table::default();
+            }
+        }
+        if self.count == 0 && self.wrong.is_empty() {
+            self.wrong.push(format!("{}: there are no lines below the header", self.source));
+        }
+        Error::check(std::mem::take(&mut self.wrong), ())?;
+        Ok(Some(table).filter(|table| table.rows() > 0))
+    }
+}
+
+/// What is wrong with a line that has not a number for each name.
+fn wrong_cells(place: &str, names: &[String], line: &str) -> Vec<String> {
+    let cells = cells(line);
+    let (found, expected) = (cells.len(), names.len());
+    if found != expected {
+        return vec![format!("{place}: {found} entries, but the header has {expected}")];
+    }
+    let wrong = names.iter().zip(cells).filter(|(_, cell)| number(cell).is_none());
+    wrong
+        .map(|(name, cell)| {
+            format!("{place}: `{}` is `{}`, not a number", quote(name), quote(cell))
+        })
+        .collect()
+}
+
+/// What is wrong with the column `t` of a table, row by row: it must be there and ascend.
+#[derive(Debug, Default)]
+pub(crate) struct Times {
+    rows: usize,
+    last: Option<f64>,
+    pub(crate) wrong: Option<String>,
+}
+
+impl Times {
+    /// Goes on with rows of the table.
+    pub(crate) fn check(&mut self, source: &str, table: &Table) {
+        let Some(times) = table.column("t") else {
+            self.wrong = Some(format!("{source}: there is no column `t`, the time in s"));
+            return;
+        };
+        for time in times {
+            self.rows += 1;
+            if self.wrong.is_none() && self.last.is_some_and(|last| last >= *time) {
+                let row = self.rows;
+                self.wrong = Some(format!(
+                    "{source}: the time does not increase at row {row} below the header"
+                ));
+            }
+            self.last = Some(*time);
+        }
+    }
 }
 
 /// The problem with the column `t` of a table: it must exist and ascend.
 pub(crate) fn check_times(source: &str, table: &Table) -> Vec<String> {
-    let Some(times) = table.column("t") else {
-        return vec![format!("{source}: there is no column `t`, the time in s")];
-    };
-    let falls = times.windows(2).position(|pair| pair[0] >= pair[1]);
-    let message = falls.map(|row| {
-        format!("{source}: the time does not increase at row {} below the header", row + 2)
-    });
-    message.into_iter().collect()
+    let mut times = Times::default();
+    times.check(source, table);
+    times.wrong.into_iter().collect()
 }
 
 #[cfg(test)]

@@ -58,6 +58,17 @@ impl Trajectory {
     /// Everything that is wrong with the table; `source` is its name in messages.
     pub fn from_table(robot: &Robot, source: &str, table: &Table) -> Result<Trajectory, Error> {
         let mut wrong = check_times(source, table);
+        let trajectory = Trajectory::from_columns(robot, source, table, &mut wrong);
+        Error::check(wrong, trajectory)
+    }
+
+    /// [`Trajectory::from_table`] without the check of the times.
+    pub(crate) fn from_columns(
+        robot: &Robot,
+        source: &str,
+        table: &Table,
+        wrong: &mut Vec<String>,
+    ) -> Trajectory {
         let wrench_names = wrench_names(robot);
         let has_wrench = table.names().any(|name| wrench_names.iter().any(|known| known == name));
         let [q, qd, qdd] = JointVariable::MOTION.map(|variable| robot.symbols(variable));
@@ -77,14 +88,26 @@ impl Trajectory {
             let columns: Vec<&[f64]> = names.iter().filter_map(|name| table.column(name)).collect();
             rows(&columns, table.rows())
         };
-        let trajectory = Trajectory {
+        Trajectory {
             t: table.column("t").unwrap_or_default().to_vec(),
             q: gather(&q),
             qd: gather(&qd),
             qdd: gather(&qdd),
             wrenches: has_wrench.then(|| gather(&wrench_names)),
-        };
-        Error::check(wrong, trajectory)
+        }
+    }
+
+    /// Up to so many samples from the one of that number on.
+    #[must_use]
+    pub fn part(&self, start: usize, size: usize) -> Trajectory {
+        let of = |samples: &Vec<Vec<f64>>| samples.iter().skip(start).take(size).cloned().collect();
+        Trajectory {
+            t: self.t.iter().skip(start).take(size).copied().collect(),
+            q: of(&self.q),
+            qd: of(&self.qd),
+            qdd: of(&self.qdd),
+            wrenches: self.wrenches.as_ref().map(of),
+        }
     }
 
     /// Expressions such as `q1 = 0.5*sin(t)`, one for each coordinate, of t (s) and the robot's

@@ -58,7 +58,7 @@ impl Arguments {
         } else {
             let output = Output { path: path.clone(), bytes, ownership };
             writer.check(&[(&path, ownership)])?;
-            write(&writer, &[output], terminal)?;
+            write(&writer, &[output], terminal.errors)?;
         }
         writeln!(
             terminal.output,

@@ -24,6 +24,9 @@ use crate::robot::RobotArgument;
 use crate::settings::Settings;
 use crate::values::of_joints;
 
+/// The lines of the output that are in memory as text.
+const PART: usize = 1024;
+
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-symbolic simulate robots/planar_2r.toml --time 10 --q0 1.5,0.5 -o motion.csv --plot motion.svg
@@ -98,7 +101,12 @@ impl Arguments {
             let conserved = !friction && motion.tau.iter().flatten().all(|tau| *tau == 0.0);
             motion_figure(&programs.robot, &motion, &energies, conserved)
         };
-        recording.write(&motion.table(&energies).csv(), figure, terminal)?;
+        let mut table = recording.begin(terminal.output, terminal.errors)?;
+        for start in (0..motion.t.len()).step_by(PART) {
+            let part = motion.table_of(&energies, start..start + PART);
+            table.push_table(&part, start == 0)?;
+        }
+        recording.end(table, figure)?;
         if file_of(self.output.as_deref()).is_some() {
             writeln!(terminal.output, "{}", summary(&motion, &energies))?;
         }

@@ -1,11 +1,12 @@
 //! `torques`: the joint torques along a trajectory, split by cause.
 
+use std::io::Read;
 use std::path::PathBuf;
 
 use clap::Args;
 use robot_model::robot::Robot;
 use robot_simulation::plot::contributions_figure;
-use robot_simulation::{Table, TorqueContributions, Trajectory, torque_contributions};
+use robot_simulation::{Samples, TorqueContributions, Trajectory, torque_contributions};
 
 use crate::Terminal;
 use crate::delivery::{ForceArgument, file_of};
@@ -86,30 +87,68 @@ impl Arguments {
         let file = self.robot.open()?;
         let robot = motion::robot(&file, &self.settings, &self.friction, terminal)?;
         let friction = self.friction.is_wanted();
-        let trajectory = self.trajectory(&robot, terminal)?;
-        let wrench = trajectory.wrenches.is_some();
+        let mut nothing = std::io::empty();
+        let (standard, mut terminal) = terminal.without_input(&mut nothing);
+        let terminal = &mut terminal;
+        let mut trajectory = self.trajectory(&robot, standard)?;
+        let wrench = trajectory.has_wrenches();
         let functions = TorqueContributions::functions(friction, wrench);
         let options = file.options(terminal)?;
-        let programs = motion::programs(&file, robot, functions, options)?;
-        let contributions =
-            torque_contributions(&programs, &self.settings.pairs(), &trajectory, friction)?;
-        let figure = || contributions_figure(&programs.robot, &contributions);
-        recording.write(&contributions.table().csv(), figure, terminal)
+        let programs = motion::programs(&file, robot.clone(), functions, options)?;
+        let mut table = recording.begin(terminal.output, terminal.errors)?;
+        let (mut is_first, mut plotted) = (true, TorqueContributions::default());
+        while let Some(part) = trajectory.next()? {
+            let found = torque_contributions(&programs, &self.settings.pairs(), &part, friction)?;
+            table.push_table(&found.table(), std::mem::take(&mut is_first))?;
+            if recording.has_plot() {
+                plotted.append(found);
+            }
+        }
+        recording.end(table, || contributions_figure(&programs.robot, &plotted))
     }
 
-    fn trajectory(
+    fn trajectory<'r, 't>(
         &self,
-        robot: &Robot,
-        terminal: &mut Terminal<'_>,
-    ) -> Result<Trajectory, Failure> {
+        robot: &'r Robot,
+        standard: &'t mut dyn Read,
+    ) -> Result<Parts<'r, 't>, Failure> {
         let Some(path) = &self.trajectory else {
             let texts: Vec<&str> = self.expressions.iter().map(|text| text.trim()).collect();
             let texts: Vec<&str> = texts.into_iter().filter(|text| !text.is_empty()).collect();
             let (parameters, time) = (self.settings.pairs(), self.time.unwrap_or_default());
             let found = Trajectory::from_expressions(robot, &parameters, &texts, time, self.step);
-            return Ok(found?);
+            return Ok(Parts::Known(found?, 0));
         };
-        let (name, text) = files::read(path, terminal)?;
-        Ok(Trajectory::from_table(robot, &name, &Table::read(&name, &text)?)?)
+        let (name, bytes) = files::open(path, standard)?;
+        Ok(Parts::Read(Box::new(Samples::new(robot, &name, bytes.reader(), PART)?)))
+    }
+}
+
+/// The samples of the trajectory that are in memory with their torques, but for a plot.
+const PART: usize = 1024;
+
+/// A trajectory part by part: known, with the samples that were taken, or read.
+enum Parts<'r, 't> {
+    Known(Trajectory, usize),
+    Read(Box<Samples<'r, files::Reader<'t>>>),
+}
+
+impl Parts<'_, '_> {
+    fn has_wrenches(&self) -> bool {
+        match self {
+            Parts::Known(trajectory, _) => trajectory.wrenches.is_some(),
+            Parts::Read(samples) => samples.has_wrenches(),
+        }
+    }
+
+    fn next(&mut self) -> Result<Option<Trajectory>, Failure> {
+        match self {
+            Parts::Known(trajectory, taken) => {
+                let part = trajectory.part(*taken, PART);
+                *taken += part.t.len();
+                Ok(Some(part).filter(|part| !part.t.is_empty()))
+            }
+            Parts::Read(samples) => Ok(samples.next()?),
+        }
     }
 }

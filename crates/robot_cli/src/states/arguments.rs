@@ -41,46 +41,43 @@ impl StateArguments {
     }
 
     /// The state, and all that is wrong with it.
-    pub(crate) fn state(&self, robot: &Robot, layout: &Layout) -> (State, Vec<String>) {
-        let (mut arrays, mut wrong) = (vec![], vec![]);
+    pub(crate) fn state<'l>(&self, robot: &Robot, layout: &'l Layout) -> (State<'l>, Vec<String>) {
+        let (mut state, mut wrong) = (State::new(layout), vec![]);
         let given = [&self.q, &self.qd, &self.qdd, &self.tau];
         for (variable, text) in JointVariable::ALL.into_iter().zip(given) {
-            let Some(text) = text else { continue };
-            let name = variable.name().to_owned();
-            match of_joints(&format!("--{name}"), text, variable, robot) {
+            let (Some(text), Some(index)) = (text, layout.position(variable.name())) else {
+                continue;
+            };
+            let option = format!("--{}", variable.name());
+            // Given, even if wrong: it does not lack.
+            let array = state.give(index);
+            match of_joints(&option, text, variable, robot) {
                 Ok(values) => {
-                    wrong.extend(miscounted(
-                        &format!("--{name}"),
-                        &values,
-                        &robot.symbols(variable),
-                    ));
-                    arrays.push((name, values));
+                    wrong.extend(miscounted(&option, &values, &robot.symbols(variable)));
+                    *array = values;
                 }
-                Err(found) => {
-                    // Given, if wrong: it does not lack.
-                    arrays.push((name, vec![]));
-                    wrong.extend(found);
-                }
+                Err(found) => wrong.extend(found),
             }
         }
         for text in &self.wrench {
             match wrench(text, layout) {
-                Ok((name, _)) if arrays.iter().any(|(known, _)| *known == name) => {
+                Ok((index, _)) if state.at(index).is_some() => {
+                    let name = &layout.arrays[index].name;
                     wrong.push(format!("--wrench: `{name}` is given twice"));
                 }
-                Ok(array) => arrays.push(array),
+                Ok((index, values)) => *state.give(index) = values,
                 Err(found) => wrong.extend(found),
             }
         }
-        (State { place: "the command line".to_owned(), arrays }, wrong)
+        (state, wrong)
     }
 }
 
 /// `0,0,-10,0,0,0`, `left=0,0,-10,0,0,0`
-fn wrench(text: &str, layout: &Layout) -> Result<(String, Vec<f64>), Vec<String>> {
+fn wrench(text: &str, layout: &Layout) -> Result<(usize, Vec<f64>), Vec<String>> {
     let (tip, entries) = text.split_once('=').map_or(("", text), |(tip, rest)| (tip.trim(), rest));
     let name = if tip.is_empty() { WRENCH.to_owned() } else { format!("{WRENCH}_{tip}") };
-    let Some(array) = layout.arrays.iter().find(|array| array.name == name) else {
+    let Some(index) = layout.position(&name) else {
         let of_tip = |name: &&str| name.starts_with(&format!("{WRENCH}_"));
         let tips: Vec<&str> = layout.names().into_iter().filter(of_tip).collect();
         let tips: Vec<&str> = tips.iter().map(|name| &name[WRENCH.len() + 1..]).collect();
@@ -95,9 +92,10 @@ fn wrench(text: &str, layout: &Layout) -> Result<(String, Vec<f64>), Vec<String>
             tip => format!("--wrench: {}", text::unknown("tip", tip, &tips)),
         }]);
     };
-    let values = list("--wrench", entries, &array.columns, |_, entry| number(entry))?;
-    match miscounted("--wrench", &values, &array.columns) {
+    let columns = &layout.arrays[index].columns;
+    let values = list("--wrench", entries, columns, |_, entry| number(entry))?;
+    match miscounted("--wrench", &values, columns) {
         Some(wrong) => Err(vec![wrong]),
-        None => Ok((name, values)),
+        None => Ok((index, values)),
     }
 }

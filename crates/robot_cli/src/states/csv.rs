@@ -1,35 +1,52 @@
 //! States from CSV: a header such as `q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz`, then a line each.
 
-use robot_model::diagnostic::quote;
+use std::io::BufRead;
 
-use super::{Layout, State};
+use robot_model::diagnostic::quote;
+use robot_simulation::csv::{Lines, cells, number, numbers};
+
+use super::{Layout, Place, Sink, State};
+use crate::failure::Failure;
 use crate::text;
 
-pub(super) fn read(text: &str, layout: &Layout) -> (Vec<State>, Vec<String>) {
-    let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let mut lines = lines.map(|(index, line)| (index + 1, cells(line)));
-    let Some((_, header)) = lines.next() else {
-        return (vec![], vec!["there are no states".to_owned()]);
+pub(super) fn read<'l>(
+    lines: &mut Lines<impl BufRead>,
+    layout: &'l Layout,
+    sink: &mut dyn Sink<'l>,
+) -> Result<(), Failure> {
+    let Some((_, header)) = lines.next()? else {
+        sink.wrong("there are no states".to_owned());
+        return Ok(());
     };
-    let mut errors = header_errors(&header, layout);
+    let header = cells(header);
+    let errors = header_errors(&header, layout);
     if !errors.is_empty() {
-        return (vec![], errors);
+        errors.into_iter().for_each(|error| sink.wrong(error));
+        return Ok(());
     }
-    let mut states = vec![];
-    for (number, cells) in lines {
-        let place = format!("line {number}");
-        let (entries, expected) = (cells.len(), header.len());
-        if entries == expected {
-            states.push(state(place, &header, &cells, layout, &mut errors));
+    let columns = Columns::of(&header, layout);
+    let (mut state, mut found) = (State::new(layout), vec![]);
+    while let Some((number, line)) = lines.next()? {
+        state.clear(Place::Line(number));
+        let is_right = numbers(line, &mut found) && found.len() == columns.names.len();
+        let is_state = if is_right {
+            columns.give(&found, &mut state);
+            true
         } else {
-            errors.push(format!("{place}: {entries} entries, but the header has {expected}"));
+            columns.give_cells(&cells(line), &mut state, sink)
+        };
+        if is_state && sink.state(&mut state).is_break() {
+            break;
         }
     }
-    (states, errors)
+    Ok(())
 }
 
-fn cells(line: &str) -> Vec<&str> {
-    line.split(',').map(|cell| cell.trim().trim_matches('"')).collect()
+/// Whether a header has a column of a wrench.
+pub(super) fn has_wrench(header: &str, layout: &Layout) -> bool {
+    let cells = cells(header);
+    let mut wrenches = layout.arrays.iter().filter(|array| array.is_wrench());
+    wrenches.any(|array| array.columns.iter().any(|name| cells.contains(&name.as_str())))
 }
 
 fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
@@ -53,35 +70,55 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
     errors
 }
 
-fn state(
-    place: String,
-    header: &[&str],
-    cells: &[&str],
-    layout: &Layout,
-    errors: &mut Vec<String>,
-) -> State {
-    let mut arrays = vec![];
-    for array in &layout.arrays {
-        let positions: Option<Vec<usize>> = array
-            .columns
-            .iter()
-            .map(|column| header.iter().position(|name| name == column))
-            .collect();
-        let Some(positions) = positions else {
-            continue;
-        };
-        let mut entries = vec![];
-        for position in positions {
-            let (name, cell) = (header[position], cells[position]);
-            match cell.parse::<f64>().ok().filter(|entry| entry.is_finite()) {
-                Some(entry) => entries.push(entry),
-                None => {
-                    let cell = quote(cell);
-                    errors.push(format!("{place}: `{name}` is `{cell}`, not a number"));
+/// What the columns of a file mean.
+struct Columns {
+    names: Vec<String>,
+    /// The arrays that are given, by their number in the layout, with the columns of their entries.
+    arrays: Vec<(usize, Vec<usize>)>,
+}
+
+impl Columns {
+    fn of(header: &[&str], layout: &Layout) -> Columns {
+        let position = |name: &String| header.iter().position(|known| known == name);
+        let arrays = layout.arrays.iter().enumerate().filter_map(|(index, array)| {
+            Some((index, array.columns.iter().map(position).collect::<Option<_>>()?))
+        });
+        let arrays = arrays.collect();
+        Columns { names: header.iter().map(|name| (*name).to_owned()).collect(), arrays }
+    }
+
+    /// Gives the state its arrays.
+    fn give(&self, numbers: &[f64], state: &mut State<'_>) {
+        for (index, columns) in &self.arrays {
+            state.give(*index).extend(columns.iter().map(|column| numbers[*column]));
+        }
+    }
+
+    /// Gives the state what cells are numbers, and says of the others that they are not; whether there are as many
+    /// as columns.
+    fn give_cells<'l>(
+        &self,
+        cells: &[&str],
+        state: &mut State<'l>,
+        sink: &mut dyn Sink<'l>,
+    ) -> bool {
+        let (place, entries, expected) = (state.place, cells.len(), self.names.len());
+        if entries != expected {
+            sink.wrong(format!("{place}: {entries} entries, but the header has {expected}"));
+            return false;
+        }
+        for (index, columns) in &self.arrays {
+            let array = state.give(*index);
+            for column in columns {
+                match number(cells[*column]) {
+                    Some(entry) => array.push(entry),
+                    None => {
+                        let (name, cell) = (&self.names[*column], quote(cells[*column]));
+                        sink.wrong(format!("{place}: `{name}` is `{cell}`, not a number"));
+                    }
                 }
             }
         }
-        arrays.push((array.name.clone(), entries));
+        true
     }
-    State { place, arrays }
 }

@@ -1,60 +1,119 @@
-//! States from JSON: `[{"q": […], "qd": […], "qdd": […], "wrench": […]}, …]`.
+//! States from JSON: `[{"q": […], "qd": […], "qdd": […], "wrench": […]}, …]`, an element at a time.
+
+use std::fmt;
+use std::io::Read;
+use std::ops::ControlFlow;
 
 use robot_model::diagnostic::quote;
+use serde::de::{Deserialize, DeserializeSeed, Deserializer, IgnoredAny, SeqAccess, Visitor};
+use serde_json::error::Category;
 
+use super::input::Budget;
 use super::node::Node;
-use super::{Layout, State};
+use super::{Layout, Place, Sink, State};
+use crate::failure::Failure;
 use crate::text;
 
-pub(super) fn read(text: &str, layout: &Layout) -> (Vec<State>, Vec<String>) {
-    let elements = match serde_json::from_str(text) {
-        Ok(Node::Array(elements)) => elements,
-        Ok(_) => {
-            let message = "expected an array of states, [{\"q\": […], …}, …]";
-            return (vec![], vec![message.to_owned()]);
-        }
-        Err(error) => return (vec![], vec![format!("this is not JSON: {error}")]),
+/// Reads the states; `is_array` says whether the text begins as an array does.
+pub(super) fn read<'l>(
+    text: impl Read,
+    is_array: bool,
+    budget: &Budget,
+    layout: &'l Layout,
+    sink: &mut dyn Sink<'l>,
+) -> Result<(), Failure> {
+    let mut json = serde_json::Deserializer::from_reader(text);
+    let mut elements = Elements { layout, sink, budget, has_stopped: false };
+    let read = match is_array {
+        true => (&mut elements).deserialize(&mut json),
+        false => IgnoredAny::deserialize(&mut json).map(|_| ()),
     };
-    let (mut states, mut errors) = (vec![], vec![]);
-    for (index, element) in elements.iter().enumerate() {
-        let place = format!("state {}", index + 1);
-        match element {
-            Node::Object(object) => states.push(state(place, object, layout, &mut errors)),
-            other => errors.push(format!("{place}: expected an object, not {}", other.kind())),
+    let has_stopped = elements.has_stopped;
+    match read.and_then(|()| if has_stopped { Ok(()) } else { json.end() }) {
+        Ok(()) if is_array => {}
+        Ok(()) => sink.none("expected an array of states, [{\"q\": […], …}, …]".to_owned()),
+        Err(_) if has_stopped => {}
+        Err(error) if error.classify() == Category::Io => {
+            return Err(Failure::input(std::io::Error::from(error).to_string()));
         }
+        Err(error) => sink.none(format!("this is not JSON: {error}")),
     }
-    (states, errors)
+    Ok(())
 }
 
-fn state(
-    place: String,
+/// The elements of an array, which go to the sink as they are read.
+struct Elements<'l, 's> {
+    layout: &'l Layout,
+    sink: &'s mut dyn Sink<'l>,
+    budget: &'s Budget,
+    has_stopped: bool,
+}
+
+impl<'de> DeserializeSeed<'de> for &mut Elements<'_, '_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'de> Visitor<'de> for &mut Elements<'_, '_> {
+    type Value = ();
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("an array of states")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<(), A::Error> {
+        let mut given = State::new(self.layout);
+        let mut number = 1;
+        while let Some(element) = elements.next_element()? {
+            let place = Place::Element(number);
+            number += 1;
+            self.budget.renew(number);
+            let Node::Object(object) = element else {
+                self.sink.wrong(format!("{place}: expected an object, not {}", element.kind()));
+                continue;
+            };
+            given.clear(place);
+            state(&object, self.layout, &mut given, self.sink);
+            if let ControlFlow::Break(()) = self.sink.state(&mut given) {
+                self.has_stopped = true;
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Gives the state the arrays of an object.
+fn state<'l>(
     object: &[(String, Node)],
-    layout: &Layout,
-    errors: &mut Vec<String>,
-) -> State {
-    let mut arrays = vec![];
+    layout: &'l Layout,
+    state: &mut State<'l>,
+    sink: &mut dyn Sink<'l>,
+) {
+    let place = state.place;
     for (index, (key, value)) in object.iter().enumerate() {
         if object[..index].iter().any(|(earlier, _)| earlier == key) {
-            errors.push(format!("{place}: `{}` is given twice", quote(key)));
+            sink.wrong(format!("{place}: `{}` is given twice", quote(key)));
             continue;
         }
-        let Some(array) = layout.arrays.iter().find(|array| array.name == *key) else {
-            errors.push(format!("{place}: {}", text::unknown("key", key, &layout.names())));
+        let Some(index) = layout.position(key) else {
+            sink.wrong(format!("{place}: {}", text::unknown("key", key, &layout.names())));
             continue;
         };
-        let (entries, found) = entries(value, array.columns.len());
-        errors.extend(found.into_iter().map(|error| format!("{place}: `{key}` {error}")));
-        arrays.push((key.clone(), entries));
+        let found = entries(value, layout.arrays[index].columns.len(), state.give(index));
+        found.into_iter().for_each(|error| sink.wrong(format!("{place}: `{key}` {error}")));
     }
-    State { place, arrays }
 }
 
-/// The numbers, and what is wrong with them.
-fn entries(value: &Node, expected: usize) -> (Vec<f64>, Vec<String>) {
+/// Puts the numbers into `entries`; gives what is wrong with them.
+fn entries(value: &Node, expected: usize, entries: &mut Vec<f64>) -> Vec<String> {
     let Node::Array(elements) = value else {
-        return (vec![], vec![format!("is {}, not an array of {expected} numbers", value.kind())]);
+        return vec![format!("is {}, not an array of {expected} numbers", value.kind())];
     };
-    let (mut entries, mut errors) = (vec![], vec![]);
+    let mut errors = vec![];
     for (index, element) in elements.iter().enumerate() {
         match element {
             Node::Number(entry) if entry.is_finite() => entries.push(*entry),
@@ -66,5 +125,5 @@ fn entries(value: &Node, expected: usize) -> (Vec<f64>, Vec<String>) {
     if elements.len() != expected {
         errors.push(format!("has {} entries, not {expected}", elements.len()));
     }
-    (entries, errors)
+    errors
 }

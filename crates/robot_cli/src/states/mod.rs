@@ -2,10 +2,15 @@
 
 mod arguments;
 mod csv;
+mod input;
 mod json;
 mod node;
 
+use std::fmt;
+use std::ops::ControlFlow;
+
 pub(crate) use arguments::StateArguments;
+pub(crate) use input::Input;
 
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, WRENCH, WRENCH_COMPONENTS};
@@ -27,25 +32,97 @@ struct Array {
 
 /// A state: the arrays that are given, right or wrong.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct State {
-    /// Its place, for messages: `state 3`, `line 4`.
-    pub(crate) place: String,
-    arrays: Vec<(String, Vec<f64>)>,
+pub(crate) struct State<'l> {
+    layout: &'l Layout,
+    /// Its place, for messages.
+    pub(crate) place: Place,
+    /// For each array of the layout its entries, if it is given.
+    arrays: Vec<Entries>,
 }
 
-impl State {
-    /// The array of that name if it is given.
-    pub(crate) fn array(&self, name: &str) -> Option<&[f64]> {
-        let found = self.arrays.iter().find(|(known, _)| known == name);
-        found.map(|(_, entries)| entries.as_slice())
+/// The entries of an array; what is not given keeps its memory for the next state.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Entries {
+    are_given: bool,
+    entries: Vec<f64>,
+}
+
+/// The place of a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    CommandLine,
+    /// The line of a file, from 1 on.
+    Line(usize),
+    /// The element of an array, from 1 on.
+    Element(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::CommandLine => formatter.write_str("the command line"),
+            Place::Line(number) => write!(formatter, "line {number}"),
+            Place::Element(number) => write!(formatter, "state {number}"),
+        }
+    }
+}
+
+/// Who takes states as they are read, and hears what is wrong with them.
+pub(crate) trait Sink<'l> {
+    /// Takes a state, right or wrong, and may leave another one, whose memory is used again; says whether to go on.
+    fn state(&mut self, state: &mut State<'l>) -> ControlFlow<()>;
+
+    /// Hears what is wrong with a state, before it has it, or with the whole.
+    fn wrong(&mut self, message: String);
+
+    /// Hears why there are no states at all; what it has heard and taken before does not count.
+    fn none(&mut self, message: String);
+}
+
+impl<'l> State<'l> {
+    /// A state of which nothing is given.
+    pub(crate) fn new(layout: &'l Layout) -> State<'l> {
+        let arrays = vec![Entries::default(); layout.arrays.len()];
+        State { layout, place: Place::CommandLine, arrays }
     }
 
-    /// The wrenches that are given and are not 0 in every component.
-    pub(crate) fn wrenches(&self) -> impl Iterator<Item = &str> {
-        let wrenches = self.arrays.iter().filter(|(name, entries)| {
-            name.starts_with(WRENCH) && entries.iter().any(|entry| *entry != 0.0)
-        });
-        wrenches.map(|(name, _)| name.as_str())
+    /// Makes it another state, of which nothing is given.
+    fn clear(&mut self, place: Place) {
+        self.place = place;
+        self.arrays.iter_mut().for_each(|array| array.are_given = false);
+    }
+
+    /// Gives an array, by its number in the layout; it is empty.
+    fn give(&mut self, index: usize) -> &mut Vec<f64> {
+        let array = &mut self.arrays[index];
+        array.are_given = true;
+        array.entries.clear();
+        &mut array.entries
+    }
+
+    /// The array of that name if it is given.
+    pub(crate) fn array(&self, name: &str) -> Option<&[f64]> {
+        self.layout.position(name).and_then(|index| self.at(index))
+    }
+
+    /// The array of that number in the layout if it is given.
+    pub(crate) fn at(&self, index: usize) -> Option<&[f64]> {
+        let array = self.arrays.get(index).filter(|array| array.are_given);
+        array.map(|array| array.entries.as_slice())
+    }
+
+    /// Whether a wrench is given that is not 0 in every component.
+    pub(crate) fn is_loaded(&self) -> bool {
+        let mut arrays = self.layout.arrays.iter().zip(&self.arrays);
+        arrays.any(|(array, Entries { are_given, entries })| {
+            *are_given && array.is_wrench() && entries.iter().any(|entry| *entry != 0.0)
+        })
+    }
+}
+
+impl Array {
+    fn is_wrench(&self) -> bool {
+        self.name.starts_with(WRENCH)
     }
 }
 
@@ -66,6 +143,11 @@ impl Layout {
         Layout { arrays }
     }
 
+    /// The number of the array of that name.
+    pub(crate) fn position(&self, name: &str) -> Option<usize> {
+        self.arrays.iter().position(|array| array.name == name)
+    }
+
     fn names(&self) -> Vec<&str> {
         self.arrays.iter().map(|array| array.name.as_str()).collect()
     }
@@ -73,17 +155,6 @@ impl Layout {
     fn columns(&self) -> Vec<&str> {
         let columns = self.arrays.iter().flat_map(|array| &array.columns);
         columns.map(String::as_str).collect()
-    }
-
-    /// Reads states, a JSON array of objects or CSV with a header, and says everything that is
-    /// wrong, a message each. The states are of use for further checks in any case.
-    pub(crate) fn read(&self, text: &str) -> (Vec<State>, Vec<String>) {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        match text.trim_start().chars().next() {
-            None => (vec![], vec!["there are no states".to_owned()]),
-            Some('[' | '{') => json::read(text, self),
-            Some(_) => csv::read(text, self),
-        }
     }
 }
 

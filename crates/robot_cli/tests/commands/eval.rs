@@ -21,7 +21,7 @@ fn mechanism(name: &str, settings: &[(&str, f64)]) -> Mechanism {
 #[cfg(target_os = "linux")]
 fn a_device_without_end_is_refused() {
     let arguments = ["eval", &robot("scara"), "--function", "gravity", "--states", "/dev/zero"];
-    assert!(complaint(1, &arguments, "").contains("/dev/zero has more than"));
+    assert!(complaint(1, &arguments, "").contains("/dev/zero: line 1 has more than 1 MiB"));
 }
 
 fn numbers(value: &Value) -> Vec<f64> {

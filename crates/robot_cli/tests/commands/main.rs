@@ -29,6 +29,7 @@ mod shell;
 mod simulate;
 mod singular;
 mod stats;
+mod streams;
 mod usage;
 mod watch;
 

@@ -4,6 +4,7 @@
 //! somebody else only if asked to, and replaces a file as a whole or not at all.
 
 mod marker;
+mod pending;
 mod place;
 mod staging;
 mod writer;
@@ -11,6 +12,7 @@ mod writer;
 use std::path::Path;
 
 pub use marker::MARKER;
+pub use pending::Pending;
 pub use writer::{Output, Ownership, Writer};
 
 use crate::error::Error;

@@ -33,18 +33,26 @@ pub(super) struct Staged {
 impl Staged {
     /// A file that shall lie at `target`, with the permissions of the file that is there.
     pub(super) fn file(target: &Path, bytes: &[u8], present: Option<&Metadata>) -> Result<Staged> {
-        let create =
-            |path: &Path| OpenOptions::new().write(true).create_new(true).open(path).map(Some);
         // From here on an error removes the file.
-        let staged = Staged::beside(target, create)?;
-        if let Some(mut file) = staged.lock.as_ref() {
-            file.write_all(bytes)?;
-            if let Some(present) = present {
-                staged.keep_access(present)?;
-            }
-            file.sync_all()?;
-        }
+        let mut staged = Staged::empty(target)?;
+        staged.write_all(bytes)?;
+        staged.complete(present)?;
         Ok(staged)
+    }
+
+    /// An empty file that shall lie at `target`, to be written and then completed.
+    pub(super) fn empty(target: &Path) -> Result<Staged> {
+        Staged::beside(target, |path| {
+            OpenOptions::new().write(true).create_new(true).open(path).map(Some)
+        })
+    }
+
+    /// Gives a file that is whole the permissions of the one that is there, and puts it on the disk.
+    pub(super) fn complete(&self, present: Option<&Metadata>) -> Result<()> {
+        if let Some(present) = present {
+            self.keep_access(present)?;
+        }
+        self.lock.as_ref().map_or(Ok(()), fs::File::sync_all)
     }
 
     /// An empty folder that shall lie at `target`, where nothing is.
@@ -93,6 +101,20 @@ impl Staged {
     pub(super) fn put(mut self) -> Result<()> {
         fs::rename(&self.temporary, &self.target)?;
         self.is_placed = true;
+        Ok(())
+    }
+}
+
+/// Writes to the file.
+impl Write for Staged {
+    fn write(&mut self, bytes: &[u8]) -> Result<usize> {
+        match &mut self.lock {
+            Some(file) => file.write(bytes),
+            None => Err(ErrorKind::IsADirectory.into()),
+        }
+    }
+
+    fn flush(&mut self) -> Result<()> {
         Ok(())
     }
 }

@@ -266,3 +266,40 @@ mod unix {
         }
     }
 }
+
+#[test]
+fn a_file_that_comes_in_parts_is_there_when_it_is_whole() {
+    let folder = Folder::new("pending");
+    let begin = |path: &Path| Writer::new().begin(path, Ownership::Headed(|line| line == "t,q1"));
+    let path = folder.path("below/table.csv");
+    let mut pending = begin(&path).unwrap();
+    pending.write(b"t,q1\n").unwrap();
+    assert!(!path.exists());
+    pending.write(b"0,1\n").unwrap();
+    assert_eq!(pending.put(), Ok(Some(9)));
+    assert_eq!(fs::read_to_string(&path).unwrap(), "t,q1\n0,1\n");
+    let modified = || fs::metadata(&path).unwrap().modified().unwrap();
+    let before = modified();
+    for (bytes, put) in [("t,q1\n0,1\n", None), ("t,q1\n0,2\n", Some(9)), ("", Some(0))] {
+        let mut pending = begin(&path).unwrap();
+        pending.write(bytes.as_bytes()).unwrap();
+        assert_eq!(pending.put(), Ok(put));
+        assert_eq!(modified() == before, put.is_none());
+        assert_eq!(fs::read_to_string(&path).unwrap(), bytes);
+    }
+    // One that is not whole is gone, with its folder.
+    let mut pending = begin(&folder.path("other/table.csv")).unwrap();
+    pending.write(b"t,q1\n").unwrap();
+    drop(pending);
+    assert_eq!(folder.names(), ["below"]);
+    let mine = folder.put("mine.csv", "mine");
+    assert!(begin(&mine).is_err_and(|errors| errors.to_string().contains("is not replaced")));
+    let edited = |text: &[u8]| {
+        let mut pending = Writer::new().begin(&mine, Ownership::Edited).unwrap();
+        pending.write(text).unwrap();
+        pending.put()
+    };
+    assert_eq!(edited(b"mine"), Ok(None));
+    assert!(edited(b"new").is_err());
+    assert_eq!(folder.names(), ["below", "mine.csv"]);
+}

@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::marker::{beginning, first_line, is_marked};
+use super::pending::{self, Pending};
 use super::place::{Place, folder_of, is_of_system, is_same, place};
 use super::staging::{Staged, remove_leftovers};
 use crate::driver::file::File;
@@ -150,6 +151,36 @@ impl Writer {
         Ok(changed.len())
     }
 
+    /// Begins a file whose bytes come one after the other; it is refused as [`Writer::write`] would, but for the one
+    /// that was written to be edited, which may turn out to be the same.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Writer::write`].
+    pub fn begin(&self, path: &Path, ownership: Ownership) -> Result<Pending, Errors> {
+        self.check_one(path, ownership)?;
+        let failed = |error| cannot_write(path, &error);
+        let target = self.target(path)?;
+        let mut folders = Folders::default();
+        let place = match &target {
+            Target::Stream => {
+                pending::Place::Stream(OpenOptions::new().append(true).open(path).map_err(failed)?)
+            }
+            Target::Free(target) => {
+                folders.make(folder_of(target)).map_err(failed)?;
+                pending::Place::Staged(Staged::empty(target).map_err(failed)?, None)
+            }
+            Target::Regular(target, metadata) => {
+                // A file that may not be written may not be replaced either.
+                OpenOptions::new().write(true).open(target).map_err(failed)?;
+                let staged = Staged::empty(target).map_err(failed)?;
+                pending::Place::Staged(staged, Some((target.clone(), metadata.clone())))
+            }
+        };
+        let (writer, path) = (self.clone(), path.to_owned());
+        Ok(Pending { writer, path, ownership, place, folders, length: 0 })
+    }
+
     /// Writes the files of a folder, as [`Writer::write`] does. A folder that is not there yet appears
     /// with all of its files or not at all; in one that is there the first of the files comes last.
     /// Gives the number of files that changed.
@@ -234,7 +265,12 @@ impl Writer {
     }
 
     /// `path` is for the message, `target` has its symbolic links followed.
-    fn check_owner(&self, path: &Path, target: &Path, ownership: Ownership) -> Result<(), Error> {
+    pub(super) fn check_owner(
+        &self,
+        path: &Path,
+        target: &Path,
+        ownership: Ownership,
+    ) -> Result<(), Error> {
         if self.force {
             return Ok(());
         }
@@ -269,7 +305,7 @@ enum Target {
     Stream,
 }
 
-fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
+pub(super) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     Error::File { action: "write", path: path.to_owned(), reason: error.to_string() }
 }
 
@@ -297,7 +333,7 @@ fn write_stream(output: &Output<'_>) -> Result<(), Error> {
 
 /// Folders that are made for outputs; those still empty go again if the outputs fail.
 #[derive(Default)]
-struct Folders(Vec<PathBuf>);
+pub(super) struct Folders(Vec<PathBuf>);
 
 impl Folders {
     /// Makes a folder and those above it.
@@ -316,7 +352,7 @@ impl Folders {
     }
 
     /// They have files now.
-    fn keep(&mut self) {
+    pub(super) fn keep(&mut self) {
         self.0.clear();
     }
 }

@@ -3,7 +3,6 @@
 use robot_build::{Options, Pivot, Pivots, Programs, Trigonometry};
 use robot_model::variable::JointVariable;
 
-use crate::Terminal;
 use crate::failure::Failure;
 use crate::states::State;
 
@@ -25,18 +24,10 @@ impl Digits {
         Ok(Digits(Some(pivots.with_trigonometry(trigonometry))))
     }
 
-    /// Says at which states accelerations have few digits.
-    pub(super) fn warn(
-        &self,
-        states: &[State],
-        terminal: &mut Terminal<'_>,
-    ) -> Result<(), Failure> {
-        for state in states {
-            if let Some(pivot) = self.smallest(state) {
-                writeln!(terminal.errors, "warning: {}: {pivot}", state.place)?;
-            }
-        }
-        Ok(())
+    /// A line for a state whose accelerations have few digits.
+    pub(super) fn warning(&self, state: &State<'_>) -> Option<String> {
+        let pivot = self.smallest(state)?;
+        Some(format!("warning: {}: {pivot}\n", state.place))
     }
 
     /// Whether the functions solve with the mass matrix.
@@ -45,12 +36,12 @@ impl Digits {
     }
 
     /// Why a state has no accelerations, if the mass matrix is the reason.
-    pub(super) fn singular(&self, state: &State) -> Option<String> {
+    pub(super) fn singular(&self, state: &State<'_>) -> Option<String> {
         let pivot = self.smallest(state).filter(Pivot::is_wrong)?;
         Some(format!("forward dynamics has no solution: {pivot}"))
     }
 
-    fn smallest(&self, state: &State) -> Option<Pivot> {
+    fn smallest(&self, state: &State<'_>) -> Option<Pivot> {
         // Whether the state is complete, the function itself has said.
         self.0.as_ref()?.smallest(state.array(JointVariable::Position.name())?).ok().flatten()
     }

@@ -14,7 +14,7 @@ use crate::states::State;
 pub(super) fn messages(
     robot: &Robot,
     settings: &[(&str, f64)],
-    state: &State,
+    state: &State<'_>,
     outputs: &[OutputValues],
     digits: &Digits,
     trigonometry: Trigonometry,
@@ -61,7 +61,7 @@ fn entries(robot: &Robot, output: &OutputValues) -> String {
 }
 
 /// The coordinates whose accelerations no forces determine, if the mass matrix is singular at the state.
-fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State) -> Option<String> {
+fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State<'_>) -> Option<String> {
     let value = |name: &str| {
         let set = settings.iter().find(|(set, _)| *set == name).map(|(_, value)| *value);
         let nominal = || Some(robot.parameter(name)?.value.as_ref()?.to_f64());

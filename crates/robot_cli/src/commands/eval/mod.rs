@@ -1,31 +1,34 @@
 //! `eval`: a function of a robot at given states.
 
 mod digits;
+mod evaluation;
 mod infinite;
 mod output;
 
+use std::io::Read;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_build::functions::named;
 use robot_build::{
-    Bundle, Effects, FunctionKind, Functions, Options, Programs, Source, Trigonometry, programs_of,
+    Bundle, Effects, FunctionKind, Functions, Options, Ownership, Trigonometry, programs_of,
 };
-use robot_codegen::module::Function;
-use robot_codegen::{Interpreter, OutputValues};
+use robot_codegen::Interpreter;
 use robot_model::description::Described;
 use robot_model::robot::Robot;
-use robot_model::variable::WRENCH;
 
 use self::digits::Digits;
+use self::evaluation::{Evaluation, Task, failed};
+use self::output::Printer;
 use crate::Terminal;
+use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
-use crate::files;
 use crate::options::help;
+use crate::outgoing::Outgoing;
 use crate::progress::watched;
 use crate::robot::{RobotArgument, trigonometry};
 use crate::settings::Settings;
-use crate::states::{Layout, State, StateArguments};
+use crate::states::{Input, Layout, Sink, State, StateArguments};
 use crate::suggested::FUNCTION;
 
 #[derive(Args)]
@@ -40,7 +43,8 @@ wrench_NAME for each of several tips), or CSV with a header such as q1,q2,qd1,qd
 A function needs all its inputs except the wrench, whose default is 0. The wrench is the one that the tip
 exerts on its surroundings. If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench,
 inverse_dynamics_friction means inverse_dynamics_wrench_friction, and likewise for forward_dynamics. Values
-are computed by the straight-line program that the generated code is printed from.")]
+are computed by the straight-line program that the generated code is printed from. States are read and their
+outputs printed one after the other, however many there are; -o writes a file when all are computed.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -57,6 +61,11 @@ pub(crate) struct Arguments {
     settings: Settings,
     #[arg(long, help = help("trigonometry"), default_value = "polynomial", value_parser = trigonometry())]
     trigonometry: Trigonometry,
+    /// The file to write, when all states are computed; `-` is standard output, state by state [default: -]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgument,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
@@ -74,30 +83,68 @@ impl Arguments {
             let message = "a state is needed: --q, --qd, …, or --states with a file of states";
             return Err(Failure::Usage(vec![message.to_owned()]));
         }
+        let inputs = self.robot.inputs().into_iter().chain(self.states.clone());
+        let path = file_of(self.output.as_deref());
+        let writer = self.force.writer(inputs, path.is_some())?;
+        writer
+            .check(&path.map(|path| (path, Ownership::Edited)).into_iter().collect::<Vec<_>>())?;
         let file = self.robot.open()?;
         let described = file.read(terminal)?;
         let Described { robot, code, .. } = &described;
         let bundles = code.bundles.iter().filter(|bundle| bundle.name == self.function);
         let bundles: Vec<Bundle> = bundles.cloned().collect();
         let kind = if bundles.is_empty() { Some(self.kind(robot)?) } else { None };
-        let mut wrong = self.settings.wrong(robot);
-        if wrong.is_empty() {
+        let before = self.settings.wrong(robot);
+        if before.is_empty() {
             self.settings.check(&file, &described, terminal)?;
         }
-        let states = self.states(robot, terminal, &mut wrong)?;
-        let kind = kind.map(|kind| with_wrench(kind, robot, &states, &mut wrong));
+        let layout = Layout::of(robot);
+        let mut nothing = std::io::empty();
+        let (standard, mut terminal) = terminal.without_input(&mut nothing);
+        let terminal = &mut terminal;
+        let mut states = self.states(robot, &layout, standard)?;
+        let loaded = kind.map(|kind| with_wrench(kind, robot, &layout, &mut states)).transpose()?;
+        let (kind, unloadable) = loaded.unzip();
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
         let options = Options { functions, bundles, ..file.options(terminal)? };
         let (name, robot) = (&file.source().name, robot.clone());
         let programs = watched("deriving", terminal, || programs_of(robot, name, &options))?;
         let digits = Digits::of(&programs, &options, &self.settings.pairs(), self.trigonometry)?;
-        let results = self.results(file.source(), &programs, &states, wrong, &digits)?;
-        digits.warn(&states, terminal)?;
-        let shown = match self.format {
-            Format::Json => output::json(&results),
-            Format::Csv => output::csv(&results),
+        let settings = &self.settings.pairs();
+        let interpreter = (before.is_empty())
+            .then(|| Interpreter::new(&programs.module, settings))
+            .transpose()
+            .map_err(|errors| failed(name, &errors))?
+            .map(|interpreter| interpreter.with_trigonometry(self.trigonometry));
+        let Some(function) = programs.module.functions.first() else {
+            let message = format!("the robot does not have the function `{}`", self.function);
+            return Err(Failure::input(message));
         };
-        Ok(terminal.output.write_all(shown.as_bytes())?)
+        let callable = interpreter.as_ref().map(|one| one.function(&function.name));
+        let callable = callable.transpose().map_err(|errors| failed(name, &errors))?;
+        let printer = match self.format {
+            Format::Json => Printer::json(&function.outputs),
+            Format::Csv => Printer::csv(&function.outputs),
+        };
+        let task = Task {
+            robot: &programs.robot,
+            settings,
+            trigonometry: self.trigonometry,
+            digits: &digits,
+            function,
+            callable,
+            unloadable: unloadable.flatten(),
+            printer,
+            file: name,
+            source: states.source(),
+        };
+        let begin = |path| Ok::<_, Failure>((writer.begin(path, Ownership::Edited)?, path));
+        let pending = path.map(begin).transpose()?;
+        let outgoing = Outgoing::new(pending, terminal.output, terminal.errors);
+        let before = before.into_iter().collect();
+        let mut evaluation = Evaluation::new(task, &layout, before, outgoing);
+        states.read(&layout, &mut evaluation)?;
+        evaluation.end()
     }
 
     /// The one function of that name.
@@ -115,112 +162,68 @@ impl Arguments {
         )]))
     }
 
-    fn states(
+    fn states<'l, 't>(
         &self,
         robot: &Robot,
-        terminal: &mut Terminal<'_>,
-        wrong: &mut Vec<String>,
-    ) -> Result<Vec<State>, Failure> {
-        let layout = Layout::of(robot);
+        layout: &'l Layout,
+        standard: &'t mut dyn Read,
+    ) -> Result<States<'l, 't>, Failure> {
         let Some(path) = &self.states else {
-            let (state, found) = self.state.state(robot, &layout);
-            return if found.is_empty() { Ok(vec![state]) } else { Err(Failure::Usage(found)) };
+            let (state, wrong) = self.state.state(robot, layout);
+            let given = States::Given(state);
+            return if wrong.is_empty() { Ok(given) } else { Err(Failure::Usage(wrong)) };
         };
-        let (name, text) = files::read(path, terminal)?;
-        let (states, found) = layout.read(&text);
-        wrong.extend(found.into_iter().map(|message| format!("{name}: {message}")));
-        Ok(states)
-    }
-
-    /// The outputs at every state, where nothing is wrong.
-    fn results(
-        &self,
-        source: &Source,
-        programs: &Programs,
-        states: &[State],
-        mut wrong: Vec<String>,
-        digits: &Digits,
-    ) -> Result<Vec<Vec<OutputValues>>, Failure> {
-        let Some(function) = programs.module.functions.first() else {
-            return Err(Failure::input(format!(
-                "the robot does not have the function `{}`",
-                self.function
-            )));
-        };
-        wrong.extend(states.iter().flat_map(|state| missing_inputs(function, state)));
-        if !wrong.is_empty() {
-            return Err(Failure::Input(wrong));
-        }
-        let failed = |errors: robot_codegen::Errors| {
-            let errors = errors.as_slice().iter();
-            Failure::Input(errors.map(|error| format!("{}: {error}", source.name)).collect())
-        };
-        let interpreter = Interpreter::new(&programs.module, &self.settings.pairs())
-            .map_err(failed)?
-            .with_trigonometry(self.trigonometry);
-        let callable = interpreter.function(&function.name).map_err(failed)?;
-        let inputs = inputs(function, states);
-        let given: Vec<(&str, &[Vec<f64>])> =
-            inputs.iter().map(|(name, entries)| (*name, entries.as_slice())).collect();
-        let values = callable.states(states.len(), &given).map_err(failed)?;
-        let mut results = vec![];
-        for (state, values) in states.iter().zip(values) {
-            let outputs = callable.named(values);
-            wrong.extend(infinite::messages(
-                &programs.robot,
-                &self.settings.pairs(),
-                state,
-                &outputs,
-                digits,
-                self.trigonometry,
-            ));
-            results.push(outputs);
-        }
-        if wrong.is_empty() { Ok(results) } else { Err(Failure::Input(wrong)) }
+        Ok(States::Read(Input::open(path, standard)?))
     }
 }
 
-/// The function that takes the wrenches which the states have.
+/// One state, or many.
+enum States<'l, 't> {
+    Given(State<'l>),
+    Read(Input<'t>),
+}
+
+impl<'l> States<'l, '_> {
+    /// The name of their file.
+    fn source(&self) -> Option<String> {
+        match self {
+            States::Given(_) => None,
+            States::Read(input) => Some(input.name().to_owned()),
+        }
+    }
+
+    /// Whether one of them has a wrench.
+    fn are_loaded(&mut self, layout: &Layout) -> Result<bool, Failure> {
+        match self {
+            States::Given(state) => Ok(state.is_loaded()),
+            States::Read(input) => input.is_loaded(layout),
+        }
+    }
+
+    fn read(self, layout: &'l Layout, sink: &mut dyn Sink<'l>) -> Result<(), Failure> {
+        match self {
+            States::Given(mut state) => {
+                let _ = sink.state(&mut state);
+                Ok(())
+            }
+            States::Read(mut input) => input.read(layout, sink),
+        }
+    }
+}
+
+/// The function that takes the wrenches which the states have; why there is none.
 fn with_wrench(
     kind: FunctionKind,
     robot: &Robot,
-    states: &[State],
-    wrong: &mut Vec<String>,
-) -> FunctionKind {
-    let loaded: Vec<&State> =
-        states.iter().filter(|state| state.wrenches().next().is_some()).collect();
-    if loaded.is_empty() {
-        return kind;
+    layout: &Layout,
+    states: &mut States<'_, '_>,
+) -> Result<(FunctionKind, Option<String>), Failure> {
+    if !states.are_loaded(layout)? {
+        return Ok((kind, None));
     }
     if let Some(why) = FunctionKind::InverseDynamics(Effects::WRENCH).missing_in(robot) {
-        wrong
-            .extend(loaded.iter().map(|state| format!("{}: has a wrench, but {why}", state.place)));
-        return kind;
+        return Ok((kind, Some(why.to_string())));
     }
-    kind.with_effects(Effects { wrench: true, ..kind.effects() }).unwrap_or(kind)
-}
-
-/// The inputs that a state lacks; a wrench is 0 where it is not given.
-fn missing_inputs(function: &Function, state: &State) -> Vec<String> {
-    let missing = function
-        .inputs
-        .iter()
-        .filter(|input| !input.name.starts_with(WRENCH) && state.array(&input.name).is_none());
-    missing
-        .map(|input| {
-            format!("{}: `{}` is missing; {} needs it", state.place, input.name, function.name)
-        })
-        .collect()
-}
-
-/// The inputs of a function, each at all states; a wrench that is not given is 0.
-fn inputs<'f>(function: &'f Function, states: &[State]) -> Vec<(&'f str, Vec<Vec<f64>>)> {
-    let inputs = function.inputs.iter().map(|input| {
-        let entries = |state: &State| {
-            let entries = state.array(&input.name).map(<[f64]>::to_vec);
-            entries.unwrap_or_else(|| vec![0.0; input.symbols.len()])
-        };
-        (input.name.as_str(), states.iter().map(entries).collect())
-    });
-    inputs.collect()
+    let loaded = kind.with_effects(Effects { wrench: true, ..kind.effects() });
+    Ok((loaded.unwrap_or(kind), None))
 }

@@ -1,51 +1,136 @@
-//! Outputs as JSON and CSV.
+//! Outputs as JSON and CSV, state by state.
 
-use robot_codegen::OutputValues;
-use serde_json::{Map, Value, json};
+use robot_codegen::module::Output;
+use robot_simulation::csv::push_number;
+use serde_json::Value;
 
-/// An array with an object for each state.
-pub(super) fn json(results: &[Vec<OutputValues>]) -> String {
-    let objects: Vec<String> = results
-        .iter()
-        .map(|outputs| {
-            let fields = outputs.iter().map(|output| (output.name.clone(), shaped(output)));
-            Value::Object(fields.collect::<Map<_, _>>()).to_string()
-        })
-        .collect();
-    format!("[\n{}\n]\n", objects.join(",\n"))
+/// The outputs of states as text.
+pub(super) enum Printer {
+    /// An array with an object for each state.
+    Json(Vec<Field>),
+    /// A header and a line for each state.
+    Csv {
+        /// The line above the first state.
+        header: String,
+    },
 }
 
-/// A number, an array, or an array of rows.
-fn shaped(output: &OutputValues) -> Value {
-    match output.shape.as_slice() {
-        [] => json!(output.values.first()),
-        [_, columns] if *columns > 0 => {
-            let rows: Vec<&[f64]> = output.values.chunks(*columns).collect();
-            json!(rows)
+/// An output in JSON.
+pub(super) struct Field {
+    /// What stands before its value: `"tau":`
+    key: String,
+    shape: Shape,
+    /// The number of entries.
+    length: usize,
+}
+
+/// A number, an array, or an array of rows of so many entries.
+#[derive(Clone, Copy)]
+enum Shape {
+    Scalar,
+    Vector,
+    Rows(usize),
+}
+
+impl Printer {
+    pub(super) fn json(outputs: &[Output]) -> Printer {
+        let field = |output: &Output| Field {
+            key: format!("{}:", Value::from(output.name.as_str())),
+            length: output.len(),
+            shape: match output.shape.as_slice() {
+                [] => Shape::Scalar,
+                [_, columns] if *columns > 0 => Shape::Rows(*columns),
+                _ => Shape::Vector,
+            },
+        };
+        Printer::Json(outputs.iter().map(field).collect())
+    }
+
+    pub(super) fn csv(outputs: &[Output]) -> Printer {
+        let header: Vec<String> = outputs.iter().flat_map(columns).collect();
+        Printer::Csv { header: header.join(",") }
+    }
+
+    /// Appends the entries of all outputs at a state.
+    pub(super) fn state(
+        &self,
+        is_first: bool,
+        values: impl Iterator<Item = f64>,
+        text: &mut String,
+    ) {
+        match self {
+            Printer::Json(fields) => {
+                text.push_str(if is_first { "[\n" } else { ",\n" });
+                object(fields, values, text);
+            }
+            Printer::Csv { header } => {
+                if is_first {
+                    text.push_str(header);
+                    text.push('\n');
+                }
+                listed(values, text, push_number);
+                text.push('\n');
+            }
         }
-        _ => json!(output.values),
+    }
+
+    /// Appends what stands behind the last state, if there is one.
+    pub(super) fn end(&self, is_empty: bool, text: &mut String) {
+        match self {
+            Printer::Json(_) => text.push_str(if is_empty { "[\n\n]\n" } else { "\n]\n" }),
+            Printer::Csv { .. } => {}
+        }
     }
 }
 
-/// A header and a line for each state.
-pub(super) fn csv(results: &[Vec<OutputValues>]) -> String {
-    let Some(first) = results.first() else {
-        return String::new();
-    };
-    let header: Vec<String> = first.iter().flat_map(columns).collect();
-    let mut text = header.join(",");
-    for outputs in results {
-        let values = outputs.iter().flat_map(|output| &output.values);
-        let values: Vec<String> = values.map(|value| format!("{value:?}")).collect();
-        text.push('\n');
-        text.push_str(&values.join(","));
+/// `{"tau":[1.0,2.0]}`
+fn object(fields: &[Field], mut values: impl Iterator<Item = f64>, text: &mut String) {
+    text.push('{');
+    for (index, Field { key, shape, length }) in fields.iter().enumerate() {
+        if index > 0 {
+            text.push(',');
+        }
+        text.push_str(key);
+        match *shape {
+            Shape::Scalar => listed(values.by_ref().take(1), text, push_json),
+            Shape::Vector => array(values.by_ref().take(*length), text),
+            Shape::Rows(columns) => {
+                text.push('[');
+                for row in 0..length / columns {
+                    if row > 0 {
+                        text.push(',');
+                    }
+                    array(values.by_ref().take(columns), text);
+                }
+                text.push(']');
+            }
+        }
     }
-    text.push('\n');
-    text
+    text.push('}');
+}
+
+fn array(values: impl Iterator<Item = f64>, text: &mut String) {
+    text.push('[');
+    listed(values, text, push_json);
+    text.push(']');
+}
+
+fn listed(values: impl Iterator<Item = f64>, text: &mut String, push: fn(&mut String, f64)) {
+    for (index, value) in values.enumerate() {
+        if index > 0 {
+            text.push(',');
+        }
+        push(text, value);
+    }
+}
+
+/// A finite number as `serde_json` writes it, with the same library.
+fn push_json(text: &mut String, number: f64) {
+    text.push_str(zmij::Buffer::new().format_finite(number));
 }
 
 /// `energy`, `tau1`, `force2_3`
-fn columns(output: &OutputValues) -> Vec<String> {
+fn columns(output: &Output) -> Vec<String> {
     let name = &output.name;
     match output.shape.as_slice() {
         [] => vec![name.clone()],
@@ -53,6 +138,25 @@ fn columns(output: &OutputValues) -> Vec<String> {
             let cells = (1..=*rows).flat_map(|row| (1..=*columns).map(move |column| (row, column)));
             cells.map(|(row, column)| format!("{name}{row}_{column}")).collect()
         }
-        _ => (1..=output.values.len()).map(|number| format!("{name}{number}")).collect(),
+        _ => (1..=output.len()).map(|number| format!("{name}{number}")).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn numbers_are_those_of_serde_json() {
+        let numbers = [0.0, -0.0, 1.0, 1e-4, 1e-5, 1e-7, 0.1 + 0.2, 1e16, 1.5e300, 5e-324, -2e22];
+        for number in
+            numbers.into_iter().chain((0..10_000).map(|k| f64::from(k) / 2_f64.powi(k % 70)))
+        {
+            let mut text = String::new();
+            push_json(&mut text, number);
+            assert_eq!(text, json!(number).to_string());
+        }
     }
 }

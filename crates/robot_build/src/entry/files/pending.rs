@@ -1,0 +1,91 @@
+//! A file whose bytes come one after the other.
+
+use std::fs::{self, File, Metadata};
+use std::io::{BufRead, BufReader, Result, Write};
+use std::path::{Path, PathBuf};
+
+use super::staging::{Staged, remove_leftovers};
+use super::writer::{Folders, Ownership, Writer, cannot_write};
+use crate::error::Errors;
+
+/// A file being written by [`Writer::begin`]: beside its place until it is [put](Pending::put) there, and gone if it
+/// never is. What is written to a stream is there at once.
+#[must_use]
+pub struct Pending {
+    pub(super) writer: Writer,
+    pub(super) path: PathBuf,
+    pub(super) ownership: Ownership,
+    pub(super) place: Place,
+    pub(super) folders: Folders,
+    pub(super) length: u64,
+}
+
+/// Where the bytes go.
+pub(super) enum Place {
+    Stream(File),
+    /// A new file, and what it replaces.
+    Staged(Staged, Option<(PathBuf, Metadata)>),
+}
+
+impl Pending {
+    /// Appends bytes.
+    ///
+    /// # Errors
+    ///
+    /// What the system says, with the path.
+    pub fn write(&mut self, bytes: &[u8]) -> std::result::Result<(), Errors> {
+        let written = match &mut self.place {
+            Place::Stream(stream) => stream.write_all(bytes),
+            Place::Staged(staged, _) => staged.write_all(bytes),
+        };
+        self.length += bytes.len() as u64;
+        Ok(written.map_err(|error| cannot_write(&self.path, &error))?)
+    }
+
+    /// Puts the whole file in its place; gives its length, `None` if the file that is there has these bytes already.
+    ///
+    /// # Errors
+    ///
+    /// What is refused now that it differs; what the system says, with the path.
+    pub fn put(mut self) -> std::result::Result<Option<u64>, Errors> {
+        let path = &self.path;
+        if let Place::Staged(staged, present) = self.place {
+            if let Some((target, _)) = &present {
+                if is_equal(staged.path(), target) {
+                    drop(staged);
+                    remove_leftovers(target);
+                    return Ok(None);
+                }
+                self.writer.check_owner(path, target, self.ownership)?;
+            }
+            let put = staged.complete(present.as_ref().map(|(_, metadata)| metadata));
+            put.map_err(|error| cannot_write(path, &error))?;
+            self.folders.keep();
+            staged.put().map_err(|error| cannot_write(path, &error))?;
+        }
+        Ok(Some(self.length))
+    }
+}
+
+/// Whether two files have the same bytes, as far as can be read.
+fn is_equal(a: &Path, b: &Path) -> bool {
+    let compare = || -> Result<bool> {
+        if fs::metadata(a)?.len() != fs::metadata(b)?.len() {
+            return Ok(false);
+        }
+        let [mut a, mut b] = [BufReader::new(File::open(a)?), BufReader::new(File::open(b)?)];
+        loop {
+            let (left, right) = (a.fill_buf()?, b.fill_buf()?);
+            let length = left.len().min(right.len());
+            if length == 0 {
+                return Ok(left.len() == right.len());
+            }
+            if left[..length] != right[..length] {
+                return Ok(false);
+            }
+            a.consume(length);
+            b.consume(length);
+        }
+    };
+    compare().unwrap_or(false)
+}

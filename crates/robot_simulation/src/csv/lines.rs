@@ -1,0 +1,88 @@
+//! Lines of a reader.
+
+use std::io::{BufRead, Read as _};
+
+use crate::error::Error;
+
+/// A longer line is refused: what has no lines may have no end.
+const MAX_BYTES: usize = 1 << 20;
+
+/// The lines of a text that are not blank, one after the other; only one is in memory.
+#[derive(Debug)]
+pub struct Lines<R> {
+    source: String,
+    reader: R,
+    line: Vec<u8>,
+    /// Lines that have been read, blank ones too.
+    number: usize,
+    /// Bytes before the line.
+    offset: u64,
+}
+
+impl<R: BufRead> Lines<R> {
+    /// The lines of a reader; `source` is its name in messages. A byte order mark at the start is no part of the text.
+    pub fn new(source: &str, reader: R) -> Lines<R> {
+        Lines { source: source.to_owned(), reader, line: vec![], number: 0, offset: 0 }
+    }
+
+    /// The next line that is not blank, with its number from 1 on and its line end.
+    ///
+    /// # Errors
+    ///
+    /// What the reader says; a line that is not UTF-8 or has more than a mebibyte.
+    pub fn next(&mut self) -> Result<Option<(usize, &str)>, Error> {
+        loop {
+            self.fill()?;
+            if self.line.is_empty() {
+                return Ok(None);
+            }
+            if !is_blank(&self.line) {
+                break;
+            }
+        }
+        let mark = if self.number == 1 { "\u{feff}" } else { "" };
+        match str::from_utf8(&self.line) {
+            Ok(line) => Ok(Some((self.number, line.strip_prefix(mark).unwrap_or(line)))),
+            Err(error) => Err(Error::input(not_utf8(&self.source, self.offset, error))),
+        }
+    }
+
+    /// Reads a line; at the end it is empty.
+    fn fill(&mut self) -> Result<(), Error> {
+        self.offset += self.line.len() as u64;
+        self.line.clear();
+        let read =
+            self.reader.by_ref().take(MAX_BYTES as u64 + 1).read_until(b'\n', &mut self.line);
+        let source = &self.source;
+        read.map_err(|error| Error::input(format!("cannot read {source}: {error}")))?;
+        self.number += 1;
+        if self.line.len() > MAX_BYTES {
+            let (number, limit) = (self.number, MAX_BYTES >> 20);
+            return Err(Error::input(format!("{source}: line {number} has more than {limit} MiB")));
+        }
+        Ok(())
+    }
+}
+
+/// That a text is not UTF-8, whose part behind `offset` bytes has that error.
+#[must_use]
+pub fn not_utf8(source: &str, offset: u64, error: std::str::Utf8Error) -> String {
+    let at = offset + error.valid_up_to() as u64;
+    let what = match error.error_len() {
+        Some(length) => format!("invalid utf-8 sequence of {length} bytes from index {at}"),
+        None => format!("incomplete utf-8 byte sequence from index {at}"),
+    };
+    format!("{source} is not UTF-8 text: {what}")
+}
+
+/// Whether a line has spaces alone.
+#[must_use]
+pub fn is_blank(line: &[u8]) -> bool {
+    let is_space = |byte: &u8| matches!(byte, b'\t'..=b'\r' | b' ');
+    match line.iter().find(|byte| !is_space(byte)) {
+        None => true,
+        Some(byte) if byte.is_ascii() => false,
+        Some(_) => str::from_utf8(line)
+            .is_ok_and(|line| line.strip_prefix('\u{feff}').unwrap_or(line).trim().is_empty()),
+    }
+}
