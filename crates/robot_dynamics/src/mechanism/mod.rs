@@ -79,7 +79,9 @@ impl<'g> BaseMotion<'g> {
     /// Any motion, in symbols of its own.
     pub(crate) fn any(graph: &'g Graph) -> BaseMotion<'g> {
         // No parameter has such a name.
-        let vector = |letter| Vector(["x", "y", "z"].map(|axis| graph.symbol(&format!("base {letter} {axis}"))));
+        let vector = |letter| {
+            Vector(["x", "y", "z"].map(|axis| graph.symbol(&format!("base {letter} {axis}"))))
+        };
         BaseMotion {
             angular_velocity: vector("ω"),
             angular_acceleration: vector("ε"),

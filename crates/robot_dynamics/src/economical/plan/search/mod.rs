@@ -407,7 +407,13 @@ impl<'m, 'g> Search<'m, 'g> {
         changes
     }
 
-    fn try_link(&mut self, plan: &mut Plan, cost: &mut usize, link: usize, change: &dyn Fn(&mut LinkPlan)) {
+    fn try_link(
+        &mut self,
+        plan: &mut Plan,
+        cost: &mut usize,
+        link: usize,
+        change: &dyn Fn(&mut LinkPlan),
+    ) {
         let mut candidate = plan.clone();
         change(&mut candidate.links[link]);
         if candidate.links[link] == plan.links[link] || self.is_spent() {
