@@ -1,7 +1,8 @@
 //! Operation counts as JSON and text.
 
 use robot_build::{Snapping, snapping::Tried};
-use robot_codegen::{Counts, FunctionCounts};
+use robot_codegen::code_size::{GIGAHERTZ, INSTRUCTION_CACHE};
+use robot_codegen::{CodeSize, Counts, FunctionCounts};
 use serde_json::{Map, Value, json};
 
 /// A named count of [`Counts`].
@@ -19,11 +20,35 @@ pub(crate) const COLUMNS: [Column; 8] = [
     ("temporaries", |counts| counts.temporaries),
 ];
 
-/// `{"mul": …, …, "constructor": {"mul": …, …}}`
-pub(crate) fn json(counts: &FunctionCounts) -> Value {
+/// `{"mul": …, …, "constructor": {"mul": …, …}, "code": {…}}`
+pub(crate) fn json(counts: &FunctionCounts, size: CodeSize) -> Value {
     let mut object = cells(&counts.call);
     object.insert("constructor".to_owned(), Value::Object(cells(&counts.constructor)));
+    let code = json!({
+        "bytes": size.bytes,
+        "fits_instruction_cache": size.fits(),
+        "fetch_ns": size.fetching().map(f64::round),
+    });
+    object.insert("code".to_owned(), code);
     Value::Object(object)
+}
+
+/// `NAME: about 23 kB of code: fits …`, a line.
+pub(crate) fn size_line(name: &str, size: CodeSize) -> String {
+    let cache = INSTRUCTION_CACHE / 1024;
+    let kilobytes = size.bytes as f64 / 1000.0;
+    let about = match kilobytes < 9.95 {
+        true => format!("{kilobytes:.1}"),
+        false => format!("{kilobytes:.0}"),
+    };
+    let verdict = match size.fetching() {
+        None => format!("fits a {cache} KB instruction cache"),
+        Some(time) => format!(
+            "does not fit a {cache} KB instruction cache; expect the time of fetching it, some \
+             {time:.0} ns at {GIGAHERTZ} GHz"
+        ),
+    };
+    format!("{name}: about {about} kB of code: {verdict}\n")
 }
 
 /// `{"tolerance": …, "angles": …, "largest_change": …, "operations": …, "larger": […]}`

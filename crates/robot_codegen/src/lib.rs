@@ -4,6 +4,7 @@
 //! straight-line [`Program`]s, the [`interpreter`] runs them and a [`backend`] prints them.
 
 pub mod backend;
+pub mod code_size;
 mod cost;
 pub mod counts;
 mod error;
@@ -18,6 +19,7 @@ mod stage;
 mod trigonometry;
 
 pub use backend::common::Scalar;
+pub use code_size::CodeSize;
 pub use cost::Cost;
 pub use counts::{Counts, FunctionCounts, PassCounts};
 pub use error::{Error, Errors};

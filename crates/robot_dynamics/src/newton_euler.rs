@@ -13,7 +13,7 @@ use robot_model::robot::JointKind;
 use robot_model::unit::Dimension;
 use robot_symbolic::Expr;
 
-use crate::mechanism::{Mechanism, MechanismFriction, MechanismLink};
+use crate::mechanism::{BaseMotion, Mechanism, MechanismFriction, MechanismLink};
 use crate::quantity::{Kind, Quantity, Symbol};
 use crate::vector::{Matrix, Vector};
 
@@ -86,9 +86,9 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
 
 /// The outward iterations: from the base to the tips.
 fn outward<'g>(mechanism: &Mechanism<'g>) -> Vec<LinkMotion<'g>> {
-    let zero = Vector::zero(mechanism.graph);
-    // The base at rest; gravity enters as the base's acceleration against it.
-    let base = (zero, zero, -mechanism.gravity);
+    // Gravity enters as the base's acceleration against it.
+    let base = mechanism.base.unwrap_or(BaseMotion::at_rest(mechanism.gravity));
+    let base = (base.angular_velocity, base.angular_acceleration, base.acceleration);
     let mut motions: Vec<LinkMotion<'g>> = Vec::with_capacity(mechanism.links.len());
     for link in &mechanism.links {
         let (omega, epsilon, a) = link.parent.map_or(base, |parent| {

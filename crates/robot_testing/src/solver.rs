@@ -1,7 +1,7 @@
 //! The numeric solver's values of functions, and the states and inputs to ask for.
 
 use nalgebra::{DMatrix, Vector3};
-use robot_model::functions::{Effects, FrameRef, FunctionKind};
+use robot_model::functions::{Effects, FrameRef, FunctionKind, coupled};
 use robot_model::robot::LINK_PARAMETERS;
 use robot_model::robot::{Friction, Robot};
 use robot_model::variable::JointVariable;
@@ -76,6 +76,10 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
             contacts(&solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links])
         }
         FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
+        FunctionKind::MassMatrixLower => {
+            let matrix = solver.mass_matrix(q).unwrap();
+            coupled(robot).into_iter().map(|[row, column]| matrix[(row, column)]).collect()
+        }
         FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
         FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
         FunctionKind::ForwardDynamics(Effects::NONE) => accelerations(&[]),

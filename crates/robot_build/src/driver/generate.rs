@@ -6,6 +6,7 @@ use robot_codegen::backend::rust::{self, LANGUAGE, Names, Parallel, RustOptions,
 use robot_codegen::{FunctionCounts, Module};
 use robot_dynamics::mechanism::Snap;
 use robot_model::diagnostic::{Diagnostics, Source};
+use robot_model::functions::{FunctionKind, coupled};
 use robot_model::robot::{Payload, Robot};
 
 use crate::driver::budget;
@@ -104,7 +105,7 @@ fn rust_options(
             (true, Wrapping::Items) => Parallel::WithFeature,
         },
         wrapping,
-        constants: constants(&programs.robot),
+        constants: constants(programs),
         setters: setters(&programs.robot),
         ..RustOptions::default()
     }
@@ -165,7 +166,8 @@ fn with_payload(payload: &Payload) -> Setter {
     }
 }
 
-fn constants(robot: &Robot) -> Vec<ConstantItem> {
+fn constants(programs: &Programs) -> Vec<ConstantItem> {
+    let robot = &programs.robot;
     let item = |name: &str, doc: &str, value| ConstantItem {
         name: name.to_owned(),
         doc: doc.to_owned(),
@@ -186,6 +188,12 @@ fn constants(robot: &Robot) -> Vec<ConstantItem> {
             ConstantValue::Texts(names.collect()),
         ),
     ];
+    let lower = FunctionKind::MassMatrixLower;
+    let mut bundled = programs.bundles.iter().flat_map(|bundle| &bundle.functions);
+    if programs.functions.contains(&lower) || bundled.any(|kind| *kind == lower) {
+        let doc = "Row and column, from 0, of each entry of `mass_matrix_lower`.";
+        items.push(item(lower.name(), doc, ConstantValue::Places(coupled(robot))));
+    }
     let limits: Option<Vec<[f64; 2]>> = coordinates
         .iter()
         .map(|coordinate| {

@@ -4,7 +4,7 @@ use clap::Args;
 use robot_build::ablation::{Ablation, ablation};
 use robot_build::{Functions, Options, programs, snapping};
 use robot_codegen::backend::rust::LANGUAGE;
-use robot_codegen::{Counts, FunctionCounts, Module};
+use robot_codegen::{CodeSize, Counts, FunctionCounts, Module};
 use robot_model::description::Described;
 use serde_json::{Map, Value, json};
 
@@ -28,6 +28,9 @@ use crate::text;
 Subtractions count as additions, sign changes are not counted, and a fused multiply-add counts as both of its
 operations. `other` are absolute values, signs and hyperbolic tangents. The operations of the constructor, once
 per set of parameters, are counted separately.
+
+The size of the code is an estimate for x86-64, most often to a tenth. Code beyond 32 KB does not fit the instruction
+cache of most processors: a call then takes at least the time of fetching it.
 
 With --passes, the operations of each function after each pass; `as built` is the result of the recursion,
 `constructor` what remains for calls. With --options, the operations of each function without one option of
@@ -76,19 +79,19 @@ impl Arguments {
         if self.passes {
             return self.show(&passes(module), terminal);
         }
-        let counts: Vec<(&str, FunctionCounts)> = module
+        let counts: Vec<(&str, FunctionCounts, CodeSize)> = module
             .functions
             .iter()
             .map(|function| {
                 let counts = module.counts(function).laid_out(function, &LANGUAGE.limits);
-                (function.name.as_str(), counts)
+                (function.name.as_str(), counts, CodeSize::of(function, &counts.call))
             })
             .collect();
         match self.format(terminal) {
             Format::Json => {
                 let functions: Map<String, Value> = counts
                     .iter()
-                    .map(|(name, counts)| ((*name).to_owned(), counts::json(counts)))
+                    .map(|(name, counts, size)| ((*name).to_owned(), counts::json(counts, *size)))
                     .collect();
                 let snapping = snapping(&programs.robot, options.snap, options.plan.as_ref())?;
                 let shown = json!({
@@ -98,7 +101,12 @@ impl Arguments {
                 });
                 writeln!(terminal.output, "{shown:#}")?;
             }
-            Format::Text => write!(terminal.output, "{}", text::table(&rows(&counts)))?,
+            Format::Text => {
+                let sizes: Vec<String> =
+                    counts.iter().map(|(name, _, size)| counts::size_line(name, *size)).collect();
+                let (table, sizes) = (text::table(&rows(&counts)), sizes.concat());
+                write!(terminal.output, "{table}\n{sizes}")?;
+            }
         }
         Ok(())
     }
@@ -185,11 +193,11 @@ fn ablated(found: &[Ablation]) -> Vec<Step> {
 }
 
 /// A row for each function, and one for what the constructor does of it, if anything.
-fn rows(counts: &[(&str, FunctionCounts)]) -> Vec<Vec<String>> {
+fn rows(counts: &[(&str, FunctionCounts, CodeSize)]) -> Vec<Vec<String>> {
     let mut title = vec!["function".to_owned()];
     title.extend(counts::COLUMNS.iter().map(|(name, _)| (*name).to_owned()));
     let mut rows = vec![title];
-    for (name, counts) in counts {
+    for (name, counts, _) in counts {
         let cells = |counts: &Counts| -> Vec<String> {
             counts::COLUMNS.iter().map(|(_, count)| count(counts).to_string()).collect()
         };

@@ -27,8 +27,37 @@ fn text_has_a_line_for_each_function() {
     let arguments = ["stats", &file, "--function", "inverse_dynamics", "--format", "text"];
     let shown = output(&arguments, "");
     let starts: Vec<&str> = shown.lines().map(|line| line.split("  ").next().unwrap()).collect();
-    assert_eq!(starts, ["function", "inverse_dynamics", ""]);
+    assert_eq!(starts[..4], ["function", "inverse_dynamics", "", ""]);
+    assert!(
+        starts[4].starts_with("inverse_dynamics: about 0.")
+            && starts[4].contains(" kB of code: fits "),
+        "{starts:?}"
+    );
     assert!(shown.lines().nth(2).unwrap().starts_with("  once for inverse_dynamics "));
+}
+
+/// Code beyond the instruction cache is said to wait for it; the estimate grows with the operations.
+#[test]
+fn code_sizes_are_told() {
+    let file = robot("panda");
+    let shown: Value = serde_json::from_str(&output(&["stats", &file], "")).unwrap();
+    let functions = shown["functions"].as_object().unwrap();
+    for (name, counts) in functions {
+        let count = |key: &str| counts[key].as_u64().unwrap();
+        let bytes = counts["code"]["bytes"].as_u64().unwrap();
+        assert!(bytes >= 8 * (count("mul") + count("add")), "{name}");
+        let fits = bytes <= 32 * 1024;
+        assert_eq!(counts["code"]["fits_instruction_cache"], fits, "{name}");
+        assert_eq!(counts["code"]["fetch_ns"].is_null(), fits, "{name}");
+    }
+    assert_eq!(functions["inverse_dynamics"]["code"]["fits_instruction_cache"], true);
+    let arguments =
+        ["stats", &file, "--function", "forward_dynamics_derivatives", "--format", "text"];
+    let shown = output(&arguments, "");
+    let line = shown.lines().last().unwrap();
+    assert!(line.starts_with("forward_dynamics_derivatives: about 3"), "{line}");
+    let end = "KB instruction cache; expect the time of fetching it, some ";
+    assert!(line.contains(end) && line.ends_with(" ns at 3.7 GHz"), "{line}");
 }
 
 #[test]

@@ -199,7 +199,7 @@ impl<'g> Recursion<'g> {
     /// M(q), drives included.
     #[must_use]
     pub fn mass_matrix(&self) -> SymmetricMatrix<'g> {
-        mass_matrix::mass_matrix(&self.chain.without_idle_turns(&[]), &self.plans)
+        mass_matrix::cheapest(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 }
 

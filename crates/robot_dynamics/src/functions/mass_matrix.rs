@@ -1,5 +1,6 @@
 //! The mass matrix.
 
+use robot_model::functions::coupled;
 use robot_model::variable::JointVariable;
 use robot_symbolic::walk;
 
@@ -22,6 +23,28 @@ pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
         &["The mass matrix M(q), including the drives' reflected inertias: symmetric, positive \
             definite; the joint torques for the accelerations `qdd` are M q̈ + C q̇ + g and the \
             kinetic energy is ½ q̇ᵀ M q̇."],
+        vec![output],
+    )
+}
+
+/// The entries of M's lower triangle that are not 0 by structure.
+pub(super) fn mass_matrix_lower<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
+    let matrix = matrix(derivation);
+    let entries = coupled(derivation.robot).into_iter();
+    let values: Vec<_> = entries.map(|[row, column]| matrix.at(row, column)).collect();
+    let output = Output::new(
+        FunctionKind::MassMatrixLower.name(),
+        "The lower triangle of the mass matrix row by row, each row to its diagonal entry, without \
+         the entries that are always 0",
+        &derivation.matrix_unit("kg m²", "kg m", "kg"),
+        vec![values.len()],
+        values,
+    );
+    derivation.of_kind(
+        FunctionKind::MassMatrixLower,
+        &["The lower triangle of the mass matrix M(q), of which the upper one is the mirror image. An \
+            entry is left out if no joint of one coordinate carries a joint of the other: it is \
+            always 0."],
         vec![output],
     )
 }

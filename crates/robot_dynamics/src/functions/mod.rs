@@ -80,6 +80,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
             FunctionKind::InverseDynamics(_) => inverse_dynamics::inverse_dynamics(self, kind),
             FunctionKind::LinkWrenches => inverse_dynamics::link_wrenches(self),
             FunctionKind::MassMatrix => mass_matrix::mass_matrix(self),
+            FunctionKind::MassMatrixLower => mass_matrix::mass_matrix_lower(self),
             FunctionKind::Bias => inverse_dynamics::bias(self),
             FunctionKind::Gravity => gravity::gravity(self),
             FunctionKind::ForwardDynamics(_) => forward_dynamics::forward_dynamics(self, kind),

@@ -33,6 +33,7 @@ pub(super) fn lower<'g>(
         frames,
         degrees_of_freedom: robot.coordinates.len(),
         snapped: lowering.snapped,
+        base: None,
     }
 }
 

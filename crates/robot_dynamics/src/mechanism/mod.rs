@@ -56,6 +56,40 @@ pub struct Mechanism<'g> {
     pub degrees_of_freedom: usize,
     /// The constant angles that were snapped.
     pub snapped: Vec<Snap>,
+    /// The motion of the base if it is not at rest: for parts of a robot, which only joint torques are derived of.
+    pub(crate) base: Option<BaseMotion<'g>>,
+}
+
+/// The motion of a base, in its own axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BaseMotion<'g> {
+    /// rad/s.
+    pub(crate) angular_velocity: Vector<'g>,
+    /// rad/s².
+    pub(crate) angular_acceleration: Vector<'g>,
+    /// Acceleration of the origin, gravity included as one, m/s².
+    pub(crate) acceleration: Vector<'g>,
+}
+
+impl<'g> BaseMotion<'g> {
+    /// At rest, in a field of gravity.
+    pub(crate) fn at_rest(gravity: Vector<'g>) -> BaseMotion<'g> {
+        let zero = Vector::zero(gravity.0[0].graph());
+        BaseMotion { angular_velocity: zero, angular_acceleration: zero, acceleration: -gravity }
+    }
+
+    /// Any motion, in symbols of its own.
+    pub(crate) fn any(graph: &'g Graph) -> BaseMotion<'g> {
+        // No parameter has such a name.
+        let vector = |letter| {
+            Vector(["x", "y", "z"].map(|axis| graph.symbol(&format!("base {letter} {axis}"))))
+        };
+        BaseMotion {
+            angular_velocity: vector("ω"),
+            angular_acceleration: vector("ε"),
+            acceleration: vector("a"),
+        }
+    }
 }
 
 /// A constant angle that was taken for a multiple of π/2.

@@ -3,12 +3,13 @@
 use robot_dynamics::economical::Plan;
 use robot_dynamics::functions::{Derivation, Output};
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_model::functions::FunctionKind;
+use robot_model::functions::{Effects, FunctionKind, coupled};
 use robot_model::robot::Robot;
-use robot_numeric::random::Random;
-use robot_symbolic::{Expr, Graph};
+use robot_numeric::random::{Random, Recipe};
+use robot_numeric::robots;
+use robot_symbolic::{Expr, Graph, operations};
 
-use crate::{STATES, TOLERANCE, robots};
+use crate::{STATES, TOLERANCE};
 use robot_testing::place::{Layout, Off};
 use robot_testing::plans::random_plan;
 use robot_testing::solver::{expected, state};
@@ -37,7 +38,7 @@ fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Outpu
 
 #[test]
 fn functions_agree_with_the_numeric_solver() {
-    for (name, robot, seed) in robots() {
+    for (name, robot, seed) in crate::robots() {
         let mut random = Random::new(seed);
         let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
         let states: Vec<_> = (0..STATES).map(|_| state(&mut random, &solver, &robot)).collect();
@@ -66,4 +67,64 @@ fn functions_agree_with_the_numeric_solver() {
             }
         }
     }
+}
+
+/// From nine coordinates on the mass matrix has the form with the fewest operations: of chains about any axes at most
+/// seventeen an entry, and of forty joints fewer than forward dynamics.
+#[test]
+fn mass_matrices_of_many_joints() {
+    let recipes = [
+        Recipe::serial(12),
+        Recipe::serial(40),
+        Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(16) },
+        Recipe { drives: true, ..Recipe::tree(30) },
+    ];
+    for (seed, recipe) in (40..).zip(recipes) {
+        let mut random = Random::new(seed);
+        let robot = robots::robot(&mut random, &recipe);
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let roots = |kind| -> Vec<Expr<'_>> {
+            outputs(&derivation, kind).into_iter().flat_map(|output| output.values).collect()
+        };
+        for kind in [FunctionKind::MassMatrix, FunctionKind::MassMatrixLower] {
+            let roots = roots(kind);
+            for _ in 0..STATES {
+                let state = state(&mut random, &solver, &robot);
+                let expected = expected(&robot, &solver, kind, &state);
+                let size = magnitude(expected.iter());
+                let layout = Layout::of(&robot, &outputs(&derivation, kind));
+                let off = Off::of(&layout, &evaluate(&robot, &roots, &state), &expected, size);
+                assert!(off.error <= TOLERANCE, "seed {seed}, {}: {off}", kind.name());
+            }
+        }
+        let cost = |kind| operations(&roots(kind), |_| false).flops();
+        let lower = FunctionKind::MassMatrixLower;
+        let (entries, cost_of_lower) = (roots(lower).len(), cost(lower));
+        println!("{} joints: {entries} entries, {cost_of_lower} operations", recipe.joints);
+        assert_eq!(cost_of_lower, cost(FunctionKind::MassMatrix));
+        if recipe.joints == 40 {
+            assert!(cost_of_lower <= 17 * entries, "{cost_of_lower}");
+            let forward = cost(FunctionKind::ForwardDynamics(Effects::NONE));
+            assert!(cost_of_lower < forward, "{cost_of_lower} {forward}");
+        }
+    }
+}
+
+/// The lower triangle of a robot of two legs: what couples one with the other is left out.
+#[test]
+fn entries_between_branches_are_left_out() {
+    let mut robot = robots::robot(&mut Random::new(1), &Recipe::serial(4));
+    robot.links[2].parent = None;
+    assert_eq!(coupled(&robot), [[0, 0], [1, 0], [1, 1], [2, 2], [3, 2], [3, 3]]);
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+    let values = |kind: FunctionKind| outputs(&derivation, kind).remove(0).values;
+    let (full, lower) = (values(FunctionKind::MassMatrix), values(FunctionKind::MassMatrixLower));
+    let places = coupled(&robot);
+    let of_full: Vec<_> = places.iter().map(|[row, column]| full[row * 4 + column]).collect();
+    assert_eq!(lower, of_full);
+    let zeros = (0..16).filter(|place| full[*place].is_zero()).count();
+    assert_eq!(zeros, 8);
 }

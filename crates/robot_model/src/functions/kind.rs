@@ -42,6 +42,8 @@ pub enum FunctionKind {
     LinkWrenches,
     /// M from q.
     MassMatrix,
+    /// The entries of M's lower triangle that are not 0 by structure, from q.
+    MassMatrixLower,
     /// C q̇ + g from q, q̇.
     Bias,
     /// g from q.
@@ -86,6 +88,7 @@ impl FunctionKind {
         FunctionKind::InverseDynamics(Effects::BOTH),
         FunctionKind::LinkWrenches,
         FunctionKind::MassMatrix,
+        FunctionKind::MassMatrixLower,
         FunctionKind::Bias,
         FunctionKind::Gravity,
         FunctionKind::ForwardDynamics(Effects::NONE),
@@ -124,6 +127,7 @@ impl FunctionKind {
             }
             F::LinkWrenches => Declaration::new("link_wrenches", MOTION),
             F::MassMatrix => Declaration::of_composites("mass_matrix", &[Position]),
+            F::MassMatrixLower => Declaration::of_composites("mass_matrix_lower", &[Position]),
             F::Bias => Declaration::of_motions("bias", STATE),
             F::Gravity => Declaration::of_composites("gravity", &[Position]),
             F::ForwardDynamics(effects) => {

@@ -46,6 +46,8 @@ pub enum ConstantValue {
     Text(String),
     /// An array of texts.
     Texts(Vec<String>),
+    /// An array of rows and columns.
+    Places(Vec<[usize; 2]>),
     /// An array of numbers in double precision.
     Numbers(Vec<f64>),
 }

@@ -35,6 +35,15 @@ pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
                 let length = Literal::usize_unsuffixed(texts.len());
                 parse_quote!(#(#docs)* pub const #name: [&str; #length] = [#(#texts),*];)
             }
+            ConstantValue::Places(places) => {
+                let length = Literal::usize_unsuffixed(places.len());
+                let places = places.iter().map(|[row, column]| {
+                    let [row, column] =
+                        [row, column].map(|index| Literal::usize_unsuffixed(*index));
+                    quote!((#row, #column))
+                });
+                parse_quote!(#(#docs)* pub const #name: [(usize, usize); #length] = [#(#places),*];)
+            }
             ConstantValue::Numbers(numbers) => {
                 let length = Literal::usize_unsuffixed(numbers.len());
                 let numbers = numbers.iter().map(|number| syntax::float(*number));

@@ -1,12 +1,39 @@
 //! The mass matrix by composite inertias.
 
+use std::collections::BTreeSet;
+
 use crate::economical::composite::projection::{Propagated, projections};
 use crate::economical::composite::{composites, inertial_wrench};
 use crate::economical::frames::Frames;
-use crate::economical::frames::chain::Chain;
+use crate::economical::frames::chain::{Chain, ChainLink};
 use crate::economical::plan::LinkPlan;
+use crate::economical::spatial::{Twist, Wrench};
 use crate::matrix::SymmetricMatrix;
+use crate::vector::{Matrix, Vector};
 use robot_model::robot::JointKind;
+use robot_symbolic::{Expr, SymbolId, operations, walk};
+
+/// From this number of coordinates on, other forms than the plan's are tried.
+const MANY: usize = 9;
+
+/// M(q), drives included: as the plan says, or of many coordinates in the form with the fewest operations.
+pub(crate) fn cheapest<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> SymmetricMatrix<'g> {
+    let planned = mass_matrix(chain, plans);
+    if chain.degrees_of_freedom < MANY {
+        return planned;
+    }
+    let joined: Vec<LinkPlan> =
+        plans.iter().map(|plan| LinkPlan { composite_sum: true, ..plan.clone() }).collect();
+    let positions = chain.links.iter().flat_map(|link| walk::symbols(&[link.motion.position]));
+    let positions: BTreeSet<SymbolId> = positions.collect();
+    let cost = |matrix: &SymmetricMatrix<'g>| {
+        operations(&matrix.rows(), |symbol| !positions.contains(&symbol)).flops()
+    };
+    let others = [mass_matrix(chain, &joined), in_common_axes(chain)];
+    let forms = [planned].into_iter().chain(others);
+    let cheapest = forms.min_by_key(cost);
+    cheapest.unwrap_or_else(|| SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom))
+}
 
 /// M(q), drives included.
 ///
@@ -23,25 +50,83 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
         let mut wrench = inertial_wrench(&composites[index], &frames.joint_twist(index));
         // The parent feels a gyroscopic rotor; the joint itself has its reflected inertia alone.
         wrench.moment.0[2] += link.rotor_coupling;
-        let own_coupling = match link.kind {
-            JointKind::Revolute => link.rotor_coupling,
-            JointKind::Prismatic => chain.graph.zero(),
-        };
         let mut propagated = Propagated::from_home(index, wrench);
         for projection in projections(&frames, index, plans[index].projected_at) {
             propagated.propagate_to(&frames, projection.place);
             let other = projection.inner;
             let motion = projection.twist(&frames, &frames.joint_twist(other));
             let element = motion.dot(&propagated.load);
-            let inner = &chain.links[other];
-            let coupled = element * link.ratio * inner.ratio;
-            // Two joints of one coordinate contribute to its diagonal entry twice, in either order.
-            let twice = other != index && inner.coordinate == link.coordinate;
-            let coupled = if twice { coupled * 2 } else { coupled };
-            matrix.add(link.coordinate, inner.coordinate, coupled);
+            if other == index {
+                let own = element * link.ratio * link.ratio;
+                matrix.add(link.coordinate, link.coordinate, own);
+            } else {
+                add_coupled(&mut matrix, link, &chain.links[other], element);
+            }
         }
-        let reflected = (link.reflected_inertia - own_coupling) * link.ratio * link.ratio;
+        let reflected = drive(link) * link.ratio * link.ratio;
         matrix.add(link.coordinate, link.coordinate, reflected);
     }
     matrix
+}
+
+/// M(q) with all wrenches and motions in the axes of the innermost link: six products an entry, however far apart the
+/// joints, and some hundred operations a joint. For long chains about skew axes.
+pub(crate) fn in_common_axes<'g>(chain: &Chain<'g>) -> SymmetricMatrix<'g> {
+    let frames = Frames::new(chain, |_| false);
+    let composites = composites(&frames);
+    let mut matrix = SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom);
+    // Of each link: its own axes and origin in the common axes, and its joint's motion there.
+    let mut poses: Vec<(Matrix<'g>, Vector<'g>)> = vec![];
+    let mut motions: Vec<Twist<'g>> = vec![];
+    for (index, link) in chain.links.iter().enumerate() {
+        let joint_frame = &frames.joint_frames[index];
+        let motion = frames.joint_twist(index);
+        let mut wrench = inertial_wrench(&composites[index], &motion);
+        wrench.moment.0[2] += link.rotor_coupling;
+        let own = motion.dot(&wrench);
+        let own = (own + drive(link)) * link.ratio * link.ratio;
+        matrix.add(link.coordinate, link.coordinate, own);
+        let Some(parent) = link.parent else {
+            poses.push((Matrix::identity(chain.graph), Vector::zero(chain.graph)));
+            motions.push(motion);
+            continue;
+        };
+        let (axes, origin) = &poses[parent];
+        let home = link.rotation.forward_axes(axes);
+        let origin = *origin + *axes * joint_frame.origin;
+        let Matrix(rows) = home;
+        poses.push((Matrix(rows.map(|row| joint_frame.turn.back(Vector(row)).0)), origin));
+        let wrench = Wrench { force: home * wrench.force, moment: home * wrench.moment };
+        let wrench = wrench.about(origin);
+        let motion = Twist { angular: home * motion.angular, linear: home * motion.linear };
+        motions.push(motion.about(-origin));
+        let carriers = std::iter::successors(Some(parent), |link| chain.links[*link].parent);
+        for inner in carriers {
+            let element = motions[inner].dot(&wrench);
+            add_coupled(&mut matrix, link, &chain.links[inner], element);
+        }
+    }
+    matrix
+}
+
+/// Adds what couples two joints to the entry of their coordinates.
+fn add_coupled<'g>(
+    matrix: &mut SymmetricMatrix<'g>,
+    link: &ChainLink<'g>,
+    inner: &ChainLink<'g>,
+    element: Expr<'g>,
+) {
+    let coupled = element * link.ratio * inner.ratio;
+    // Two joints of one coordinate contribute to its diagonal entry twice, in either order.
+    let coupled = if inner.coordinate == link.coordinate { coupled * 2 } else { coupled };
+    matrix.add(link.coordinate, inner.coordinate, coupled);
+}
+
+/// The inertia of a joint's drive beyond that which its parent feels.
+fn drive<'g>(link: &ChainLink<'g>) -> Expr<'g> {
+    let own_coupling = match link.kind {
+        JointKind::Revolute => link.rotor_coupling,
+        JointKind::Prismatic => link.ratio.graph().zero(),
+    };
+    link.reflected_inertia - own_coupling
 }

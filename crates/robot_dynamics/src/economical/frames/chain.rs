@@ -8,7 +8,7 @@ use crate::economical::plan::{Entry, LinkPlan, Plan};
 use crate::economical::recursion::inward::TipWrench;
 use crate::economical::spatial::inertia::PseudoInertia;
 use crate::economical::spatial::rotation::ConstantRotation;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{BaseMotion, Mechanism};
 use crate::vector::{Matrix, Vector};
 
 /// Residuals may exceed the robot's own mass, first and second moment by no more than this factor,
@@ -29,6 +29,8 @@ pub(crate) struct Chain<'g> {
     pub(crate) fixed_moment: Vector<'g>,
     /// The unit of length, m.
     pub(crate) unit: Expr<'g>,
+    /// The motion of the base if it is not at rest.
+    pub(crate) base: Option<BaseMotion<'g>>,
 }
 
 /// The motion of a joint along or about z; of a prismatic one in the plan's unit of length.
@@ -340,6 +342,7 @@ fn assemble<'g>(
         degrees_of_freedom: mechanism.degrees_of_freedom,
         fixed_moment: inertias[mechanism.links.len()].first,
         unit: mechanism.graph.one(),
+        base: mechanism.base,
     }
 }
 
@@ -381,6 +384,9 @@ impl<'g> Chain<'g> {
         }
         self.unit = length;
         self.gravity = self.gravity.map(|entry| entry / length);
+        if let Some(base) = &mut self.base {
+            base.acceleration = base.acceleration.map(|entry| entry / length);
+        }
         self.fixed_moment = self.fixed_moment * length;
         for link in &mut self.links {
             link.translation = link.translation.map(|entry| entry / length);

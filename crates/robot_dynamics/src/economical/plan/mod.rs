@@ -10,7 +10,7 @@ pub mod search;
 use robot_model::robot::Robot;
 
 /// The options for a whole mechanism.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Plan {
     /// Per link, in the mechanism's order.
     pub links: Vec<LinkPlan>,
@@ -20,7 +20,7 @@ pub struct Plan {
 }
 
 /// The options for one link.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LinkPlan {
     /// \[t\] Where the working frame's origin lies on the joint axis.
     pub origin: Origin,
@@ -55,7 +55,7 @@ pub struct LinkPlan {
 
 /// The acceleration assumed for a joint in forward dynamics, where the bias may be that of any
 /// accelerations q̈*, since q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FreeRate {
     /// 0.
     Zero,
@@ -85,7 +85,7 @@ impl FreeRate {
 }
 
 /// Axes about the origin of a link's working frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Place {
     /// The link.
     pub link: usize,
@@ -95,7 +95,7 @@ pub struct Place {
 }
 
 /// The position of a working frame's origin on its joint axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Origin {
     /// At the robot file's origin.
     File,
@@ -114,7 +114,7 @@ pub enum Origin {
 }
 
 /// The turn of a working frame about its joint axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Turn {
     /// The x axis as near to the file's as the joint axis allows.
     File,
@@ -125,7 +125,7 @@ pub enum Turn {
 }
 
 /// An entry of a link's regrouped inertia that can be made to vanish, or a difference of two.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Entry {
     /// First moment, x.
     X,

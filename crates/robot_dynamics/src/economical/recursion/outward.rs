@@ -11,6 +11,7 @@ use crate::economical::frames::chain::{Chain, ChainLink};
 use crate::economical::frames::joint_frame::{JointFrame, joint_frames};
 use crate::economical::plan::{FreeRate, LinkPlan};
 use crate::economical::spatial::rotation::Plane;
+use crate::mechanism::BaseMotion;
 use crate::vector::{Matrix, Vector};
 
 /// Levers shorter than this, in the chain's unit of length, are not used to cancel an acceleration: the joint
@@ -105,21 +106,32 @@ fn carried_acceleration<'g>(
             }
             carried
         }
-        None => -chain.gravity,
+        None => match &chain.base {
+            Some(base) => base.acceleration + base_tensor(base) * joint_frame.origin,
+            None => -chain.gravity,
+        },
     };
     joint_frame.turn.back(chain.links[index].rotation.back(carried))
 }
 
 impl<'g> Group<'g> {
     fn new(chain: &Chain<'g>, link: &ChainLink<'g>, parent: Option<&LinkState<'g>>) -> Group<'g> {
-        let Some(parent) = parent else {
-            let zero = Vector::zero(chain.graph);
-            return Group { angular_velocity: zero, angular_acceleration: zero, column: zero };
+        let (velocity, acceleration, tensor) = match (parent, &chain.base) {
+            (Some(parent), _) => {
+                (parent.angular_velocity, parent.angular_acceleration, parent.tensor)
+            }
+            (None, Some(base)) => {
+                (base.angular_velocity, base.angular_acceleration, base_tensor(base))
+            }
+            (None, None) => {
+                let zero = Vector::zero(chain.graph);
+                return Group { angular_velocity: zero, angular_acceleration: zero, column: zero };
+            }
         };
         Group {
-            angular_velocity: link.rotation.back(parent.angular_velocity),
-            angular_acceleration: link.rotation.back(parent.angular_acceleration),
-            column: link.rotation.back(parent.tensor * link.axis),
+            angular_velocity: link.rotation.back(velocity),
+            angular_acceleration: link.rotation.back(acceleration),
+            column: link.rotation.back(tensor * link.axis),
         }
     }
 }
@@ -275,6 +287,10 @@ impl<'g> Turning<'g> {
             at_rest: None,
         }
     }
+}
+
+fn base_tensor<'g>(base: &BaseMotion<'g>) -> Matrix<'g> {
+    tensor(base.angular_velocity, base.angular_acceleration, None, false)
 }
 
 /// U = \[ε\]× + \[ω\]×², with its third column if that is known.

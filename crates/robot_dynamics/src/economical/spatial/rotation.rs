@@ -161,6 +161,12 @@ impl<'g> ConstantRotation<'g> {
         }
     }
 
+    /// The axes before the last turn in the components in which the parent's axes are the columns of `axes`.
+    pub(crate) fn forward_axes(&self, axes: &Matrix<'g>) -> Matrix<'g> {
+        let Matrix(rows) = *axes;
+        Matrix(rows.map(|row| self.back(Vector(row)).0))
+    }
+
     /// A symmetric tensor in components before the last turn to parent components.
     pub(crate) fn forward_symmetric(&self, tensor: Matrix<'g>) -> Matrix<'g> {
         match &self.before {

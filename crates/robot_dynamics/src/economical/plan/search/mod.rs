@@ -4,7 +4,10 @@
 //! that a plan's cost is the code's. A plan is accepted only if its torques agree with
 //! those of the paper's iterations at test states.
 
-use std::collections::BTreeSet;
+mod changes;
+mod limbs;
+
+use std::collections::{BTreeSet, HashSet};
 
 use robot_model::functions::Effects;
 use robot_model::robot::{Parameter, Robot};
@@ -12,9 +15,11 @@ use robot_symbolic::{Counter, Expr, Graph, Operations, SymbolId, walk};
 
 use crate::economical::Recursion;
 use crate::economical::frames::chain::Base;
-use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
+use crate::economical::plan::{FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::newton_euler;
+use changes::{Change, frame_changes, motion_changes};
+use limbs::Limbs;
 
 /// A plan must reproduce the torques to this fraction of the largest.
 const TOLERANCE: f64 = 1e-12;
@@ -115,7 +120,12 @@ pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Op
         &|recursion| Objective::new(recursion.inverse_dynamics(false));
     let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
     search.measure = measure;
-    Some(search.run(Scope { motions: true, composites: false, free: false }))
+    let scope = Scope { motions: true, composites: false, free: false };
+    if limbs::applies(&mechanism) {
+        search.max_work = limbs::MAX_WORK;
+        return Some(Limbs { robot, options, measure }.search(&mut search, scope));
+    }
+    Some(search.run(scope))
 }
 
 /// Searches the plan with the fewest multiplications and additions for the given functions.
@@ -143,17 +153,16 @@ pub fn search_for(
 /// The frames of the file.
 const FILE: LinkPlan = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC };
 
-/// Plans to descend from: the same options for every link.
-fn starts(links: usize) -> Vec<Plan> {
+/// Options to descend from, the same for every link that is searched.
+fn starts() -> [LinkPlan; 5] {
     let searched = LinkPlan { angle_sum: true, column: true, diagonal: true, ..LinkPlan::BASIC };
-    let starts = [
+    [
         LinkPlan::BASIC,
         FILE,
         LinkPlan { moment: [false, false, true], ..searched.clone() },
         LinkPlan { moment: [true; 3], doubled: true, ..searched.clone() },
         LinkPlan { origin: Origin::PreviousNormal, composite_sum: true, ..searched },
-    ];
-    starts.iter().map(|start| Plan::uniform(links, start)).collect()
+    ]
 }
 
 /// A fixed sequence of pseudo-random numbers (xorshift): the search is the same at every run.
@@ -171,6 +180,10 @@ impl Steps {
 struct Search<'m, 'g> {
     mechanism: &'m Mechanism<'g>,
     base: &'m Base<'g>,
+    /// The links whose options are searched.
+    searched: Vec<usize>,
+    /// Whether the unit of length is searched.
+    with_unit: bool,
     objective: ObjectiveOf<'m, 'g>,
     /// The robot's parameters: all other symbols are inputs.
     parameters: BTreeSet<SymbolId>,
@@ -179,7 +192,10 @@ struct Search<'m, 'g> {
     reference: Vec<Vec<f64>>,
     measure: Measure,
     tried: usize,
+    /// Plans that need not be tried again, if they are kept.
+    known: Option<HashSet<Plan>>,
     work: usize,
+    max_tries: usize,
     max_work: usize,
 }
 
@@ -201,6 +217,8 @@ impl<'m, 'g> Search<'m, 'g> {
         Search {
             mechanism,
             base,
+            searched: (0..mechanism.links.len()).collect(),
+            with_unit: true,
             objective,
             parameters,
             counter: Counter::default(),
@@ -208,19 +226,54 @@ impl<'m, 'g> Search<'m, 'g> {
             reference,
             measure: Measure::Operations,
             tried: 0,
+            known: None,
             work: 0,
+            max_tries: MAX_TRIES,
             max_work: MAX_WORK,
         }
     }
 
-    /// The best of the descents from the cheapest of a few plans, and of further descents from
-    /// neighbors of the best.
     fn run(&mut self, scope: Scope) -> Found {
-        let mut ranked: Vec<(usize, Plan)> = vec![];
-        for start in starts(self.mechanism.links.len()) {
-            ranked.push((self.cost(&start), start));
+        let (_, plan) = self.from_starts(scope, None);
+        let cut_short = self.is_spent();
+        Found { cut_short, ..self.found(plan) }
+    }
+
+    /// A plan with what it costs.
+    fn found(&mut self, plan: Plan) -> Found {
+        let candidate = self.candidate(&plan);
+        let count = self.operations(&candidate.counted);
+        let (operations, instructions) = (count.flops(), count.instructions());
+        let (measure, tried) = (self.measure, self.tried);
+        Found { plan, measure, operations, instructions, tried, cut_short: false }
+    }
+
+    /// Plans to descend from, the cheapest first: one with the options of `held` for all links, and some with
+    /// others for those that are searched.
+    fn ranked(&mut self, held: Option<Plan>) -> Vec<(usize, Plan)> {
+        let links = self.mechanism.links.len();
+        let under = held.clone().unwrap_or_else(|| Plan::uniform(links, &LinkPlan::BASIC));
+        let mut plans = Vec::from_iter(held);
+        for start in starts() {
+            let mut plan = under.clone();
+            self.searched.iter().for_each(|link| plan.links[*link].clone_from(&start));
+            plans.push(plan);
         }
+        let mut ranked: Vec<(usize, Plan)> =
+            plans.into_iter().map(|plan| (self.cost(&plan), plan)).collect();
         ranked.sort_by_key(|(cost, _)| *cost);
+        ranked
+    }
+
+    /// The cheapest of a few plans, without a descent, and its cost.
+    fn cheapest_start(&mut self) -> (usize, Plan) {
+        self.ranked(None).swap_remove(0)
+    }
+
+    /// The best of the descents from the cheapest of a few plans, and of further descents from
+    /// neighbors of the best; and its cost.
+    fn from_starts(&mut self, scope: Scope, held: Option<Plan>) -> (usize, Plan) {
+        let ranked = self.ranked(held);
         let (mut best, mut plan) = ranked[0].clone();
         if !self.can_sweep(scope, &plan, best) {
             self.end();
@@ -233,7 +286,7 @@ impl<'m, 'g> Search<'m, 'g> {
         }
         // Out of a dead end by a few changes at random, from there downhill again.
         let mut steps = Steps(1);
-        while self.tried < MAX_TRIES && !self.is_spent() && !plan.links.is_empty() {
+        while self.tried < self.max_tries && !self.is_spent() && !self.searched.is_empty() {
             let perturbed = self.perturb(scope, &plan, &mut steps);
             let cost = self.cost(&perturbed);
             let (cost, candidate) = self.descend(scope, perturbed, cost);
@@ -241,18 +294,14 @@ impl<'m, 'g> Search<'m, 'g> {
                 (best, plan) = (cost, candidate);
             }
         }
-        let (tried, cut_short) = (self.tried, self.is_spent());
-        let candidate = self.candidate(&plan);
-        let count = self.operations(&candidate.counted);
-        let (operations, instructions) = (count.flops(), count.instructions());
-        Found { plan, measure: self.measure, operations, instructions, tried, cut_short }
+        (best, plan)
     }
 
     /// Whether the budget is enough to try all changes of all links once.
     fn can_sweep(&self, scope: Scope, plan: &Plan, cost: usize) -> bool {
-        let links = plan.links.iter().enumerate();
+        let links = self.searched.iter();
         let changes: usize =
-            links.map(|(link, plan)| self.alternatives(scope, plan, link).len()).sum();
+            links.map(|link| self.alternatives(scope, &plan.links[*link], *link).len()).sum();
         self.work + changes * cost <= self.max_work
     }
 
@@ -260,7 +309,7 @@ impl<'m, 'g> Search<'m, 'g> {
     fn perturb(&self, scope: Scope, plan: &Plan, steps: &mut Steps) -> Plan {
         let mut perturbed = plan.clone();
         for _ in 0..2 + steps.below(3) {
-            let link = steps.below(perturbed.links.len());
+            let link = self.searched[steps.below(self.searched.len())];
             let changes = self.alternatives(scope, &perturbed.links[link], link);
             let change = steps.below(changes.len());
             changes[change](&mut perturbed.links[link]);
@@ -317,12 +366,14 @@ impl<'m, 'g> Search<'m, 'g> {
     fn descend(&mut self, scope: Scope, mut plan: Plan, mut cost: usize) -> (usize, Plan) {
         for _ in 0..MAX_SWEEPS {
             let before = cost;
-            for link in (0..plan.links.len()).rev() {
+            for link in self.searched.clone().into_iter().rev() {
                 for alternative in self.alternatives(scope, &plan.links[link], link) {
                     self.try_link(&mut plan, &mut cost, link, &alternative);
                 }
             }
-            self.descend_unit(&mut plan, &mut cost);
+            if self.with_unit {
+                self.descend_unit(&mut plan, &mut cost);
+            }
             if cost == before {
                 break;
             }
@@ -356,10 +407,19 @@ impl<'m, 'g> Search<'m, 'g> {
         changes
     }
 
-    fn try_link(&mut self, plan: &mut Plan, cost: &mut usize, link: usize, change: &Change) {
+    fn try_link(
+        &mut self,
+        plan: &mut Plan,
+        cost: &mut usize,
+        link: usize,
+        change: &dyn Fn(&mut LinkPlan),
+    ) {
         let mut candidate = plan.clone();
         change(&mut candidate.links[link]);
         if candidate.links[link] == plan.links[link] || self.is_spent() {
+            return;
+        }
+        if self.known.as_mut().is_some_and(|known| !known.insert(candidate.clone())) {
             return;
         }
         if let Some(lower) = self.better(&candidate, *cost) {
@@ -379,58 +439,6 @@ impl<'m, 'g> Search<'m, 'g> {
             }
         }
     }
-}
-
-type Change = Box<dyn Fn(&mut LinkPlan)>;
-
-/// Changes of working frames and of what stays with a link.
-fn frame_changes(current: &LinkPlan) -> Vec<Change> {
-    let mut changes: Vec<Change> = vec![];
-    let origins = [
-        Origin::File,
-        Origin::NextNormal,
-        Origin::PreviousNormal,
-        Origin::ZeroXz,
-        Origin::ZeroYz,
-        Origin::CenterOfMass,
-        Origin::Parent,
-    ];
-    for turn in [current.turn, Turn::File, Turn::NextNormal, Turn::FirstMoment] {
-        for origin in origins {
-            changes.push(Box::new(move |plan| {
-                (plan.origin, plan.turn) = (origin, turn);
-            }));
-        }
-    }
-    for kind in 0..3 {
-        changes.push(Box::new(move |plan| plan.residual[kind] = None));
-        for entry in Entry::ALL {
-            changes.push(Box::new(move |plan| plan.residual[kind] = Some(entry)));
-        }
-    }
-    changes
-}
-
-/// Changes of the recursion over motions and forces.
-fn motion_changes() -> Vec<Change> {
-    let mut changes: Vec<Change> = vec![
-        Box::new(|plan| plan.angle_sum ^= true),
-        Box::new(|plan| plan.column ^= true),
-        Box::new(|plan| plan.diagonal ^= true),
-        Box::new(|plan| plan.doubled ^= true),
-        Box::new(|plan| {
-            plan.column ^= true;
-            plan.diagonal ^= true;
-        }),
-        Box::new(|plan| {
-            plan.angle_sum ^= true;
-            plan.column ^= true;
-        }),
-    ];
-    for k in 0..3 {
-        changes.push(Box::new(move |plan| plan.moment[k] ^= true));
-    }
-    changes
 }
 
 fn evaluate(roots: &[Expr<'_>], state: &[f64]) -> Vec<f64> {
