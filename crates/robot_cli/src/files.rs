@@ -28,8 +28,8 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
         let read = (&mut *terminal.input).take(MAX_BYTES + 1).read_to_end(&mut bytes);
         read.map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
     } else {
-        let read = File::open(path)
-            .and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
+        let read =
+            File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
         read.map_err(|error| {
             Failure::input(format!("cannot read {name}: {}", reason(path, &error)))
         })?;
@@ -71,7 +71,8 @@ pub(crate) fn open<'t>(
     if name == "-" {
         return Ok(("standard input".to_owned(), Bytes::Stream(Box::new(standard))));
     }
-    let file = File::open(path).map_err(|error| cannot_read(&name, &error))?;
+    let file = File::open(path)
+        .map_err(|error| Failure::input(format!("cannot read {name}: {}", reason(path, &error))))?;
     let is_regular = file.metadata().is_ok_and(|metadata| metadata.is_file());
     let bytes = if is_regular { Bytes::File(file) } else { Bytes::Stream(Box::new(file)) };
     Ok((name, bytes))
