@@ -38,7 +38,7 @@ impl<'r, R: BufRead> Samples<'r, R> {
         let (times, source) = (Times::default(), source.to_owned());
         let (wrong, first) = (vec![], None);
         let mut samples = Samples { robot, source, reader, times, wrong, first, size };
-        samples.first = samples.next()?;
+        samples.first = samples.next_part()?;
         Ok(samples)
     }
 
@@ -53,7 +53,7 @@ impl<'r, R: BufRead> Samples<'r, R> {
     /// # Errors
     ///
     /// Everything that is wrong from there on to the end.
-    pub fn next(&mut self) -> Result<Option<Trajectory>, Error> {
+    pub fn next_part(&mut self) -> Result<Option<Trajectory>, Error> {
         if let Some(first) = self.first.take() {
             return Ok(Some(first));
         }

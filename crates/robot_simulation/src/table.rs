@@ -120,7 +120,7 @@ impl<R: BufRead> TableReader<R> {
     /// Reads the header.
     pub(crate) fn new(source: &str, reader: R) -> Result<TableReader<R>, Error> {
         let mut lines = Lines::new(source, reader);
-        let Some((_, header)) = lines.next()? else {
+        let Some((_, header)) = lines.next_line()? else {
             return Err(Error::input(format!("{source}: there is no header, such as t,q1,q2")));
         };
         let names: Vec<String> = cells(header).into_iter().map(str::to_owned).collect();
@@ -137,7 +137,7 @@ impl<R: BufRead> TableReader<R> {
         let columns = self.names.iter().map(|name| (name.clone(), vec![]));
         let mut table = Table { columns: columns.collect() };
         while table.rows() < most && self.wrong.len() <= MAX_MESSAGES {
-            let Some((number, line)) = self.lines.next()? else { break };
+            let Some((number, line)) = self.lines.next_line()? else { break };
             if numbers(line, &mut self.found) && self.found.len() == self.names.len() {
                 if self.wrong.is_empty() {
                     let columns = table.columns.iter_mut().zip(&self.found);
@@ -245,5 +245,12 @@ mod tests {
             ["a: the time does not increase at row 3 below the header"]
         );
         assert_eq!(wrong("q1\n0\n"), ["a: there is no column `t`, the time in s"]);
+        // Also from one part of a table to the next.
+        let mut times = Times::default();
+        for part in ["t\n0\n1\n", "t\n1\n2\n"] {
+            times.check("a", &Table::read("a", part).unwrap());
+        }
+        let expected = "a: the time does not increase at row 3 below the header";
+        assert_eq!(times.wrong.as_deref(), Some(expected));
     }
 }

@@ -148,7 +148,7 @@ impl Parts<'_, '_> {
                 *taken += part.t.len();
                 Ok(Some(part).filter(|part| !part.t.is_empty()))
             }
-            Parts::Read(samples) => Ok(samples.next()?),
+            Parts::Read(samples) => Ok(samples.next_part()?),
         }
     }
 }

@@ -14,7 +14,7 @@ pub(super) fn read<'l>(
     layout: &'l Layout,
     sink: &mut dyn Sink<'l>,
 ) -> Result<(), Failure> {
-    let Some((_, header)) = lines.next()? else {
+    let Some((_, header)) = lines.next_line()? else {
         sink.wrong("there are no states".to_owned());
         return Ok(());
     };
@@ -26,7 +26,7 @@ pub(super) fn read<'l>(
     }
     let columns = Columns::of(&header, layout);
     let (mut state, mut found) = (State::new(layout), vec![]);
-    while let Some((number, line)) = lines.next()? {
+    while let Some((number, line)) = lines.next_line()? {
         state.clear(Place::Line(number));
         let is_right = numbers(line, &mut found) && found.len() == columns.names.len();
         let is_state = if is_right {

@@ -30,7 +30,7 @@ impl<R: BufRead> Lines<R> {
     /// # Errors
     ///
     /// What the reader says; a line that is not UTF-8 or has more than a mebibyte.
-    pub fn next(&mut self) -> Result<Option<(usize, &str)>, Error> {
+    pub fn next_line(&mut self) -> Result<Option<(usize, &str)>, Error> {
         loop {
             self.fill()?;
             if self.line.is_empty() {

@@ -115,7 +115,7 @@ fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, String> {
     // A buffer of three bytes ends within everything once.
     let mut lines = Lines::new("a", std::io::BufReader::with_capacity(3, bytes));
     let mut found = vec![];
-    while let Some((number, line)) = lines.next().map_err(|error| error.to_string())? {
+    while let Some((number, line)) = lines.next_line().map_err(|error| error.to_string())? {
         found.push((number, line.trim_end().to_owned()));
     }
     Ok(found)
@@ -152,5 +152,5 @@ fn what_is_not_text_is_told_with_its_place_in_the_whole() {
 #[test]
 fn a_line_without_end_is_refused() {
     let mut lines = Lines::new("a", std::io::BufReader::new(std::io::repeat(b'1')));
-    assert_eq!(lines.next().unwrap_err().to_string(), "a: line 1 has more than 1 MiB");
+    assert_eq!(lines.next_line().unwrap_err().to_string(), "a: line 1 has more than 1 MiB");
 }

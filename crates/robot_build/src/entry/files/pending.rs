@@ -24,7 +24,7 @@ pub struct Pending {
 pub(super) enum Place {
     Stream(File),
     /// A new file, and what it replaces.
-    Staged(Staged, Option<(PathBuf, Metadata)>),
+    Staged(Staged, Option<Box<(PathBuf, Metadata)>>),
 }
 
 impl Pending {
@@ -50,7 +50,7 @@ impl Pending {
     pub fn put(mut self) -> std::result::Result<Option<u64>, Errors> {
         let path = &self.path;
         if let Place::Staged(staged, present) = self.place {
-            if let Some((target, _)) = &present {
+            if let Some((target, _)) = present.as_deref() {
                 if is_equal(staged.path(), target) {
                     drop(staged);
                     remove_leftovers(target);
@@ -58,7 +58,7 @@ impl Pending {
                 }
                 self.writer.check_owner(path, target, self.ownership)?;
             }
-            let put = staged.complete(present.as_ref().map(|(_, metadata)| metadata));
+            let put = staged.complete(present.as_deref().map(|(_, metadata)| metadata));
             put.map_err(|error| cannot_write(path, &error))?;
             self.folders.keep();
             staged.put().map_err(|error| cannot_write(path, &error))?;

@@ -174,7 +174,7 @@ impl Writer {
                 // A file that may not be written may not be replaced either.
                 OpenOptions::new().write(true).open(target).map_err(failed)?;
                 let staged = Staged::empty(target).map_err(failed)?;
-                pending::Place::Staged(staged, Some((target.clone(), metadata.clone())))
+                pending::Place::Staged(staged, Some(Box::new((target.clone(), metadata.clone()))))
             }
         };
         let (writer, path) = (self.clone(), path.to_owned());

@@ -11,7 +11,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::functions::named;
 use robot_build::{
-    Bundle, Effects, FunctionKind, Functions, Options, Ownership, Trigonometry, programs_of,
+    Bundle, Effects, FunctionKind, Functions, Options, Ownership, Programs, Trigonometry, Writer,
+    programs_of,
 };
 use robot_codegen::Interpreter;
 use robot_model::description::Described;
@@ -83,11 +84,7 @@ impl Arguments {
             let message = "a state is needed: --q, --qd, …, or --states with a file of states";
             return Err(Failure::Usage(vec![message.to_owned()]));
         }
-        let inputs = self.robot.inputs().into_iter().chain(self.states.clone());
-        let path = file_of(self.output.as_deref());
-        let writer = self.force.writer(inputs, path.is_some())?;
-        writer
-            .check(&path.map(|path| (path, Ownership::Edited)).into_iter().collect::<Vec<_>>())?;
+        let (path, writer) = (file_of(self.output.as_deref()), self.writer()?);
         let file = self.robot.open()?;
         let described = file.read(terminal)?;
         let Described { robot, code, .. } = &described;
@@ -111,21 +108,14 @@ impl Arguments {
         let programs = watched("deriving", terminal, || programs_of(robot, name, &options))?;
         let digits = Digits::of(&programs, &options, &self.settings.pairs(), self.trigonometry)?;
         let settings = &self.settings.pairs();
-        let interpreter = (before.is_empty())
-            .then(|| Interpreter::new(&programs.module, settings))
-            .transpose()
-            .map_err(|errors| failed(name, &errors))?
-            .map(|interpreter| interpreter.with_trigonometry(self.trigonometry));
+        let interpreter =
+            before.is_empty().then(|| self.interpreter(name, &programs)).transpose()?;
         let Some(function) = programs.module.functions.first() else {
             let message = format!("the robot does not have the function `{}`", self.function);
             return Err(Failure::input(message));
         };
         let callable = interpreter.as_ref().map(|one| one.function(&function.name));
         let callable = callable.transpose().map_err(|errors| failed(name, &errors))?;
-        let printer = match self.format {
-            Format::Json => Printer::json(&function.outputs),
-            Format::Csv => Printer::csv(&function.outputs),
-        };
         let task = Task {
             robot: &programs.robot,
             settings,
@@ -134,7 +124,10 @@ impl Arguments {
             function,
             callable,
             unloadable: unloadable.flatten(),
-            printer,
+            printer: match self.format {
+                Format::Json => Printer::json(&function.outputs),
+                Format::Csv => Printer::csv(&function.outputs),
+            },
             file: name,
             source: states.source(),
         };
@@ -145,6 +138,28 @@ impl Arguments {
         let mut evaluation = Evaluation::new(task, &layout, before, outgoing);
         states.read(&layout, &mut evaluation)?;
         evaluation.end()
+    }
+
+    /// The writer of the output, where a file may be written.
+    fn writer(&self) -> Result<Writer, Failure> {
+        let inputs = self.robot.inputs().into_iter().chain(self.states.clone());
+        let path = file_of(self.output.as_deref());
+        let writer = self.force.writer(inputs, path.is_some())?;
+        if let Some(path) = path {
+            writer.check(&[(path, Ownership::Edited)])?;
+        }
+        Ok(writer)
+    }
+
+    /// The programs with the parameters that are set.
+    fn interpreter<'p>(
+        &self,
+        file: &str,
+        programs: &'p Programs,
+    ) -> Result<Interpreter<'p>, Failure> {
+        let interpreter = Interpreter::new(&programs.module, &self.settings.pairs());
+        let interpreter = interpreter.map_err(|errors| failed(file, &errors))?;
+        Ok(interpreter.with_trigonometry(self.trigonometry))
     }
 
     /// The one function of that name.
@@ -222,7 +237,7 @@ fn with_wrench(
         return Ok((kind, None));
     }
     if let Some(why) = FunctionKind::InverseDynamics(Effects::WRENCH).missing_in(robot) {
-        return Ok((kind, Some(why.to_string())));
+        return Ok((kind, Some(why.to_owned())));
     }
     let loaded = kind.with_effects(Effects { wrench: true, ..kind.effects() });
     Ok((loaded.unwrap_or(kind), None))
