@@ -132,7 +132,7 @@ fn equations_have_their_source_in_other_notations() {
     });
     let torques =
         r"Q = H\left(q\right) \ddot{q} + n\left(q, \dot{q}\right) + g\left(q\right) + w + Q_f";
-    assert_eq!(source("grouped-Q"), torques);
+    assert_eq!(source("grouped-Q").replace(' ', ""), torques.replace(' ', ""));
 }
 
 #[test]
