@@ -46,9 +46,9 @@ fn the_planar_elbow_arm_prints_as_in_the_textbook() {
     assert_prints(
         &robot_testing::robot("planar_2r"),
         &[
-            ("H_1_1", "m1*r1^2 + I1 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) + I2"),
-            ("H_1_2", "m2*r2*(r2 + l1*cos(q2)) + I2"),
-            ("H_2_2", "m2*r2^2 + I2"),
+            ("M_1_1", "m1*r1^2 + I1 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) + I2"),
+            ("M_1_2", "m2*r2*(r2 + l1*cos(q2)) + I2"),
+            ("M_2_2", "m2*r2^2 + I2"),
             ("b_1_1_2", "-2*m2*l1*r2*sin(q2)"),
             ("b_1_2_2", "-m2*l1*r2*sin(q2)"),
             ("b_2_1_1", "m2*l1*r2*sin(q2)"),

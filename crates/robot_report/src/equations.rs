@@ -182,10 +182,9 @@ impl<'r> Sources<'r> {
 
     /// An equation that breaks between pieces of some terms.
     fn equation(&self, equation: &Equation) -> Element {
-        let left = Math::Row(vec![equation.left.clone(), Math::Sign('=')]);
-        let mut whole = vec![equation.left.clone(), Math::Sign('=')];
-        whole.extend_from_slice(equation.right.pieces());
-        let whole = Math::Row(whole);
+        let left = [equation.left.pieces(), &[Math::Sign('=')]].concat();
+        let whole = Math::Row([&left, equation.right.pieces()].concat());
+        let left = Math::Row(left);
         let (lines, has_stop) = match &equation.right {
             Math::Matrix(rows) => {
                 let (matrix, has_stop) = self.matrix(rows);

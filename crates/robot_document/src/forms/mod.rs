@@ -183,7 +183,7 @@ impl Group {
         let entries = written.map(|written| &mut written.math);
         let equations = self.equations.iter_mut().chain(&mut self.vector);
         for math in equations.map(|equation| &mut equation.right).chain(entries) {
-            *math = tidied(std::mem::take(math), digits);
+            *math = tidied(math, digits);
         }
     }
 

@@ -16,10 +16,10 @@ const LARGEST: u64 = 12;
 
 /// A formula as people write its numbers: `√2/2` for `0.5 √2`, and `1/2` in sums and products if no number in it needs
 /// decimals; or all rounded to so many significant digits.
-pub(crate) fn tidied(math: Math, digits: Option<usize>) -> Math {
+pub(crate) fn tidied(math: &Math, digits: Option<usize>) -> Math {
     let tidy = mapped(math.clone(), &|piece| rounded(piece, digits));
     // A rounded number is no fraction.
-    let simple = is_simple(&math) && (digits.is_none() || tidy == math);
+    let simple = is_simple(math) && (digits.is_none() || tidy == *math);
     mapped(tidy, &|piece| fractions(piece, simple))
 }
 
@@ -259,19 +259,19 @@ mod tests {
             ),
             (r"\frac{2}{3} q", r"\frac{2}{3} q"),
         ] {
-            let shown = formula(&tidied(read(given).unwrap(), None));
+            let shown = formula(&tidied(&read(given).unwrap(), None));
             assert_eq!(shown.replace(' ', ""), expected.replace(' ', ""), "{given}");
         }
     }
 
     #[test]
     fn digits_are_significant_and_indices_stay() {
-        let shown = |text: &str| formula(&tidied(read(text).unwrap(), Some(4))).replace(' ', "");
+        let shown = |text: &str| formula(&tidied(&read(text).unwrap(), Some(4))).replace(' ', "");
         assert_eq!(
             shown(r"0.0002338560 q_{12345} + 12.34567 x^{2}"),
             r"0.0002339q_{12345}+12.35x^{2}"
         );
-        let rounded = tidied(read(r"1.49999 q + 0.5").unwrap(), Some(2));
+        let rounded = tidied(&read(r"1.49999 q + 0.5").unwrap(), Some(2));
         assert_eq!(formula(&rounded).replace(' ', ""), "1.5q+0.5");
         assert_eq!(
             tidied_text("k_12345 = 0.123456*x^12 - 99999.5 + 0.5", Some(4)),

@@ -42,7 +42,7 @@ struct Formulas<'n> {
 impl Formulas<'_> {
     fn math(&self, formula: &Formula) -> Result<Math, Error> {
         let value = formula.lower(&self.graph, &mut |name| self.graph.symbol(name));
-        Ok(tidied(self.symbols.expression(value)?, None))
+        Ok(tidied(&self.symbols.expression(value)?, None))
     }
 
     fn vector(&self, formulas: &[Formula; 3]) -> Result<Cell, Error> {
@@ -142,7 +142,7 @@ fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
 fn value_cell(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
     let long = robot_symbolic::print::to_text(value).is_ok_and(|text| numbers::is_long(&text));
     if !long || !walk::symbols(&[value]).is_empty() {
-        return Ok(tidied(symbols.expression(value)?, None));
+        return Ok(tidied(&symbols.expression(value)?, None));
     }
     Ok(numbers::rounded(value.evaluate(|_| f64::NAN)))
 }
