@@ -119,7 +119,7 @@ impl Limbs<'_> {
         search.max_tries = MAX_TRIES;
         search.with_unit = false;
         search.known = Some(HashSet::new());
-        let (_, plan) = search.from_starts(scope, Some(held));
+        let (_, plan) = search.best_descent(scope, Some(held));
         whole.tried += search.tried;
         whole.work += search.work;
         Some(plan)
