@@ -13,7 +13,7 @@
 /// - Friction is b q̇ + c (d/2) F sgn q̇ for a revolute joint and b q̇ + c F sgn q̇ for a prismatic joint, where F is the magnitude of the contact force across the axis and sgn 0 = 0.
 ///
 /// Other functions can be generated too: list them with `functions = ["…"]` in `[code]` of the robot file or in the macro, `.functions(["…"])` in the builder, or the command's option for functions; `"all"` selects all. Also available for this robot:
-/// `inverse_dynamics_wrench`, `inverse_dynamics_friction`, `inverse_dynamics_wrench_friction`, `link_wrenches`, `mass_matrix`, `bias`, `gravity`, `forward_dynamics`, `forward_dynamics_wrench`, `forward_dynamics_friction`, `forward_dynamics_wrench_friction`, `forward_kinematics`, `frame_poses`, `jacobian`, `jacobian_dot_qd`, `energies`, `coriolis_matrix`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`, `regressor`, `regressor_base`, `base_parameters`.
+/// `inverse_dynamics_wrench`, `inverse_dynamics_friction`, `inverse_dynamics_wrench_friction`, `link_wrenches`, `mass_matrix`, `mass_matrix_lower`, `bias`, `gravity`, `forward_dynamics`, `forward_dynamics_wrench`, `forward_dynamics_friction`, `forward_dynamics_wrench_friction`, `forward_kinematics`, `frame_poses`, `jacobian`, `jacobian_dot_qd`, `energies`, `coriolis_matrix`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`, `regressor`, `regressor_base`, `base_parameters`.
 /// - Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for larger angles the sines and cosines, and everything computed from them, are NaN. Wrap angles that grow without bound.
 #[allow(
     dead_code,

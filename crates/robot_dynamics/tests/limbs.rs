@@ -1,4 +1,5 @@
 //! Plans of trees and long chains, which are searched limb by limb.
+#![allow(clippy::unwrap_used, reason = "a test that fails panics")]
 
 use std::fmt::Write as _;
 

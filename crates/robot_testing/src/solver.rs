@@ -76,10 +76,7 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
             contacts(&solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links])
         }
         FunctionKind::MassMatrix => rows(&solver.mass_matrix(q).unwrap()),
-        FunctionKind::MassMatrixLower => {
-            let matrix = solver.mass_matrix(q).unwrap();
-            coupled(robot).into_iter().map(|[row, column]| matrix[(row, column)]).collect()
-        }
+        FunctionKind::MassMatrixLower => lower(robot, &solver.mass_matrix(q).unwrap()),
         FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
         FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
         FunctionKind::ForwardDynamics(Effects::NONE) => accelerations(&[]),
@@ -102,12 +99,19 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         FunctionKind::CoriolisMatrix => rows(&solver.coriolis_matrix(q, qd).unwrap()),
         FunctionKind::InverseDynamicsDerivatives => inverse_derivatives(solver, state),
         FunctionKind::ForwardDynamicsDerivatives => forward_derivatives(solver, state),
-        FunctionKind::Regressor => {
-            let columns = solver.regressor(q, qd, qdd).unwrap();
-            rows(&columns.columns(0, LINK_PARAMETERS * links).into_owned())
-        }
+        FunctionKind::Regressor => link_columns(&solver.regressor(q, qd, qdd).unwrap(), links),
         other => panic!("nothing to hold `{}` against", other.name()),
     }
+}
+
+/// The columns of the robot's links, row by row.
+fn link_columns(columns: &DMatrix<f64>, links: usize) -> Vec<f64> {
+    rows(&columns.columns(0, LINK_PARAMETERS * links).into_owned())
+}
+
+/// The entries of the lower triangle that are not 0 by structure.
+fn lower(robot: &Robot, matrix: &DMatrix<f64>) -> Vec<f64> {
+    coupled(robot).into_iter().map(|[row, column]| matrix[(row, column)]).collect()
 }
 
 /// The forces in the joints of the links, then the moments.

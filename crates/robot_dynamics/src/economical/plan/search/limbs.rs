@@ -66,6 +66,7 @@ impl Limbs<'_> {
         let (mut cost, mut plan) = whole.cheapest_start();
         let mut settled: BTreeMap<Vec<usize>, Vec<LinkPlan>> = BTreeMap::new();
         let mut last = usize::MAX;
+        let mut cut_short = false;
         for round in 0..MAX_ROUNDS {
             // Windows lie at two places: a limb is done if neither finds anything.
             let parts = parts(whole.mechanism, round % 2 == 1);
@@ -76,8 +77,9 @@ impl Limbs<'_> {
                     continue;
                 }
                 let share = (whole.max_work - whole.work) / (left - done).max(2);
-                if let Some(found) = self.search_part(whole, &part, held, (scope, share)) {
+                if let Some((found, ended)) = self.search_part(whole, &part, held, (scope, share)) {
                     whole.take(&part, &found, &mut plan, &mut cost);
+                    cut_short |= ended;
                 }
                 settled.insert(part.links.clone(), part.plan(&plan).links);
             }
@@ -86,7 +88,7 @@ impl Limbs<'_> {
             }
             last = cost;
         }
-        let cut_short = whole.is_spent();
+        cut_short |= whole.is_spent();
         whole.max_work = whole.work + POLISHING;
         if whole.can_sweep(scope, &plan, cost) {
             (cost, plan) = whole.descend(scope, plan, cost);
@@ -96,15 +98,15 @@ impl Limbs<'_> {
         Found { cut_short, ..whole.found(plan) }
     }
 
-    /// The best plan of a part with at most so much work, which counts as that of the whole; `None` if
-    /// nothing of it can be searched.
+    /// The best plan of a part with at most so much work, which counts as that of the whole, and whether the work ended
+    /// the search; `None` if nothing of it can be searched.
     fn search_part(
         self,
         whole: &mut Search<'_, '_>,
         part: &Part,
         held: Plan,
         (scope, work): (Scope, usize),
-    ) -> Option<Plan> {
+    ) -> Option<(Plan, bool)> {
         let graph = Graph::new();
         let mechanism = part.of(&Mechanism::new(self.robot, &graph, self.options));
         let base = Base::new(&mechanism)?;
@@ -119,10 +121,10 @@ impl Limbs<'_> {
         search.max_tries = MAX_TRIES;
         search.with_unit = false;
         search.known = Some(HashSet::new());
-        let (_, plan) = search.from_starts(scope, Some(held));
+        let (_, plan) = search.best_descent(scope, Some(held));
         whole.tried += search.tried;
         whole.work += search.work;
-        Some(plan)
+        Some((plan, search.is_spent()))
     }
 }
 

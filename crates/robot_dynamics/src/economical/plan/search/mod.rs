@@ -234,7 +234,7 @@ impl<'m, 'g> Search<'m, 'g> {
     }
 
     fn run(&mut self, scope: Scope) -> Found {
-        let (_, plan) = self.from_starts(scope, None);
+        let (_, plan) = self.best_descent(scope, None);
         let cut_short = self.is_spent();
         Found { cut_short, ..self.found(plan) }
     }
@@ -272,7 +272,7 @@ impl<'m, 'g> Search<'m, 'g> {
 
     /// The best of the descents from the cheapest of a few plans, and of further descents from
     /// neighbors of the best; and its cost.
-    fn from_starts(&mut self, scope: Scope, held: Option<Plan>) -> (usize, Plan) {
+    fn best_descent(&mut self, scope: Scope, held: Option<Plan>) -> (usize, Plan) {
         let ranked = self.ranked(held);
         let (mut best, mut plan) = ranked[0].clone();
         if !self.can_sweep(scope, &plan, best) {
