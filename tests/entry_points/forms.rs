@@ -56,6 +56,35 @@ fn expected(robot: &str, dof: usize) -> Vec<Vec<f64>> {
     (0..STATES).map(torques).collect()
 }
 
+/// The same states in columns, some of them short, and in a block: they have the bits of the batch.
+fn columns_text(dof: usize) -> String {
+    format!(
+        "let (cq, cqd, cqdd) = (columns(&q), columns(&qd), columns(&qdd));\n\
+                 let mut ctau = columns(&[[0.0; {dof}]; {STATES}]);\n\
+                 let count = m.inverse_dynamics_columns(slices(&cq), slices(&cqd), slices(&cqdd), \
+                   ctau.each_mut().map(|column| &mut column[..]));\n\
+                 assert_eq!(count, {STATES});\n\
+                 show(\"columns\", &states::<{dof}>(&ctau));\n\
+                 // The bits of a block do not depend on where its states come from.\n\
+                 assert_eq!(states::<{dof}>(&ctau), tau);\n\
+                 let mut short = slices(&cq);\n\
+                 short[1] = &short[1][..11];\n\
+                 ctau.iter_mut().for_each(|column| column.fill(0.0));\n\
+                 let count = m.inverse_dynamics_columns(short, slices(&cqd), slices(&cqdd), \
+                   ctau.each_mut().map(|column| &mut column[..]));\n\
+                 assert_eq!(count, 11);\n\
+                 assert_eq!(states::<{dof}>(&ctau)[..11], tau[..11]);\n\
+                 assert_eq!(states::<{dof}>(&ctau)[11..], [[0.0; {dof}]; {STATES} - 11]);\n\
+                 let block = |c: &[Vec<f64>; {dof}]| -> [[f64; 8]; {dof}] {{\n    \
+                   core::array::from_fn(|d| *c[d].first_chunk().unwrap())\n\
+                 }};\n\
+                 let lanes = m.inverse_dynamics_block(&block(&cq), &block(&cqd), &block(&cqdd));\n\
+                 for (state, tau) in tau[..8].iter().enumerate() {{\n    \
+                   assert_eq!(lanes.map(|lanes| lanes[state]), *tau);\n\
+                 }}"
+    )
+}
+
 /// A program that prints the torques at all states by each form, a state a line.
 fn main_text() -> String {
     let mut text = "#![deny(warnings)]\nmod cases;\nuse robot_runtime::{F32x8, F64x4, Scalar};\n\
@@ -82,6 +111,7 @@ fn main_text() -> String {
             let [q, qd, qdd] = states(dof);
             let each = "q.iter().zip(&qd).zip(&qdd).map(|((q, qd), qdd)|";
             let collect = ").collect::<Vec<_>>()";
+            let columns = columns_text(dof);
             writeln!(
                 text,
                 "{{ let m = cases::{path}::{model};\n\
@@ -97,29 +127,7 @@ fn main_text() -> String {
                  let mut tau = [[0.0; {dof}]; {STATES}];\n\
                  assert_eq!(m.inverse_dynamics_batch(&q, &qd, &qdd, &mut tau), {STATES});\n\
                  show(\"batch\", &tau);\n\
-                 let (cq, cqd, cqdd) = (columns(&q), columns(&qd), columns(&qdd));\n\
-                 let mut ctau = columns(&[[0.0; {dof}]; {STATES}]);\n\
-                 let count = m.inverse_dynamics_columns(slices(&cq), slices(&cqd), slices(&cqdd), \
-                   ctau.each_mut().map(|column| &mut column[..]));\n\
-                 assert_eq!(count, {STATES});\n\
-                 show(\"columns\", &states::<{dof}>(&ctau));\n\
-                 // The bits of a block do not depend on where its states come from.\n\
-                 assert_eq!(states::<{dof}>(&ctau), tau);\n\
-                 let mut short = slices(&cq);\n\
-                 short[1] = &short[1][..11];\n\
-                 ctau.iter_mut().for_each(|column| column.fill(0.0));\n\
-                 let count = m.inverse_dynamics_columns(short, slices(&cqd), slices(&cqdd), \
-                   ctau.each_mut().map(|column| &mut column[..]));\n\
-                 assert_eq!(count, 11);\n\
-                 assert_eq!(states::<{dof}>(&ctau)[..11], tau[..11]);\n\
-                 assert_eq!(states::<{dof}>(&ctau)[11..], [[0.0; {dof}]; {STATES} - 11]);\n\
-                 let block = |c: &[Vec<f64>; {dof}]| -> [[f64; 8]; {dof}] {{\n    \
-                   core::array::from_fn(|d| *c[d].first_chunk().unwrap())\n\
-                 }};\n\
-                 let lanes = m.inverse_dynamics_block(&block(&cq), &block(&cqd), &block(&cqdd));\n\
-                 for (state, tau) in tau[..8].iter().enumerate() {{\n    \
-                   assert_eq!(lanes.map(|lanes| lanes[state]), *tau);\n\
-                 }}\n\
+                 {columns}\n\
                  let mut masses = [[[0.0; {dof}]; {dof}]; {STATES}];\n\
                  assert_eq!(m.mass_matrix_batch(&q, &mut masses), {STATES});\n\
                  for (q, mass) in q.iter().zip(&masses) {{\n    \

@@ -257,6 +257,25 @@ pub mod trttr1 {
             qd: &[f64; 5],
             qdd: &[f64; 5],
         ) -> [f64; 5] {
+            #[derive(Clone, Copy)]
+            struct Kernel<'a>(&'a Model, &'a [f64; 5], &'a [f64; 5], &'a [f64; 5]);
+            impl ::robot_runtime::Kernel for Kernel<'_> {
+                type Output = [f64; 5];
+                #[inline(always)]
+                fn run<A: ::robot_runtime::Arithmetic>(self) -> [f64; 5] {
+                    let Kernel(model, q, qd, qdd) = self;
+                    model.inverse_dynamics_with(q, qd, qdd)
+                }
+            }
+            ::robot_runtime::dispatch(Kernel(self, q, qd, qdd))
+        }
+        #[inline(always)]
+        fn inverse_dynamics_with(
+            &self,
+            q: &[f64; 5],
+            qd: &[f64; 5],
+            qdd: &[f64; 5],
+        ) -> [f64; 5] {
             let [_, q2, _, _, q5] = *q;
             let (s, c) = ::robot_runtime::sin_cos_array(&[q2, q5]);
             self.inverse_dynamics_sc(&s, &c, q, qd, qdd)

@@ -1,4 +1,5 @@
 //! Kernels: what they compute on the processor at hand.
+#![allow(clippy::duplicate_mod, reason = "the runtime's files are there for either rounding")]
 
 use robot_runtime::{
     Arithmetic, Compiled, FUSED, Kernel, Real, Scalar, State, chunks, column_length, dispatch,

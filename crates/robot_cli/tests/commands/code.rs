@@ -43,7 +43,7 @@ fn options_reach_the_code() {
         "::robot_runtime::sin_cos_array",
         "pub fn inverse_dynamics_generic<T: ::robot_runtime::Scalar>",
         "pub fn mass_matrix_batch",
-        "blocks::<_, 8>",
+        "as_chunks::<8>",
         "::robot_runtime::Scalar::mul_add",
         "pub fn forward_dynamics_derivatives",
     ] {

@@ -56,6 +56,21 @@ impl Slices {
         });
         inputs.chain(outputs).collect()
     }
+
+    /// The parameters `q: [&[f64]; 6]` and `mut tau: [&mut [f64]; 6]`.
+    fn columns(&self, scalar: &Type) -> Vec<TokenStream> {
+        let (read, written): (Type, Type) =
+            (parse_quote!(&[#scalar]), parse_quote!(&mut [#scalar]));
+        let inputs = self.inputs.iter().map(|(name, length, _)| {
+            let columns = syntax::array_type(&read, *length);
+            quote!(#name: #columns)
+        });
+        let outputs = self.outputs.iter().map(|(name, shape)| {
+            let columns = syntax::shaped_type(&written, shape);
+            quote!(mut #name: #columns)
+        });
+        inputs.chain(outputs).collect()
+    }
 }
 
 /// How the states of a block lie in memory.
@@ -187,16 +202,7 @@ impl Methods<'_, '_> {
         let (runtime, lanes) = (self.number.runtime(), &slices.lanes);
         let BatchNames { columns, lanes: method, .. } = names;
         let scalar = self.number.ty();
-        let column: Type = parse_quote!(&[#scalar]);
-        let inputs = slices.inputs.iter().map(|(name, length, _)| {
-            let columns = syntax::array_type(&column, *length);
-            quote!(#name: #columns)
-        });
-        let column: Type = parse_quote!(&mut [#scalar]);
-        let written = slices.outputs.iter().map(|(name, shape)| {
-            let columns = syntax::shaped_type(&column, shape);
-            quote!(mut #name: #columns)
-        });
+        let parameters = slices.columns(&scalar);
         let states = slices.outputs.iter().map(|(name, shape)| -> Expr {
             let state = syntax::shaped_type(&scalar, shape);
             parse_quote!(<#state as #runtime::State>::column_length(&#name))
@@ -230,7 +236,7 @@ impl Methods<'_, '_> {
         parse_quote! {
             #(#docs)*
             #[inline]
-            pub fn #columns(&self, #(#inputs,)* #(#written),*) -> usize {
+            pub fn #columns(&self, #(#parameters),*) -> usize {
                 let count = #count;
                 let whole = count - count % #lanes;
                 for start in (0..whole).step_by(#lanes) {
