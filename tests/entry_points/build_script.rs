@@ -56,7 +56,7 @@ fn a_plan_that_comes_or_goes_is_noticed() {
 #[test]
 fn a_missing_feature_is_named() {
     let package = package("by_featureless_build_script");
-    let runtime = dependency("robot_runtime", "");
+    let runtime = dependency("robot_runtime", ", default-features = false");
     let build = dependency("robot_build", "");
     let manifest = std::fs::read_to_string(package.path("Cargo.toml")).unwrap();
     let (head, _) = manifest.split_once("[dependencies]").unwrap();

@@ -225,8 +225,13 @@ fn the_crates_behind_a_build_start_no_process() {
                 continue;
             }
             let text = std::fs::read_to_string(&path).unwrap();
-            for word in ["process::Command", "Command::new", "std::net", "TcpStream", "unsafe {"] {
+            for word in ["process::Command", "Command::new", "std::net", "TcpStream"] {
                 assert!(!text.contains(word), "{word} in {}", path.display());
+            }
+            // The instructions of vector registers, for a processor that has them.
+            let instructions = ["registers/x86.rs", "runtime/real.rs", "runtime/processor.rs"];
+            if !instructions.iter().any(|name| path.ends_with(name)) {
+                assert!(!text.contains("unsafe {"), "unsafe in {}", path.display());
             }
             files += 1;
         }

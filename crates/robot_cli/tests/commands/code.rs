@@ -50,7 +50,7 @@ fn options_reach_the_code() {
         assert!(shown.contains(part), "{part}");
     }
     let shown = output(&["generate", &file, "--batch=4"], "");
-    assert!(shown.contains("blocks::<_, 4>"));
+    assert!(shown.contains("as_chunks::<4>"));
     assert!(!shown.contains("mul_add") && !shown.contains("_generic"));
     let shown = output(&["generate", &file, "--batch", "--parallel"], "");
     assert!(shown.contains("::rayon::join") && !shown.contains("feature = \"rayon\""));
