@@ -10,6 +10,7 @@ pub(super) mod x86;
 use super::lanewise::{Lanewise, one_by_one};
 use super::scalar::Scalar;
 
+#[cfg(target_arch = "x86_64")]
 /// A register of `W` numbers of type `F`.
 pub(super) trait Register<F, const W: usize>: Scalar {
     /// Element i in lane i.
@@ -19,6 +20,7 @@ pub(super) trait Register<F, const W: usize>: Scalar {
     fn store(self, to: &mut [F; W]);
 }
 
+#[cfg(target_arch = "x86_64")]
 /// `operation` of arrays whose length is a multiple of the register's, register by register; without
 /// a loop for the first four.
 #[inline(always)]
