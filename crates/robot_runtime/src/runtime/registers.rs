@@ -8,6 +8,7 @@
 pub(super) mod x86;
 
 use super::lanewise::{Lanewise, one_by_one};
+#[cfg(target_arch = "x86_64")]
 use super::scalar::Scalar;
 
 #[cfg(target_arch = "x86_64")]
