@@ -299,7 +299,7 @@ register!(
 macro_rules! of_one_state {
     ($name:ident: $float:ident in $register:ident of $lanes:literal, $($index:literal)*) => {
         /// Sines and cosines of angles, with multiply-adds that round once if `ONCE`; AVX2. Without a loop for as
-        /// many as four registers hold, one angle after the other beyond.
+        /// many as a robot has joints, 64; one angle after the other beyond.
         #[inline(always)]
         pub(in super::super) fn $name<const ONCE: bool, const N: usize>(
             angles: &[$float; N],
@@ -332,5 +332,5 @@ macro_rules! of_one_state {
     };
 }
 
-of_one_state!(double: f64 in F64x4 of 4, 0 1 2 3);
-of_one_state!(single: f32 in F32x8 of 8, 0 1 2 3);
+of_one_state!(double: f64 in F64x4 of 4, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
+of_one_state!(single: f32 in F32x8 of 8, 0 1 2 3 4 5 6 7);
