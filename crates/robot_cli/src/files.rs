@@ -13,10 +13,12 @@ use crate::failure::Failure;
 const MAX_BYTES: u64 = 1 << 28;
 
 /// Why a file cannot be read; of one that is not there, which one may be meant.
-fn reason(path: &Path, error: &std::io::Error) -> String {
+fn cannot_open(path: &Path, name: &str, error: &std::io::Error) -> Failure {
     match error.kind() {
-        std::io::ErrorKind::NotFound => missing(path),
-        _ => error.to_string(),
+        std::io::ErrorKind::NotFound => {
+            Failure::input(format!("cannot read {name}: {}", missing(path)))
+        }
+        _ => cannot_read(name, error),
     }
 }
 
@@ -26,13 +28,11 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
     if name == "-" {
         name = "standard input".to_owned();
         let read = (&mut *terminal.input).take(MAX_BYTES + 1).read_to_end(&mut bytes);
-        read.map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
+        read.map_err(|error| cannot_read(&name, &error))?;
     } else {
         let read =
             File::open(path).and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes));
-        read.map_err(|error| {
-            Failure::input(format!("cannot read {name}: {}", reason(path, &error)))
-        })?;
+        read.map_err(|error| cannot_open(path, &name, &error))?;
     }
     if bytes.len() as u64 > MAX_BYTES {
         return Err(Failure::input(format!("{name} has more than {} MiB", MAX_BYTES >> 20)));
@@ -71,8 +71,7 @@ pub(crate) fn open<'t>(
     if name == "-" {
         return Ok(("standard input".to_owned(), Bytes::Stream(Box::new(standard))));
     }
-    let file = File::open(path)
-        .map_err(|error| Failure::input(format!("cannot read {name}: {}", reason(path, &error))))?;
+    let file = File::open(path).map_err(|error| cannot_open(path, &name, &error))?;
     let is_regular = file.metadata().is_ok_and(|metadata| metadata.is_file());
     let bytes = if is_regular { Bytes::File(file) } else { Bytes::Stream(Box::new(file)) };
     Ok((name, bytes))

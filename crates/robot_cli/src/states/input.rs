@@ -112,7 +112,7 @@ impl<'t> Input<'t> {
     ///
     /// # Errors
     ///
-    /// What cannot be read, or is no text.
+    /// What cannot be read, or is not text.
     pub(crate) fn read<'l>(
         &mut self,
         layout: &'l Layout,

@@ -28,7 +28,7 @@ impl Letters {
     ///
     /// # Errors
     ///
-    /// Not as many letters, what is no letter, and the same letter twice.
+    /// Not as many letters, what is not a letter, and the same letter twice.
     pub fn parse(text: &str) -> Result<Letters, InvalidLetters> {
         let [field, paper] = Letters::SETS;
         if text == paper {

@@ -18,7 +18,7 @@ const LARGEST: u64 = 12;
 /// decimals; or all rounded to so many significant digits.
 pub(crate) fn tidied(math: &Math, digits: Option<usize>) -> Math {
     let tidy = mapped(math.clone(), &|piece| rounded(piece, digits));
-    // A rounded number is no fraction.
+    // A rounded number is not a fraction.
     let simple = is_simple(math) && (digits.is_none() || tidy == *math);
     mapped(tidy, &|piece| fractions(piece, simple))
 }
@@ -205,7 +205,7 @@ fn row(pieces: Vec<Math>, simple: bool) -> Vec<Math> {
     tidy
 }
 
-/// Numerator and denominator of a number that is no integer.
+/// Numerator and denominator of a number that is not an integer.
 fn parts(piece: &Math) -> Option<[u64; 2]> {
     match piece {
         Math::Number(digits) => fraction(digits),

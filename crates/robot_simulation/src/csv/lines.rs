@@ -20,7 +20,7 @@ pub struct Lines<R> {
 }
 
 impl<R: BufRead> Lines<R> {
-    /// The lines of a reader; `source` is its name in messages. A byte order mark at the start is no part of the text.
+    /// The lines of a reader; `source` is its name in messages. A byte order mark at the start is not part of the text.
     pub fn new(source: &str, reader: R) -> Lines<R> {
         Lines { source: source.to_owned(), reader, line: vec![], number: 0, offset: 0 }
     }

@@ -39,7 +39,7 @@ pub fn numbers(line: &str, found: &mut Vec<f64>) -> bool {
                 found.push(number);
                 length
             }
-            // It has spaces or quotes around it, or is no number.
+            // It has spaces or quotes around it, or is not a number.
             _ => {
                 let text = rest.split(',').next().unwrap_or_default();
                 let Some(number) = number(cell(text)) else { return false };
