@@ -20,6 +20,13 @@ impl<'g> Vector<'g> {
         Vector([graph.zero(); 3])
     }
 
+    /// The vector of this component along z.
+    #[must_use]
+    pub fn along_z(component: Expr<'g>) -> Vector<'g> {
+        let zero = component.graph().zero();
+        Vector([zero, zero, component])
+    }
+
     /// The vector product `self × other`.
     #[must_use]
     pub fn cross(self, other: Vector<'g>) -> Vector<'g> {

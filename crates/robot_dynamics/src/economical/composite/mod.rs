@@ -33,7 +33,17 @@ pub(crate) trait Accumulate<'g>: Copy {
 /// Sums a quantity of every link over all that it carries, about the link's origin, in its home axes.
 ///
 /// `own` is in the links' own axes.
-pub(crate) fn gather<'g, T: Accumulate<'g>>(frames: &Frames<'_, 'g>, mut own: Vec<T>) -> Vec<T> {
+pub(crate) fn gather<'g, T: Accumulate<'g>>(frames: &Frames<'_, 'g>, own: Vec<T>) -> Vec<T> {
+    gather_across(frames, own, |_, composite| *composite)
+}
+
+/// [`gather`], if a parent's sum has something else of a link than its composite: `crossed` makes it of the link and
+/// its composite, in home axes.
+pub(crate) fn gather_across<'g, T: Accumulate<'g>>(
+    frames: &Frames<'_, 'g>,
+    mut own: Vec<T>,
+    crossed: impl Fn(usize, &T) -> T,
+) -> Vec<T> {
     let chain = frames.chain;
     // The sums over the children, in the link's own axes and in its home axes.
     let none = T::zero(chain.graph);
@@ -45,7 +55,7 @@ pub(crate) fn gather<'g, T: Accumulate<'g>>(frames: &Frames<'_, 'g>, mut own: Ve
         let in_own_axes = own[index].plus(&from_children[index]);
         composites[index] = in_own_axes.turned(&joint_frame.group_turn).plus(&at_home[index]);
         let Some(parent) = link.parent else { continue };
-        let composite = composites[index];
+        let composite = crossed(index, &composites[index]);
         if frames.is_joined(index) {
             let (constant, rest) = composite.shifted_in_parts(frames.arm_at_home(index));
             at_home[parent] = at_home[parent].plus(&rest.plus(&constant));

@@ -17,8 +17,8 @@ pub(crate) struct Momentum<'g> {
 }
 
 impl<'g> Momentum<'g> {
-    /// The momentum of one link.
-    pub(crate) fn of_link(motion: &Twist<'g>, inertia: &PseudoInertia<'g>) -> Momentum<'g> {
+    /// The momentum of one body.
+    pub(crate) fn of_body(motion: &Twist<'g>, inertia: &PseudoInertia<'g>) -> Momentum<'g> {
         let Twist { angular, linear } = *motion;
         let turning = Matrix::skew(angular);
         Momentum {
@@ -27,12 +27,11 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// The wrench of the matrix Ẑ B for a unit rate `motion` Z of a joint; of Z only the angular
-    /// part counts.
-    pub(crate) fn wrench_of_unit_rate(&self, motion: &Twist<'g>) -> Wrench<'g> {
-        let Matrix(n) = Matrix::skew(motion.angular) * self.second;
+    /// The wrench of the matrix Ẑ B for a unit rate of a joint with the angular part `turning`.
+    pub(crate) fn wrench_of_unit_rate(&self, turning: Vector<'g>) -> Wrench<'g> {
+        let Matrix(n) = Matrix::skew(turning) * self.second;
         Wrench {
-            force: motion.angular.cross(self.linear),
+            force: turning.cross(self.linear),
             moment: Vector([n[2][1] - n[1][2], n[0][2] - n[2][0], n[1][0] - n[0][1]]),
         }
     }

@@ -14,22 +14,24 @@
 //!
 //! The Christoffel form of the Coriolis matrix is half of ∂τ/∂q̇.
 
+mod loads;
+mod motions;
+
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::Recursion;
-use crate::economical::composite::projection::{Propagate, Propagated, projections};
-use crate::economical::composite::{composites, gather, inertial_wrench};
+use crate::economical::composite::gather;
+use crate::economical::composite::projection::{Propagated, projections};
 use crate::economical::frames::Frames;
 use crate::economical::frames::chain::Chain;
-use crate::economical::plan::Place;
 use crate::economical::recursion::inward::own_wrench;
-use crate::economical::recursion::outward::{self, Accelerations, LinkState};
-use crate::economical::spatial::inertia::PseudoInertia;
-use crate::economical::spatial::momentum::Momentum;
+use crate::economical::recursion::outward::{self, Accelerations};
 use crate::economical::spatial::{Twist, Wrench};
 use crate::matrix::SquareMatrix;
 use crate::vector::Vector;
+use loads::Composites;
+use motions::{AtRest, Motions};
 
 /// ∂τ/∂q and ∂τ/∂q̇.
 #[derive(Clone, Debug)]
@@ -71,10 +73,10 @@ impl<'g> Recursion<'g> {
     }
 
     fn torque_derivatives_of(&self, chain: &Chain<'g>) -> TorqueDerivatives<'g> {
+        let at_rest = if std::env::var("BASE").is_ok() { AtRest::Base } else { AtRest::Origin };
         let chain = &chain.without_idle_turns(&[]);
         let states = outward::outward(chain, &self.plans, Accelerations::Given);
         let frames = Frames::new(chain, |index| self.plans[index].composite_sum);
-        let motions = Motions::new(&frames, &states, chain.graph.integer(2));
         let wrenches = {
             let own = states.iter().enumerate().map(|(index, state)| {
                 let (force, moment) = own_wrench(chain, index, state, &self.plans[index]);
@@ -82,7 +84,9 @@ impl<'g> Recursion<'g> {
             });
             gather(&frames, own.collect())
         };
+        let motions = Motions::new(&frames, &states, chain.graph.integer(2), at_rest);
         let composites = Composites::new(&frames, &motions);
+        let zero = Vector::zero(chain.graph);
         let n = chain.degrees_of_freedom;
         let mut positions = SquareMatrix::zero(chain.graph, n);
         let mut velocities = SquareMatrix::zero(chain.graph, n);
@@ -101,7 +105,7 @@ impl<'g> Recursion<'g> {
                 positions.add(inner.coordinate, link.coordinate, inward);
                 if projection.inner != index {
                     let shift = projection.twist(&frames, &motion.shift);
-                    let turning = projection.twist(&frames, &motion.turning);
+                    let turning = projection.twist(&frames, &Twist { angular: motion.turning, linear: zero });
                     let outward = shift.dot(&load.unit) + turning.angular.dot(load.projected);
                     positions.add(link.coordinate, inner.coordinate, outward * factor);
                 }
@@ -117,13 +121,14 @@ impl<'g> Recursion<'g> {
         if self.chain.is_gyroscopic() {
             return None;
         }
+        let at_rest = if std::env::var("BASE").is_ok() { AtRest::Base } else { AtRest::Origin };
         let mut chain = self.chain.without_idle_turns(&[]);
         for link in &mut chain.links {
             link.motion.acceleration = chain.graph.zero();
         }
         let states = outward::outward(&chain, &self.plans, Accelerations::Given);
         let frames = Frames::new(&chain, |index| self.plans[index].composite_sum);
-        let motions = Motions::new(&frames, &states, chain.graph.one());
+        let motions = Motions::new(&frames, &states, chain.graph.one(), at_rest);
         let composites = Composites::new(&frames, &motions);
         let mut matrix = SquareMatrix::zero(chain.graph, chain.degrees_of_freedom);
         self.each_pair(&frames, &motions, &composites, &mut matrix);
@@ -157,171 +162,6 @@ impl<'g> Recursion<'g> {
                     matrix.add(link.coordinate, inner.coordinate, outward * factor);
                 }
             }
-        }
-    }
-}
-
-/// The motions of a joint in its link's home axes, before its own motion.
-#[derive(Clone, Copy, Debug)]
-struct JointMotion<'g> {
-    /// Z: the motion for a unit rate.
-    unit: Twist<'g>,
-    /// Y = \[V, Z\], times the factor of the motions.
-    rate: Twist<'g>,
-    /// The angular part of Y itself.
-    turning: Twist<'g>,
-    /// X, the shift of the accelerations.
-    shift: Twist<'g>,
-}
-
-/// The motions of all joints and links.
-struct Motions<'g> {
-    links: Vec<JointMotion<'g>>,
-    /// V of the links, in own axes, times the factor.
-    twists: Vec<Twist<'g>>,
-}
-
-impl<'g> Motions<'g> {
-    /// `factor` is 1 or 2: V and Y come in pairs of equal terms in the derivatives, and doubling
-    /// them once is cheaper than doubling the products.
-    fn new(frames: &Frames<'_, 'g>, states: &[LinkState<'g>], factor: Expr<'g>) -> Motions<'g> {
-        let chain = frames.chain;
-        let zero = Vector::zero(chain.graph);
-        let (mut links, mut twists): (Vec<JointMotion<'g>>, Vec<Twist<'g>>) = (vec![], vec![]);
-        for (index, link) in chain.links.iter().enumerate() {
-            let joint_frame = &frames.joint_frames[index];
-            let home = |vector| frames.parent_to_home(index, vector);
-            let at_rest = Twist { angular: zero, linear: zero };
-            let carrier = link.parent.map_or(at_rest, |parent| twists[parent]);
-            let carried = carrier.linear + carrier.angular.cross(joint_frame.origin);
-            let (omega, column, acceleration) = match link.parent {
-                Some(parent) => {
-                    let state = &states[parent];
-                    let acceleration = state.acceleration + state.tensor * joint_frame.origin;
-                    (state.angular_velocity, state.tensor * link.axis, acceleration)
-                }
-                None => (zero, zero, -chain.gravity),
-            };
-            let unit = frames.joint_twist(index);
-            links.push(JointMotion::new(
-                &unit,
-                factor,
-                home(omega),
-                home(carried),
-                home(column),
-                home(acceleration),
-            ));
-            let mut velocity = joint_frame.turn.back(link.rotation.back(carried));
-            match link.kind {
-                JointKind::Revolute => {}
-                JointKind::Prismatic => velocity.0[2] += link.motion.velocity * factor,
-            }
-            let angular = states[index].angular_velocity * factor;
-            twists.push(Twist { angular, linear: velocity });
-        }
-        Motions { links, twists }
-    }
-}
-
-impl<'g> JointMotion<'g> {
-    /// From the parent's angular velocity ω, the velocity of the link's origin as a point of the
-    /// parent times the factor, U z, and the acceleration of the link's origin.
-    fn new(
-        unit: &Twist<'g>,
-        factor: Expr<'g>,
-        omega: Vector<'g>,
-        velocity: Vector<'g>,
-        column: Vector<'g>,
-        acceleration: Vector<'g>,
-    ) -> JointMotion<'g> {
-        let zero = Vector::zero(omega.0[0].graph());
-        let turning = Twist { angular: omega.cross(unit.angular), linear: zero };
-        // \[V, Z\] = (ω × z, ω × z_v + v × z)
-        let rate = Twist {
-            angular: turning.angular * factor,
-            linear: omega.cross(unit.linear) * factor + velocity.cross(unit.angular),
-        };
-        // Of a rotation (U z, a × z + 2 v × (ω × z)), of a translation (0, U z).
-        let shift = if unit.angular.is_zero() {
-            Twist { angular: zero, linear: column * unit.linear.0[2] }
-        } else {
-            Twist {
-                angular: column,
-                linear: acceleration.cross(unit.angular) + velocity.cross(turning.angular),
-            }
-        };
-        JointMotion { unit: *unit, rate, turning, shift }
-    }
-}
-
-/// P and B of every link and all that it carries, in home axes; B times the factor of the motions.
-struct Composites<'g> {
-    inertias: Vec<PseudoInertia<'g>>,
-    momenta: Vec<Momentum<'g>>,
-}
-
-/// The quantities of an outer joint that are propagated to the inner joints.
-#[derive(Clone, Copy, Debug)]
-struct Load<'g> {
-    /// P Z of the outer joint.
-    unit: Wrench<'g>,
-    /// The projection of B on the outer joint, per component of the inner joint's turning.
-    projected: Vector<'g>,
-    /// The wrench caused by the outer joint's own motion.
-    own: Wrench<'g>,
-}
-
-impl<'g> Propagate<'g> for Load<'g> {
-    fn inward(&self, frames: &Frames<'_, 'g>, place: Place) -> Self {
-        Load {
-            unit: self.unit.inward(frames, place),
-            projected: self.projected.inward(frames, place),
-            own: self.own.inward(frames, place),
-        }
-    }
-}
-
-impl<'g> Composites<'g> {
-    fn new(frames: &Frames<'_, 'g>, motions: &Motions<'g>) -> Composites<'g> {
-        let links = frames.chain.links.iter().zip(&motions.twists);
-        let own = links.map(|(link, twist)| Momentum::of_link(twist, &link.inertia)).collect();
-        Composites { inertias: composites(frames), momenta: gather(frames, own) }
-    }
-
-    fn of_velocity(
-        &self,
-        frames: &Frames<'_, 'g>,
-        motions: &Motions<'g>,
-        index: usize,
-    ) -> Load<'g> {
-        let (motion, momentum) = (&motions.links[index], &self.momenta[index]);
-        let by_rate = inertial_wrench(&self.inertias[index], &motion.rate);
-        Load {
-            own: by_rate.plus(&momentum.wrench_of_unit_rate(&motion.unit)),
-            ..self.common(frames, index)
-        }
-    }
-
-    fn of_position(
-        &self,
-        frames: &Frames<'_, 'g>,
-        motions: &Motions<'g>,
-        index: usize,
-        whole: &Wrench<'g>,
-    ) -> Load<'g> {
-        let (motion, momentum) = (&motions.links[index], &self.momenta[index]);
-        let by_shift = inertial_wrench(&self.inertias[index], &motion.shift);
-        let by_turning = momentum.wrench_of_unit_rate(&motion.turning);
-        let along = whole.carried_by(&motion.unit);
-        Load { own: along.plus(&by_shift.plus(&by_turning)), ..self.common(frames, index) }
-    }
-
-    fn common(&self, frames: &Frames<'_, 'g>, index: usize) -> Load<'g> {
-        let unit = frames.joint_twist(index);
-        Load {
-            unit: inertial_wrench(&self.inertias[index], &unit),
-            projected: self.momenta[index].project(&unit),
-            own: Wrench::zero(frames.chain.graph),
         }
     }
 }
