@@ -106,10 +106,9 @@ impl<'g> Composites<'g> {
         let (inertia, motion) = (&self.inertias[index], &motions.links[index]);
         let unit = inertial_wrench(inertia, &motion.unit);
         let relative = self.momenta[index].project(&motion.unit);
-        // Of the link's own motion: (ω × z) · Σ of a rotation, (ω × h) × z of a translation, and v × P Z.
+        // Of the link's own motion: (ω × z) · Σ of a rotation, (ω × h) × z of a translation.
         let carried = inertia.second * motion.rate.angular
-            + motion.scaled_omega.cross(inertia.first).cross(motion.unit.linear)
-            + motion.velocity.cross(unit.force);
+            + motion.scaled_omega.cross(inertia.first).cross(motion.unit.linear);
         Load {
             unit,
             projected: carried + relative,
@@ -134,11 +133,10 @@ fn shifted_about_z<'g>(inertia: &PseudoInertia<'g>, motion: &JointMotion<'g>) ->
     let Vector([x, y, z]) = motion.omega;
     let Vector([u, v, _]) = motion.shift.angular;
     let linear = motion.acceleration.cross(motion.unit.angular);
-    let (twice_x, twice_y) = (x * 2, y * 2);
     // U \[z\]× − \[z\]× U: with U₁₂ + U₂₁ and U₂₂ − U₁₁ in the plane, U's third column, and its third row, which is
     // the third column's mirror image but for twice the products of velocities.
-    let (mixed, difference) = (twice_x * y, (y - x) * (y + x));
-    let (u31, u32) = (twice_x * z - u, twice_y * z - v);
+    let (mixed, difference) = ((x * y) * 2, y * y - x * x);
+    let (u31, u32) = ((x * 2) * z - u, (y * 2) * z - v);
     let Matrix([[xx, xy, xz], [_, yy, yz], [_, _, zz]]) = inertia.second;
     let Vector([hx, hy, hz]) = inertia.first;
     let moment = Vector([
@@ -151,8 +149,5 @@ fn shifted_about_z<'g>(inertia: &PseudoInertia<'g>, motion: &JointMotion<'g>) ->
         (difference * hx - mixed * hy) - u * hz,
         u32 * hx - u31 * hy,
     ]);
-    Wrench {
-        force: force + linear * inertia.mass,
-        moment: moment + inertia.first.cross(linear),
-    }
+    Wrench { force: force + linear * inertia.mass, moment: moment + inertia.first.cross(linear) }
 }

@@ -8,17 +8,8 @@ use crate::economical::recursion::outward::LinkState;
 use crate::economical::spatial::Twist;
 use crate::vector::Vector;
 
-/// The point whose velocity the others are relative to: wrenches do not depend on it, for it moves
-/// uniformly (Galileo).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum AtRest {
-    /// The base: each link's origin has a velocity.
-    Base,
-    /// The origin of the link that is dealt with: it has none, and what is passed to the parent changes.
-    Origin,
-}
-
-/// The motions of a joint in its link's home axes, about the link's origin.
+/// The motions of a joint in its link's home axes, about the link's origin, which is at rest: wrenches do not change if
+/// all velocities change by the same one (Galileo).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointMotion<'g> {
     /// Z: the motion for a unit rate.
@@ -27,7 +18,7 @@ pub(super) struct JointMotion<'g> {
     pub(super) rate: Twist<'g>,
     /// The angular part of Y itself.
     pub(super) turning: Vector<'g>,
-    /// X, the shift of the accelerations: \[A, Z\] − 2 Y V.
+    /// X = \[A, Z\] − 2 Y V, the shift of the accelerations.
     pub(super) shift: Twist<'g>,
     /// ω of the link.
     pub(super) omega: Vector<'g>,
@@ -35,8 +26,6 @@ pub(super) struct JointMotion<'g> {
     pub(super) scaled_omega: Vector<'g>,
     /// The acceleration of the link's origin, on its parent.
     pub(super) acceleration: Vector<'g>,
-    /// The velocity of the link's origin times the factor.
-    pub(super) velocity: Vector<'g>,
     /// The velocity of the link's origin relative to the parent's times the factor, in the parent's own axes or, within
     /// a group, its home axes.
     pub(super) passed: Vector<'g>,
@@ -55,37 +44,14 @@ impl<'g> Motions<'g> {
         frames: &Frames<'_, 'g>,
         states: &[LinkState<'g>],
         factor: Expr<'g>,
-        at_rest: AtRest,
     ) -> Motions<'g> {
-        let mut links: Vec<JointMotion<'g>> = vec![];
-        // Velocities of the links' origins times the factor, in own axes.
-        let mut velocities: Vec<Vector<'g>> = vec![];
-        for (index, link) in frames.chain.links.iter().enumerate() {
-            let motion = JointMotion::new(frames, states, index, factor);
-            let along = match link.kind {
-                JointKind::Revolute => frames.chain.graph.zero(),
-                JointKind::Prismatic => link.motion.velocity * factor,
-            };
-            let carried = link.parent.map_or(Vector::zero(frames.chain.graph), |parent| {
-                let turning = states[parent].angular_velocity * factor;
-                velocities[parent] + turning.cross(frames.joint_frames[index].origin)
-            });
-            let turned = frames.joint_frames[index].turn.back(link.rotation.back(carried));
-            velocities.push(turned + Vector::along_z(along));
-            links.push(match at_rest {
-                AtRest::Base => {
-                    let carried = frames.parent_to_home(index, carried);
-                    motion.of_moving_origin(carried, along)
-                }
-                AtRest::Origin => motion,
-            });
-        }
+        let links = 0..frames.chain.links.len();
+        let links = links.map(|index| JointMotion::new(frames, states, index, factor)).collect();
         Motions { links, factor }
     }
 }
 
 impl<'g> JointMotion<'g> {
-    /// With the link's origin at rest.
     fn new(
         frames: &Frames<'_, 'g>,
         states: &[LinkState<'g>],
@@ -107,10 +73,7 @@ impl<'g> JointMotion<'g> {
         let (carrier, column, acceleration) = (home(omega), home(column), home(acceleration));
         let unit = frames.joint_twist(index);
         let turning = carrier.cross(unit.angular);
-        let rate = Twist {
-            angular: turning * factor,
-            linear: carrier.cross(unit.linear) * factor,
-        };
+        let rate = Twist { angular: turning * factor, linear: carrier.cross(unit.linear) * factor };
         // Of a rotation (U z, a × z), of a translation (0, U z).
         let shift = match link.kind {
             JointKind::Revolute => {
@@ -126,32 +89,7 @@ impl<'g> JointMotion<'g> {
         let omega = Vector([x, y, states[index].angular_velocity.0[2]]);
         let scaled_omega = omega * factor;
         let passed = passed(frames, states, index, factor);
-        let velocity = zero;
-        JointMotion {
-            unit,
-            rate,
-            turning,
-            shift,
-            omega,
-            scaled_omega,
-            acceleration,
-            velocity,
-            passed,
-        }
-    }
-
-    /// The motion with the base at rest, from the velocity of the link's origin as a point of the parent and along the
-    /// axis.
-    fn of_moving_origin(self, carried: Vector<'g>, along: Expr<'g>) -> JointMotion<'g> {
-        let JointMotion { unit, mut rate, mut shift, turning, passed, .. } = self;
-        // \[V, Z\] = (ω × z, ω × z_v + v × z) and, of a rotation, \[A, Z\] − 2 Y V = (U z, a × z + 2 v × (ω × z))
-        rate.linear = rate.linear + carried.cross(unit.angular);
-        if !unit.angular.is_zero() {
-            shift.linear = shift.linear + carried.cross(turning);
-        }
-        let velocity = carried + Vector::along_z(along);
-        let passed = Vector::zero(passed.0[0].graph());
-        JointMotion { rate, shift, velocity, passed, ..self }
+        JointMotion { unit, rate, turning, shift, omega, scaled_omega, acceleration, passed }
     }
 }
 
