@@ -63,6 +63,7 @@ pub enum Solver {
 pub struct Recursion<'g> {
     chain: Chain<'g>,
     plans: Vec<LinkPlan>,
+    unit_length: Option<(usize, usize)>,
     tips: Vec<TipWrench<'g>>,
 }
 
@@ -78,7 +79,13 @@ impl<'g> Recursion<'g> {
     fn from_base(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Plan) -> Recursion<'g> {
         let chain = chain::prepare(mechanism, base, plan);
         let tips = tip_wrenches(mechanism, &chain);
-        Recursion { chain, plans: plan.links.clone(), tips }
+        Recursion { chain, plans: plan.links.clone(), unit_length: plan.unit_length, tips }
+    }
+
+    /// The plan that the recursion follows.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        Plan { links: self.plans.clone(), unit_length: self.unit_length }
     }
 
     /// The graph of the recursion's expressions.

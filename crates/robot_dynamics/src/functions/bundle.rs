@@ -13,9 +13,12 @@ impl<'g> Derivation<'_, 'g> {
     /// before it.
     #[must_use]
     pub fn bundle(&self, bundle: &Bundle) -> Function<'g> {
-        let functions = bundle.functions.iter().flat_map(|kind| self.functions(*kind));
-        let mut functions: Vec<Function<'g>> = functions.collect();
-        sharing::share(self, &mut functions);
+        let functions = self.cheapest_plan(&bundle.functions, |derivation| {
+            let functions = bundle.functions.iter().flat_map(|kind| derivation.acting(*kind));
+            let mut functions: Vec<Function<'g>> = functions.collect();
+            sharing::share(derivation, &mut functions);
+            functions
+        });
         let names: Vec<String> =
             functions.iter().map(|function| format!("`{}`", function.name)).collect();
         let mut doc = vec![format!(

@@ -5,6 +5,7 @@
 //! needs the forces between links comes from the paper's iterations.
 
 mod acting;
+mod alternatives;
 mod bundle;
 mod coriolis;
 mod derivatives;
@@ -64,6 +65,11 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// A parameter that has no effect on a function does not occur in it.
     #[must_use]
     pub fn functions(&self, kind: FunctionKind) -> Vec<Function<'g>> {
+        self.cheapest_plan(&[kind], |derivation| derivation.acting(kind))
+    }
+
+    /// The functions of a kind under this plan.
+    fn acting(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let derived = self.derived(kind).into_iter();
         derived.map(|function| self.of_acting_parameters(function)).collect()
     }

@@ -168,6 +168,18 @@ impl LinkPlan {
     };
 }
 
+impl LinkPlan {
+    /// The options that suit most links, without a search: those that most links of searched plans have.
+    pub const DEFAULT: LinkPlan = LinkPlan {
+        angle_sum: true,
+        column: true,
+        doubled: true,
+        moment: [false, false, true],
+        diagonal: true,
+        ..LinkPlan::BASIC
+    };
+}
+
 impl Plan {
     /// Whether the plan is for that many links and names no others.
     #[must_use]
@@ -181,15 +193,7 @@ impl Plan {
     /// The options that suit most arms, without a search: the cheapest searched plans have most links so.
     #[must_use]
     pub fn default_for(robot: &Robot) -> Plan {
-        let link = LinkPlan {
-            angle_sum: true,
-            column: true,
-            doubled: true,
-            moment: [false, false, true],
-            diagonal: true,
-            ..LinkPlan::BASIC
-        };
-        Plan::uniform(robot.links.len(), &link)
+        Plan::uniform(robot.links.len(), &LinkPlan::DEFAULT)
     }
 
     /// A plan with these options for every link.
