@@ -4,7 +4,7 @@ use super::{Derivation, Function, FunctionKind};
 use crate::economical::Plan;
 use crate::economical::plan::{LinkPlan, Origin};
 
-/// Up to this number of coordinates other plans are tried.
+/// Up to this number of coordinates other plans are tried, but for the mass matrix always: it is short.
 const MANY: usize = 32;
 
 impl<'g> Derivation<'_, 'g> {
@@ -21,8 +21,9 @@ impl<'g> Derivation<'_, 'g> {
             self.operations(&roots).flops()
         };
         let mut best = derive(self);
-        let is_long = self.mechanism.degrees_of_freedom > MANY;
-        let recursion = self.recursion.as_ref().filter(|_| !is_long && differs(kinds));
+        let count = self.mechanism.degrees_of_freedom;
+        let apply = kinds.iter().any(|kind| depends(*kind, count));
+        let recursion = self.recursion.as_ref().filter(|_| apply);
         let mut least = recursion.map_or(0, |_| cost(&best));
         for plan in recursion.into_iter().flat_map(|recursion| others(&recursion.plan())) {
             let functions = derive(&self.with_plan(&plan));
@@ -35,17 +36,18 @@ impl<'g> Derivation<'_, 'g> {
     }
 }
 
-/// Whether functions of these kinds may want another plan than inverse dynamics: those in which composites take more
-/// operations than the recursion over links.
-fn differs(kinds: &[FunctionKind]) -> bool {
-    kinds.iter().any(|kind| {
-        matches!(
-            kind,
-            FunctionKind::CoriolisMatrix
-                | FunctionKind::InverseDynamicsDerivatives
-                | FunctionKind::ForwardDynamicsDerivatives
-        )
-    })
+/// Whether a function of so many coordinates may want another plan than inverse dynamics: if composites take many of its
+/// operations.
+fn depends(kind: FunctionKind, coordinates: usize) -> bool {
+    match kind {
+        FunctionKind::MassMatrix | FunctionKind::MassMatrixLower => true,
+        FunctionKind::CoriolisMatrix
+        | FunctionKind::InverseDynamicsDerivatives
+        | FunctionKind::ForwardDynamicsDerivatives => coordinates <= MANY,
+        // Load-dependent friction is found in rounds, each as long as the function.
+        FunctionKind::ForwardDynamics(effects) => !effects.friction && coordinates <= MANY,
+        _ => false,
+    }
 }
 
 /// The plan with all regrouped inertia at the parents, so that composites have no mass behind rotations, and uniform

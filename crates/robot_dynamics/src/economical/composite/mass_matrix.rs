@@ -29,7 +29,11 @@ pub(crate) fn cheapest<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> SymmetricMa
     let cost = |matrix: &SymmetricMatrix<'g>| {
         operations(&matrix.rows(), |symbol| !positions.contains(&symbol)).flops()
     };
-    let others = [mass_matrix(chain, &joined), in_common_axes(chain)];
+    let others = [
+        mass_matrix(chain, &joined),
+        in_common_axes(chain, Arms::InLinks),
+        in_common_axes(chain, Arms::InCommonAxes),
+    ];
     let forms = [planned].into_iter().chain(others);
     let cheapest = forms.min_by_key(cost);
     cheapest.unwrap_or_else(|| SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom))
@@ -69,14 +73,24 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
     matrix
 }
 
+/// The axes in which the positions of the links' origins are summed, and wrenches and motions moved there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arms {
+    /// The links' own: arms and joint axes have the fewest components there.
+    InLinks,
+    /// The common axes: parallel joints share their direction.
+    InCommonAxes,
+}
+
 /// M(q) with all wrenches and motions in the axes of the innermost link: six products an entry, however far apart the
 /// joints, and some hundred operations a joint. For long chains about skew axes.
-pub(crate) fn in_common_axes<'g>(chain: &Chain<'g>) -> SymmetricMatrix<'g> {
+pub(crate) fn in_common_axes<'g>(chain: &Chain<'g>, arms: Arms) -> SymmetricMatrix<'g> {
     let frames = Frames::new(chain, |_| false);
     let composites = composites(&frames);
     let mut matrix = SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom);
-    // Of each link: its own axes and origin in the common axes, and its joint's motion there.
-    let mut poses: Vec<(Matrix<'g>, Vector<'g>)> = vec![];
+    // Of each link: its own axes in the common axes, its origin, and its joint's motion in the common axes.
+    let mut axes: Vec<Matrix<'g>> = vec![];
+    let mut origins: Vec<Vector<'g>> = vec![];
     let mut motions: Vec<Twist<'g>> = vec![];
     for (index, link) in chain.links.iter().enumerate() {
         let joint_frame = &frames.joint_frames[index];
@@ -87,19 +101,33 @@ pub(crate) fn in_common_axes<'g>(chain: &Chain<'g>) -> SymmetricMatrix<'g> {
         let own = (own + drive(link)) * link.ratio * link.ratio;
         matrix.add(link.coordinate, link.coordinate, own);
         let Some(parent) = link.parent else {
-            poses.push((Matrix::identity(chain.graph), Vector::zero(chain.graph)));
+            axes.push(Matrix::identity(chain.graph));
+            origins.push(Vector::zero(chain.graph));
             motions.push(motion);
             continue;
         };
-        let (axes, origin) = &poses[parent];
-        let home = link.rotation.forward_axes(axes);
-        let origin = *origin + *axes * joint_frame.origin;
+        let home = link.rotation.forward_axes(&axes[parent]);
         let Matrix(rows) = home;
-        poses.push((Matrix(rows.map(|row| joint_frame.turn.back(Vector(row)).0)), origin));
-        let wrench = Wrench { force: home * wrench.force, moment: home * wrench.moment };
-        let wrench = wrench.about(origin);
-        let motion = Twist { angular: home * motion.angular, linear: home * motion.linear };
-        motions.push(motion.about(-origin));
+        axes.push(Matrix(rows.map(|row| joint_frame.turn.back(Vector(row)).0)));
+        let turned = |wrench: Wrench<'g>, motion: Twist<'g>| {
+            let wrench = Wrench { force: home * wrench.force, moment: home * wrench.moment };
+            let motion = Twist { angular: home * motion.angular, linear: home * motion.linear };
+            (wrench, motion)
+        };
+        let (wrench, motion) = match arms {
+            Arms::InLinks => {
+                let origin = link.rotation.back(origins[parent] + joint_frame.origin);
+                origins.push(joint_frame.turn.back(origin));
+                turned(wrench.about(origin), motion.about(-origin))
+            }
+            Arms::InCommonAxes => {
+                let origin = origins[parent] + axes[parent] * joint_frame.origin;
+                origins.push(origin);
+                let (wrench, motion) = turned(wrench, motion);
+                (wrench.about(origin), motion.about(-origin))
+            }
+        };
+        motions.push(motion);
         let carriers = std::iter::successors(Some(parent), |link| chain.links[*link].parent);
         for inner in carriers {
             let element = motions[inner].dot(&wrench);
