@@ -8,6 +8,13 @@ use crate::economical::plan::{LinkPlan, Origin};
 const MANY: usize = 32;
 
 impl<'g> Derivation<'_, 'g> {
+    /// The operations of functions in one call.
+    pub(super) fn cost(&self, functions: &[Function<'g>]) -> usize {
+        let outputs = functions.iter().flat_map(|function| &function.outputs);
+        let roots: Vec<_> = outputs.flat_map(|output| output.values.iter().copied()).collect();
+        self.operations(&roots).flops()
+    }
+
     /// Functions, by `derive`, under the given plan or the one of a few others under which they need the fewest
     /// operations.
     pub(super) fn cheapest_plan(
@@ -15,19 +22,14 @@ impl<'g> Derivation<'_, 'g> {
         kinds: &[FunctionKind],
         derive: impl Fn(&Derivation<'_, 'g>) -> Vec<Function<'g>>,
     ) -> Vec<Function<'g>> {
-        let cost = |functions: &[Function<'g>]| {
-            let outputs = functions.iter().flat_map(|function| &function.outputs);
-            let roots: Vec<_> = outputs.flat_map(|output| output.values.iter().copied()).collect();
-            self.operations(&roots).flops()
-        };
         let mut best = derive(self);
         let count = self.mechanism.degrees_of_freedom;
         let apply = kinds.iter().any(|kind| depends(*kind, count));
         let recursion = self.recursion.as_ref().filter(|_| apply);
-        let mut least = recursion.map_or(0, |_| cost(&best));
+        let mut least = recursion.map_or(0, |_| self.cost(&best));
         for plan in recursion.into_iter().flat_map(|recursion| others(&recursion.plan())) {
             let functions = derive(&self.with_plan(&plan));
-            let operations = cost(&functions);
+            let operations = self.cost(&functions);
             if operations < least {
                 (best, least) = (functions, operations);
             }

@@ -1,6 +1,6 @@
 //! Several functions in one call that compute common expressions once.
 
-use robot_model::functions::Bundle;
+use robot_model::functions::{Bundle, FunctionKind};
 
 use super::{Derivation, Function, Input, Output, sharing};
 
@@ -13,12 +13,13 @@ impl<'g> Derivation<'_, 'g> {
     /// before it.
     #[must_use]
     pub fn bundle(&self, bundle: &Bundle) -> Function<'g> {
-        let functions = self.cheapest_plan(&bundle.functions, |derivation| {
-            let functions = bundle.functions.iter().flat_map(|kind| derivation.acting(*kind));
-            let mut functions: Vec<Function<'g>> = functions.collect();
-            sharing::share(derivation, &mut functions);
-            functions
+        // All under one plan, or each under its own: they then share less.
+        let under_one = self.cheapest_plan(&bundle.functions, |derivation| {
+            derivation.shared(bundle, |kind| derivation.acting(kind))
         });
+        let apart = self.shared(bundle, |kind| self.functions(kind));
+        let is_cheaper = self.cost(&apart) < self.cost(&under_one);
+        let functions = if is_cheaper { apart } else { under_one };
         let names: Vec<String> =
             functions.iter().map(|function| format!("`{}`", function.name)).collect();
         let mut doc = vec![format!(
@@ -42,6 +43,18 @@ impl<'g> Derivation<'_, 'g> {
         }
         let outputs = outputs(functions);
         Function { name: bundle.name.clone(), doc, inputs, outputs }
+    }
+
+    /// The functions of a bundle, each as `derive` has it or made from the others.
+    fn shared(
+        &self,
+        bundle: &Bundle,
+        derive: impl Fn(FunctionKind) -> Vec<Function<'g>>,
+    ) -> Vec<Function<'g>> {
+        let mut functions: Vec<Function<'g>> =
+            bundle.functions.iter().flat_map(|kind| derive(*kind)).collect();
+        sharing::share(self, &mut functions);
+        functions
     }
 }
 

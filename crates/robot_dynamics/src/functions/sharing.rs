@@ -21,20 +21,14 @@ const REUSES: [(FunctionKind, Reuse); 5] = [
 
 /// Applies each alternative that makes the functions together need fewer operations.
 pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Function<'g>]) {
-    let cost = |functions: &[Function<'g>]| {
-        let outputs = functions.iter().flat_map(|function| &function.outputs);
-        let roots: Vec<Expr<'g>> =
-            outputs.flat_map(|output| output.values.iter().copied()).collect();
-        derivation.operations(&roots).flops()
-    };
-    let mut least = cost(functions);
+    let mut least = derivation.cost(functions);
     for (kind, reuse) in REUSES {
         let Some(mut values) = reuse(derivation, functions) else { continue };
         let Some(index) = functions.iter().position(|one| one.name == kind.name()) else {
             continue;
         };
         swap(functions, index, &mut values);
-        let operations = cost(functions);
+        let operations = derivation.cost(functions);
         if operations < least {
             least = operations;
         } else {

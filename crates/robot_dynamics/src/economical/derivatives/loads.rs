@@ -1,7 +1,6 @@
 //! The wrenches that derivatives project on the motions of inner joints.
 
 use robot_model::robot::JointKind;
-use robot_symbolic::Expr;
 
 use super::motions::{JointMotion, Motions};
 use crate::economical::composite::projection::Propagate;
