@@ -34,6 +34,24 @@ fn inverse_dynamics_of_the_page_about_performance() {
 }
 
 #[test]
+fn other_functions_of_the_page_about_performance() {
+    let rows = rows("performance.md");
+    let kinds = vec![
+        FunctionKind::MassMatrix,
+        FunctionKind::ForwardDynamics(Effects::NONE),
+        FunctionKind::CoriolisMatrix,
+        FunctionKind::InverseDynamicsDerivatives,
+        FunctionKind::ForwardDynamicsDerivatives,
+    ];
+    for robot in ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"] {
+        let counts = costs(robot, kinds.clone(), vec![]);
+        let counts = counts.iter().map(|count| (count.mul + count.add + count.div).to_string());
+        let stated = [vec![robot.to_owned()], counts.collect()].concat();
+        assert!(rows.contains(&stated), "{}", stated.join(" | "));
+    }
+}
+
+#[test]
 fn bundles_of_the_page_about_generated_code() {
     let mut compared = 0;
     for row in rows("generated-code.md") {
