@@ -56,6 +56,13 @@ impl<'r> Order<'r> {
             && motion(&name).is_none()
     }
 
+    /// Whether a symbol is a joint's position, velocity or acceleration.
+    #[must_use]
+    pub(crate) fn is_motion(&self, atom: Expr<'_>) -> bool {
+        let View::Symbol(symbol) = atom.view() else { return false };
+        is_motion(&atom.graph().symbol_name(symbol))
+    }
+
     /// The number of times that a symbol is a derivative by time: 1 for a velocity, 2 for an acceleration.
     #[must_use]
     pub(crate) fn rate(&self, atom: Expr<'_>) -> u32 {
