@@ -85,11 +85,13 @@ impl Group {
         } else if let Some(arrays) = &self.arrays {
             group.equations = self.with_arrays(arrays, room);
         }
-        group.equations = self.with_relations(group.equations);
+        if matches!(room, Room::Points(_)) {
+            group.equations = self.with_relations(group.equations);
+        }
         group
     }
 
-    /// The equations, each relation before the first that it yields.
+    /// The equations, each relation before the first that it yields: in print, for relations are not infix text.
     fn with_relations(&self, equations: Vec<Equation>) -> Vec<Equation> {
         let mut all = Vec::with_capacity(equations.len() + self.relations.len());
         let mut rest: Vec<&Relation> = self.relations.iter().collect();

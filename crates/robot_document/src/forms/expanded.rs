@@ -53,6 +53,11 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             "Equations of motion, collected",
             "Common factors stand in front of brackets. Each equation is equal to its expanded form, term by term.",
         ),
+        _ if writer.options.paper => (
+            "Equations of motion, expanded",
+            "Before each vector is the relation that it follows from. Terms are in the order in which the relations yield \
+             them; even powers of sines are replaced by cosines, and like terms are merged.",
+        ),
         _ => (
             "Equations of motion, expanded",
             "Products are multiplied out, even powers of sines are replaced by cosines, and like terms are merged.",

@@ -15,6 +15,7 @@ use iterations::{Column, Iterations, Reader};
 use sums::Sum;
 
 pub use relations::Relation;
+pub(crate) use relations::vectors;
 pub(super) use relations::relations;
 
 impl<'g> Writer<'_, 'g> {

@@ -54,6 +54,28 @@ pub(in crate::forms) fn relations(writer: &Writer<'_, '_>) -> Result<Vec<Relatio
     Ok(all)
 }
 
+/// The symbols that only relations have, with their meanings: of link i, and of j that it carries.
+pub(crate) fn vectors() -> Vec<(Math, &'static str)> {
+    let i = || Math::Letter('i');
+    let own = |letter| with(Math::Letter(letter).under_bar(), i(), i());
+    let inertia = Math::row(vec![sign('*'), i()]);
+    let rotation = Math::Fenced(Fence::Brackets, Box::new(Math::Letter('R')));
+    let lever = |lower| with(Math::Letter('r').under_bar(), lower, i());
+    vec![
+        (own('ω'), "angular velocity of link i, rad/s"),
+        (own('ε'), "angular acceleration of link i, rad/s²"),
+        (own('a'), "acceleration of the origin of frame i, m/s²"),
+        (lever(Math::Letter('c').with_lower(i())), "center of mass of link i, m"),
+        (lever(Math::Letter('j')), "origin of frame j in frame i, m"),
+        (with(rotation, Math::Letter('j'), i()), "rotation from the axes of frame j to those of frame i"),
+        (with(Math::Letter('J'), i(), inertia), "inertia tensor of link i about its center of mass, kg m²"),
+    ]
+}
+
+fn with(base: Math, lower: Math, upper: Math) -> Math {
+    Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(upper) }))
+}
+
 fn of_vector(kind: Kind, number: usize, right: Vec<Math>) -> Relation {
     let of = format!("{}{number}", kind.name());
     relation(of, Math::vector_in_paper(kind, number), right)
@@ -76,8 +98,7 @@ fn factor(writer: &Writer<'_, '_>, value: Expr<'_>) -> Result<Vec<Math>, Error> 
 
 /// A letter under a bar, `\bar{r}_{c_5}^5`, with what is below and in which axes it is.
 fn bar(letter: char, lower: Math, axes: usize) -> Math {
-    let base = Math::Letter(letter).under_bar();
-    Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(Math::integer(axes)) }))
+    with(Math::Letter(letter).under_bar(), lower, Math::integer(axes))
 }
 
 fn own(letter: char, number: usize) -> Math {
@@ -105,9 +126,8 @@ fn acceleration(number: usize) -> Vec<Math> {
 
 /// (20): J ε̄ + ω̄ × J ω̄
 fn moment(number: usize) -> Vec<Math> {
-    let upper = Some(Math::row(vec![sign('*'), Math::integer(number)]));
-    let (base, lower) = (Math::Letter('J'), Some(Math::integer(number)));
-    let inertia = Math::Script(Box::new(Script { base, lower, upper }));
+    let upper = Math::row(vec![sign('*'), Math::integer(number)]);
+    let inertia = with(Math::Letter('J'), Math::integer(number), upper);
     let spin = [own('ω', number), sign('×'), inertia.clone(), own('ω', number)];
     let mut right = vec![inertia, own('ε', number), sign('+')];
     right.extend(spin);
@@ -127,8 +147,7 @@ fn carried(mechanism: &Mechanism<'_>, link: usize) -> Vec<usize> {
 /// `[R]_6^5 ·` and what it turns.
 fn turned(from: usize, to: usize, vector: Math) -> [Math; 3] {
     let base = Math::Fenced(Fence::Brackets, Box::new(Math::Letter('R')));
-    let (lower, upper) = (Some(Math::integer(from)), Some(Math::integer(to)));
-    [Math::Script(Box::new(Script { base, lower, upper })), sign('·'), vector]
+    [with(base, Math::integer(from), Math::integer(to)), sign('·'), vector]
 }
 
 /// (26): what the link carries, and its own force.
