@@ -34,6 +34,7 @@ impl Arguments {
         }
         let output = self.output.open(self.robot.inputs())?;
         let robot = self.robot.read(terminal)?.robot;
+        self.robot.check_base_frames(&[], terminal)?;
         output.deliver(&scheme_picture(&robot), terminal)
     }
 }
