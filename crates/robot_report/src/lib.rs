@@ -23,7 +23,7 @@ mod tables;
 mod text;
 
 pub use evidence::{Accuracy, Compiled};
-pub use scheme::scheme_picture;
+pub use scheme::{scheme_pdf, scheme_picture};
 
 use robot_build::ablation::ablation;
 use robot_build::{

@@ -164,9 +164,10 @@ mod tests {
     use super::*;
 
     fn term<'g>(graph: &'g Graph, text: &str) -> Sum<'g> {
-        let factors = text.split('*').map(|factor| (graph.parse(factor).unwrap(), 1)).collect();
+        let mut term = Term { coefficient: Number::integer(1), factors: vec![] };
+        text.split('*').for_each(|factor| term.append(graph.parse(factor).unwrap(), 1));
         let mut sum = Sum::default();
-        sum.add_term(Term { coefficient: Number::integer(1), factors });
+        sum.add_term(term);
         sum
     }
 
