@@ -29,8 +29,10 @@ impl Arguments {
         let is_pdf = extension.is_some_and(|extension| extension == "pdf");
         if let Some(path) = self.output.file().filter(|_| !is_pdf) {
             if extension.is_some_and(|extension| extension != "svg") {
-                let [svg, pdf] = ["svg", "pdf"].map(|end| robot_build::shown(&path.with_extension(end)));
-                let message = format!("a scheme is written as SVG or PDF; name the file {svg} or {pdf}");
+                let [svg, pdf] =
+                    ["svg", "pdf"].map(|end| robot_build::shown(&path.with_extension(end)));
+                let message =
+                    format!("a scheme is written as SVG or PDF; name the file {svg} or {pdf}");
                 return Err(Failure::Usage(vec![message]));
             }
         }

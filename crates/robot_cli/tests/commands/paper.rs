@@ -32,7 +32,8 @@ fn transcribed() -> Vec<(String, String, String)> {
 
 /// The derived equations in the paper's style by their names.
 fn derived() -> BTreeMap<String, String> {
-    let shown = output(&["equations", &robot("trttr1"), "--style", "paper", "--format", "json"], "");
+    let shown =
+        output(&["equations", &robot("trttr1"), "--style", "paper", "--format", "json"], "");
     let shown: serde_json::Value = serde_json::from_str(&shown).unwrap();
     let quantities = shown["quantities"].as_object().unwrap();
     let text = |text: &serde_json::Value| text.as_str().unwrap().to_owned();
@@ -127,7 +128,8 @@ const LINE: usize = 95;
 
 /// A right side on several lines behind what is before it.
 fn lines(before: &str, terms: &[String], others: &[String]) -> String {
-    let marked: Vec<bool> = terms.iter().map(|one| !others.iter().any(|other| key(other) == key(one))).collect();
+    let marked: Vec<bool> =
+        terms.iter().map(|one| !others.iter().any(|other| key(other) == key(one))).collect();
     let (mut all, mut start, mut length) = (vec![], 0, 0);
     for (place, one) in terms.iter().enumerate() {
         if length + one.len() > LINE && place > start {
@@ -251,7 +253,8 @@ fn terms_are_in_the_order_of_the_paper() {
             wrong.push(format!("{number} {name}\n{text:?}\n{ours:?}"));
         }
         if text.len() > 1 {
-            differing += text.iter().filter(|one| ours.iter().all(|two| key(two) != key(one))).count();
+            differing +=
+                text.iter().filter(|one| ours.iter().all(|two| key(two) != key(one))).count();
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -81,7 +81,8 @@ impl<'r> Order<'r> {
     #[must_use]
     pub fn rank(&self, atom: Expr<'_>) -> Rank {
         let View::Symbol(symbol) = atom.view() else {
-            let is_root = matches!(atom.view(), View::Call(Function::Sqrt, of) if of.as_number().is_some());
+            let is_root =
+                matches!(atom.view(), View::Call(Function::Sqrt, of) if of.as_number().is_some());
             return if is_root { ROOTS } else { (2 * default_rank(atom), 0, 0) };
         };
         let name = atom.graph().symbol_name(symbol);

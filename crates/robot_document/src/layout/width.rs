@@ -121,7 +121,9 @@ fn measure(math: &Math, size: Size) -> f64 {
         Math::Letter(letter) => italic(*letter) * points,
         Math::Word(word) => word.chars().map(upright).sum::<f64>() * points,
         Math::Sign('·') => 0.278 * points,
-        Math::Sign(sign) => upright(*sign).max(if matches!(sign, '-' | '×') { 0.778 } else { 0.0 }) * points,
+        Math::Sign(sign) => {
+            upright(*sign).max(if matches!(sign, '-' | '×') { 0.778 } else { 0.0 }) * points
+        }
         Math::Function(name) => name.text().chars().map(upright).sum::<f64>() * points,
         Math::Symbol(symbol) => measure(&symbol.shape, size),
         Math::Row(pieces) => row(pieces, size),

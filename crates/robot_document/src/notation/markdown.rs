@@ -126,7 +126,8 @@ fn text(text: &str) -> String {
             '\\' | '`' | '*' | '_' | '[' | ']' | '>' | '#' | '|' | '$' | '~' | '!' => {
                 markdown.extend(['\\', character]);
             }
-            ' '..='~' | '–' | '—' | '‘' | '’' | '“' | '”' | '…' | '§' | '°' | '·' | '±' => {
+            ' '..='~' | '–' | '—' | '‘' | '’' | '“' | '”' | '…' | '§' | '°' | '·' | '±' =>
+            {
                 markdown.push(character);
             }
             other if other.is_alphanumeric() => markdown.push(other),
@@ -163,9 +164,13 @@ mod tests {
 
     #[test]
     fn paragraphs_are_not_lists() {
-        for (given, expected) in
-            [("- a - b", r"\- a - b"), ("1. a", r"1\. a"), ("12) a", r"12\) a"), ("1.5 m", r"1\.5 m"), ("a", "a")]
-        {
+        for (given, expected) in [
+            ("- a - b", r"\- a - b"),
+            ("1. a", r"1\. a"),
+            ("12) a", r"12\) a"),
+            ("1.5 m", r"1\.5 m"),
+            ("a", "a"),
+        ] {
             assert_eq!(opened(given), expected);
         }
     }

@@ -27,10 +27,10 @@ pub(super) fn families(parts: &[(Form, Equations)], letters: &Letters) -> Vec<Fa
         let is_relation = |one: &&Equation| one.name.starts_with(Relation::NAME);
         if group.equations.iter().any(|one| is_relation(&one)) {
             let vectors = paper::vectors().into_iter();
-            families.extend(vectors.map(|(shape, meaning)| Family {
-                shape,
-                meaning: vec![Inline::text(meaning)],
-            }));
+            families.extend(
+                vectors
+                    .map(|(shape, meaning)| Family { shape, meaning: vec![Inline::text(meaning)] }),
+            );
         }
         for equation in group.equations.iter().filter(|one| !is_relation(one)) {
             let count = numbers(&equation.name);

@@ -136,7 +136,8 @@ impl<'g> Iterations<'g> {
         let mut forces = vec![Column::default(); mechanism.links.len()];
         let mut turned = forces.clone();
         let mut shifted = forces.clone();
-        let tips = mechanism.frames.iter().filter_map(|frame| Some((frame, frame.link?, frame.wrench?)));
+        let tips =
+            mechanism.frames.iter().filter_map(|frame| Some((frame, frame.link?, frame.wrench?)));
         for (frame, link, (force, moment)) in tips {
             let rotation = reader.rows(frame.rotation)?;
             let force = reader.column(force)?.turned(&rotation);

@@ -15,8 +15,8 @@ use iterations::{Column, Iterations, Reader};
 use sums::Sum;
 
 pub use relations::Relation;
-pub(crate) use relations::vectors;
 pub(super) use relations::relations;
+pub(crate) use relations::vectors;
 
 impl<'g> Writer<'_, 'g> {
     /// The terms of quantities in the order in which the paper's relations yield them, masses in front of brackets;

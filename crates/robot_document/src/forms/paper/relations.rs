@@ -67,8 +67,14 @@ pub(crate) fn vectors() -> Vec<(Math, &'static str)> {
         (own('a'), "acceleration of the origin of frame i, m/s²"),
         (lever(Math::Letter('c').with_lower(i())), "center of mass of link i, m"),
         (lever(Math::Letter('j')), "origin of frame j in frame i, m"),
-        (with(rotation, Math::Letter('j'), i()), "rotation from the axes of frame j to those of frame i"),
-        (with(Math::Letter('J'), i(), inertia), "inertia tensor of link i about its center of mass, kg m²"),
+        (
+            with(rotation, Math::Letter('j'), i()),
+            "rotation from the axes of frame j to those of frame i",
+        ),
+        (
+            with(Math::Letter('J'), i(), inertia),
+            "inertia tensor of link i about its center of mass, kg m²",
+        ),
     ]
 }
 
@@ -140,7 +146,8 @@ fn carried(mechanism: &Mechanism<'_>, link: usize) -> Vec<usize> {
     let tips = tips.enumerate().filter(|(_, frame)| frame.link == Some(link));
     let tips = tips.map(|(place, _)| mechanism.links.len() + 1 + place);
     let links = mechanism.links.iter().enumerate().rev();
-    let children = links.filter(|(_, child)| child.parent == Some(link)).map(|(index, _)| index + 1);
+    let children =
+        links.filter(|(_, child)| child.parent == Some(link)).map(|(index, _)| index + 1);
     tips.chain(children).collect()
 }
 
@@ -195,9 +202,7 @@ fn of_torque(number: usize, link: &MechanismLink<'_>) -> Relation {
     let unit = along.map_or('k', |axis| ['i', 'j', 'k'][axis.min(2)]);
     let mut right = vec![vector, sign('·'), own(unit, number)];
     if let Some(axis) = along {
-        let component = |axis| {
-            Math::quantity(Symbol { kind, number, component: Some(axis) })
-        };
+        let component = |axis| Math::quantity(Symbol { kind, number, component: Some(axis) });
         let row = Math::Matrix(vec![[0, 1, 2].map(component).to_vec()]);
         let column = [0, 1, 2].map(|one| vec![Math::integer(usize::from(one == axis))]);
         right.extend([sign('='), row, sign('·'), Math::Matrix(column.to_vec())]);

@@ -72,9 +72,9 @@ impl<'g> Sum<'g> {
     pub(super) fn arranged(&self) -> Vec<ArrangedTerm<'g>> {
         let one = |term: &Term<'g>| {
             let negative = term.coefficient.is_negative();
-            let coefficient =
-                if negative { -&term.coefficient } else { term.coefficient.clone() };
-            let atom = |(atom, exponent): &(Expr<'g>, i32)| (ArrangedFactor::Atom(*atom), *exponent);
+            let coefficient = if negative { -&term.coefficient } else { term.coefficient.clone() };
+            let atom =
+                |(atom, exponent): &(Expr<'g>, i32)| (ArrangedFactor::Atom(*atom), *exponent);
             ArrangedTerm { negative, coefficient, factors: term.factors.iter().map(atom).collect() }
         };
         self.terms.iter().filter(|term| !term.coefficient.is_zero()).map(one).collect()

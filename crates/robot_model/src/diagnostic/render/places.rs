@@ -8,12 +8,8 @@ use super::Style;
 pub(super) fn group(source: &Source, found: &Group<'_>, _: Style) -> String {
     let diagnostic = found.first;
     let name = quote(&source.name);
-    let mut text = format!(
-        "{}[{}]: {}",
-        diagnostic.severity.name(),
-        diagnostic.code,
-        found.message()
-    );
+    let mut text =
+        format!("{}[{}]: {}", diagnostic.severity.name(), diagnostic.code, found.message());
     let place = |label: &Label| {
         let (line, column) = source.position(label.span.start);
         let gap = if label.text.is_empty() { "" } else { ": " };
@@ -42,12 +38,12 @@ mod tests {
 
     #[test]
     fn a_diagnostic_has_its_place_its_reason_and_its_remedy() {
-        let text = "[robot]\nname = 1\n";
+        let text = "format = 1\n[robot]\nname = 1\n";
         let errors = crate::description::read_toml("arm.toml", text).unwrap_err();
         let groups = errors.groups();
         let shown = group(errors.source(), &groups[0], Style::Plain);
         assert!(shown.starts_with("error[R"), "{shown}");
-        assert!(shown.contains("\n --> arm.toml:2:8"), "{shown}");
+        assert!(shown.contains("\n --> arm.toml:3:8: "), "{shown}");
         assert!(shown.contains("\n = help: "), "{shown}");
     }
 }

@@ -141,7 +141,14 @@ fn write(content: &mut Content, label: &Label, page: &Page) {
     for Run { font, text, rise, scale, .. } in &runs {
         content.set_font(Name(FONTS[*font].key), size * number(*scale));
         let up = y + size * number(*rise - 0.33);
-        content.set_text_matrix([1.0, 0.0, 0.0, 1.0, number(f64::from(place)), number(f64::from(up))]);
+        content.set_text_matrix([
+            1.0,
+            0.0,
+            0.0,
+            1.0,
+            number(f64::from(place)),
+            number(f64::from(up)),
+        ]);
         content.show(pdf_writer::Str(text));
         place += size * number(Run::width_of(*font, text) * scale);
     }

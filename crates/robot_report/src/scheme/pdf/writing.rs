@@ -187,6 +187,9 @@ mod tests {
     #[test]
     fn letters_that_the_fonts_lack_are_question_marks() {
         assert_eq!(latin("é中(\u{202e}"), [0xe9, b'?', b'(', b'?']);
-        assert_eq!(['α', 'ω', 'Ω', 'φ', 'q'].map(greek), [Some(b'a'), Some(b'w'), Some(b'W'), Some(b'f'), None]);
+        assert_eq!(
+            ['α', 'ω', 'Ω', 'φ', 'q'].map(greek),
+            [Some(b'a'), Some(b'w'), Some(b'W'), Some(b'f'), None]
+        );
     }
 }
