@@ -27,14 +27,13 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let extension = self.output.file().and_then(|path| path.extension());
         let is_pdf = extension.is_some_and(|extension| extension == "pdf");
-        if let Some(path) = self.output.file().filter(|_| !is_pdf) {
-            if extension.is_some_and(|extension| extension != "svg") {
-                let [svg, pdf] =
-                    ["svg", "pdf"].map(|end| robot_build::shown(&path.with_extension(end)));
-                let message =
-                    format!("a scheme is written as SVG or PDF; name the file {svg} or {pdf}");
-                return Err(Failure::Usage(vec![message]));
-            }
+        let is_known = extension.is_none_or(|extension| extension == "svg") || is_pdf;
+        if let Some(path) = self.output.file().filter(|_| !is_known) {
+            let [svg, pdf] =
+                ["svg", "pdf"].map(|end| robot_build::shown(&path.with_extension(end)));
+            let message =
+                format!("a scheme is written as SVG or PDF; name the file {svg} or {pdf}");
+            return Err(Failure::Usage(vec![message]));
         }
         let output = self.output.open(self.robot.inputs())?;
         let robot = self.robot.read(terminal)?.robot;

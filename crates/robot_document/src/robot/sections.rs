@@ -55,7 +55,7 @@ fn is_number(piece: &Math) -> bool {
     match piece {
         Math::Number(_) | Math::Sign('-') => true,
         Math::Root(inside) => inside.pieces().iter().all(is_number),
-        Math::Fraction(parts) => parts.iter().flat_map(|part| part.pieces()).all(is_number),
+        Math::Fraction(parts) => parts.iter().flat_map(Math::pieces).all(is_number),
         _ => false,
     }
 }

@@ -25,7 +25,7 @@ pub fn scheme_pdf(robot: &Robot) -> String {
     let figure = figure(robot);
     let page = Page { low: figure.bounds[0], high: figure.bounds[1], scale: figure.scale(WIDTH) };
     let [title, catalog, pages, only, content] = [1, 2, 3, 4, 5].map(Ref::new);
-    let mut pdf = Pdf::with_settings(Settings { pretty: false, ..Settings::default() });
+    let mut pdf = Pdf::with_settings(Settings { pretty: false });
     // No byte above ASCII: the file is text.
     pdf.set_binary_marker(b"text");
     pdf.document_info(title).creator(TextStr(MARKER)).title(TextStr(&robot.name));
@@ -130,7 +130,7 @@ fn draw(content: &mut Content, path: &Path, page: &Page) {
 fn write(content: &mut Content, label: &Label, page: &Page) {
     let size = (label.size * page.scale).max(SMALLEST);
     let runs = runs(&label.words, label.is_bold);
-    let width = number(runs.iter().map(|run| run.width()).sum::<f64>() * size);
+    let width = number(runs.iter().map(Run::width).sum::<f64>() * size);
     let [x, y] = page.point(label.center);
     let (left, size) = (x - width / 2.0, number(size));
     content.set_fill_rgb(1.0, 1.0, 1.0);

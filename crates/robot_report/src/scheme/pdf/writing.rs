@@ -95,9 +95,9 @@ pub(super) fn runs(words: &Inline, is_bold: bool) -> Vec<Run> {
 
 /// The codes of letters; those that the fonts lack are question marks.
 fn latin(text: &str) -> Vec<u8> {
-    let code = |character: char| match u8::try_from(character) {
-        Ok(code @ (32..=126 | 160..)) => code,
-        _ => b'?',
+    let code = |character: char| {
+        let code = u8::try_from(character).ok();
+        code.filter(|code| matches!(code, 32..=126 | 160..)).unwrap_or(b'?')
     };
     text.chars().map(code).collect()
 }
