@@ -34,16 +34,17 @@ pub(super) fn group(source: &Source, found: &Group<'_>, _: Style) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::{Diagnostic, code};
     use super::*;
 
     #[test]
     fn a_diagnostic_has_its_place_its_reason_and_its_remedy() {
-        let text = "format = 1\n[robot]\nname = 1\n";
-        let errors = crate::description::read_toml("arm.toml", text).unwrap_err();
-        let groups = errors.groups();
-        let shown = group(errors.source(), &groups[0], Style::Plain);
-        assert!(shown.starts_with("error[R"), "{shown}");
-        assert!(shown.contains("\n --> arm.toml:3:8: "), "{shown}");
-        assert!(shown.contains("\n = help: "), "{shown}");
+        let source = Source { name: "arm.toml".to_owned(), text: "a = 1\nmass = nan\n".to_owned() };
+        let found = Diagnostic::error(code::NUMBER, "wrong").at(&(13..16), "here");
+        let found = found.because("a reason").help("a remedy");
+        let shown = group(&source, &Group { first: &found, others: vec![] }, Style::Plain);
+        let expected =
+            "error[R0301]: wrong\n --> arm.toml:2:8: here\n = note: a reason\n = help: a remedy";
+        assert_eq!(shown, expected);
     }
 }
