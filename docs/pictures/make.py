@@ -107,6 +107,17 @@ def gallery(pictures):
         pictures.add(f"gallery-{name}", beside(drawing, aligned(found), "230pt", "230pt"), f"{name}: {words}")
 
 
+def forms(pictures):
+    file = "robots/trttr1.toml"
+    found = equations(pictures.printed(f"equations {file} --style paper --format typst --width 15cm"))
+    # A relation and a column each, of link 4's acceleration, link 4's force, and the force in joint 5.
+    chosen = [found[place] for place in (6, 7, 16, 17, 30, 31)]
+    pictures.add("gallery-paper", card(aligned(chosen)), "Equations of TRTTR1 in the style of the paper")
+    found = equations(pictures.printed(f"equations {file} --form compact --letters field --format typst --width 14cm"),
+                      "Expressions of the state", "Equations of motion, compact")
+    pictures.add("gallery-compact", card(aligned(found)), "TRTTR1: compact equations")
+
+
 def author(pictures):
     document = pictures.printed("document robots/trttr1.toml --form grouped --trig paper --format typst")
     pictures.add_all(["author-1", "author-2"], typst.compile(document.encode(), format="svg"), "A page of the document about TRTTR1")
@@ -121,7 +132,7 @@ def speed(pictures):
 
 def main():
     pictures = Pictures(sys.argv[1])
-    for make in (readme, gallery, author, speed):
+    for make in (readme, gallery, forms, author, speed):
         make(pictures)
     stale = []
     for name, drawing in pictures.made.items():

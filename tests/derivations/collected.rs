@@ -97,6 +97,65 @@ fn a_scara_prints_as_in_textbooks() {
     );
 }
 
+/// The planar arm with three revolute joints, by hand: link by link, r the distances of the centers of mass. All but three
+/// entries are these symbol for symbol; each of the three is as short as by hand, but has its brackets elsewhere.
+#[test]
+fn the_planar_arm_of_three_joints_prints_as_in_textbooks() {
+    let robot = robot_testing::robot("planar_3r");
+    let found = printed(&robot, &usual());
+    let printed_so = [
+        ("M_1_3", "m3*r3*(r3 + l1*cos(q2 + q3) + l2*cos(q3)) + I3"),
+        ("M_2_2", "m2*r2^2 + I2 + m3*(l2^2 + r3^2 + 2*l2*r3*cos(q3)) + I3"),
+        ("M_2_3", "m3*r3*(r3 + l2*cos(q3)) + I3"),
+        ("M_3_3", "m3*r3^2 + I3"),
+        ("b_1_1_2", "-2*l1*((m2*r2 + m3*l2)*sin(q2) + m3*r3*sin(q2 + q3))"),
+        ("b_1_1_3", "-2*m3*r3*(l1*sin(q2 + q3) + l2*sin(q3))"),
+        ("b_1_2_2", "-l1*(m2*r2 + m3*l2)*sin(q2) - m3*l1*r3*sin(q2 + q3)"),
+        ("b_1_2_3", "-2*m3*r3*(l1*sin(q2 + q3) + l2*sin(q3))"),
+        ("b_1_3_3", "-m3*r3*(l1*sin(q2 + q3) + l2*sin(q3))"),
+        ("b_2_1_1", "l1*(m2*r2 + m3*l2)*sin(q2) + m3*l1*r3*sin(q2 + q3)"),
+        ("b_2_1_3", "-2*m3*l2*r3*sin(q3)"),
+        ("b_2_2_3", "-2*m3*l2*r3*sin(q3)"),
+        ("b_2_3_3", "-m3*l2*r3*sin(q3)"),
+        ("b_3_1_1", "m3*r3*(l1*sin(q2 + q3) + l2*sin(q3))"),
+        ("b_3_1_2", "2*m3*l2*r3*sin(q3)"),
+        ("b_3_2_2", "m3*l2*r3*sin(q3)"),
+        ("g_2", "g*(m2*r2 + m3*l2)*cos(q1 + q2) + m3*g*r3*cos(q1 + q2 + q3)"),
+        ("g_3", "m3*g*r3*cos(q1 + q2 + q3)"),
+    ];
+    for (name, expected) in printed_so {
+        assert_eq!(found[name], expected, "{name}");
+    }
+    let by_hand = [
+        (
+            "M_1_1",
+            "m1*r1^2 + m2*(l1^2 + r2^2 + 2*l1*r2*cos(q2)) + m3*(l1^2 + l2^2 + r3^2 \
+             + 2*(l1*l2*cos(q2) + l1*r3*cos(q2 + q3) + l2*r3*cos(q3))) + I1 + I2 + I3",
+        ),
+        (
+            "M_1_2",
+            "m2*r2*(r2 + l1*cos(q2)) + m3*(l2^2 + r3^2 + l1*l2*cos(q2) + l1*r3*cos(q2 + q3) \
+             + 2*l2*r3*cos(q3)) + I2 + I3",
+        ),
+        (
+            "g_1",
+            "g*((m1*r1 + l1*(m2 + m3))*cos(q1) + (m2*r2 + m3*l2)*cos(q1 + q2) + m3*r3*cos(q1 + q2 + q3))",
+        ),
+    ];
+    let graph = Graph::new();
+    for (name, expected) in by_hand {
+        let both = [found[name].as_str(), expected].map(|text| graph.parse(text).unwrap());
+        assert!(equal(both[0], both[1]).unwrap(), "{name}: {}", found[name]);
+        assert!(length(&found[name]) <= length(expected), "{name}: {}", found[name]);
+    }
+    let known = |name: &String| {
+        name.starts_with(['Q', 'w'])
+            || printed_so.iter().chain(&by_hand).any(|(known, _)| known == name)
+    };
+    let others: Vec<&String> = found.keys().filter(|name| !known(name)).collect();
+    assert!(others.is_empty(), "{others:?}");
+}
+
 /// The mass matrix and the gravity terms; the textbooks have no coefficients of velocities for this arm.
 #[test]
 fn the_first_three_joints_of_a_puma_print_as_in_textbooks() {

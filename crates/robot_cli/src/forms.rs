@@ -41,7 +41,7 @@ pub(crate) struct EquationArguments {
     /// grouped and recursive in LaTeX, Typst, Markdown and MathML, else scalars]
     #[arg(long, value_enum)]
     layout: Option<LayoutStyle>,
-    /// Equations in the order, the shape and the signs of the paper on TRTTR1: all quantities expanded, the vectors as
+    /// Equations in the order, the shape and the signs of the paper on TRTTR1: all quantities multiplied out, terms as its relations yield them, the vectors as
     /// columns, those in the joints from the last link to the first, sines and cosines as sq_2 and cq_2
     #[arg(long, value_enum, conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
           "no_references", "letters"])]

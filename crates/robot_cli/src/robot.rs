@@ -105,8 +105,10 @@ impl RobotArgument {
         terminal: &mut Terminal<'_>,
     ) -> Result<(), Failure> {
         if self.base_frames.is_some() && !forms.contains(&Form::Regrouped) {
-            let message =
-                "note: --base-frames has no effect in this form, only in the form regrouped";
+            let message = match forms {
+                [] => "note: --base-frames has no effect here, only on base parameters",
+                _ => "note: --base-frames has no effect in this form, only in the form regrouped",
+            };
             writeln!(terminal.errors, "{message}")?;
         }
         Ok(())

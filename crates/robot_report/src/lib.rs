@@ -23,7 +23,7 @@ mod tables;
 mod text;
 
 pub use evidence::{Accuracy, Compiled};
-pub use scheme::scheme_picture;
+pub use scheme::{scheme_pdf, scheme_picture};
 
 use robot_build::ablation::ablation;
 use robot_build::{
@@ -110,6 +110,8 @@ pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
 /// The robot of a file, and what the page says of it.
 fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     let robot = robot_build::read_with(input.source, input.options)?.robot;
+    let base_frames = input.options.base_frames.unwrap_or(robot.base_frames);
+    let robot = Robot { base_frames, ..robot };
     let tolerance = input.options.snap.or(robot.snap).unwrap_or(input.snap);
     let (shown, snaps) = mechanism::snapped(&robot, tolerance);
     let snapped = changed(&robot, input, &snaps, tolerance);

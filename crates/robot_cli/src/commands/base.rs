@@ -44,6 +44,8 @@ enum Format {
     Text,
     Latex,
     Typst,
+    /// Markdown with formulas between $$
+    Markdown,
     /// An HTML page with formulas in MathML
     Mathml,
     Json,
@@ -52,6 +54,9 @@ enum Format {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         self.layout.check(!matches!(self.format, Format::Text | Format::Json))?;
+        if matches!(self.format, Format::Markdown) {
+            self.layout.check_markdown()?;
+        }
         let robot = self.robot.read(terminal)?.robot;
         let failed = |error| failed(&self.robot, &error);
         let set = base(&robot, self.robot.snap()).map_err(failed)?;
@@ -61,6 +66,7 @@ impl Arguments {
             Format::Text => plain(&robot, &set),
             Format::Latex => displayed(Notation::Latex)?,
             Format::Typst => displayed(Notation::Typst)?,
+            Format::Markdown => displayed(Notation::Markdown)?,
             Format::Mathml => displayed(Notation::page(terminal)?)?,
             Format::Json => json(&robot, &set),
         };

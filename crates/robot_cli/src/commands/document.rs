@@ -6,7 +6,7 @@ use clap::{ArgAction, Args, ValueEnum};
 use robot_build::MARKER;
 use robot_document::Form;
 use robot_document::robot::{Extras, document};
-use robot_document::{latex, latex::Page, typst};
+use robot_document::{latex, latex::Page, markdown, typst};
 
 use crate::Terminal;
 use crate::delivery::{Delivery, ForceArgument, file_of};
@@ -23,7 +23,8 @@ use crate::robot::RobotArgument;
 
 The document contains a figure of the robot, tables of links and masses, the frames, the numbered equations in
 the chosen forms, the symbols that occur with their values, and the joint torques at one state to check an
-implementation against. A file NAME.typ, or --format typst, is for Typst and needs nothing else. LaTeX needs the
+implementation against. A file NAME.typ, or --format typst, is for Typst and needs nothing else; NAME.md is Markdown without
+the figure, for pages such as GitHub's. LaTeX needs the
 packages amsmath and geometry, TikZ for the figure, and two runs for references.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -37,7 +38,7 @@ pub(crate) struct Arguments {
     /// Title [default: Equations of motion of NAME]
     #[arg(long)]
     title: Option<String>,
-    /// Notation [default: typst for a file NAME.typ, else latex]
+    /// Notation [default: typst for a file NAME.typ, markdown for NAME.md, else latex]
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Number of columns on a page
@@ -57,7 +58,7 @@ pub(crate) struct Arguments {
 fn source_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_typeset = path.extension().is_some_and(|extension| extension == "pdf");
-    let refusal = "only LaTeX or Typst sources are written; name the file NAME.tex or NAME.typ";
+    let refusal = "only sources are written; name the file NAME.tex, NAME.typ or NAME.md";
     if is_typeset { Err(refusal.to_owned()) } else { Ok(path) }
 }
 
@@ -65,6 +66,8 @@ fn source_path(text: &str) -> Result<PathBuf, String> {
 enum Format {
     Latex,
     Typst,
+    /// Markdown with formulas between $ and $$, without the figure
+    Markdown,
 }
 
 impl Arguments {
@@ -72,6 +75,7 @@ impl Arguments {
         let extension = self.output.as_ref().and_then(|path| path.extension());
         self.format.unwrap_or(match extension {
             Some(extension) if extension == "typ" => Format::Typst,
+            Some(extension) if extension == "md" => Format::Markdown,
             _ => Format::Latex,
         })
     }
@@ -99,10 +103,36 @@ impl Arguments {
             snaps: &snaps,
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
-        let (comment, shown) = match self.format() {
-            Format::Latex => ("%", latex::document(&document, page)),
-            Format::Typst => ("//", typst::document(&document, page)),
+        let shown = match self.format() {
+            Format::Latex => commented("% ", "", latex::document(&document, page)),
+            Format::Typst => commented("// ", "", typst::document(&document, page)),
+            Format::Markdown => {
+                self.without_figure(terminal)?;
+                let layout = latex::Layout::of_centimeters(page.width);
+                commented("<!-- ", " -->", markdown::document(&document, layout))
+            }
         };
-        output.deliver(&format!("{comment} {MARKER}\n{}", shown.map_err(failed)?), terminal)
+        output.deliver(&shown.map_err(failed)?, terminal)
     }
+
+    /// Refuses columns in Markdown, and says how the figure is had.
+    fn without_figure(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        if self.columns > 1 {
+            let message = "--columns has no effect on Markdown; leave it out";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
+        let file = robot_build::shown(self.robot.path());
+        let message = "note: a document in Markdown has no figure; `robot-symbolic scheme";
+        writeln!(terminal.errors, "{message} {file} -o NAME.svg` draws it")?;
+        Ok(())
+    }
+}
+
+/// The document behind a comment that says who wrote it.
+fn commented(
+    start: &str,
+    end: &str,
+    document: Result<String, robot_document::Error>,
+) -> Result<String, robot_document::Error> {
+    Ok(format!("{start}{MARKER}{end}\n{}", document?))
 }

@@ -377,20 +377,35 @@ fn the_vectors_of_trttr1_are_in_the_shape_and_the_order_of_the_paper() {
     let paper = output(&["equations", &file, "--style", "paper", "--format", "latex"], "");
     let lefts: Vec<&str> =
         paper.lines().filter_map(|line| Some(line.trim().split_once(" &= ")?.0)).collect();
-    let outward = |letter: &str| [1, 2, 3, 4, 5].map(|link| vector(letter, link));
-    let inward = |letter: &str, last: usize| {
-        (last..=5).rev().map(|link| vector(letter, link)).collect::<Vec<_>>()
-    };
+    // Before each vector is its relation.
+    let both = |letter: &str, link: usize| [relation(letter, link), column(letter, link)];
+    let outward = |letter: &'static str| (1..=5).flat_map(move |link| both(letter, link));
     let mut expected: Vec<String> = ["a_c", "F", "M_c"].into_iter().flat_map(outward).collect();
-    expected.extend(inward("F_l", 1));
-    expected.extend(inward("M_l", 3));
+    expected.extend((1..=5).rev().flat_map(|link| both("F_l", link)));
+    expected.extend((3..=5).rev().flat_map(|link| both("M_l", link)));
     for link in [2, 1] {
+        expected.push(relation("M_l", link));
         expected.extend(["x", "y", "z"].map(|axis| format!("M_{{l_{axis}}}^{{{link}}}")));
     }
-    expected.extend((1..=5).map(|joint| format!("Q_m^{{{joint}}}")));
+    for joint in 1..=5 {
+        // The relation, and the torque.
+        expected.extend([format!("Q_m^{{{joint}}}"), format!("Q_m^{{{joint}}}")]);
+    }
     assert_eq!(lefts, expected);
-    let column = r"\bar{a}_{c_4}^{4} &= \begin{bmatrix} -l_4 \dot{q}_2^{2} + sq_2 \ddot{q}_1 - q_4 \dot{q}_2^{2} + \ddot{q}_4 \\ ";
-    assert!(paper.contains(column), "{paper}");
+    for line in [
+        // (11), (12), (17), (26), (36), (54)
+        r"\bar{a}_{c_4}^{4} &= \bar{a}_4^{4} + \bar{\varepsilon}_4^{4} \times \bar{r}_{c_4}^{4} + \bar{\omega}_4^{4} \times ",
+        r" &= \begin{bmatrix} sq_2 \ddot{q}_1 - \dot{q}_2^{2} q_4 - \dot{q}_2^{2} l_4 + \ddot{q}_4 \\ ",
+        r"-M_4 \left(-sq_2 \ddot{q}_1 + \dot{q}_2^{2} q_4 + \dot{q}_2^{2} l_4 - \ddot{q}_4\right) \\ ",
+        r"\bar{F}_{l_5}^{5} &= \left[R\right]_6^{5} \cdot \bar{F}_{l_6}^{6} + \bar{F}_5^{5} ",
+        r" + \bar{r}_{c_5}^{5} \times \bar{F}_5^{5} + \bar{r}_6^{5} \times \left[R\right]_6^{5} \cdot \bar{F}_{l_6}^{6} + ",
+        r"Q_m^{2} &= \left[\bar{M}_{l_{o_2}}^{2}\right]^T \cdot \bar{k}_2^{2} = \begin{bmatrix} M_{l_x}^{2} & ",
+    ] {
+        assert!(paper.contains(line), "{line}\n{paper}");
+    }
+    // Relations are not infix text.
+    let text = output(&["equations", &file, "--style", "paper"], "");
+    assert!(text.contains("F3 = [ M3*sin(q2)*qdd1") && !text.contains("relation"), "{text}");
     let recursion = output(&["equations", &file, "--form", "recursive", "--format", "latex"], "");
     assert!(!recursion.contains("&= 0") && !recursion.contains(r"\bar{a}_c"), "{recursion}");
     assert!(
@@ -399,10 +414,22 @@ fn the_vectors_of_trttr1_are_in_the_shape_and_the_order_of_the_paper() {
     );
 }
 
-/// `\bar{F}_{l_5}^{5}`, `\bar{F}_5^{5}`
-fn vector(name: &str, link: usize) -> String {
+/// `\bar{F}_{l_5}^{5}`, `\bar{M}_{l_{o_5}}^{5}`, `\bar{F}_5^{5}`
+fn relation(name: &str, link: usize) -> String {
     match name.split_once('_') {
+        Some(("M", "l")) => format!(r"\bar{{M}}_{{l_{{o_{link}}}}}^{{{link}}}"),
         Some((letter, index)) => format!(r"\bar{{{letter}}}_{{{index}_{link}}}^{{{link}}}"),
         None => format!(r"\bar{{{name}}}_{link}^{{{link}}}"),
+    }
+}
+
+/// `\left[\bar{F}_l\right]_5^{5}`, `\left[\bar{M}_l\right]_{O_5}^{5}`, `\left[\bar{F}\right]_5^{5}`
+fn column(name: &str, link: usize) -> String {
+    let below = if name == "M_l" { format!("{{O_{link}}}") } else { link.to_string() };
+    match name.split_once('_') {
+        Some((letter, index)) => {
+            format!(r"\left[\bar{{{letter}}}_{index}\right]_{below}^{{{link}}}")
+        }
+        None => format!(r"\left[\bar{{{name}}}\right]_{below}^{{{link}}}"),
     }
 }

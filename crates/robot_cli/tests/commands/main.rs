@@ -17,6 +17,7 @@ mod help;
 mod interrupted;
 mod json_schema;
 mod outputs;
+mod paper;
 mod people;
 mod pictures;
 mod plans;

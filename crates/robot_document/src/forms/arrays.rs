@@ -1,6 +1,6 @@
 //! Matrices and columns made of the equations of a group, if they fit.
 
-use super::{Equation, Equations, Group};
+use super::{Equation, Equations, Group, Relation};
 use crate::breaking::broken;
 use crate::math::Math;
 use crate::width::width;
@@ -85,7 +85,23 @@ impl Group {
         } else if let Some(arrays) = &self.arrays {
             group.equations = self.with_arrays(arrays, room);
         }
+        if matches!(room, Room::Points(_)) {
+            group.equations = self.with_relations(group.equations);
+        }
         group
+    }
+
+    /// The equations, each relation before the first that it yields: in print, for relations are not infix text.
+    fn with_relations(&self, equations: Vec<Equation>) -> Vec<Equation> {
+        let mut all = Vec::with_capacity(equations.len() + self.relations.len());
+        let mut rest: Vec<&Relation> = self.relations.iter().collect();
+        for equation in equations {
+            if let Some(place) = rest.iter().position(|relation| relation.yields(&equation.name)) {
+                all.push(rest.remove(place).equation.clone());
+            }
+            all.push(equation);
+        }
+        all
     }
 
     fn with_arrays(&self, arrays: &[Array], room: Room) -> Vec<Equation> {

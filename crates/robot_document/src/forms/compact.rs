@@ -1,19 +1,17 @@
 //! The compact form: what is used again has a name.
 
+use robot_dynamics::quantity::Symbol;
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_text, arranged_value};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
-use super::naming::{Named, is_leaf, worth_naming};
-use super::{Equation, Group, Writer, angle_sums, arranged, of_generalized_force, shapes, vectors};
+use super::definitions::Definitions;
+use super::naming::{Named, is_leaf};
+use super::{Equation, Group, Writer, angle_sums, arranged, of_generalized_force, vectors};
 use crate::error::Error;
 use crate::layout::{BRACKETS, is_motion};
 use crate::math::Math;
-
-/// Letters for combinations of parameters, and for expressions of the state.
-const PARAMETER_LETTERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
-const STATE_LETTERS: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let mut quantities = writer.quantities(writer.options.friction);
@@ -30,13 +28,21 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         quantity.value = *value;
     }
     let target = Graph::new();
-    let (mut groups, named) = definitions(writer, &values, &target)?;
+    let mut list = Definitions::new(&target, &values);
+    list.is_economical = true;
+    list.own_names(writer, &quantities);
+    let mut groups = list.define(writer)?;
     let mut equations: Vec<Equation> = vec![];
     for quantity in &quantities {
         let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
-        equations.push(tidy(writer, name, left, named.rewritten(quantity.value))?);
+        equations.push(match list.own_equation(quantity.symbol, &left) {
+            Some(equation) => equation,
+            None => tidy(writer, name, left, list.named.rewritten(quantity.value))?,
+        });
     }
     let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
+    let symbols: Vec<Symbol> = quantities.iter().map(|quantity| quantity.symbol).collect();
+    list.first_what_is_used(&symbols, &mut equations);
     let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
     groups.push(Group { arrays, ..group });
     Ok(groups)
@@ -48,30 +54,9 @@ pub(super) fn definitions<'h>(
     roots: &[Expr<'_>],
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
-    let worthy = worth_naming(roots);
-    let moving = moving(roots);
-    let mut named = Named::new(target);
-    let mut groups = vec![];
-    for (letters, of_state, title) in [
-        (PARAMETER_LETTERS, false, "Combinations of parameters"),
-        (STATE_LETTERS, true, "Expressions of the state"),
-    ] {
-        let letter = writer.symbols.free_letter(&letters);
-        let shape = letter.chars().next().unwrap_or('x');
-        let mut equations = vec![];
-        let chosen = worthy.iter().filter(|expr| moving.contains(&expr.id()) == of_state);
-        for (expr, number) in chosen.zip(1..) {
-            let name = shapes::indexed_name(letter, &[number]);
-            let left = shapes::indexed(shape, &[number]);
-            let value = named.rewritten(*expr);
-            writer.define(&name, left)?;
-            let left = writer.symbols.look(&name);
-            equations.push(tidy(writer, name.clone(), left, value)?);
-            named.name(*expr, &name);
-        }
-        groups.push(Group::of_definitions(title, equations));
-    }
-    Ok((groups, named))
+    let mut list = Definitions::new(target, roots);
+    let groups = list.define(writer)?;
+    Ok((groups, list.named))
 }
 
 /// Sums of more terms are not multiplied out to be collected.
@@ -79,7 +64,7 @@ const MAX_TERMS: usize = 60;
 
 /// An equation whose right side has its powers collected and its factors sorted; with common factors in front of
 /// brackets if that takes no more operations.
-fn tidy(
+pub(super) fn tidy(
     writer: &Writer<'_, '_>,
     name: String,
     left: Math,
@@ -91,7 +76,7 @@ fn tidy(
 }
 
 /// The terms of an expression as it is built, or collected if that is shorter and takes no more operations.
-fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<ArrangedTerm<'h>> {
+pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<ArrangedTerm<'h>> {
     let built = arranged::terms(value, &writer.order);
     let limits =
         PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
@@ -126,7 +111,7 @@ fn with_short_parameters<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec
 }
 
 /// The expressions that depend on the state.
-fn moving(roots: &[Expr<'_>]) -> FxHashSet<robot_symbolic::Id> {
+pub(super) fn moving(roots: &[Expr<'_>]) -> FxHashSet<robot_symbolic::Id> {
     let mut moving = FxHashSet::default();
     for expr in walk::reachable(roots) {
         let moves = match expr.as_symbol() {

@@ -6,11 +6,11 @@ use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
 use super::loads::{friction_contributions, whole};
-use super::{Equation, Form, Group, Writer, of_generalized_force, vectors};
+use super::{Equation, Form, Group, Writer, of_generalized_force, paper, vectors};
 use crate::error::Error;
 
 /// The limits of an expansion: under a second, and more terms than anybody reads.
-const LIMITS: PolynomialOptions = PolynomialOptions {
+pub(super) const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 250_000,
     max_products: 2_000_000,
@@ -34,9 +34,16 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     }
     let (of_quantities, of_joints) = polynomials.split_at(quantities.len().min(polynomials.len()));
     let (mut forces, mut equations): (Vec<Equation>, Vec<Equation>) = (vec![], vec![]);
-    for (quantity, polynomial) in quantities.iter().zip(of_quantities) {
-        let left = writer.look(quantity.symbol);
-        equations.push(writer.of_collected(quantity.symbol.to_string(), left, polynomial)?);
+    let in_paper = match writer.options.paper {
+        true => writer.in_paper_order(&quantities, of_quantities),
+        false => vec![None; quantities.len()],
+    };
+    for ((quantity, polynomial), in_paper) in quantities.iter().zip(of_quantities).zip(in_paper) {
+        let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
+        equations.push(match in_paper {
+            Some(terms) => writer.of_terms(name, left, &terms)?,
+            None => writer.of_collected(name, left, polynomial)?,
+        });
     }
     for (force, polynomial) in joints.into_iter().zip(of_joints) {
         forces.push(writer.of_collected(force.name, force.shape, polynomial)?);
@@ -46,14 +53,20 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             "Equations of motion, collected",
             "Common factors stand in front of brackets. Each equation is equal to its expanded form, term by term.",
         ),
+        _ if writer.options.paper => (
+            "Equations of motion, expanded",
+            "Before each vector is the relation that it follows from. Terms are in the order in which the relations yield \
+             them; even powers of sines are replaced by cosines, and like terms are merged.",
+        ),
         _ => (
             "Equations of motion, expanded",
             "Products are multiplied out, even powers of sines are replaced by cosines, and like terms are merged.",
         ),
     };
     let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
+    let relations = if writer.options.paper { paper::relations(writer)? } else { vec![] };
     let group = Group::of_quantities(title, introduction.to_owned(), equations);
-    Ok(vec![Group { arrays, ..group }, Group::of_definitions("Joint wrenches", forces)])
+    Ok(vec![Group { arrays, relations, ..group }, Group::of_definitions("Joint wrenches", forces)])
 }
 
 /// Adds friction to the joint torques. The forces in the joints that dry friction needs are defined under

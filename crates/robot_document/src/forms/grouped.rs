@@ -59,7 +59,7 @@ fn introduction(writer: &Writer<'_, '_>) -> String {
     format!(
         "The coefficients of the accelerations (the entries of the symmetric mass matrix), the Coriolis and \
          centrifugal terms by {rates}, and the gravity terms. The coefficients depend on the coordinates alone; \
-         those that are zero have no equation."
+         those that are zero have no equation of their own."
     )
 }
 

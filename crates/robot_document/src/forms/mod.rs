@@ -5,12 +5,14 @@ mod arranged;
 mod arrays;
 mod coefficients;
 mod compact;
+mod definitions;
 mod expanded;
 mod grouped;
 mod letters;
 mod loads;
 mod matrices;
 mod naming;
+pub(crate) mod paper;
 mod parts;
 mod recursive;
 mod references;
@@ -36,6 +38,7 @@ use crate::math::Math;
 pub use letters::{InvalidLetters, Letters};
 
 pub use arrays::{Array, Cell, Room, Written};
+pub use paper::Relation;
 
 /// The form of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,8 +109,9 @@ pub struct EquationOptions {
     pub references: bool,
     /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
     pub christoffel: bool,
-    /// Whether quantities are in the order and under the signs of the paper: forces and moments in the joints from the
-    /// last link to the first, vectors with the number of their link below as well, Q with the index m.
+    /// Whether quantities are in the order, the shape and under the signs of the paper: forces and moments in the joints
+    /// from the last link to the first, vectors with the number of their link below as well, Q with the index m, terms and
+    /// factors as the paper's relations yield them, masses in front of brackets, relations before what they yield.
     pub paper: bool,
     /// The letters of joint torques and of what the grouped form defines.
     pub letters: Letters,
@@ -160,6 +164,8 @@ pub struct Group {
     /// The matrices and columns with entries that the equations define; `None` if the group has none. Vectors that
     /// are only other names of what is defined before are not among them.
     pub arrays: Option<Vec<Array>>,
+    /// The relations of vectors from which quantities follow, shown before these where vectors are columns.
+    pub relations: Vec<Relation>,
 }
 
 /// An equation: a quantity or a defined symbol, and what it is.
@@ -190,7 +196,15 @@ impl Group {
     /// Definitions of symbols that other equations use.
     pub(crate) fn of_definitions(title: &str, equations: Vec<Equation>) -> Group {
         let (title, introduction) = (title.to_owned(), String::new());
-        Group { title, introduction, definitions: true, equations, vector: None, arrays: None }
+        Group {
+            title,
+            introduction,
+            definitions: true,
+            equations,
+            vector: None,
+            arrays: None,
+            relations: vec![],
+        }
     }
 
     /// Quantities of the robot.
@@ -199,8 +213,7 @@ impl Group {
         introduction: String,
         equations: Vec<Equation>,
     ) -> Group {
-        let title = title.to_owned();
-        Group { title, introduction, definitions: false, equations, vector: None, arrays: None }
+        Group { definitions: false, introduction, ..Group::of_definitions(title, equations) }
     }
 }
 

@@ -4,6 +4,7 @@ use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Expressions of one graph that have names in another one.
+#[derive(Clone)]
 pub(super) struct Named<'h> {
     /// The graph of the right sides.
     pub(super) graph: &'h Graph,
@@ -55,9 +56,17 @@ pub(super) fn is_long_constant(expr: Expr<'_>) -> bool {
         && robot_symbolic::print::to_text(expr).is_ok_and(|text| text.len() > LONG_CONSTANT)
 }
 
+/// An expression that deserves a name.
+#[derive(Clone, Copy)]
+pub(super) struct Worthy<'g> {
+    pub(super) expr: Expr<'g>,
+    /// Whether it is used in one place, and has a name because what it is part of would be too long.
+    pub(super) is_cut: bool,
+}
+
 /// The parts of `roots` that deserve a name, operands before results: those used in several
 /// places and long, and parts of what would be too long to print. Sines and cosines never are.
-pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
+pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Worthy<'g>> {
     let all = walk::reachable(roots);
     let angles = angles(&all);
     let mut users: FxHashMap<Id, usize> = FxHashMap::default();
@@ -87,7 +96,8 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let is_negative = matches!(expr.view(), View::Neg(_));
         let named = (long && !is_negative && !is_quantity) || is_long_constant(expr);
         if named {
-            worthy.push(expr);
+            let is_cut = used == 1 && !is_long_constant(expr);
+            worthy.push(Worthy { expr, is_cut });
         }
         sizes.insert(expr.id(), if named { 0 } else { size });
     }

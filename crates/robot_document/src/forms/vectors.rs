@@ -21,7 +21,7 @@ pub(super) fn of_quantities(
         let name = format!("{}{number}", kind.name());
         let cells = components.iter().map(|(_, equation)| cell(equation, false));
         let left = match paper {
-            true => Math::vector_in_paper(kind, number),
+            true => Math::column_in_paper(kind, number),
             false => Math::vector(kind, number),
         };
         Some(column(name, left, cells))

@@ -14,7 +14,7 @@ pub enum Math {
     Letter(char),
     /// An upright word.
     Word(String),
-    /// One of `+ - · = , : ; . / * ( )` between or beside other pieces.
+    /// One of `+ - · × = , : ; . / * ( )` between or beside other pieces.
     Sign(char),
     /// The upright name of a function, before its argument: `sin`, `tanh`, `sgn`.
     Function(FunctionName),
@@ -67,6 +67,8 @@ pub enum Fence {
     Parentheses,
     /// `| |`
     Bars,
+    /// `[ ]`
+    Brackets,
 }
 
 /// Nothing.

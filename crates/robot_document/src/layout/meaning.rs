@@ -164,7 +164,7 @@ impl<'g> Reader<'g, '_> {
                 Ok(self.sum(above.pieces())? / self.sum(below.pieces())?)
             }
             Math::Root(inside) => Ok(self.sum(inside.pieces())?.sqrt()),
-            Math::Fenced(Fence::Parentheses, inside) => self.sum(inside.pieces()),
+            Math::Fenced(Fence::Parentheses | Fence::Brackets, inside) => self.sum(inside.pieces()),
             Math::Fenced(Fence::Bars, inside) => Ok(self.sum(inside.pieces())?.abs()),
             Math::Script(script) => self.script(script),
             _ => fault("a piece without a meaning"),

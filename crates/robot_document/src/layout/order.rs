@@ -1,17 +1,20 @@
 //! The order of factors and terms.
 //!
-//! Factors: components of wrenches, masses and inertias, other parameters, sines and cosines, what a
+//! Factors: roots of numbers, components of wrenches, masses and inertias, other parameters, sines and cosines, what a
 //! form defines, then coordinates, velocities and accelerations; each by number. Terms are in the
 //! order of their factors, higher powers of the first one first.
 
 use robot_model::robot::{Parameter, Robot};
 use robot_model::variable::JointVariable;
 use robot_symbolic::print::default_rank;
-use robot_symbolic::{Expr, View};
+use robot_symbolic::{Expr, Function, View};
 use rustc_hash::FxHashMap;
 
 /// The place of a factor: its group, its subgroup, its number.
 pub type Rank = (u8, u8, usize);
+
+/// Roots of numbers are beside a term's coefficient: √2/2 F.
+const ROOTS: Rank = (0, 0, 0);
 
 /// Where sums in brackets stand in a product: after parameters, before sines and cosines.
 pub(crate) const BRACKETS: Rank = (1, 0, 0);
@@ -28,7 +31,7 @@ impl<'r> Order<'r> {
     #[must_use]
     pub fn new(robot: &'r Robot) -> Order<'r> {
         let rank = |(place, parameter): (usize, &'r Parameter)| {
-            (parameter.name.as_str(), (0, u8::from(!is_inertial(parameter)), place))
+            (parameter.name.as_str(), (0, 1 + u8::from(!is_inertial(parameter)), place))
         };
         let parameters = robot.parameters.iter().enumerate().map(rank).collect();
         Order { parameters, defined: FxHashMap::default() }
@@ -42,7 +45,7 @@ impl<'r> Order<'r> {
 
     /// Adds a combination of masses and inertias that a form defines.
     pub fn define_parameter(&mut self, name: &str) {
-        let rank = (0, 0, self.defined.len());
+        let rank = (0, 1, self.defined.len());
         self.defined.insert(name.to_owned(), rank);
     }
 
@@ -54,6 +57,13 @@ impl<'r> Order<'r> {
         !self.parameters.contains_key(name.as_str())
             && !self.defined.contains_key(&name)
             && motion(&name).is_none()
+    }
+
+    /// Whether a symbol is a joint's position, velocity or acceleration.
+    #[must_use]
+    pub(crate) fn is_motion(&self, atom: Expr<'_>) -> bool {
+        let View::Symbol(symbol) = atom.view() else { return false };
+        is_motion(&atom.graph().symbol_name(symbol))
     }
 
     /// The number of times that a symbol is a derivative by time: 1 for a velocity, 2 for an acceleration.
@@ -71,7 +81,9 @@ impl<'r> Order<'r> {
     #[must_use]
     pub fn rank(&self, atom: Expr<'_>) -> Rank {
         let View::Symbol(symbol) = atom.view() else {
-            return (2 * default_rank(atom), 0, 0);
+            let is_root =
+                matches!(atom.view(), View::Call(Function::Sqrt, of) if of.as_number().is_some());
+            return if is_root { ROOTS } else { (2 * default_rank(atom), 0, 0) };
         };
         let name = atom.graph().symbol_name(symbol);
         if let Some(rank) = self.parameters.get(name.as_str()) {
@@ -85,7 +97,7 @@ impl<'r> Order<'r> {
             return (9, variable as u8, index + 1);
         }
         let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
-        (0, 0, digits.parse().unwrap_or_default())
+        (0, 1, digits.parse().unwrap_or_default())
     }
 }
 

@@ -4,7 +4,7 @@ use robot_dynamics::quantity::{Kind, Symbol};
 use robot_model::signs::{Accent, Letter};
 use robot_model::variable::JointVariable;
 
-use super::math::{Math, Script};
+use super::math::{Fence, Math, Script};
 
 impl Math {
     /// The look of a symbol by its name: `q2` has the index 2, `qd2` and `qdd2` dots on the q as well,
@@ -36,16 +36,37 @@ impl Math {
         Math::Script(Box::new(Script { base, lower, upper: Some(Math::integer(number)) }))
     }
 
-    /// The look of a vector in the paper's relations, `\bar{F}_{l_5}^{5}`: its link below and its axes above.
+    /// The look of a vector in the paper's relations, `\bar{F}_{l_5}^{5}`: its link below and its axes above, and the
+    /// point of moments, `\bar{M}_{l_{o_5}}^{5}`.
     #[must_use]
     pub fn vector_in_paper(kind: Kind, number: usize) -> Math {
         let Math::Script(script) = Math::vector(kind, number) else { return Math::default() };
-        let number = Math::integer(number);
+        let number = match kind {
+            Kind::LinkMoment => Math::Letter('o').with_lower(Math::integer(number)),
+            _ => Math::integer(number),
+        };
         let lower = match script.lower.clone() {
             Some(index) => index.with_lower(number),
             None => number,
         };
         Math::Script(Box::new(Script { lower: Some(lower), ..*script }))
+    }
+
+    /// The look of a vector that the paper writes as a column, `[\bar{F}_l]_5^5`, of moments `[\bar{M}_l]_{O_5}^5`.
+    #[must_use]
+    pub fn column_in_paper(kind: Kind, number: usize) -> Math {
+        let Math::Script(script) = Math::vector(kind, number) else { return Math::default() };
+        let Script { base, lower, upper } = *script;
+        let vector = match lower {
+            Some(index) => base.with_lower(index),
+            None => base,
+        };
+        let lower = match kind {
+            Kind::LinkMoment => Math::Letter('O').with_lower(Math::integer(number)),
+            _ => Math::integer(number),
+        };
+        let base = Math::Fenced(Fence::Brackets, Box::new(vector));
+        Math::Script(Box::new(Script { base, lower: Some(lower), upper }))
     }
 
     /// The look of a quantity in the paper: components as those of [`Math::quantity`], `Q_m^{1}`.

@@ -115,6 +115,11 @@ impl SymbolTable {
         self.defined.iter().any(|known| known == name)
     }
 
+    /// Whether no symbol has that name or that look.
+    pub(crate) fn is_free(&self, name: &str, shape: &Math) -> bool {
+        !self.entries.contains_key(name) && !self.printed.contains_key(&latex::formula(shape))
+    }
+
     /// A letter that no symbol has with a number as its first index, neither in text nor in print; the last one
     /// where all are taken. The index x of M_x is not mistaken for that of M_12.
     #[must_use]

@@ -121,7 +121,9 @@ fn measure(math: &Math, size: Size) -> f64 {
         Math::Letter(letter) => italic(*letter) * points,
         Math::Word(word) => word.chars().map(upright).sum::<f64>() * points,
         Math::Sign('·') => 0.278 * points,
-        Math::Sign(sign) => upright(*sign).max(if *sign == '-' { 0.778 } else { 0.0 }) * points,
+        Math::Sign(sign) => {
+            upright(*sign).max(if matches!(sign, '-' | '×') { 0.778 } else { 0.0 }) * points
+        }
         Math::Function(name) => name.text().chars().map(upright).sum::<f64>() * points,
         Math::Symbol(symbol) => measure(&symbol.shape, size),
         Math::Row(pieces) => row(pieces, size),
@@ -134,7 +136,7 @@ fn measure(math: &Math, size: Size) -> f64 {
             parts.iter().map(|part| measure(part, inner)).fold(0.0, f64::max) + 2.4
         }
         Math::Root(inside) => measure(inside, size) + points,
-        Math::Fenced(Fence::Parentheses, inside) => {
+        Math::Fenced(Fence::Parentheses | Fence::Brackets, inside) => {
             // Tall contents make the parentheses wider.
             measure(inside, size) + if is_tall(inside) { 1.5 } else { 0.8 } * points
         }
@@ -172,7 +174,7 @@ fn row(pieces: &[Math], size: Size) -> f64 {
         sum += measure(piece, size);
         sum += match piece {
             Math::Sign('=') => 2.0 * size.space(2),
-            Math::Sign('+' | '-' | '·' | '*') if place > 0 => 2.0 * size.space(1),
+            Math::Sign('+' | '-' | '·' | '×' | '*') if place > 0 => 2.0 * size.space(1),
             Math::Sign(',') | Math::Function(_) => size.space(0),
             // Space before and after what is fenced, or between a function's power and its argument.
             Math::Fenced(..) | Math::Fraction(_) => 2.0 * size.space(0),

@@ -1,9 +1,10 @@
-//! Displayed equations in Markdown, each between `$$`, as GitHub and others render them.
+//! Markdown: displayed equations between `$$`, formulas in lines between `$`, as GitHub and others render them.
 
 use crate::breaking::right_side;
-use crate::document::NumberedEquation;
+use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
 use crate::latex::{Layout, formula};
+use crate::math::Math;
 use crate::width::width;
 
 /// Equations one below the other, each broken into lines; labels are not shown.
@@ -13,20 +14,177 @@ use crate::width::width;
 /// A piece of an equation that cannot be broken and does not fit a line.
 pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
     let mut shown = String::new();
-    for NumberedEquation { equation, .. } in list {
-        let lines = right_side(equation, layout.width - width(&equation.left))?;
-        let lines: Vec<String> = lines.iter().map(formula).collect();
-        let left = formula(&equation.left);
-        let display = match lines.as_slice() {
-            [single] => format!("{left} = {single}"),
-            lines => {
-                let lines = lines.join(" \\\\\n&\\quad ");
-                format!("\\begin{{aligned}}\n{left} &= {lines}\n\\end{{aligned}}")
-            }
-        };
-        // GitHub takes no \operatorname, others no space in place of a column.
-        let display = display.replace(r"\operatorname{", r"\mathrm{").replace("{@{}l@{}}", "{l}");
-        shown.push_str(&format!("\n$$\n{display}\n$$\n"));
+    for equation in list {
+        shown.push_str(&display(equation, layout, None)?);
     }
     Ok(shown)
+}
+
+/// An equation, with its number if it has one.
+fn display(
+    NumberedEquation { equation, .. }: &NumberedEquation,
+    layout: Layout,
+    number: Option<usize>,
+) -> Result<String, Error> {
+    let lines = right_side(equation, layout.width - width(&equation.left))?;
+    let lines: Vec<String> = lines.iter().map(formula).collect();
+    let left = formula(&equation.left);
+    let display = match lines.as_slice() {
+        [single] => format!("{left} = {single}"),
+        lines => {
+            let lines = lines.join(" \\\\\n&\\quad ");
+            format!("\\begin{{aligned}}\n{left} &= {lines}\n\\end{{aligned}}")
+        }
+    };
+    let tag = number.map(|number| format!(" \\tag{{{number}}}")).unwrap_or_default();
+    // GitHub takes no \operatorname, others no space in place of a column.
+    let display = display.replace(r"\operatorname{", r"\mathrm{").replace("{@{}l@{}}", "{l}");
+    Ok(format!("\n$$\n{display}{tag}\n$$\n"))
+}
+
+/// The document as Markdown. It has no figure: Markdown shows files, not drawings.
+///
+/// # Errors
+///
+/// A piece of an equation that does not fit a line.
+pub fn document(document: &Document, layout: Layout) -> Result<String, Error> {
+    let lists = document.blocks.iter().filter_map(|block| match block {
+        Block::Equations(list) => Some(list),
+        _ => None,
+    });
+    let labels: Vec<&str> = lists.flatten().filter_map(|one| one.label.as_deref()).collect();
+    let mut markdown = format!("# {}\n", text(&document.title));
+    let mut tables = 0;
+    let mut number = 0;
+    for block in &document.blocks {
+        match block {
+            Block::Heading(level, title) => {
+                let signs = "#".repeat(usize::from(*level) + 1);
+                markdown.push_str(&format!("\n{signs} {}\n", text(title)));
+            }
+            Block::Paragraph(inlines) => {
+                markdown.push_str(&format!("\n{}\n", opened(&line(inlines, &labels))));
+            }
+            Block::Table(table) => {
+                tables += 1;
+                markdown.push_str(&self::table(table, tables, &labels));
+            }
+            Block::Figure(_) => {}
+            Block::Equations(list) => {
+                for equation in list {
+                    let is_numbered = equation.label.is_some();
+                    number += usize::from(is_numbered);
+                    markdown.push_str(&display(equation, layout, is_numbered.then_some(number))?);
+                }
+            }
+        }
+    }
+    Ok(markdown)
+}
+
+fn table(table: &Table, number: usize, labels: &[&str]) -> String {
+    let row = |cells: &Vec<Cell>| {
+        let cells: Vec<String> = cells.iter().map(|cell| line(cell, labels)).collect();
+        format!("| {} |\n", cells.join(" | "))
+    };
+    let mut markdown = format!("\n**Table {number}.** {}\n\n", text(&table.caption));
+    markdown.push_str(&row(&table.head));
+    markdown.push_str(&format!("|{}\n", " --- |".repeat(table.head.len())));
+    table.rows.iter().for_each(|cells| markdown.push_str(&row(cells)));
+    markdown
+}
+
+/// A line of text.
+fn line(inlines: &[Inline], labels: &[&str]) -> String {
+    let one = |inline: &Inline| match inline {
+        Inline::Text(content) => text(content),
+        Inline::Emphasis(content) => format!("*{}*", text(content)),
+        Inline::Math(math) => inline_math(math),
+        Inline::Reference(label) => match labels.iter().position(|known| known == label) {
+            Some(place) => format!("({})", place + 1),
+            None => text(label),
+        },
+    };
+    inlines.iter().map(one).collect()
+}
+
+/// A formula within a line: a bar would end a cell, and asterisks would be markup.
+fn inline_math(math: &Math) -> String {
+    let latex = formula(math).replace(r"\operatorname{", r"\mathrm{").replace('*', r"\ast ");
+    format!("${}$", latex.replace('|', r"\vert "))
+}
+
+/// Text for paragraphs and cells. Every sign that could be markup is escaped; what does not print, such as a change of
+/// the direction of writing, prints as its code.
+fn text(text: &str) -> String {
+    let mut markdown = String::new();
+    for character in text.chars() {
+        match character {
+            '\n' | '\t' => markdown.push(' '),
+            '&' => markdown.push_str("&amp;"),
+            '<' => markdown.push_str("&lt;"),
+            '\\' | '`' | '*' | '_' | '[' | ']' | '>' | '#' | '|' | '$' | '~' | '!' => {
+                markdown.extend(['\\', character]);
+            }
+            ' '..='~' | '–' | '—' | '‘' | '’' | '“' | '”' | '…' | '§' | '°' | '·' | '±' =>
+            {
+                markdown.push(character);
+            }
+            other if other.is_alphanumeric() => markdown.push(other),
+            other => markdown.push_str(&format!("\\[U+{:04X}\\]", u32::from(other))),
+        }
+    }
+    markdown
+}
+
+/// A line that does not begin a list or a rule.
+fn opened(line: &str) -> String {
+    let rest = line.trim_start_matches(|character: char| character.is_ascii_digit());
+    let is_number = rest.len() < line.len() && rest.starts_with(['.', ')']);
+    match is_number || line.starts_with(['+', '-', '=']) {
+        true => format!("{}\\{rest}", &line[..line.len() - rest.len()]),
+        false => line.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_never_markup() {
+        for (given, expected) in [
+            ("<b> & *a* _b_ `c` $d$ |", r"&lt;b\> &amp; \*a\* \_b\_ \`c\` \$d\$ \|"),
+            ("# [a](b) ![c] ~", r"\# \[a\](b) \!\[c\] \~"),
+            ("é 中\u{202e}\n", r"é 中\[U+202E\] "),
+        ] {
+            assert_eq!(text(given), expected);
+        }
+    }
+
+    #[test]
+    fn paragraphs_are_not_lists() {
+        for (given, expected) in [
+            ("- a - b", r"\- a - b"),
+            ("1. a", r"1\. a"),
+            ("12) a", r"12\) a"),
+            ("1.5 m", r"1\.5 m"),
+            ("a", "a"),
+        ] {
+            assert_eq!(opened(given), expected);
+        }
+    }
+
+    #[test]
+    fn formulas_in_lines_end_no_cell() {
+        let bars = Math::Fenced(crate::math::Fence::Bars, Box::new(Math::Letter('F')));
+        let shown = inline_math(&bars);
+        assert!(!shown.contains('|') && shown.matches(r"\vert").count() == 2, "{shown}");
+    }
+
+    #[test]
+    fn references_are_numbers_of_equations() {
+        let inlines = [Inline::text("see "), Inline::Reference("Q2".to_owned())];
+        assert_eq!(line(&inlines, &["Q1", "Q2"]), "see (2)");
+    }
 }

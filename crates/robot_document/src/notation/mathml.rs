@@ -41,6 +41,7 @@ pub fn formula(math: &Math) -> Element {
             let [open, close] = match fence {
                 Fence::Parentheses => ["(", ")"],
                 Fence::Bars => ["|", "|"],
+                Fence::Brackets => ["[", "]"],
             };
             let [open, close] = [(open, "prefix"), (close, "postfix")].map(|(sign, form)| {
                 holding("mo", sign).attribute("fence", "true").attribute("form", form)

@@ -3,7 +3,7 @@
 use robot_dynamics::quantity::Kind;
 
 use crate::document::{Cell, Inline};
-use crate::forms::{Equations, Form, Group, Letters};
+use crate::forms::{Equation, Equations, Form, Group, Letters, Relation, paper};
 use crate::math::{Math, Script};
 
 /// Symbols of a kind.
@@ -24,7 +24,15 @@ pub(super) fn families(parts: &[(Form, Equations)], letters: &Letters) -> Vec<Fa
     let mut families = vec![];
     let groups = parts.iter().flat_map(|(_, part)| part.groups.iter().map(move |one| (part, one)));
     for (part, group) in groups {
-        for equation in &group.equations {
+        let is_relation = |one: &&Equation| one.name.starts_with(Relation::NAME);
+        if group.equations.iter().any(|one| is_relation(&one)) {
+            let vectors = paper::vectors().into_iter();
+            families.extend(
+                vectors
+                    .map(|(shape, meaning)| Family { shape, meaning: vec![Inline::text(meaning)] }),
+            );
+        }
+        for equation in group.equations.iter().filter(|one| !is_relation(one)) {
             let count = numbers(&equation.name);
             let shape = general(&equation.left, count);
             let family = family(&equation.name).to_owned();
@@ -82,6 +90,8 @@ pub(super) fn general(shape: &Math, indices: usize) -> Math {
     let mut letters = INDICES.into_iter().map(Math::Letter);
     let all = count(shape);
     replaced(shape, &mut |_| match all {
+        // Below and above a vector is the same link.
+        _ if indices == 1 => Math::Letter('i'),
         1 => Math::row(letters.by_ref().take(indices).collect()),
         _ => letters.next().unwrap_or(Math::Letter('n')),
     })
@@ -222,6 +232,7 @@ mod tests {
             ("omega2.x", r"\omega_{2,x}", r"\omega_{i,x}", "omega"),
             ("F_l5_x", "F_{l_x}^{5}", "F_{l_x}^i", "F_l"),
             ("F_l5.x", "F_{l_x}^{5}", "F_{l_x}^i", "F_l"),
+            ("a_c4", r"\left[\bar{a}_c\right]_4^{4}", r"\left[\bar{a}_c\right]_i^i", "a_c"),
         ] {
             let shape = general(&read(look).unwrap(), numbers(name));
             assert_eq!((formula(&shape).as_str(), family(name)), (general_look, family_name));

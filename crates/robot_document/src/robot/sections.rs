@@ -46,10 +46,18 @@ const FEWEST: usize = 4;
 /// The constants of a line of the table.
 const ACROSS: usize = 2;
 
-/// Whether the right side is a number, and the left side no component of a vector.
+/// Whether the right side is a number, such as `√2/2`, and the left side is not a component of a vector.
 fn is_constant(equation: &Equation) -> bool {
-    let is_number = |piece: &Math| matches!(piece, Math::Number(_) | Math::Sign('-'));
     !equation.name.contains('.') && equation.right.pieces().iter().all(is_number)
+}
+
+fn is_number(piece: &Math) -> bool {
+    match piece {
+        Math::Number(_) | Math::Sign('-') => true,
+        Math::Root(inside) => inside.pieces().iter().all(is_number),
+        Math::Fraction(parts) => parts.iter().flat_map(Math::pieces).all(is_number),
+        _ => false,
+    }
 }
 
 /// A table of constants, some beside each other, one below the other in each column.

@@ -27,6 +27,18 @@ pub enum Severity {
     Note,
 }
 
+impl Severity {
+    /// Its word in messages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        }
+    }
+}
+
 /// Bytes of the source with what is to be said about them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {

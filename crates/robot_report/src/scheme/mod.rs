@@ -7,6 +7,7 @@
 mod draw;
 mod labels;
 mod layout;
+mod pdf;
 mod picture;
 mod shape;
 mod style;
@@ -17,6 +18,7 @@ use robot_document::figure::Figure;
 use robot_document::markup::Element;
 use robot_model::robot::Robot;
 
+pub use pdf::scheme_pdf;
 pub use picture::scheme_picture;
 
 use layout::{Layout, confusion, layout};

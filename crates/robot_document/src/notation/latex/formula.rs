@@ -63,6 +63,7 @@ impl Writer {
                 self.latex.push('}');
             }
             Math::Sign('·') => self.push(r"\cdot"),
+            Math::Sign('×') => self.push(r"\times"),
             Math::Sign(sign) => self.push(sign.encode_utf8(&mut [0; 4])),
             Math::Function(name) => self.push(name.latex()),
             Math::Symbol(symbol) => self.write(&symbol.shape, Spacing::Tight),
@@ -90,6 +91,7 @@ impl Writer {
                 let [open, close] = match fence {
                     Fence::Parentheses => [r"\left(", r"\right)"],
                     Fence::Bars => [r"\left|", r"\right|"],
+                    Fence::Brackets => [r"\left[", r"\right]"],
                 };
                 self.push(open);
                 self.write(inside, spacing);

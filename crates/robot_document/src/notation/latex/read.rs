@@ -169,6 +169,7 @@ impl<'t> Reader<'t> {
             "sqrt" => Ok(Math::Root(Box::new(self.argument()?))),
             "left" => self.fenced(),
             "cdot" => Ok(Math::Sign('·')),
+            "times" => Ok(Math::Sign('×')),
             "begin" if self.take("{bmatrix}") => Ok(Math::Matrix(self.entries("bmatrix")?)),
             "begin" if self.take("{array}{@{}l@{}}") => self.lines(),
             "" => match self.rest().chars().next() {
@@ -204,6 +205,9 @@ impl<'t> Reader<'t> {
         }
         if self.take("|") {
             return Ok(Math::Fenced(Fence::Bars, Box::new(self.row(End::Right('|'))?)));
+        }
+        if self.take("[") {
+            return Ok(Math::Fenced(Fence::Brackets, Box::new(self.row(End::Right(']'))?)));
         }
         self.fault("an unknown fence")
     }

@@ -42,6 +42,7 @@ fn shown(math: &Math, place: Place) -> String {
         Math::Root(inside) => call("sqrt", inside),
         Math::Fenced(Fence::Parentheses, inside) => format!("({})", shown(inside, place)),
         Math::Fenced(Fence::Bars, inside) => call("abs", inside),
+        Math::Fenced(Fence::Brackets, inside) => format!("[{}]", shown(inside, place)),
         Math::Matrix(rows) => {
             let cell = |entry: &Math| shown(entry, Place::Argument);
             let row = |row: &Vec<Math>| row.iter().map(cell).collect::<Vec<_>>().join(", ");
@@ -77,6 +78,7 @@ pub(super) fn continued(line: &Math, place: Place) -> String {
 fn sign(sign: char, place: Place) -> String {
     match sign {
         '·' => "dot.op".to_owned(),
+        '×' => "times".to_owned(),
         '*' => "∗".to_owned(),
         '+' | '-' | '=' => sign.to_string(),
         ',' if place == Place::Free => sign.to_string(),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use serde::Deserialize;
+use toml::de::{DeTable, DeValue};
 
 use crate::economical::plan::search::Measure;
 use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
@@ -29,7 +29,7 @@ pub struct Pin {
 pub struct PinError(String);
 
 /// The format that is written and read.
-const FORMAT: u32 = 3;
+const FORMAT: usize = 3;
 
 /// The names of options that are on or off, with access to each.
 type Flag = (&'static str, fn(&mut LinkPlan) -> &mut bool);
@@ -121,8 +121,13 @@ impl Pin {
     ///
     /// A text that is not a pin, or is one of another version.
     pub fn from_text(text: &str) -> Result<Pin, PinError> {
+        let (table, faults) = DeTable::parse_recoverable(text);
+        if let Some(fault) = faults.first() {
+            return Err(PinError(fault.to_string().trim().to_owned()));
+        }
+        let mut keys = Keys::new(table.get_ref());
         // The format first: others may have other keys.
-        let RawFormat { format } = read(text)?;
+        let format = keys.required("format", number)?;
         match format {
             FORMAT => {}
             1 | 2 => {
@@ -136,19 +141,23 @@ impl Pin {
                 )));
             }
         }
-        let raw: RawPin = read(text)?;
-        let links = raw.link.iter().map(RawLink::plan).collect::<Result<_, _>>()?;
-        let unit_length = raw.unit_length.map(|[link, component]| (link, component));
-        Ok(Pin {
-            fingerprint: raw.fingerprint,
-            digest: raw.digest,
-            measure: raw
-                .measure
-                .as_deref()
-                .map_or(Ok(Measure::Operations), |name| value_of(&MEASURES, name))?,
-            operations: raw.operations,
-            plan: Plan { links, unit_length },
-        })
+        let pin = Pin {
+            fingerprint: keys.required("fingerprint", text_of)?,
+            digest: keys.required("digest", text_of)?,
+            measure: match keys.optional("measure", text_of)? {
+                Some(name) => value_of(&MEASURES, &name)?,
+                None => Measure::Operations,
+            },
+            operations: keys.required("operations", number)?,
+            plan: Plan {
+                unit_length: keys
+                    .optional("unit_length", |value| exactly(value, number))?
+                    .map(|[link, component]| (link, component)),
+                links: keys.optional("link", |value| list(value, link_of))?.unwrap_or_default(),
+            },
+        };
+        keys.end()?;
+        Ok(pin)
     }
 }
 
@@ -186,72 +195,106 @@ fn value_of<T: Copy>(table: &[(&'static str, T)], name: &str) -> Result<T, PinEr
     })
 }
 
-fn read<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, PinError> {
-    toml::from_str(text).map_err(|error| PinError(error.to_string().trim().to_owned()))
-}
-
-#[derive(Deserialize)]
-struct RawFormat {
-    format: u32,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawPin {
-    #[serde(rename = "format")]
-    _format: u32,
-    fingerprint: String,
-    digest: String,
-    /// The default measure: operations.
-    measure: Option<String>,
-    operations: usize,
-    unit_length: Option<[usize; 2]>,
-    #[serde(default)]
-    link: Vec<RawLink>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawLink {
-    origin: String,
-    turn: String,
-    options: Vec<String>,
-    residual: [String; 3],
-    free: String,
-    meeting: Option<RawPlace>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RawPlace {
-    link: usize,
-    turned: bool,
-}
-
-impl RawLink {
-    fn plan(&self) -> Result<LinkPlan, PinError> {
-        let [mass, first, second] = &self.residual;
-        let mut plan = LinkPlan {
-            origin: value_of(&ORIGINS, &self.origin)?,
-            turn: value_of(&TURNS, &self.turn)?,
-            residual: [
-                value_of(&ENTRIES, mass)?,
-                value_of(&ENTRIES, first)?,
-                value_of(&ENTRIES, second)?,
-            ],
-            free: value_of(&RATES, &self.free)?,
-            projected_at: self
-                .meeting
-                .as_ref()
-                .map(|place| Place { link: place.link, turned: place.turned }),
-            ..LinkPlan::BASIC
-        };
-        for name in &self.options {
-            let flag = value_of(&FLAGS, name)?;
-            *flag(&mut plan) = true;
-        }
-        Ok(plan)
+fn link_of(value: &DeValue<'_>) -> Result<LinkPlan, PinError> {
+    let mut keys = Keys::of(value)?;
+    let residual = keys.required("residual", |value| exactly(value, text_of))?;
+    let [mass, first, second] = residual.map(|name| value_of(&ENTRIES, &name));
+    let mut plan = LinkPlan {
+        origin: value_of(&ORIGINS, &keys.required("origin", text_of)?)?,
+        turn: value_of(&TURNS, &keys.required("turn", text_of)?)?,
+        residual: [mass?, first?, second?],
+        free: value_of(&RATES, &keys.required("free", text_of)?)?,
+        projected_at: keys.optional("meeting", place_of)?,
+        ..LinkPlan::BASIC
+    };
+    for name in keys.required("options", |value| list(value, text_of))? {
+        let flag = value_of(&FLAGS, &name)?;
+        *flag(&mut plan) = true;
     }
+    keys.end()?;
+    Ok(plan)
+}
+
+fn place_of(value: &DeValue<'_>) -> Result<Place, PinError> {
+    let mut keys = Keys::of(value)?;
+    let link = keys.required("link", number)?;
+    let turned = keys.required("turned", |value| value.as_bool().ok_or_else(wrong_type))?;
+    keys.end()?;
+    Ok(Place { link, turned })
+}
+
+/// The keys of a table; each that is read is known.
+struct Keys<'a> {
+    table: &'a DeTable<'a>,
+    known: Vec<&'static str>,
+}
+
+impl<'a> Keys<'a> {
+    const fn new(table: &'a DeTable<'a>) -> Keys<'a> {
+        Keys { table, known: Vec::new() }
+    }
+
+    fn of(value: &'a DeValue<'a>) -> Result<Keys<'a>, PinError> {
+        value.as_table().map(Keys::new).ok_or_else(wrong_type)
+    }
+
+    fn optional<T>(
+        &mut self,
+        key: &'static str,
+        read: impl Fn(&DeValue<'_>) -> Result<T, PinError>,
+    ) -> Result<Option<T>, PinError> {
+        self.known.push(key);
+        let value = self.table.get(key).map(|value| read(value.get_ref()));
+        value.transpose().map_err(|error| PinError(format!("`{key}`: {error}")))
+    }
+
+    fn required<T>(
+        &mut self,
+        key: &'static str,
+        read: impl Fn(&DeValue<'_>) -> Result<T, PinError>,
+    ) -> Result<T, PinError> {
+        self.optional(key, read)?.ok_or_else(|| PinError(format!("`{key}` is missing")))
+    }
+
+    /// Refuses keys that are not known.
+    fn end(self) -> Result<(), PinError> {
+        let mut names = self.table.keys().map(|key| key.get_ref().as_ref());
+        match names.find(|name| !self.known.contains(name)) {
+            Some(name) => Err(PinError(format!(
+                "`{name}` is unknown; expected one of {}",
+                self.known.join(", ")
+            ))),
+            None => Ok(()),
+        }
+    }
+}
+
+fn wrong_type() -> PinError {
+    PinError("a value of another type is expected".to_owned())
+}
+
+fn text_of(value: &DeValue<'_>) -> Result<String, PinError> {
+    value.as_str().map(str::to_owned).ok_or_else(wrong_type)
+}
+
+fn number(value: &DeValue<'_>) -> Result<usize, PinError> {
+    let integer = value.as_integer().filter(|integer| integer.radix() == 10);
+    integer.and_then(|integer| integer.as_str().parse().ok()).ok_or_else(wrong_type)
+}
+
+fn list<T>(
+    value: &DeValue<'_>,
+    read: impl Fn(&DeValue<'_>) -> Result<T, PinError>,
+) -> Result<Vec<T>, PinError> {
+    let entries = value.as_array().ok_or_else(wrong_type)?;
+    entries.iter().map(|entry| read(entry.get_ref())).collect()
+}
+
+fn exactly<T, const N: usize>(
+    value: &DeValue<'_>,
+    read: impl Fn(&DeValue<'_>) -> Result<T, PinError>,
+) -> Result<[T; N], PinError> {
+    list(value, read)?.try_into().map_err(|_| PinError(format!("{N} entries are expected")))
 }
 
 #[cfg(test)]
@@ -297,10 +340,15 @@ mod tests {
             ("next_normal", "next_norm"),
             ("options = []", "options = [\"colum\"]"),
             ("operations", "operation"),
+            ("fingerprint = \"\"", "fingerprint = 1"),
+            ("operations = 0", "operations = -1"),
+            ("turn = ", "other = 1\nturn = "),
+            ("turn = ", "meeting = { link = 1 }\nturn = "),
+            ("turn = ", "turn "),
         ] {
             assert!(text.contains(good), "{good}");
             let error = Pin::from_text(&text.replacen(good, bad, 1)).unwrap_err();
-            assert!(!error.to_string().is_empty());
+            assert!(error.to_string().len() > 10, "{bad}: {error}");
         }
         // Another format may have other keys; its number is what is wrong with it.
         let other = Pin::from_text("format = 4\nplan = \"cheap\"").unwrap_err().to_string();

@@ -1,31 +1,13 @@
-//! Diagnostics as text for people.
+//! Diagnostics with the lines of the file that they are about.
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use super::group::{Group, groups};
-use super::{Diagnostic, Label, Severity, Source, Span, quote};
-
-/// More diagnostics than this are counted, not shown.
-const MAX_SHOWN: usize = 40;
-
-/// The style in which diagnostics are rendered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Style {
-    /// Text alone.
-    Plain,
-    /// With the colors of a terminal.
-    Terminal,
-}
-
-/// One diagnostic as text, without a newline at the end.
-#[must_use]
-pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String {
-    render_group(source, &Group { first: diagnostic, others: vec![] }, style)
-}
+use super::super::group::Group;
+use super::super::{Label, Severity, Source, Span, quote};
+use super::Style;
 
 /// Diagnostics of the same kind as one text, without a newline at the end.
-#[must_use]
-pub fn render_group(source: &Source, found: &Group<'_>, style: Style) -> String {
+pub(super) fn group(source: &Source, found: &Group<'_>, style: Style) -> String {
     let diagnostic = found.first;
     let (message, others) = (found.message(), found.others(source));
     let level = match diagnostic.severity {
@@ -70,31 +52,6 @@ pub fn render_group(source: &Source, found: &Group<'_>, style: Style) -> String 
         Style::Terminal => Renderer::styled(),
     };
     renderer.render(&[group])
-}
-
-pub(super) fn render_all(source: &Source, list: &[Diagnostic], style: Style) -> String {
-    let groups = groups(list);
-    let (shown, left) = groups.split_at(groups.len().min(MAX_SHOWN));
-    let mut parts: Vec<String> =
-        shown.iter().map(|group| render_group(source, group, style)).collect();
-    let count = |severity| list.iter().filter(|found| found.severity == severity).count();
-    let counts = [
-        (count(Severity::Error), "error"),
-        (count(Severity::Warning), "warning"),
-        (count(Severity::Note), "note"),
-    ];
-    let counts: Vec<String> = counts
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, what)| format!("{count} {what}{}", if *count == 1 { "" } else { "s" }))
-        .collect();
-    let more = match left.iter().map(Group::count).sum::<usize>() {
-        0 => String::new(),
-        more => format!(" ({more} more not shown)"),
-    };
-    let name = quote(&source.name);
-    parts.push(format!("{name}: {}{more}\n", counts.join(", ")));
-    parts.join("\n\n")
 }
 
 type Excerpt<'s> = (&'s str, usize, Vec<(AnnotationKind, Span, &'s str)>);

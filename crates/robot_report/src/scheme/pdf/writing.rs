@@ -1,0 +1,195 @@
+//! Labels in the fonts that every PDF viewer has.
+
+use robot_document::document::Inline;
+use robot_document::math::{Fence, Math};
+
+/// A font.
+pub(super) struct Font {
+    /// Its name within the file.
+    pub(super) key: &'static [u8],
+    /// Its name in the standard.
+    pub(super) name: &'static [u8],
+    /// Whether it has Latin letters.
+    pub(super) is_latin: bool,
+    /// The widths of the characters from the space to the tilde, in thousandths of its size.
+    widths: &'static [u16; 95],
+}
+
+const SANS: usize = 0;
+const BOLD: usize = 1;
+const UPRIGHT: usize = 2;
+const ITALIC: usize = 3;
+const GREEK: usize = 4;
+
+/// The standard fonts in use.
+pub(super) const FONTS: [Font; 5] = [
+    Font { key: b"S", name: b"Helvetica", is_latin: true, widths: &HELVETICA },
+    Font { key: b"B", name: b"Helvetica-Bold", is_latin: true, widths: &HELVETICA },
+    Font { key: b"R", name: b"Times-Roman", is_latin: true, widths: &TIMES },
+    Font { key: b"I", name: b"Times-Italic", is_latin: true, widths: &TIMES },
+    Font { key: b"G", name: b"Symbol", is_latin: false, widths: &TIMES },
+];
+
+/// Of Helvetica; bold letters are wider by a twentieth at most.
+#[rustfmt::skip]
+const HELVETICA: [u16; 95] = [
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,
+    556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556,
+    1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778,
+    667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556,
+    333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556,
+    556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
+];
+
+/// Of Times-Italic; the other fonts that have these differ by a tenth at most.
+#[rustfmt::skip]
+const TIMES: [u16; 95] = [
+    250, 333, 420, 500, 500, 833, 778, 214, 333, 333, 500, 675, 250, 333, 250, 278,
+    500, 500, 500, 500, 500, 500, 500, 500, 500, 500, 333, 333, 675, 675, 675, 500,
+    920, 611, 611, 667, 722, 611, 611, 722, 722, 333, 444, 667, 556, 833, 667, 722,
+    611, 722, 611, 500, 556, 722, 611, 833, 611, 556, 556, 389, 278, 389, 422, 500,
+    333, 500, 500, 444, 500, 444, 278, 500, 500, 278, 278, 444, 278, 722, 500, 500,
+    500, 500, 389, 389, 278, 500, 444, 667, 444, 444, 389, 400, 275, 400, 541,
+];
+
+/// Characters of one font, size and height.
+pub(super) struct Run {
+    pub(super) font: usize,
+    /// The codes of the characters.
+    pub(super) text: Vec<u8>,
+    /// The height of its base line above that of the label, in sizes of type.
+    pub(super) rise: f64,
+    /// Its size, in sizes of type.
+    pub(super) scale: f64,
+}
+
+impl Run {
+    /// The width in sizes of the label's type.
+    pub(super) fn width(&self) -> f64 {
+        Run::width_of(self.font, &self.text) * self.scale
+    }
+
+    /// The width of characters in sizes of their type.
+    pub(super) fn width_of(font: usize, text: &[u8]) -> f64 {
+        let widths = FONTS.get(font).map_or(&HELVETICA, |font| font.widths);
+        let width = |code: &u8| {
+            let place = usize::from(*code).checked_sub(32);
+            f64::from(place.and_then(|place| widths.get(place)).copied().unwrap_or(556))
+        };
+        text.iter().map(width).sum::<f64>() / 1000.0
+    }
+}
+
+/// What is written, piece by piece.
+pub(super) fn runs(words: &Inline, is_bold: bool) -> Vec<Run> {
+    let mut runs = vec![];
+    match words {
+        Inline::Math(math) => formula(math, 0.0, 1.0, &mut runs),
+        Inline::Text(text) | Inline::Emphasis(text) | Inline::Reference(text) => {
+            let font = if is_bold { BOLD } else { SANS };
+            runs.push(Run { font, text: latin(text), rise: 0.0, scale: 1.0 });
+        }
+    }
+    runs
+}
+
+/// The codes of letters; those that the fonts lack are question marks.
+fn latin(text: &str) -> Vec<u8> {
+    let code = |character: char| {
+        let code = u8::try_from(character).ok();
+        code.filter(|code| matches!(code, 32..=126 | 160..)).unwrap_or(b'?')
+    };
+    text.chars().map(code).collect()
+}
+
+/// The size of indices, and how far they are lowered and raised.
+const INDEX: f64 = 0.7;
+const LOWER: f64 = -0.18;
+const UPPER: f64 = 0.35;
+
+fn formula(math: &Math, rise: f64, scale: f64, runs: &mut Vec<Run>) {
+    let mut add = |font, text: Vec<u8>| runs.push(Run { font, text, rise, scale });
+    match math {
+        Math::Number(digits) => add(UPRIGHT, latin(digits)),
+        Math::Word(word) => add(UPRIGHT, latin(word)),
+        Math::Function(name) => add(UPRIGHT, latin(name.text())),
+        Math::Letter(letter) => match greek(*letter) {
+            Some(code) => add(GREEK, vec![code]),
+            None => add(ITALIC, latin(&letter.to_string())),
+        },
+        // The minus sign, the multiplication sign and the dot are in the font of Greek letters.
+        Math::Sign('-') => add(GREEK, b"-".to_vec()),
+        Math::Sign('·') => add(GREEK, vec![0xd7]),
+        Math::Sign('×') => add(GREEK, vec![0xb4]),
+        Math::Sign(sign) => add(UPRIGHT, latin(&sign.to_string())),
+        Math::Symbol(symbol) => formula(&symbol.shape, rise, scale, runs),
+        Math::Row(pieces) => pieces.iter().for_each(|piece| formula(piece, rise, scale, runs)),
+        Math::Script(script) => {
+            formula(&script.base, rise, scale, runs);
+            for (index, shift) in [(&script.lower, LOWER), (&script.upper, UPPER)] {
+                if let Some(index) = index {
+                    formula(index, rise + shift * scale, scale * INDEX, runs);
+                }
+            }
+        }
+        Math::Accent(_, inside) | Math::Styled(_, inside) => formula(inside, rise, scale, runs),
+        Math::Fraction(parts) => {
+            formula(&parts[0], rise, scale, runs);
+            runs.push(Run { font: UPRIGHT, text: b"/".to_vec(), rise, scale });
+            formula(&parts[1], rise, scale, runs);
+        }
+        Math::Root(inside) => {
+            add(GREEK, vec![0xd6]);
+            formula(inside, rise, scale, runs);
+        }
+        Math::Fenced(fence, inside) => {
+            let [open, close] = match fence {
+                Fence::Parentheses => ["(", ")"],
+                Fence::Bars => ["|", "|"],
+                Fence::Brackets => ["[", "]"],
+            };
+            add(UPRIGHT, latin(open));
+            formula(inside, rise, scale, runs);
+            runs.push(Run { font: UPRIGHT, text: latin(close), rise, scale });
+        }
+        Math::Matrix(rows) => {
+            rows.iter().flatten().for_each(|entry| formula(entry, rise, scale, runs));
+        }
+        Math::Lines(lines) => lines.iter().for_each(|line| formula(line, rise, scale, runs)),
+    }
+}
+
+/// The code of a Greek letter in the font that has them.
+fn greek(letter: char) -> Option<u8> {
+    const LETTERS: &str = "αβχδεφγηιϕκλμνοπθρστυϖωξψζ";
+    const CAPITALS: &str = "ΑΒΧΔΕΦΓΗΙϑΚΛΜΝΟΠΘΡΣΤΥςΩΞΨΖ";
+    let place = |all: &str, first: u8| {
+        let place = all.chars().position(|known| known == letter)?;
+        u8::try_from(place).ok().map(|place| first + place)
+    };
+    place(LETTERS, b'a').or_else(|| place(CAPITALS, b'A'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_are_italic_with_smaller_indices() {
+        let math = Math::Letter('l').with_lower(Math::integer(6));
+        let found = runs(&Inline::Math(math), false);
+        let shown: Vec<(usize, &[u8])> = found.iter().map(|run| (run.font, &*run.text)).collect();
+        assert_eq!(shown, [(ITALIC, &b"l"[..]), (UPRIGHT, &b"6"[..])]);
+        assert!(found[1].rise < 0.0 && found[1].scale < 1.0);
+        assert!((Run::width_of(ITALIC, b"l") - 0.278).abs() < 1e-12);
+    }
+
+    #[test]
+    fn letters_that_the_fonts_lack_are_question_marks() {
+        assert_eq!(latin("é中(\u{202e}"), [0xe9, b'?', b'(', b'?']);
+        assert_eq!(
+            ['α', 'ω', 'Ω', 'φ', 'q'].map(greek),
+            [Some(b'a'), Some(b'w'), Some(b'W'), Some(b'f'), None]
+        );
+    }
+}
