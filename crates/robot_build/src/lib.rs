@@ -42,6 +42,8 @@ pub use driver::problems::Problem;
 pub use driver::programs::{Programs, planned, programs, programs_of, read, read_with};
 pub use driver::singular::{Unsolvable, unsolvable};
 pub use driver::snapping::{Snapping, snapping};
+#[cfg(feature = "languages")]
+pub use driver::languages;
 pub use driver::{ablation, budget, check, package, snapping};
 pub use entry::builder::{Builder, compile};
 pub use entry::files::{MARKER, Output, Ownership, Pending, Staleness, Writer, staleness};

@@ -86,7 +86,7 @@ pub fn names(programs: &Programs) -> Names {
 }
 
 /// The printing options of the module.
-fn rust_options(
+pub(crate) fn rust_options(
     programs: &Programs,
     source: &Source,
     options: &Options,
@@ -134,7 +134,8 @@ pub(crate) fn file_name(source: &Source) -> &str {
     source.name.rsplit(separators).next().unwrap_or(&source.name)
 }
 
-fn setters(robot: &Robot) -> Vec<Setter> {
+/// The functions that set several parameters together.
+pub(crate) fn setters(robot: &Robot) -> Vec<Setter> {
     robot.payload.iter().map(with_payload).collect()
 }
 
@@ -166,7 +167,8 @@ fn with_payload(payload: &Payload) -> Setter {
     }
 }
 
-fn constants(programs: &Programs) -> Vec<ConstantItem> {
+/// The constants of the printed module.
+pub(crate) fn constants(programs: &Programs) -> Vec<ConstantItem> {
     let robot = &programs.robot;
     let item = |name: &str, doc: &str, value| ConstantItem {
         name: name.to_owned(),

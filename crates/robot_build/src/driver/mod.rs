@@ -7,6 +7,8 @@ pub mod check;
 pub(crate) mod conventions;
 pub(crate) mod file;
 pub(crate) mod generate;
+#[cfg(feature = "languages")]
+pub mod languages;
 pub(crate) mod options;
 pub mod package;
 pub(crate) mod pivots;

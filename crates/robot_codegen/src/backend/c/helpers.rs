@@ -1,0 +1,422 @@
+//! The functions that printed C calls: those of the runtime, with the same bits where it does not fuse products and
+//! sums.
+
+use robot_runtime::trig::{double, single};
+use robot_runtime::tanh::{TANH_F32, TANH_F64, Tanh};
+
+use super::Header;
+use super::spelling::{literal, number};
+use crate::backend::common::Scalar;
+use crate::backend::flat::Helpers;
+use crate::trigonometry::Trigonometry;
+
+/// The macros, and the helpers that the module needs.
+pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
+    let mut lines = macros(header);
+    let scalar = header.options.scalar;
+    let polynomials = header.options.trigonometry == Trigonometry::Polynomial;
+    let functions = header.tree.helpers();
+    let constructor = Helpers::of(&header.tree.constructor);
+    let needed = match scalar {
+        Scalar::F64 => vec![(Scalar::F64, functions.and(constructor))],
+        Scalar::F32 => vec![(Scalar::F64, constructor), (Scalar::F32, functions)],
+    };
+    for (scalar, needed) in needed {
+        let writer = Writer { header, scalar };
+        if needed.mul_add {
+            lines.extend(writer.mul_add());
+        }
+        if needed.circular && polynomials {
+            lines.extend(writer.circular(needed.mul_add));
+        }
+        if needed.sign {
+            lines.extend(writer.sign());
+        }
+        if needed.tanh {
+            lines.extend(writer.tanh());
+        }
+        if needed.recip_positive {
+            lines.extend(writer.recip_positive());
+        }
+    }
+    lines
+}
+
+fn macros(header: &Header<'_>) -> Vec<String> {
+    let name = |name: &str| header.names.private_upper(name);
+    let (inline, part, restrict) = (name("inline"), name("part"), name("restrict"));
+    let text = format!(
+        "#if defined(__GNUC__)
+#define {inline} static inline __attribute__((always_inline, unused))
+#define {part} static __attribute__((noinline, unused))
+#define {restrict} __restrict__
+#else
+#define {inline} static inline
+#define {part} static
+#define {restrict}
+#endif
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#endif
+"
+    );
+    text.lines().map(str::to_owned).chain([String::new()]).collect()
+}
+
+/// Writes the helpers of a number type.
+struct Writer<'h> {
+    header: &'h Header<'h>,
+    scalar: Scalar,
+}
+
+/// The numbers of the sine and cosine in the type.
+struct Circular {
+    limit: f64,
+    shift: f64,
+    two_over_pi: f64,
+    half_pi: [f64; 3],
+    short_half_pi: [f64; 4],
+    sine: Vec<f64>,
+    cosine: Vec<f64>,
+}
+
+fn circular(scalar: Scalar) -> Circular {
+    let wide = |values: &[f32]| values.iter().map(|value| f64::from(*value)).collect();
+    match scalar {
+        Scalar::F64 => Circular {
+            limit: double::LIMIT,
+            shift: double::SHIFT,
+            two_over_pi: std::f64::consts::FRAC_2_PI,
+            half_pi: double::HALF_PI,
+            short_half_pi: double::SHORT_HALF_PI,
+            sine: double::SINE.to_vec(),
+            cosine: double::COSINE.to_vec(),
+        },
+        Scalar::F32 => Circular {
+            limit: f64::from(single::LIMIT),
+            shift: f64::from(single::SHIFT),
+            two_over_pi: f64::from(std::f32::consts::FRAC_2_PI),
+            half_pi: single::HALF_PI.map(f64::from),
+            short_half_pi: single::SHORT_HALF_PI.map(f64::from),
+            sine: wide(&single::SINE),
+            cosine: wide(&single::COSINE),
+        },
+    }
+}
+
+fn tanh(scalar: Scalar) -> (f64, f64, [f64; 2], Vec<f64>) {
+    let Tanh { shift, saturated, ln_2, exponential } = TANH_F32;
+    match scalar {
+        Scalar::F64 => {
+            let Tanh { shift, saturated, ln_2, exponential } = TANH_F64;
+            (shift, saturated, ln_2, exponential.to_vec())
+        }
+        Scalar::F32 => (
+            f64::from(shift),
+            f64::from(saturated),
+            ln_2.map(f64::from),
+            exponential.iter().map(|value| f64::from(*value)).collect(),
+        ),
+    }
+}
+
+/// a b + c, as one rounding or two.
+type MulAdd<'f> = &'f dyn Fn(&str, &str, &str) -> String;
+
+impl Writer<'_> {
+    fn real(&self) -> &'static str {
+        super::function::real(self.scalar)
+    }
+
+    fn bits(&self) -> &'static str {
+        if self.scalar == Scalar::F64 { "uint64_t" } else { "uint32_t" }
+    }
+
+    fn width(&self) -> u32 {
+        if self.scalar == Scalar::F64 { 64 } else { 32 }
+    }
+
+    fn name(&self, name: &str) -> String {
+        self.header.names.private(&super::spelling::helper(name, self.scalar))
+    }
+
+    fn library(&self, name: &str) -> String {
+        super::spelling::library(name, self.scalar)
+    }
+
+    fn number(&self, value: f64) -> String {
+        number(value, self.scalar)
+    }
+
+    /// A mask or pattern of bits.
+    fn pattern(&self, bits: u64) -> String {
+        match self.scalar {
+            Scalar::F64 => format!("UINT64_C(0x{bits:016x})"),
+            Scalar::F32 => format!("UINT32_C(0x{bits:08x})"),
+        }
+    }
+
+    /// The bits of a number of the type.
+    fn bits_of(&self, value: f64) -> u64 {
+        match self.scalar {
+            Scalar::F64 => value.to_bits(),
+            Scalar::F32 => u64::from((value as f32).to_bits()),
+        }
+    }
+
+    fn sign_bit(&self) -> u64 {
+        1 << (self.width() - 1)
+    }
+
+    /// The macro that says that fused multiply-adds are fast.
+    fn fast(&self) -> &'static str {
+        if self.scalar == Scalar::F64 { "FP_FAST_FMA" } else { "FP_FAST_FMAF" }
+    }
+
+    fn lines(text: &str) -> Vec<String> {
+        text.lines().map(str::to_owned).chain([String::new()]).collect()
+    }
+
+    fn mul_add(&self) -> Vec<String> {
+        let (inline, real, name) = (self.header.inline(), self.real(), self.name("mul_add"));
+        let (fast, fma) = (self.fast(), self.library("fma"));
+        Writer::lines(&format!(
+            "/* a b + c, rounded once where the processor has the instruction. */
+{inline} {real} {name}({real} a, {real} b, {real} c)
+{{
+#ifdef {fast}
+    return {fma}(a, b, c);
+#else
+    return a * b + c;
+#endif
+}}"
+        ))
+    }
+
+    fn circular(&self, fused: bool) -> Vec<String> {
+        let (inline, real, bits) = (self.header.inline(), self.real(), self.bits());
+        let numbers = circular(self.scalar);
+        let twice = |a: &str, b: &str, c: &str| format!("{a} * {b} + {c}");
+        let fma = self.library("fma");
+        let once = |a: &str, b: &str, c: &str| format!("{fma}({a}, {b}, {c})");
+        let mut lines = Writer::lines(&format!(
+            "/* Sine and cosine of an angle, rad; NaN from {} rad on. By Cody and Waite, Software Manual for the
+ * Elementary Functions (1980), chapter 8: the angle less k right angles, and minimax polynomials. */
+{inline} void {}({real} angle, {real} *sine, {real} *cosine)
+{{",
+            numbers.limit,
+            self.name("sin_cos")
+        ));
+        lines.pop();
+        let declared = format!("    {real} shifted, k, x, r, z, s, c;\n    {bits} magnitude, turns, swap, s_bits, c_bits;\n");
+        lines.extend(declared.lines().map(str::to_owned));
+        if fused {
+            lines.push(format!("#ifdef {}", self.fast()));
+            lines.extend(self.polynomials(&numbers, true, &once));
+            lines.push("#else".to_owned());
+        }
+        lines.extend(self.polynomials(&numbers, false, &twice));
+        if fused {
+            lines.push("#endif".to_owned());
+        }
+        lines.extend(self.turned());
+        let (sin, cos, sin_cos) = (self.name("sin"), self.name("cos"), self.name("sin_cos"));
+        for (name, value) in [(sin, "sine"), (cos, "cosine")] {
+            lines.extend(Writer::lines(&format!(
+                "{inline} {real} {name}({real} angle)
+{{
+    {real} sine, cosine;
+    {sin_cos}(angle, &sine, &cosine);
+    return {value};
+}}"
+            )));
+        }
+        lines
+    }
+
+    /// `s` and `c`, sine and cosine of the angle less `k` right angles.
+    fn polynomials(&self, numbers: &Circular, once: bool, mul_add: MulAdd<'_>) -> Vec<String> {
+        let number = |value: f64| self.number(value);
+        let size = self.width() / 8;
+        let mut lines = vec![
+            format!("shifted = {};", mul_add("angle", &number(numbers.two_over_pi), &number(numbers.shift))),
+            format!("k = shifted - {};", number(numbers.shift)),
+            format!("memcpy(&magnitude, &angle, {size});"),
+            format!(
+                "turns = (magnitude & {}) + {};",
+                self.pattern(self.sign_bit() - 1),
+                self.pattern(self.sign_bit() - self.bits_of(numbers.limit))
+            ),
+            format!("magnitude |= 0 - (turns >> {});", self.width() - 1),
+            format!("memcpy(&x, &magnitude, {size});"),
+        ];
+        let less = |from: &str, part: f64| mul_add("k", &number(-part), from);
+        let is_double = self.scalar == Scalar::F64;
+        let (parts, rest): (&[f64], Option<f64>) = match (once, is_double) {
+            (true, true) => (&numbers.half_pi[..2], Some(numbers.half_pi[2])),
+            (true, false) => (&numbers.half_pi, None),
+            (false, true) => (&numbers.short_half_pi[..3], Some(numbers.short_half_pi[3])),
+            (false, false) => (&numbers.short_half_pi, None),
+        };
+        let mut from = "x";
+        for part in parts {
+            lines.push(format!("r = {};", less(from, *part)));
+            from = "r";
+        }
+        lines.push("z = r * r;".to_owned());
+        let [sine, cosine] = [&numbers.sine, &numbers.cosine];
+        let polynomial = |coefficients: &[f64], to: &str| match is_double {
+            true => self.estrin(coefficients, to, mul_add),
+            false => self.horner(coefficients, to, mul_add),
+        };
+        lines.extend(polynomial(sine, "s"));
+        match rest {
+            Some(rest) => {
+                lines.push(format!("k = -(k * {});", number(rest)));
+                lines.push(format!("s = r + ({});", mul_add("(r * z)", "s", "k")));
+            }
+            None => lines.push(format!("s = {};", mul_add("(r * z)", "s", "r"))),
+        }
+        lines.extend(polynomial(cosine, "c"));
+        lines.push(format!("c = {};", mul_add("z", "c", &number(-0.5))));
+        lines.push(format!("c = {};", mul_add("z", "c", &number(1.0))));
+        lines.into_iter().map(|line| format!("    {line}")).collect()
+    }
+
+    /// A polynomial of degree 5 in z in Estrin's order.
+    fn estrin(&self, c: &[f64], to: &str, mul_add: MulAdd<'_>) -> Vec<String> {
+        let number = |value: f64| self.number(value);
+        let pair = |low: f64, high: f64| mul_add(&number(high), "z", &number(low));
+        let [low, middle, high] = [pair(c[0], c[1]), pair(c[2], c[3]), pair(c[4], c[5])];
+        let inner = mul_add(&format!("({high})"), "(z * z)", &format!("({middle})"));
+        vec![format!("{to} = {};", mul_add(&format!("({inner})"), "(z * z)", &format!("({low})")))]
+    }
+
+    /// A polynomial in z in Horner's order.
+    fn horner(&self, c: &[f64], to: &str, mul_add: MulAdd<'_>) -> Vec<String> {
+        let mut text = self.number(c[c.len() - 1]);
+        for coefficient in c.iter().rev().skip(1) {
+            let sum = mul_add(&text, "z", &self.number(*coefficient));
+            text = format!("({sum})");
+        }
+        vec![format!("{to} = {text};")]
+    }
+
+    /// Sine and cosine of the angle from `s` and `c`: swapped and signed by the low bits of k.
+    fn turned(&self) -> Vec<String> {
+        let (size, to_sign) = (self.width() / 8, self.width() - 2);
+        Writer::lines(&format!(
+            "    memcpy(&turns, &shifted, {size});
+    memcpy(&s_bits, &s, {size});
+    memcpy(&c_bits, &c, {size});
+    swap = (s_bits ^ c_bits) & (0 - (turns & 1));
+    s_bits ^= swap ^ ((turns & 2) << {to_sign});
+    c_bits ^= swap ^ (((turns + 1) & 2) << {to_sign});
+    memcpy(sine, &s_bits, {size});
+    memcpy(cosine, &c_bits, {size});
+}}"
+        ))
+    }
+
+    fn sign(&self) -> Vec<String> {
+        let (inline, real, bits, size) =
+            (self.header.inline(), self.real(), self.bits(), self.width() / 8);
+        let (name, sign) = (self.name("sign"), self.pattern(self.sign_bit()));
+        let one = self.pattern(self.bits_of(1.0));
+        Writer::lines(&format!(
+            "/* The sign: -1, 0 or 1, and NaN of NaN. */
+{inline} {real} {name}({real} x)
+{{
+    {bits} unit, is_nan;
+    {real} result;
+    memcpy(&unit, &x, {size});
+    is_nan = unit & (0 - ({bits})(x != x));
+    unit = ((unit & {sign}) | {one}) & (0 - ({bits})(x < 0 || x > 0 || x != x));
+    unit |= is_nan;
+    memcpy(&result, &unit, {size});
+    return result;
+}}"
+        ))
+    }
+
+    fn recip_positive(&self) -> Vec<String> {
+        let (inline, real, bits, size) =
+            (self.header.inline(), self.real(), self.bits(), self.width() / 8);
+        let (name, top) = (self.name("recip_positive"), self.width() - 1);
+        let largest = match self.scalar {
+            Scalar::F64 => f64::MAX.to_bits(),
+            Scalar::F32 => u64::from(f32::MAX.to_bits()),
+        };
+        let (largest, one) = (self.pattern(largest), literal(1.0, self.scalar));
+        Writer::lines(&format!(
+            "/* 1/x of a number above 0 and finite, NaN of others. */
+{inline} {real} {name}({real} x)
+{{
+    {bits} bits, outside;
+    {real} result = {one} / x;
+    memcpy(&bits, &x, {size});
+    outside = (bits - 1) | ({largest} - bits);
+    memcpy(&bits, &result, {size});
+    bits |= 0 - (outside >> {top});
+    memcpy(&result, &bits, {size});
+    return result;
+}}"
+        ))
+    }
+
+    fn tanh(&self) -> Vec<String> {
+        let (inline, real, bits, size) =
+            (self.header.inline(), self.real(), self.bits(), self.width() / 8);
+        let (name, fabs, copysign) =
+            (self.name("tanh"), self.library("fabs"), self.library("copysign"));
+        let (shift, saturated, [high, low], exponential) = tanh(self.scalar);
+        let number = |value: f64| self.number(value);
+        let log2_e = match self.scalar {
+            Scalar::F64 => std::f64::consts::LOG2_E,
+            Scalar::F32 => f64::from(std::f32::consts::LOG2_E),
+        };
+        let steps: Vec<String> = exponential
+            .iter()
+            .map(|coefficient| format!("    e = e * r + {};", number(*coefficient)))
+            .collect();
+        let steps = steps.join("\n");
+        let mantissa = if self.scalar == Scalar::F64 { 52 } else { 23 };
+        let limit = self.pattern(self.bits_of(saturated));
+        Writer::lines(&format!(
+            "/* Hyperbolic tangent. */
+{inline} {real} {name}({real} x)
+{{
+    const {real} twice = {} * {fabs}(x);
+    const {bits} beyond = 0 - ({bits})(twice > {});
+    {bits} pattern;
+    {real} y, shifted, n, r, e, power, t;
+    memcpy(&pattern, &twice, {size});
+    pattern = ({limit} & beyond) | (pattern & ~beyond);
+    memcpy(&y, &pattern, {size});
+    shifted = y * {} + {};
+    n = shifted - {};
+    r = n * {} + y;
+    r = n * {} + r;
+    e = {};
+{steps}
+    e = r * r * e + r;
+    memcpy(&pattern, &shifted, {size});
+    pattern = (pattern << {mantissa}) + {};
+    memcpy(&power, &pattern, {size});
+    t = power * e + (power - {});
+    return {copysign}(t / (t + {}), x);
+}}",
+            number(2.0),
+            number(saturated),
+            number(log2_e),
+            number(shift),
+            number(shift),
+            number(-high),
+            number(-low),
+            number(0.0),
+            self.pattern(self.bits_of(1.0)),
+            number(1.0),
+            number(2.0)
+        ))
+    }
+}
