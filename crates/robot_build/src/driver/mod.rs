@@ -14,6 +14,7 @@ pub mod package;
 pub(crate) mod pivots;
 pub(crate) mod problems;
 pub(crate) mod programs;
+pub(crate) mod readme;
 pub(crate) mod singular;
 pub mod snapping;
 pub(crate) mod specification;

@@ -1,10 +1,12 @@
 //! Code in other languages than Rust: the text of a module, and whole packages.
 
+mod package;
 mod printing;
 
 use robot_codegen::backend::{self, SourceFile, Target};
 use robot_model::diagnostic::Source;
 
+pub use self::package::{package, package_of};
 use crate::driver::budget;
 use crate::driver::options::Options;
 use crate::driver::programs::{Programs, programs};
