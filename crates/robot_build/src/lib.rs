@@ -33,6 +33,8 @@ pub use driver::angles::too_large_angle;
 pub use driver::conventions::CONVENTIONS;
 pub use driver::file::File;
 pub use driver::generate::{Generated, generate, names};
+#[cfg(feature = "languages")]
+pub use driver::languages;
 pub use driver::options::{
     Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
     functions_named, kinds_named,
@@ -42,8 +44,6 @@ pub use driver::problems::Problem;
 pub use driver::programs::{Programs, planned, programs, programs_of, read, read_with};
 pub use driver::singular::{Unsolvable, unsolvable};
 pub use driver::snapping::{Snapping, snapping};
-#[cfg(feature = "languages")]
-pub use driver::languages;
 pub use driver::{ablation, budget, check, package, snapping};
 pub use entry::builder::{Builder, compile};
 pub use entry::files::{MARKER, Output, Ownership, Pending, Staleness, Writer, staleness};

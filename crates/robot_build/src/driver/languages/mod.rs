@@ -56,7 +56,11 @@ impl Language {
 /// # Errors
 ///
 /// Everything that is wrong with the file or the options, and options that the language does not have.
-pub fn sources(source: &Source, options: &Options, language: Language) -> Result<Vec<SourceFile>, Errors> {
+pub fn sources(
+    source: &Source,
+    options: &Options,
+    language: Language,
+) -> Result<Vec<SourceFile>, Errors> {
     check(options, language)?;
     let programs = programs(source, options)?;
     budget::check(&programs, source, options)?;

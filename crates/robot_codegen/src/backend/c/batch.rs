@@ -66,7 +66,12 @@ fn iteration(header: &Header<'_>, function: &Function<'_>, plain: &str) -> Vec<S
         };
         let entries: Vec<String> = (0..array.length).map(entry).collect();
         let _ = index;
-        lines.push(format!("    const {real} {}[{}] = {{{}}};", one(array), array.length, entries.join(", ")));
+        lines.push(format!(
+            "    const {real} {}[{}] = {{{}}};",
+            one(array),
+            array.length,
+            entries.join(", ")
+        ));
     }
     for array in &function.outputs {
         lines.push(format!("    {real} {}[{}];", one(array), array.length));

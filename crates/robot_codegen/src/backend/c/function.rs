@@ -87,10 +87,8 @@ fn arithmetic(header: &Header<'_>, function: &Function<'_>, name: &str) -> Vec<S
     let taken = function.inputs.iter().zip(&used).filter(|(_, used)| !has_angles || **used);
     parameters.extend(taken.map(|(array, _)| input(header, array)));
     parameters.extend(outputs(header, function));
-    let mut lines = vec![
-        format!("{} void {name}({})", header.inline(), parameters.join(", ")),
-        "{".to_owned(),
-    ];
+    let mut lines =
+        vec![format!("{} void {name}({})", header.inline(), parameters.join(", ")), "{".to_owned()];
     let mut sink = ignored(header, &[&function.core]);
     for (array, used) in function.inputs.iter().zip(&used) {
         if !has_angles && !used {
@@ -129,9 +127,7 @@ fn read_by(body: &Body) -> std::collections::BTreeSet<String> {
 /// For each input, whether a body reads an entry of it.
 pub(super) fn used_by(function: &Function<'_>, body: &Body) -> Vec<bool> {
     let reads = |index: usize| {
-        let reads = |statement: &Statement| {
-            matches!(statement, Statement::Entry { input, .. } if *input == index)
-        };
+        let reads = |statement: &Statement| matches!(statement, Statement::Entry { input, .. } if *input == index);
         body.statements.iter().any(reads)
     };
     (0..function.inputs.len()).map(reads).collect()
@@ -150,10 +146,8 @@ fn whole(header: &Header<'_>, function: &Function<'_>, sc: &str) -> Vec<String> 
     parameters.extend(function.inputs.iter().map(|array| input(header, array)));
     parameters.extend(outputs(header, function));
     let name = header.names.item(&function.name);
-    let mut lines = vec![
-        format!("{} void {name}({})", header.inline(), parameters.join(", ")),
-        "{".to_owned(),
-    ];
+    let mut lines =
+        vec![format!("{} void {name}({})", header.inline(), parameters.join(", ")), "{".to_owned()];
     for array in function.inputs.iter().filter(|array| !array.is_used) {
         lines.push(format!("    (void){};", array.name));
     }
@@ -299,7 +293,8 @@ pub(super) fn parts(header: &Header<'_>, body: &Body, scalar: Scalar) -> Vec<Str
         }
         parameters.push(format!("{real} leaving_[{}]", part.leaving.len().max(1)));
         let attribute = header.names.private_upper("part");
-        let (text, name) = (format!("Part {} of the next function.", index + 1), header.names.private(&part.name));
+        let (text, name) =
+            (format!("Part {} of the next function.", index + 1), header.names.private(&part.name));
         lines.push(comment::of_line(&text));
         lines.push(format!("{attribute} void {name}({})", parameters.join(", ")));
         lines.push("{".to_owned());

@@ -1,8 +1,8 @@
 //! The functions that printed C calls: those of the runtime, with the same bits where it does not fuse products and
 //! sums.
 
-use robot_runtime::trig::{double, single};
 use robot_runtime::tanh::{TANH_F32, TANH_F64, Tanh};
+use robot_runtime::trig::{double, single};
 
 use super::Header;
 use super::spelling::{literal, number};
@@ -208,7 +208,9 @@ impl Writer<'_> {
             self.name("sin_cos")
         ));
         lines.pop();
-        let declared = format!("    {real} shifted, k, x, r, z, s, c;\n    {bits} magnitude, turns, swap, s_bits, c_bits;\n");
+        let declared = format!(
+            "    {real} shifted, k, x, r, z, s, c;\n    {bits} magnitude, turns, swap, s_bits, c_bits;\n"
+        );
         lines.extend(declared.lines().map(str::to_owned));
         if fused {
             lines.push(format!("#ifdef {}", self.fast()));
@@ -239,7 +241,10 @@ impl Writer<'_> {
         let number = |value: f64| self.number(value);
         let size = self.width() / 8;
         let mut lines = vec![
-            format!("shifted = {};", mul_add("angle", &number(numbers.two_over_pi), &number(numbers.shift))),
+            format!(
+                "shifted = {};",
+                mul_add("angle", &number(numbers.two_over_pi), &number(numbers.shift))
+            ),
             format!("k = shifted - {};", number(numbers.shift)),
             format!("memcpy(&magnitude, &angle, {size});"),
             format!(

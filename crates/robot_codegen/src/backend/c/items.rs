@@ -63,7 +63,8 @@ pub(super) fn parameters(header: &Header<'_>) -> Vec<String> {
     }
     let ty = names.item("parameters");
     lines.extend([format!("}} {ty};"), String::new()]);
-    let nominal: Option<Vec<f64>> = tree.module.parameters.iter().map(|spec| spec.nominal).collect();
+    let nominal: Option<Vec<f64>> =
+        tree.module.parameters.iter().map(|spec| spec.nominal).collect();
     if let Some(values) = nominal {
         lines.push(comment::of_line("The nominal values of the parameters."));
         lines.push(format!("{} {ty} {}(void)", header.inline(), names.item("nominal")));

@@ -48,7 +48,8 @@ impl Target for C {
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         check_range(module, self.options.scalar)?;
         let tree = tree(module, &self.options);
-        let text = Header { tree: &tree, names: Names::new(&tree.name), options: &self.options }.text();
+        let text =
+            Header { tree: &tree, names: Names::new(&tree.name), options: &self.options }.text();
         Ok(vec![SourceFile { name: format!("{}.{}", tree.name, LANGUAGE.extension), text }])
     }
 }
@@ -68,7 +69,8 @@ struct Header<'a> {
 
 impl Header<'_> {
     fn text(&self) -> String {
-        let mut lines: Vec<String> = self.options.header.iter().map(|line| comment::of_line(line)).collect();
+        let mut lines: Vec<String> =
+            self.options.header.iter().map(|line| comment::of_line(line)).collect();
         lines.extend(self.guard());
         lines.extend(helpers::helpers(self));
         lines.extend(items::constants(self));

@@ -2,7 +2,18 @@
 
 /// The names that the printer uses for itself within functions.
 pub(super) const TAKEN: &[&str] = &[
-    "model", "parameters", "s", "c", "angles", "live", "i", "n", "stride", "with_payload", "model_init", "nominal",
+    "model",
+    "parameters",
+    "s",
+    "c",
+    "angles",
+    "live",
+    "i",
+    "n",
+    "stride",
+    "with_payload",
+    "model_init",
+    "nominal",
 ];
 
 /// The names of a module's items: each begins with the module's. Those that only printed code calls end with an

@@ -61,7 +61,8 @@ impl Builder<'_> {
         let variables = Variables::new(source, &mut namer);
         let load = |source: Source| variables.name(source).map(str::to_owned);
         let mut body = |program: &Program, name: &str| {
-            let mut body = Body { statements: entries(source, program, &variables), ..Body::default() };
+            let mut body =
+                Body { statements: entries(source, program, &variables), ..Body::default() };
             self.program(program, &load, &mut namer, name, &mut body);
             body
         };
@@ -198,7 +199,9 @@ impl<'p> Printer<'p> {
         match self.program.operation(value) {
             Operation::Constant(constant) => Expression::Constant(constant.get()),
             Operation::Load(Source::Field(index)) => Expression::Field(index as usize),
-            Operation::Load(source) => Expression::Variable((self.load)(source).unwrap_or_default()),
+            Operation::Load(source) => {
+                Expression::Variable((self.load)(source).unwrap_or_default())
+            }
             Operation::Add(a, b) => binary(Operator::Add, a, b),
             Operation::Sub(a, b) => binary(Operator::Sub, a, b),
             Operation::Mul(a, b) => binary(Operator::Mul, a, b),

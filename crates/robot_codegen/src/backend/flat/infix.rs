@@ -143,21 +143,19 @@ mod tests {
                 binary(Operator::Div, a.clone(), binary(Operator::Mul, b.clone(), c.clone())),
                 "a / (b * c)",
             ),
-            (
-                binary(Operator::Sub, a.clone(), Expression::Negative(Box::new(b.clone()))),
-                "a - -b",
-            ),
+            (binary(Operator::Sub, a.clone(), Expression::Negative(Box::new(b.clone()))), "a - -b"),
             (
                 Expression::Negative(Box::new(binary(Operator::Mul, a.clone(), b.clone()))),
                 "-(a * b)",
             ),
-            (
-                Expression::Negative(Box::new(Expression::Negative(Box::new(a.clone())))),
-                "-(-a)",
-            ),
+            (Expression::Negative(Box::new(Expression::Negative(Box::new(a.clone())))), "-(-a)"),
             (binary(Operator::Mul, Expression::Constant(-2.0), a.clone()), "-2.0 * a"),
             (
-                Expression::MulAdd(Box::new([a, binary(Operator::Add, b, c), Expression::Field(3)])),
+                Expression::MulAdd(Box::new([
+                    a,
+                    binary(Operator::Add, b, c),
+                    Expression::Field(3),
+                ])),
                 "fma(a, b + c, k3)",
             ),
         ] {

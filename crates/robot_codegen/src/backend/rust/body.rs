@@ -70,7 +70,8 @@ impl<'a> Body<'a> {
     pub(super) fn parts(&self, source_name: &dyn Fn(Source) -> Option<Ident>) -> Vec<PartFunction> {
         let part = |part: &Part| PartFunction {
             entering: {
-                let loads = self.grouped.sources(self.program, part).into_iter().filter_map(source_name);
+                let loads =
+                    self.grouped.sources(self.program, part).into_iter().filter_map(source_name);
                 loads.chain(self.names_of(&part.entering)).collect()
             },
             leaving: self.names_of(&part.leaving),

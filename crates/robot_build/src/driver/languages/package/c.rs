@@ -69,7 +69,10 @@ add_test(NAME {name} COMMAND {name}_test)
         let mut usage = String::new();
         if let Some(check) = self.parts.checks.first() {
             let example = self.block(check).map(|lines| lines.join("\n")).unwrap_or_default();
-            usage = format!("```c\n#include \"{name}.h\"\n\n{}\n{example}\n```\n\n", self.model().join("\n"));
+            usage = format!(
+                "```c\n#include \"{name}.h\"\n\n{}\n{example}\n```\n\n",
+                self.model().join("\n")
+            );
         }
         usage.push_str(&format!(
             "Every function is in the header `{name}.h`, which needs the C library's mathematical functions alone. Arrays are \
@@ -81,7 +84,12 @@ add_test(NAME {name} COMMAND {name}_test)
             self.real()
         ));
         let constructor = self.names.item("model_init");
-        self.parts.readme(self.tree, "C99: straight-line code without branches or allocation", &usage, &constructor)
+        self.parts.readme(
+            self.tree,
+            "C99: straight-line code without branches or allocation",
+            &usage,
+            &constructor,
+        )
     }
 
     /// The statements that make `model` at the stated parameters, if there are parameters.

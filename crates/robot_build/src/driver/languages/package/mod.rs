@@ -8,6 +8,7 @@ use robot_codegen::backend::flat::{FlatOptions, Tree};
 use robot_model::diagnostic::Source;
 
 use super::{Language, check, printing, sources_of};
+use crate::driver::budget;
 use crate::driver::check::{CheckValue, finite_check_values};
 use crate::driver::file::File;
 use crate::driver::generate::{file_name, unnamed_header};
@@ -15,7 +16,6 @@ use crate::driver::options::Options;
 use crate::driver::package;
 use crate::driver::programs::{Programs, programs};
 use crate::driver::readme::{Sections, paragraph, plain, section};
-use crate::driver::budget;
 use crate::error::Errors;
 
 /// The files of a package with a robot's functions in a language, in a fixed order: what its users build or load at
@@ -24,7 +24,11 @@ use crate::error::Errors;
 /// # Errors
 ///
 /// Everything that is wrong with the file or the options, and options that the language does not have.
-pub fn package(source: &Source, options: &Options, language: Language) -> Result<Vec<File>, Errors> {
+pub fn package(
+    source: &Source,
+    options: &Options,
+    language: Language,
+) -> Result<Vec<File>, Errors> {
     check(options, language)?;
     if language == Language::Rust {
         return package::package(source, options);
