@@ -1,13 +1,11 @@
 //! The functions that printed C calls: those of the runtime, with the same bits where it does not fuse products and
 //! sums.
 
-use robot_runtime::tanh::{TANH_F32, TANH_F64, Tanh};
-use robot_runtime::trig::{double, single};
-
 use super::Header;
 use super::spelling::{literal, number};
 use crate::backend::common::Scalar;
 use crate::backend::flat::Helpers;
+use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
 use crate::trigonometry::Trigonometry;
 
 /// The macros, and the helpers that the module needs.
@@ -69,59 +67,29 @@ struct Writer<'h> {
     scalar: Scalar,
 }
 
-/// The numbers of the sine and cosine in the type.
-struct Circular {
-    limit: f64,
-    shift: f64,
-    two_over_pi: f64,
-    half_pi: [f64; 3],
-    short_half_pi: [f64; 4],
-    sine: Vec<f64>,
-    cosine: Vec<f64>,
+/// Sums of products, or the library's function that rounds once.
+struct MulAdd<'w> {
+    writer: &'w Writer<'w>,
+    once: bool,
 }
 
-fn circular(scalar: Scalar) -> Circular {
-    let wide = |values: &[f32]| values.iter().map(|value| f64::from(*value)).collect();
-    match scalar {
-        Scalar::F64 => Circular {
-            limit: double::LIMIT,
-            shift: double::SHIFT,
-            two_over_pi: std::f64::consts::FRAC_2_PI,
-            half_pi: double::HALF_PI,
-            short_half_pi: double::SHORT_HALF_PI,
-            sine: double::SINE.to_vec(),
-            cosine: double::COSINE.to_vec(),
-        },
-        Scalar::F32 => Circular {
-            limit: f64::from(single::LIMIT),
-            shift: f64::from(single::SHIFT),
-            two_over_pi: f64::from(std::f32::consts::FRAC_2_PI),
-            half_pi: single::HALF_PI.map(f64::from),
-            short_half_pi: single::SHORT_HALF_PI.map(f64::from),
-            sine: wide(&single::SINE),
-            cosine: wide(&single::COSINE),
-        },
+impl Arithmetic for MulAdd<'_> {
+    fn number(&self, value: f64) -> String {
+        self.writer.number(value)
     }
-}
 
-fn tanh(scalar: Scalar) -> (f64, f64, [f64; 2], Vec<f64>) {
-    let Tanh { shift, saturated, ln_2, exponential } = TANH_F32;
-    match scalar {
-        Scalar::F64 => {
-            let Tanh { shift, saturated, ln_2, exponential } = TANH_F64;
-            (shift, saturated, ln_2, exponential.to_vec())
+    fn mul_add(&self, a: &str, b: &str, c: &str) -> String {
+        match self.once {
+            true => format!("{}({a}, {b}, {c})", self.writer.library("fma")),
+            false => format!("{a} * {b} + {c}"),
         }
-        Scalar::F32 => (
-            f64::from(shift),
-            f64::from(saturated),
-            ln_2.map(f64::from),
-            exponential.iter().map(|value| f64::from(*value)).collect(),
-        ),
     }
 }
 
-/// a b + c, as one rounding or two.
-type MulAdd<'f> = &'f dyn Fn(&str, &str, &str) -> String;
+/// `name = value;`, indented.
+fn assignments(steps: Vec<Assignment>) -> impl Iterator<Item = String> {
+    steps.into_iter().map(|(name, value)| format!("    {name} = {value};"))
+}
 
 impl Writer<'_> {
     fn real(&self) -> &'static str {
@@ -195,35 +163,30 @@ impl Writer<'_> {
 
     fn circular(&self, fused: bool) -> Vec<String> {
         let (inline, real, bits) = (self.header.inline(), self.real(), self.bits());
-        let numbers = circular(self.scalar);
-        let twice = |a: &str, b: &str, c: &str| format!("{a} * {b} + {c}");
-        let fma = self.library("fma");
-        let once = |a: &str, b: &str, c: &str| format!("{fma}({a}, {b}, {c})");
+        let numbers = Circular::new(self.scalar);
         let mut lines = Writer::lines(&format!(
             "/* Sine and cosine of an angle, rad; NaN from {} rad on. By Cody and Waite, Software Manual for the
  * Elementary Functions (1980), chapter 8: the angle less k right angles, and minimax polynomials. */
 {inline} void {}({real} angle, {real} *sine, {real} *cosine)
-{{",
+{{
+    {real} shifted, k, x, r, z, s, c;
+    {bits} pattern, turns, swap, s_bits, c_bits;",
             numbers.limit,
             self.name("sin_cos")
         ));
         lines.pop();
-        let declared = format!(
-            "    {real} shifted, k, x, r, z, s, c;\n    {bits} magnitude, turns, swap, s_bits, c_bits;\n"
-        );
-        lines.extend(declared.lines().map(str::to_owned));
         if fused {
             lines.push(format!("#ifdef {}", self.fast()));
-            lines.extend(self.polynomials(&numbers, true, &once));
+            lines.extend(self.polynomials(&numbers, true));
             lines.push("#else".to_owned());
         }
-        lines.extend(self.polynomials(&numbers, false, &twice));
+        lines.extend(self.polynomials(&numbers, false));
         if fused {
             lines.push("#endif".to_owned());
         }
         lines.extend(self.turned());
-        let (sin, cos, sin_cos) = (self.name("sin"), self.name("cos"), self.name("sin_cos"));
-        for (name, value) in [(sin, "sine"), (cos, "cosine")] {
+        let sin_cos = self.name("sin_cos");
+        for (name, value) in [(self.name("sin"), "sine"), (self.name("cos"), "cosine")] {
             lines.extend(Writer::lines(&format!(
                 "{inline} {real} {name}({real} angle)
 {{
@@ -237,74 +200,22 @@ impl Writer<'_> {
     }
 
     /// `s` and `c`, sine and cosine of the angle less `k` right angles.
-    fn polynomials(&self, numbers: &Circular, once: bool, mul_add: MulAdd<'_>) -> Vec<String> {
-        let number = |value: f64| self.number(value);
+    fn polynomials(&self, numbers: &Circular, once: bool) -> Vec<String> {
+        let language = MulAdd { writer: self, once };
         let size = self.width() / 8;
-        let mut lines = vec![
-            format!(
-                "shifted = {};",
-                mul_add("angle", &number(numbers.two_over_pi), &number(numbers.shift))
-            ),
-            format!("k = shifted - {};", number(numbers.shift)),
-            format!("memcpy(&magnitude, &angle, {size});"),
-            format!(
-                "turns = (magnitude & {}) + {};",
-                self.pattern(self.sign_bit() - 1),
-                self.pattern(self.sign_bit() - self.bits_of(numbers.limit))
-            ),
-            format!("magnitude |= 0 - (turns >> {});", self.width() - 1),
-            format!("memcpy(&x, &magnitude, {size});"),
-        ];
-        let less = |from: &str, part: f64| mul_add("k", &number(-part), from);
-        let is_double = self.scalar == Scalar::F64;
-        let (parts, rest): (&[f64], Option<f64>) = match (once, is_double) {
-            (true, true) => (&numbers.half_pi[..2], Some(numbers.half_pi[2])),
-            (true, false) => (&numbers.half_pi, None),
-            (false, true) => (&numbers.short_half_pi[..3], Some(numbers.short_half_pi[3])),
-            (false, false) => (&numbers.short_half_pi, None),
-        };
-        let mut from = "x";
-        for part in parts {
-            lines.push(format!("r = {};", less(from, *part)));
-            from = "r";
-        }
-        lines.push("z = r * r;".to_owned());
-        let [sine, cosine] = [&numbers.sine, &numbers.cosine];
-        let polynomial = |coefficients: &[f64], to: &str| match is_double {
-            true => self.estrin(coefficients, to, mul_add),
-            false => self.horner(coefficients, to, mul_add),
-        };
-        lines.extend(polynomial(sine, "s"));
-        match rest {
-            Some(rest) => {
-                lines.push(format!("k = -(k * {});", number(rest)));
-                lines.push(format!("s = r + ({});", mul_add("(r * z)", "s", "k")));
-            }
-            None => lines.push(format!("s = {};", mul_add("(r * z)", "s", "r"))),
-        }
-        lines.extend(polynomial(cosine, "c"));
-        lines.push(format!("c = {};", mul_add("z", "c", &number(-0.5))));
-        lines.push(format!("c = {};", mul_add("z", "c", &number(1.0))));
-        lines.into_iter().map(|line| format!("    {line}")).collect()
-    }
-
-    /// A polynomial of degree 5 in z in Estrin's order.
-    fn estrin(&self, c: &[f64], to: &str, mul_add: MulAdd<'_>) -> Vec<String> {
-        let number = |value: f64| self.number(value);
-        let pair = |low: f64, high: f64| mul_add(&number(high), "z", &number(low));
-        let [low, middle, high] = [pair(c[0], c[1]), pair(c[2], c[3]), pair(c[4], c[5])];
-        let inner = mul_add(&format!("({high})"), "(z * z)", &format!("({middle})"));
-        vec![format!("{to} = {};", mul_add(&format!("({inner})"), "(z * z)", &format!("({low})")))]
-    }
-
-    /// A polynomial in z in Horner's order.
-    fn horner(&self, c: &[f64], to: &str, mul_add: MulAdd<'_>) -> Vec<String> {
-        let mut text = self.number(c[c.len() - 1]);
-        for coefficient in c.iter().rev().skip(1) {
-            let sum = mul_add(&text, "z", &self.number(*coefficient));
-            text = format!("({sum})");
-        }
-        vec![format!("{to} = {text};")]
+        let mut lines: Vec<String> = assignments(numbers.turns(&language)).collect();
+        let nan = format!(
+            "    memcpy(&pattern, &angle, {size});
+    turns = (pattern & {}) + {};
+    pattern |= 0 - (turns >> {});
+    memcpy(&x, &pattern, {size});",
+            self.pattern(self.sign_bit() - 1),
+            self.pattern(self.sign_bit() - self.bits_of(numbers.limit)),
+            self.width() - 1
+        );
+        lines.extend(nan.lines().map(str::to_owned));
+        lines.extend(assignments(numbers.rest(&language, once)));
+        lines
     }
 
     /// Sine and cosine of the angle from `s` and `c`: swapped and signed by the low bits of k.
@@ -374,19 +285,13 @@ impl Writer<'_> {
             (self.header.inline(), self.real(), self.bits(), self.width() / 8);
         let (name, fabs, copysign) =
             (self.name("tanh"), self.library("fabs"), self.library("copysign"));
-        let (shift, saturated, [high, low], exponential) = tanh(self.scalar);
+        let numbers = HyperbolicTangent::new(self.scalar);
         let number = |value: f64| self.number(value);
-        let log2_e = match self.scalar {
-            Scalar::F64 => std::f64::consts::LOG2_E,
-            Scalar::F32 => f64::from(std::f32::consts::LOG2_E),
-        };
-        let steps: Vec<String> = exponential
-            .iter()
-            .map(|coefficient| format!("    e = e * r + {};", number(*coefficient)))
-            .collect();
+        let language = MulAdd { writer: self, once: false };
+        let steps: Vec<String> = assignments(numbers.rest(&language)).collect();
         let steps = steps.join("\n");
         let mantissa = if self.scalar == Scalar::F64 { 52 } else { 23 };
-        let limit = self.pattern(self.bits_of(saturated));
+        let limit = self.pattern(self.bits_of(numbers.saturated));
         Writer::lines(&format!(
             "/* Hyperbolic tangent. */
 {inline} {real} {name}({real} x)
@@ -398,13 +303,7 @@ impl Writer<'_> {
     memcpy(&pattern, &twice, {size});
     pattern = ({limit} & beyond) | (pattern & ~beyond);
     memcpy(&y, &pattern, {size});
-    shifted = y * {} + {};
-    n = shifted - {};
-    r = n * {} + y;
-    r = n * {} + r;
-    e = {};
 {steps}
-    e = r * r * e + r;
     memcpy(&pattern, &shifted, {size});
     pattern = (pattern << {mantissa}) + {};
     memcpy(&power, &pattern, {size});
@@ -412,13 +311,7 @@ impl Writer<'_> {
     return {copysign}(t / (t + {}), x);
 }}",
             number(2.0),
-            number(saturated),
-            number(log2_e),
-            number(shift),
-            number(shift),
-            number(-high),
-            number(-low),
-            number(0.0),
+            number(numbers.saturated),
             self.pattern(self.bits_of(1.0)),
             number(1.0),
             number(2.0)

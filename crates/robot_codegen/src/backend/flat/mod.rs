@@ -10,6 +10,7 @@ mod build;
 mod infix;
 mod names;
 mod options;
+pub mod polynomials;
 
 use robot_symbolic::Function as Call;
 
