@@ -6,6 +6,12 @@ pub mod c;
 pub mod common;
 #[cfg(feature = "flat")]
 pub mod flat;
+#[cfg(feature = "javascript")]
+pub mod javascript;
+#[cfg(feature = "matlab")]
+pub mod matlab;
+#[cfg(feature = "python")]
+pub mod python;
 #[cfg(feature = "rust")]
 pub mod rust;
 mod target;
