@@ -2,6 +2,7 @@
 
 mod c;
 mod rust;
+mod scripts;
 
 use std::path::Path;
 
@@ -42,6 +43,7 @@ pub struct Found {
 pub fn all() -> Vec<Box<dyn Runner>> {
     let mut runners: Vec<Box<dyn Runner>> = vec![Box::new(rust::Rust)];
     runners.extend(c::all());
+    runners.extend(scripts::all());
     runners
 }
 

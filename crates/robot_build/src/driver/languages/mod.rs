@@ -20,11 +20,18 @@ pub enum Language {
     Rust,
     /// C99: a header that needs `<math.h>` alone.
     C,
+    /// MATLAB and Octave: a folder of functions over columns of states.
+    Matlab,
+    /// Python: a module of numbers, or of NumPy arrays.
+    Python,
+    /// JavaScript: an ES module with declarations for TypeScript.
+    JavaScript,
 }
 
 impl Language {
     /// All languages, in the order of lists.
-    pub const ALL: &'static [Language] = &[Language::Rust, Language::C];
+    pub const ALL: &'static [Language] =
+        &[Language::Rust, Language::C, Language::Matlab, Language::Python, Language::JavaScript];
 
     /// The name on the command line.
     #[must_use]
@@ -32,6 +39,9 @@ impl Language {
         match self {
             Language::Rust => "rust",
             Language::C => "c",
+            Language::Matlab => "matlab",
+            Language::Python => "python",
+            Language::JavaScript => "javascript",
         }
     }
 
@@ -41,6 +51,9 @@ impl Language {
         match self {
             Language::Rust => "Rust, without the standard library if need be",
             Language::C => "C99, a header that C++ takes too",
+            Language::Matlab => "MATLAB and Octave, a function a file",
+            Language::Python => "Python, for numbers and for NumPy arrays",
+            Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
         }
     }
 
@@ -83,6 +96,9 @@ pub fn sources_of(
     let target: Box<dyn Target> = match language {
         Language::Rust => Box::new(printing::rust_options(programs, source, options)),
         Language::C => Box::new(backend::c::C { options: flat() }),
+        Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),
+        Language::Python => Box::new(backend::python::Python { options: flat() }),
+        Language::JavaScript => Box::new(backend::javascript::JavaScript { options: flat() }),
     };
     let module = match language {
         Language::Rust => programs.module.clone(),

@@ -22,7 +22,9 @@ fn assignments(steps: Vec<Assignment>) -> String {
 pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
     let mut text = String::new();
     if needed.circular {
-        text.push_str("// Sine and cosine of the last angle.\nconst _sc = new Float64Array(2);\n\n");
+        text.push_str(
+            "// Sine and cosine of the last angle.\nconst _sc = new Float64Array(2);\n\n",
+        );
         match options.trigonometry {
             Trigonometry::Polynomial => text.push_str(&circular()),
             Trigonometry::Standard => text.push_str(STANDARD),
@@ -80,7 +82,8 @@ function _recip_positive(x) {
 
 fn circular() -> String {
     let numbers = Circular::new(Scalar::F64);
-    let (turns, rest) = (assignments(numbers.turns(&Plain)), assignments(numbers.rest(&Plain, false)));
+    let (turns, rest) =
+        (assignments(numbers.turns(&Plain)), assignments(numbers.rest(&Plain, false)));
     let limit = format!("{:?}", numbers.limit);
     format!(
         "// By Cody and Waite, Software Manual for the Elementary Functions (1980), chapter 8: the angle less k

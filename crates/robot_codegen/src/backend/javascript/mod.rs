@@ -6,8 +6,12 @@ mod keywords;
 
 use robot_symbolic::Function as Call;
 
-use super::common::{self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, wrapped};
-use super::flat::{Array, Expression, FlatOptions, Function, Helpers, Spelling, Statement, Tree, infix};
+use super::common::{
+    self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, wrapped,
+};
+use super::flat::{
+    Array, Expression, FlatOptions, Function, Helpers, Spelling, Statement, Tree, infix,
+};
 use super::{Language, SourceFile, Target};
 use crate::counts::Counts;
 use crate::error::{Error, Errors};
@@ -44,7 +48,10 @@ impl Target for JavaScript {
         }
         let tree = tree(module, &self.options);
         let printer = Printer { tree: &tree, options: &self.options };
-        let file = |ending: &str, text: String| SourceFile { name: format!("{}.{ending}", tree.name), text };
+        let file = |ending: &str, text: String| SourceFile {
+            name: format!("{}.{ending}", tree.name),
+            text,
+        };
         Ok(vec![file("mjs", printer.text()), file("d.mts", declarations::text(&printer))])
     }
 }
@@ -108,7 +115,8 @@ fn documentation(paragraphs: &[String], indent: &str) -> Vec<String> {
 impl Printer<'_> {
     fn header(&self) -> Vec<String> {
         let header = self.options.header.iter();
-        let mut lines: Vec<String> = header.map(|line| format!("// {}", comment_line(line))).collect();
+        let mut lines: Vec<String> =
+            header.map(|line| format!("// {}", comment_line(line))).collect();
         let mut doc = common::paragraphs(&self.tree.module.doc, &self.tree.module.name);
         doc.push(format!("- {}", self.options.trigonometry.range_of_angles()));
         lines.push(String::new());
@@ -136,7 +144,8 @@ impl Printer<'_> {
 
     fn parameters(&self) -> Vec<String> {
         let title = common::markdown_line(&self.tree.module.name);
-        let doc = format!("The nominal parameters of {title}; NaN for those that have no nominal value.");
+        let doc =
+            format!("The nominal parameters of {title}; NaN for those that have no nominal value.");
         let mut lines = documentation(&[doc], "");
         lines.extend(["export function nominal() {", "    return {"].map(str::to_owned));
         for (spec, field) in self.tree.module.parameters.iter().zip(&self.tree.parameters) {
@@ -260,9 +269,12 @@ impl Printer<'_> {
         lines.extend(documentation(&self.function_doc(function), ""));
         let mut arguments = self.arguments(function);
         let outputs = function.source.outputs.iter().zip(&function.outputs);
-        arguments.extend(outputs.clone().filter(|(output, _)| !output.shape.is_empty()).map(
-            |(_, array)| format!("{} = new Float64Array({})", array.name, array.length),
-        ));
+        arguments.extend(
+            outputs
+                .clone()
+                .filter(|(output, _)| !output.shape.is_empty())
+                .map(|(_, array)| format!("{} = new Float64Array({})", array.name, array.length)),
+        );
         lines.push(format!("export function {}({}) {{", function.name, arguments.join(", ")));
         lines.extend(self.statements(&function.inputs, &body, &body.statements));
         let mut results = body.results.iter();
@@ -295,7 +307,9 @@ fn constant(item: &ConstantItem) -> Vec<String> {
         ConstantValue::Places(places) => {
             array(places.iter().map(|[row, column]| format!("[{row}, {column}]")))
         }
-        ConstantValue::Numbers(numbers) => array(numbers.iter().map(|number| format!("{number:?}"))),
+        ConstantValue::Numbers(numbers) => {
+            array(numbers.iter().map(|number| format!("{number:?}")))
+        }
     };
     vec![
         format!("// {}", comment_line(&item.doc)),

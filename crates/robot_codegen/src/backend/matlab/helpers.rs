@@ -33,8 +33,11 @@ pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
         text.push_str(EACH);
     }
     let tanh = tanh();
-    let optional =
-        [(needed.sqrt, SQRT), (needed.recip_positive, RECIP_POSITIVE), (needed.tanh, tanh.as_str())];
+    let optional = [
+        (needed.sqrt, SQRT),
+        (needed.recip_positive, RECIP_POSITIVE),
+        (needed.tanh, tanh.as_str()),
+    ];
     text.extend(optional.into_iter().filter(|(needed, _)| *needed).map(|(_, text)| text));
     text.lines().map(str::to_owned).collect()
 }

@@ -9,7 +9,9 @@ mod keywords;
 use robot_symbolic::Function as Call;
 
 use super::common::{self, Scalar, SetterArgument, comment_line, wrapped};
-use super::flat::{Array, Body, FlatOptions, Function, Helpers, Operator, Spelling, Statement, Tree, infix};
+use super::flat::{
+    Array, Body, FlatOptions, Function, Helpers, Operator, Spelling, Statement, Tree, infix,
+};
 use super::{Language, SourceFile, Target};
 use crate::counts::Counts;
 use crate::error::{Error, Errors};
@@ -25,7 +27,8 @@ pub const LANGUAGE: Language = Language {
 };
 
 /// Names that functions use besides those of the module.
-const TAKEN: &[&str] = &["model", "parameters", "nominal", "create_model", "n", "mass", "center_of_mass", "inertia"];
+const TAKEN: &[&str] =
+    &["model", "parameters", "nominal", "create_model", "n", "mass", "center_of_mass", "inertia"];
 
 /// The printer of MATLAB.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -141,7 +144,8 @@ impl Printer<'_> {
 
     fn nominal(&self) -> Vec<String> {
         let title = common::markdown_line(&self.tree.module.name);
-        let doc = format!("The nominal parameters of {title}; NaN for those that have no nominal value.");
+        let doc =
+            format!("The nominal parameters of {title}; NaN for those that have no nominal value.");
         let mut lines = vec!["function parameters = nominal()".to_owned()];
         lines.extend(documentation("nominal", &[doc]));
         lines.push("%#codegen".to_owned());
@@ -169,7 +173,9 @@ impl Printer<'_> {
         for argument in &setter.arguments {
             for (index, parameter) in argument.parameters.iter().enumerate() {
                 let mut known = self.tree.module.parameters.iter();
-                let Some(place) = known.position(|known| known.name == *parameter) else { continue };
+                let Some(place) = known.position(|known| known.name == *parameter) else {
+                    continue;
+                };
                 let value = match argument.parameters.len() {
                     1 => argument.name.clone(),
                     _ => format!("{}({})", argument.name, index + 1),
@@ -227,7 +233,8 @@ impl Printer<'_> {
     fn function(&self, function: &Function<'_>) -> Vec<String> {
         let body = function.whole();
         let model = self.tree.has_parameters().then_some("model");
-        let arguments = model.into_iter().chain(function.inputs.iter().map(|array| array.name.as_str()));
+        let arguments =
+            model.into_iter().chain(function.inputs.iter().map(|array| array.name.as_str()));
         let arguments: Vec<&str> = arguments.collect();
         let outputs: Vec<&str> = function.outputs.iter().map(|array| array.name.as_str()).collect();
         let given = match outputs.as_slice() {

@@ -92,7 +92,7 @@ const SIGN: &str = "
 def _sign(x):
     if _is_array(x):
         return _numpy.sign(x) + 0.0
-    return x if x != x else float((x > 0.0) - (x < 0.0))
+    return x if x != x else float(int(x > 0.0) - int(x < 0.0))
 ";
 
 const RECIP_POSITIVE: &str = "
@@ -107,7 +107,8 @@ def _recip_positive(x):
 
 fn circular() -> String {
     let numbers = Circular::new(Scalar::F64);
-    let (turns, rest) = (assignments(numbers.turns(&Plain)), assignments(numbers.rest(&Plain, false)));
+    let (turns, rest) =
+        (assignments(numbers.turns(&Plain)), assignments(numbers.rest(&Plain, false)));
     let limit = format!("{:?}", numbers.limit);
     format!(
         "

@@ -109,8 +109,12 @@ fn docstring(paragraphs: &[String], indent: &str) -> Vec<String> {
     // A quote at the end of the text would join those that end the string.
     let text = lines.join(&format!("\n{indent}"));
     let closing = if lines.len() > 1 { format!("\n{indent}\"\"\"") } else { " \"\"\"".to_owned() };
-    let closing = if text.ends_with('"') || lines.len() > 1 { closing } else { "\"\"\"".to_owned() };
-    format!("{indent}\"\"\"{text}{closing}").lines().map(|line| line.trim_end().to_owned()).collect()
+    let closing =
+        if text.ends_with('"') || lines.len() > 1 { closing } else { "\"\"\"".to_owned() };
+    format!("{indent}\"\"\"{text}{closing}")
+        .lines()
+        .map(|line| line.trim_end().to_owned())
+        .collect()
 }
 
 impl Printer<'_> {
@@ -127,7 +131,10 @@ impl Printer<'_> {
                 .to_owned(),
         ]);
         lines.extend(docstring(&doc, ""));
-        lines.extend(helpers::helpers(&self.tree.helpers().and(self.constructor_helpers()), self.options));
+        lines.extend(helpers::helpers(
+            &self.tree.helpers().and(self.constructor_helpers()),
+            self.options,
+        ));
         lines.extend(self.options.constants.iter().flat_map(constant));
         if self.tree.has_parameters() {
             lines.extend(self.parameters());
@@ -148,12 +155,15 @@ impl Printer<'_> {
         let title = common::markdown_line(&self.tree.module.name);
         let mut lines = vec![String::new(), String::new(), "@_dataclass".to_owned()];
         lines.push("class Parameters:".to_owned());
-        let doc = format!("The parameters of {title}; those with a nominal value have it if nothing is said.");
+        let doc = format!(
+            "The parameters of {title}; those with a nominal value have it if nothing is said."
+        );
         lines.extend(docstring(&[doc], "    "));
         lines.push(String::new());
         let specs = self.tree.module.parameters.iter();
         for (spec, field) in specs.zip(&self.tree.parameters) {
-            let value = spec.nominal.map_or("float(\"nan\")".to_owned(), |value| format!("{value:?}"));
+            let value =
+                spec.nominal.map_or("float(\"nan\")".to_owned(), |value| format!("{value:?}"));
             lines.push(format!("    # {}", comment_line(&common::parameter(spec))));
             lines.push(format!("    {field}: float = {value}"));
         }
@@ -196,13 +206,17 @@ impl Printer<'_> {
         let counts = Counts::of(&self.tree.module.constructor);
         let mut lines = vec![String::new(), String::new(), "class Model:".to_owned()];
         let doc = [
-            format!("The model {title}: everything that depends only on its parameters, computed once."),
+            format!(
+                "The model {title}: everything that depends only on its parameters, computed once."
+            ),
             String::new(),
             format!("{}.", common::operations(&counts)),
         ];
         lines.extend(docstring(&doc, "    "));
         lines.extend([String::new(), "    def __init__(self, parameters=None):".to_owned()]);
-        lines.push("        parameters = Parameters() if parameters is None else parameters".to_owned());
+        lines.push(
+            "        parameters = Parameters() if parameters is None else parameters".to_owned(),
+        );
         for statement in &self.tree.constructor.statements {
             lines.extend(self.statement(&[], statement).map(|line| format!("        {line}")));
         }
@@ -253,7 +267,8 @@ impl Printer<'_> {
             .map(|(output, array)| {
                 let entries: Vec<String> =
                     results.by_ref().take(array.length).map(|value| infix(value, self)).collect();
-                let shape: Vec<String> = output.shape.iter().map(|size| format!("{size},")).collect();
+                let shape: Vec<String> =
+                    output.shape.iter().map(|size| format!("{size},")).collect();
                 format!(
                     "_shaped(\n        [{}],\n        ({}),\n        ({}),\n    )",
                     entries.join(", "),
@@ -286,7 +301,9 @@ fn constant(item: &ConstantItem) -> Vec<String> {
         ConstantValue::Places(places) => {
             tuple(places.iter().map(|[row, column]| format!("({row}, {column})")))
         }
-        ConstantValue::Numbers(numbers) => tuple(numbers.iter().map(|number| format!("{number:?}"))),
+        ConstantValue::Numbers(numbers) => {
+            tuple(numbers.iter().map(|number| format!("{number:?}")))
+        }
     };
     vec![
         String::new(),

@@ -1,7 +1,11 @@
 //! Whole packages: the module, what builds it, a test and a README.
 
 mod c;
+mod call;
 mod description;
+mod javascript;
+mod matlab;
+mod python;
 
 use robot_codegen::Module;
 use robot_codegen::backend::flat::{FlatOptions, Tree};
@@ -60,6 +64,9 @@ pub fn package_of(
     Ok(match language {
         Language::Rust => vec![],
         Language::C => c::files(&parts, files),
+        Language::Matlab => matlab::files(&parts, files),
+        Language::Python => python::files(&parts, files),
+        Language::JavaScript => javascript::files(&parts, files),
     })
 }
 
