@@ -20,6 +20,8 @@ pub enum Language {
     Rust,
     /// C99: a header that needs `<math.h>` alone.
     C,
+    /// C++17: a header over that of C.
+    Cpp,
     /// MATLAB and Octave: a folder of functions over columns of states.
     Matlab,
     /// Python: a module of numbers, or of NumPy arrays.
@@ -30,8 +32,14 @@ pub enum Language {
 
 impl Language {
     /// All languages, in the order of lists.
-    pub const ALL: &'static [Language] =
-        &[Language::Rust, Language::C, Language::Matlab, Language::Python, Language::JavaScript];
+    pub const ALL: &'static [Language] = &[
+        Language::Rust,
+        Language::C,
+        Language::Cpp,
+        Language::Matlab,
+        Language::Python,
+        Language::JavaScript,
+    ];
 
     /// The name on the command line.
     #[must_use]
@@ -39,6 +47,7 @@ impl Language {
         match self {
             Language::Rust => "rust",
             Language::C => "c",
+            Language::Cpp => "cpp",
             Language::Matlab => "matlab",
             Language::Python => "python",
             Language::JavaScript => "javascript",
@@ -50,7 +59,8 @@ impl Language {
     pub fn title(self) -> &'static str {
         match self {
             Language::Rust => "Rust, without the standard library if need be",
-            Language::C => "C99, a header that C++ takes too",
+            Language::C => "C99, one header",
+            Language::Cpp => "C++17, a header with a namespace over that of C",
             Language::Matlab => "MATLAB and Octave, a function a file",
             Language::Python => "Python, for numbers and for NumPy arrays",
             Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
@@ -96,6 +106,7 @@ pub fn sources_of(
     let target: Box<dyn Target> = match language {
         Language::Rust => Box::new(printing::rust_options(programs, source, options)),
         Language::C => Box::new(backend::c::C { options: flat() }),
+        Language::Cpp => Box::new(backend::c::Cpp { options: flat() }),
         Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),
         Language::Python => Box::new(backend::python::Python { options: flat() }),
         Language::JavaScript => Box::new(backend::javascript::JavaScript { options: flat() }),

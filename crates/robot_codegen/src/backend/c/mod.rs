@@ -6,6 +6,7 @@
 
 mod batch;
 mod comment;
+mod cpp;
 mod function;
 mod helpers;
 mod items;
@@ -13,6 +14,7 @@ mod keywords;
 mod names;
 mod spelling;
 
+pub use self::cpp::Cpp;
 pub use self::names::Names;
 use self::spelling::Expressions;
 use super::common::{Scalar, check_range};

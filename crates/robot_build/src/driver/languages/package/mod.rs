@@ -2,6 +2,7 @@
 
 mod c;
 mod call;
+mod cpp;
 mod description;
 mod javascript;
 mod matlab;
@@ -64,6 +65,7 @@ pub fn package_of(
     Ok(match language {
         Language::Rust => vec![],
         Language::C => c::files(&parts, files),
+        Language::Cpp => cpp::files(&parts, files),
         Language::Matlab => matlab::files(&parts, files),
         Language::Python => python::files(&parts, files),
         Language::JavaScript => javascript::files(&parts, files),
