@@ -136,9 +136,10 @@ impl Writer<'_> {
         1 << (self.width() - 1)
     }
 
-    /// The macro that says that fused multiply-adds are fast.
-    fn fast(&self) -> &'static str {
-        if self.scalar == Scalar::F64 { "FP_FAST_FMA" } else { "FP_FAST_FMAF" }
+    /// The condition under which fused multiply-adds are fast; clang does not define the macro of C.
+    fn fast(&self) -> String {
+        let macro_of_c = if self.scalar == Scalar::F64 { "FP_FAST_FMA" } else { "FP_FAST_FMAF" };
+        format!("#if defined({macro_of_c}) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)")
     }
 
     fn lines(text: &str) -> Vec<String> {
@@ -152,7 +153,7 @@ impl Writer<'_> {
             "/* a b + c, rounded once where the processor has the instruction. */
 {inline} {real} {name}({real} a, {real} b, {real} c)
 {{
-#ifdef {fast}
+{fast}
     return {fma}(a, b, c);
 #else
     return a * b + c;
@@ -176,7 +177,7 @@ impl Writer<'_> {
         ));
         lines.pop();
         if fused {
-            lines.push(format!("#ifdef {}", self.fast()));
+            lines.push(self.fast());
             lines.extend(self.polynomials(&numbers, true));
             lines.push("#else".to_owned());
         }
