@@ -1,4 +1,4 @@
-//! `cargo run --release -p robot_languages [-- [--write] [RUNNER…]]`: runs every language whose tools are installed and
+//! `cargo run --release -p robot_languages [-- [--write] [--robot=NAME] [RUNNER…]]`: runs every language whose tools are installed and
 //! says which are not; `--write` writes the digests anew, from the interpreter. Names of runners run those alone.
 
 use std::collections::BTreeMap;
@@ -29,6 +29,7 @@ fn run() -> Result<usize, String> {
     if flags.iter().any(|flag| flag == "--write") {
         return write();
     }
+    let only = flags.iter().find_map(|flag| flag.strip_prefix("--robot="));
     let mut runners = vec![];
     for runner in runners::all() {
         let is_chosen = names.is_empty() || names.iter().any(|name| name == runner.name());
@@ -40,7 +41,9 @@ fn run() -> Result<usize, String> {
     }
     let mut different = 0;
     for scalar in [Scalar::F64, Scalar::F32] {
-        let works = robots()?
+        let chosen = robots()?.into_iter().filter(|robot| only.is_none_or(|only| only == robot));
+        let works: Vec<String> = chosen.collect();
+        let works = works
             .iter()
             .map(|robot| Work::new(robot, scalar))
             .collect::<Result<Vec<_>, _>>()?;

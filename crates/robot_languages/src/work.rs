@@ -37,6 +37,9 @@ pub struct Calls {
     pub expected: Vec<f64>,
 }
 
+/// A robot whose names are words of languages.
+const HOSTILE: &str = "hostile";
+
 /// The names of the robots.
 ///
 /// # Errors
@@ -49,7 +52,7 @@ pub fn robots() -> Result<Vec<String>, String> {
         let name = entry.ok()?.file_name().into_string().ok()?;
         name.strip_suffix(".toml").map(str::to_owned)
     });
-    let mut names: Vec<String> = names.collect();
+    let mut names: Vec<String> = names.chain([HOSTILE.to_owned()]).collect();
     names.sort_unstable();
     Ok(names)
 }
@@ -62,10 +65,13 @@ impl Work {
     /// What is wrong with its file.
     pub fn new(robot: &str, scalar: Scalar) -> Result<Work, String> {
         let name = format!("{robot}.toml");
-        let path = files::root().join("robots").join(&name);
+        let folder = if robot == HOSTILE { "crates/robot_languages" } else { "robots" };
+        let path = files::root().join(folder).join(&name);
         let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
         let source = Source { name, text };
-        let options = Options { functions: Functions::All, scalar, ..Options::default() };
+        let mut options = Options { functions: Functions::All, scalar, ..Options::default() };
+        let described = robot_build::read(&source).map_err(|error| error.to_string())?;
+        options.bundles = described.code.bundles;
         let programs =
             robot_build::programs(&source, &options).map_err(|error| error.to_string())?;
         let module = &programs.module;

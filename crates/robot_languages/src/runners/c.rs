@@ -123,6 +123,7 @@ fn block(
     states: usize,
 ) -> String {
     let name = names.item(&function.name);
+    let batch = names.item(function.form(c::BATCH));
     let arrays: Vec<(&str, usize)> = function
         .inputs
         .iter()
@@ -167,7 +168,7 @@ fn block(
     text.push_str("        }\n");
     if has_batch(function) {
         text.push_str(&format!(
-            "        {name}_batch({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
+            "        {batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
             listed("columns_")
         ));
         for array in &function.outputs {

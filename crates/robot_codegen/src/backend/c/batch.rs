@@ -1,6 +1,6 @@
 //! Functions over columns of states.
 
-use super::Header;
+use super::{BATCH, Header, SC};
 use super::comment;
 use super::function::{circular, model_argument, model_parameter, used_by};
 use crate::backend::flat::{Array, Function, Statement};
@@ -27,13 +27,13 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
     parameters.extend(inputs.map(|array| format!("const {real} *{restrict} {}", array.name)));
     let outputs = function.outputs.iter();
     parameters.extend(outputs.map(|array| format!("{real} *{restrict} {}", array.name)));
-    lines.push(format!("static inline void {plain}_batch({})", parameters.join(", ")));
+    lines.push(format!("static inline void {}({})", header.names.item(function.form(BATCH)), parameters.join(", ")));
     lines.extend(["{", "    size_t i;"].map(str::to_owned));
     for array in function.inputs.iter().filter(|array| !array.is_used) {
         lines.push(format!("    (void){};", array.name));
     }
     lines.push("    for (i = 0; i < n; i++) {".to_owned());
-    lines.extend(iteration(header, function, &plain).into_iter().map(|line| format!("    {line}")));
+    lines.extend(iteration(header, function).into_iter().map(|line| format!("    {line}")));
     lines.extend(["    }", "}", ""].map(str::to_owned));
     lines
 }
@@ -52,7 +52,7 @@ fn place(entry: usize) -> String {
 }
 
 /// One state.
-fn iteration(header: &Header<'_>, function: &Function<'_>, plain: &str) -> Vec<String> {
+fn iteration(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let real = header.real();
     let has_angles = !function.sines.is_empty();
     let in_core = used_by(function, &function.core);
@@ -84,8 +84,8 @@ fn iteration(header: &Header<'_>, function: &Function<'_>, plain: &str) -> Vec<S
     let handed = function.inputs.iter().enumerate().filter(|(index, _)| handed(*index));
     arguments.extend(handed.map(|(_, array)| one(array)));
     arguments.extend(function.outputs.iter().map(one));
-    let suffix = if has_angles { "_sc" } else { "" };
-    lines.push(format!("    {plain}{suffix}({});", arguments.join(", ")));
+    let called = if has_angles { function.form(SC) } else { &function.name };
+    lines.push(format!("    {}({});", header.names.item(called), arguments.join(", ")));
     for array in &function.outputs {
         for entry in 0..array.length {
             lines.push(format!("    {}[{}] = {}[{entry}];", array.name, place(entry), one(array)));

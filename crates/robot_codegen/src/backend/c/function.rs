@@ -1,6 +1,6 @@
 //! The functions of a module: from the state, and from sines and cosines.
 
-use super::Header;
+use super::{Header, SC};
 use super::batch;
 use super::comment;
 use super::spelling::{helper, library};
@@ -17,7 +17,7 @@ pub(super) fn function(header: &Header<'_>, function: &Function<'_>) -> Vec<Stri
         lines.extend(doc(header, function));
         lines.extend(arithmetic(header, function, &header.names.item(&function.name)));
     } else {
-        let sc = header.names.item(&format!("{}_sc", function.name));
+        let sc = header.names.item(function.form(SC));
         lines.extend(comment::of_paragraphs(&[format!(
             "`{}`, given the sines `s` and cosines `c` of its angles: {}.",
             header.names.item(&function.name),

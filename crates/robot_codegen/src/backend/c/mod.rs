@@ -56,10 +56,15 @@ impl Target for C {
     }
 }
 
+/// The place of the form from sines and cosines.
+pub(crate) const SC: usize = 0;
+/// The place of the form over columns of states.
+pub const BATCH: usize = 1;
+
 /// The tree of a module as C prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, names::TAKEN, &options.setters)
+    Tree::new(module, &LANGUAGE, names::TAKEN, &["sc", "batch"], &options.setters)
 }
 
 /// What the parts of the header are made from.

@@ -9,20 +9,25 @@ use crate::program::{self, Block, Operation, Program, Source, Statements, Value}
 
 impl<'m> Tree<'m> {
     /// The tree of a module in a language. `taken` are the names that the printer uses for itself: no item or
-    /// variable has one.
+    /// variable has one. `forms` are the endings of the further forms that each function has.
     #[must_use]
     pub fn new(
         module: &'m Module,
         language: &Language,
         taken: &[&str],
+        forms: &[&str],
         setters: &[Setter],
     ) -> Tree<'m> {
-        let mut names = Names::new(module, language, taken, setters);
+        let mut names = Names::new(module, language, taken, forms, setters);
         let variables = Namer::new(language.reserved, taken);
         let mut builder = Builder { language, variables, items: &mut names.items };
         let constructor = builder.constructor(module);
-        let functions = module.functions.iter().zip(&names.functions);
-        let functions = functions.map(|(source, name)| builder.function(source, name)).collect();
+        let functions = module.functions.iter().zip(&names.functions).zip(&names.forms);
+        let functions = functions.map(|((source, name), forms)| Function {
+            forms: forms.clone(),
+            ..builder.function(source, name)
+        });
+        let functions = functions.collect();
         let Names { module: name, parameters, fields, setters, .. } = names;
         Tree { module, name, parameters, fields, constructor, functions, setters }
     }
@@ -84,6 +89,7 @@ impl Builder<'_> {
         Function {
             source,
             name: name.to_owned(),
+            forms: vec![],
             inputs: inputs.collect(),
             outputs: outputs.collect(),
             angles,

@@ -44,6 +44,8 @@ pub struct Function<'m> {
     pub source: &'m module::Function,
     /// The name.
     pub name: String,
+    /// The names of its further forms, in the order in which the printer asked for them.
+    pub forms: Vec<String>,
     /// The arrays that it takes.
     pub inputs: Vec<Array>,
     /// The arrays or numbers that it gives; the results of `core` are their entries, one after the other.
@@ -59,6 +61,12 @@ pub struct Function<'m> {
 }
 
 impl Function<'_> {
+    /// The name of the form at that place, or that of the function if there is none.
+    #[must_use]
+    pub fn form(&self, index: usize) -> &str {
+        self.forms.get(index).unwrap_or(&self.name)
+    }
+
     /// The function as one body, with the sines and cosines as statements.
     #[must_use]
     pub fn whole(&self) -> Body {

@@ -12,6 +12,8 @@ pub(super) struct Names {
     pub(super) fields: Vec<String>,
     pub(super) setters: Vec<String>,
     pub(super) functions: Vec<String>,
+    /// For each function, the names of its further forms.
+    pub(super) forms: Vec<Vec<String>>,
     /// The namer of whatever stands beside the functions.
     pub(super) items: Namer,
 }
@@ -22,18 +24,26 @@ impl Names {
         module: &Module,
         language: &Language,
         taken: &[&str],
+        forms: &[&str],
         setters: &[Setter],
     ) -> Names {
         let namer = |taken: &[&str]| Namer::new(language.reserved, taken);
         let mut items = namer(taken);
         let setters = setters.iter().map(|setter| items.name(&setter.name)).collect();
         let functions = module.functions.iter().map(|function| function.name.as_str());
+        let functions = items.names(functions);
+        let forms = functions.iter().map(|function| {
+            let forms = forms.iter().map(|form| items.name(&format!("{function}_{form}")));
+            forms.collect()
+        });
+        let forms = forms.collect();
         Names {
             module: namer(&[]).name(&module.name),
             parameters: namer(&[]).names(module.parameters.iter().map(|one| one.name.as_str())),
             fields: field_names(module, &mut namer(&[])),
             setters,
-            functions: items.names(functions),
+            functions,
+            forms,
             items,
         }
     }

@@ -59,7 +59,7 @@ impl Target for JavaScript {
 /// The tree of a module as JavaScript prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, TAKEN, &options.setters)
+    Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
 }
 
 struct Printer<'a> {

@@ -67,7 +67,7 @@ impl Target for Matlab {
 /// The tree of a module as MATLAB prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, TAKEN, &options.setters)
+    Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
 }
 
 struct Printer<'a> {

@@ -55,7 +55,7 @@ impl Target for Python {
 /// The tree of a module as Python prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, TAKEN, &options.setters)
+    Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
 }
 
 struct Printer<'a> {
