@@ -55,6 +55,14 @@ pub enum Error {
     /// Threads without batches to distribute.
     #[error("`parallel` applies to batches: set their size with `batch`")]
     ParallelWithoutBatch,
+    /// An option of Rust's printer with another language.
+    #[error("the option `{option}` applies to Rust and not to `{language}`; leave it out")]
+    OfRust {
+        /// The option.
+        option: &'static str,
+        /// The language.
+        language: &'static str,
+    },
     /// An error of the code generator.
     #[error("{name}: {error}")]
     Code {

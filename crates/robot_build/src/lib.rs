@@ -33,6 +33,8 @@ pub use driver::angles::too_large_angle;
 pub use driver::conventions::CONVENTIONS;
 pub use driver::file::File;
 pub use driver::generate::{Generated, generate, names};
+#[cfg(feature = "languages")]
+pub use driver::languages;
 pub use driver::options::{
     Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
     functions_named, kinds_named,

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use clap::builder::TypedValueParser;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use robot_build::languages::Language;
 use robot_build::{
     BaseFrames, Bundle, Functions, OptionSpec, Options, RobotFile, Source, Trigonometry, Value,
     robot_inputs,
@@ -196,6 +197,21 @@ pub(crate) struct CodeArguments {
     bundles: BundleArguments,
     #[command(flatten)]
     target: CodeOptions,
+}
+
+/// The language of code.
+#[derive(Args)]
+pub(crate) struct LanguageArgument {
+    /// Language of the code
+    #[arg(long, value_name = "LANGUAGE", default_value = Language::default().name(), value_parser = language())]
+    pub(crate) language: Language,
+}
+
+/// A language by its name.
+fn language() -> impl TypedValueParser<Value = Language> {
+    let words = Language::ALL.iter().map(|one| PossibleValue::new(one.name()).help(one.title()));
+    let words = PossibleValuesParser::new(words);
+    words.map(|word| Language::named(&word).unwrap_or_default())
 }
 
 /// Functions in one call.

@@ -176,6 +176,12 @@ pub enum Error {
         /// The function or the constructor.
         place: String,
     },
+    /// A number type that a language does not have.
+    #[error("{language} computes in f64 alone; leave out the option `scalar`")]
+    Scalar {
+        /// The language.
+        language: &'static str,
+    },
 }
 
 /// All that was found wrong; never empty.

@@ -1,6 +1,7 @@
 //! Check values: what a function gives at a stated state, so that anybody can test their own copy.
 
 use robot_codegen::{Interpreter, OutputValues, Trigonometry};
+use robot_model::diagnostic::Source;
 
 use crate::driver::programs::Programs;
 use crate::error::Errors;
@@ -45,6 +46,23 @@ pub fn check_value(
         inputs.iter().map(|(name, values)| (name.as_str(), values.as_slice())).collect();
     let outputs = interpreter.call(function, &given).map_err(code)?;
     Ok(CheckValue { function: function.to_owned(), parameters, inputs, outputs })
+}
+
+/// The check values of all functions, but for those that have none: at placeholder values of parameters a root or a
+/// quotient may have no value.
+pub(crate) fn finite_check_values(
+    source: &Source,
+    programs: &Programs,
+    trigonometry: Trigonometry,
+) -> Result<Vec<CheckValue>, Errors> {
+    let functions = programs.module.functions.iter();
+    let checks =
+        functions.map(|function| check_value(&source.name, programs, &function.name, trigonometry));
+    let checks: Vec<CheckValue> = checks.collect::<Result<_, _>>()?;
+    let is_finite = |check: &CheckValue| {
+        check.outputs.iter().flat_map(|output| &output.values).all(|value| value.is_finite())
+    };
+    Ok(checks.into_iter().filter(is_finite).collect())
 }
 
 fn stated_parameters(programs: &Programs) -> Vec<(String, f64)> {

@@ -7,11 +7,14 @@ pub mod check;
 pub(crate) mod conventions;
 pub(crate) mod file;
 pub(crate) mod generate;
+#[cfg(feature = "languages")]
+pub mod languages;
 pub(crate) mod options;
 pub mod package;
 pub(crate) mod pivots;
 pub(crate) mod problems;
 pub(crate) mod programs;
+pub(crate) mod readme;
 pub(crate) mod singular;
 pub mod snapping;
 pub(crate) mod specification;

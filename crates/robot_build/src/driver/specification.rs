@@ -40,7 +40,7 @@ pub(crate) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
 }
 
 /// The robot, what the file says about it, the conventions, and what else there is.
-fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
+pub(crate) fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
     let blank = || "\n".to_owned();
     let mut lines = vec![format!("Dynamics of the robot {}.", robot.name), blank()];
     if let Some(description) = &robot.description {

@@ -1,14 +1,15 @@
-//! `generate`: the Rust module of a robot, in a file.
+//! `generate`: the module of a robot, in a file.
 
 use clap::Args;
-use robot_build::{check_runtime_path, generate};
+use robot_build::languages::{self, Language};
+use robot_build::{Options, Source, check_runtime_path, generate};
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;
 use crate::failure::Failure;
 use crate::options::{help, value_name};
 use crate::progress::watched;
-use crate::robot::{CodeArguments, RobotArgument};
+use crate::robot::{CodeArguments, LanguageArgument, RobotArgument};
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -27,6 +28,8 @@ pub(crate) struct Arguments {
     #[arg(long, help = help("runtime"), value_name = value_name("runtime"), default_value = "::robot_runtime", value_parser = runtime)]
     runtime: String,
     #[command(flatten)]
+    language: LanguageArgument,
+    #[command(flatten)]
     output: OutputArguments,
 }
 
@@ -42,7 +45,23 @@ impl Arguments {
         let robot = self.robot.read(terminal)?;
         let mut options = self.code.options(&self.robot, &robot, terminal)?;
         options.runtime.clone_from(&self.runtime);
-        let generated = watched("generating", terminal, || generate(&source, &options))?;
-        output.deliver(&generated.code, terminal)
+        let language = self.language.language;
+        let text = watched("generating", terminal, || text(&source, &options, language))?;
+        output.deliver(&text, terminal)
+    }
+}
+
+/// The text of the module, if the language has it in one file.
+fn text(source: &Source, options: &Options, language: Language) -> Result<String, Failure> {
+    if language == Language::Rust {
+        return Ok(generate(source, options)?.code);
+    }
+    let mut files = languages::sources(source, options, language)?;
+    match files.pop() {
+        Some(file) if files.is_empty() => Ok(file.text),
+        _ => Err(Failure::input(format!(
+            "a module in `{}` has several files; write them with `robot-symbolic crate`",
+            language.name()
+        ))),
     }
 }

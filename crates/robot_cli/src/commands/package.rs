@@ -1,15 +1,15 @@
-//! `crate`: a whole crate with the functions of a robot.
+//! `crate`: a whole crate with the functions of a robot, or a package in another language.
 
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::package;
+use robot_build::languages;
 
 use crate::Terminal;
 use crate::delivery::{ForceArgument, deliver_folder};
 use crate::failure::Failure;
 use crate::progress::watched;
-use crate::robot::{CodeArguments, RobotArgument};
+use crate::robot::{CodeArguments, LanguageArgument, RobotArgument};
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -25,6 +25,8 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     #[command(flatten)]
     code: CodeArguments,
+    #[command(flatten)]
+    language: LanguageArgument,
     /// The folder to write
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -40,7 +42,9 @@ impl Arguments {
         let source = self.robot.source()?;
         let robot = self.robot.read(terminal)?;
         let options = self.code.options(&self.robot, &robot, terminal)?;
-        let files = watched("generating", terminal, || package::package(&source, &options))?;
+        let language = self.language.language;
+        let files =
+            watched("generating", terminal, || languages::package(&source, &options, language))?;
         let writer = self.force.writer(self.robot.inputs(), !self.check)?;
         deliver_folder(&self.output, &files, self.check, &writer, terminal)
     }

@@ -5,7 +5,7 @@
 //! in blocks that export only the values used later; very long programs are cut
 //! into functions in the same way.
 
-use super::{Operation, Program, Value};
+use super::{Operation, Program, Source, Value};
 
 /// Limits of the text; what they are is for each language to say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +75,24 @@ impl Statements {
     #[must_use]
     pub fn is_named(&self, value: Value) -> bool {
         self.named[value.index()]
+    }
+
+    /// The sources that the statements of a part read, each once, in the order of sources.
+    #[must_use]
+    pub fn sources(&self, program: &Program, part: &Part) -> Vec<Source> {
+        let statements = part.blocks.iter().flat_map(|block| &block.statements);
+        let mut pending: Vec<Value> = statements.copied().collect();
+        let mut sources = vec![];
+        while let Some(value) = pending.pop() {
+            let operation = program.operation(value);
+            if let Operation::Load(source) = operation {
+                sources.push(source);
+            }
+            pending.extend(operation.operands().filter(|value| !self.is_named(*value)));
+        }
+        sources.sort_unstable();
+        sources.dedup();
+        sources
     }
 
     /// The number of statements.

@@ -8,6 +8,8 @@ mod compiled;
 mod coverage;
 mod errors;
 mod golden;
+#[cfg(all(feature = "c", feature = "javascript", feature = "matlab", feature = "python"))]
+mod languages;
 mod reserved;
 #[path = "../support/mod.rs"]
 mod support;

@@ -20,7 +20,7 @@ mod scalar;
 mod state;
 #[cfg(feature = "std")]
 mod std_trig;
-mod tanh;
+pub mod tanh;
 pub mod trig;
 
 pub use self::batch::{lanes_from_states, padded_states, states_from_lanes};

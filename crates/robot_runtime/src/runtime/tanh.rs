@@ -12,13 +12,34 @@
 
 use super::fused::{mul_add_f32, mul_add_f64};
 
+/// The numbers of the method, for other languages.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tanh<F: 'static> {
+    /// 1.5 · 2⁵² or 1.5 · 2²³: added to a smaller number it leaves the nearest integer in the low bits.
+    pub shift: F,
+    /// 2|x| from which on the result rounds to 1.
+    pub saturated: F,
+    /// ln 2 in two parts.
+    pub ln_2: [F; 2],
+    /// The coefficients of E, from the highest.
+    pub exponential: &'static [F],
+}
+
 macro_rules! tanh {
     (
-        $name:ident, $float:ident, $bits:ident, $mul_add:ident,
+        $name:ident, $numbers:ident, $float:ident, $bits:ident, $mul_add:ident,
         shift = $shift:expr, saturated = $saturated:expr,
         ln_2_high = $ln_2_high:expr, ln_2_low = $ln_2_low:expr,
         exponential = [$($coefficient:literal)*]
     ) => {
+        /// The numbers of the hyperbolic tangent.
+        pub const $numbers: Tanh<$float> = Tanh {
+            shift: $shift,
+            saturated: $saturated,
+            ln_2: [$ln_2_high, $ln_2_low],
+            exponential: &[$($coefficient),*],
+        };
+
         /// Hyperbolic tangent of `x`: within 3 units in the last place everywhere, ±1 at ±∞.
         #[inline(always)]
         pub(super) fn $name(x: $float) -> $float {
@@ -46,7 +67,7 @@ macro_rules! tanh {
 }
 
 tanh!(
-    tanh_f64, f64, u64, mul_add_f64,
+    tanh_f64, TANH_F64, f64, u64, mul_add_f64,
     shift = 6755399441055744.0, saturated = 44.0,
     ln_2_high = 0.6931471805598903, ln_2_low = 5.497923018708371e-14,
     exponential = [
@@ -63,7 +84,7 @@ tanh!(
     ]
 );
 tanh!(
-    tanh_f32, f32, u32, mul_add_f32,
+    tanh_f32, TANH_F32, f32, u32, mul_add_f32,
     shift = 12582912.0, saturated = 20.0,
     ln_2_high = 0.69314575, ln_2_low = 1.4286068e-6,
     exponential = [1.388279e-3 8.366525e-3 4.1667197e-2 1.6666543e-1 4.9999997e-1]

@@ -8,7 +8,7 @@ use robot_codegen::backend::rust::{self, Names, Wrapping};
 use robot_model::diagnostic::Source;
 
 use crate::driver::budget;
-use crate::driver::check::{CheckValue, check_value};
+use crate::driver::check::{CheckValue, finite_check_values};
 use crate::driver::file::File;
 use crate::driver::generate::{header, names, rust_text, unnamed_header};
 use crate::driver::options::Options;
@@ -43,7 +43,7 @@ pub fn package_of(
     options: &Options,
 ) -> Result<Vec<File>, Errors> {
     let options = Options { runtime: "crate::runtime".to_owned(), ..options.clone() };
-    let checks = checks(source, programs, &options)?;
+    let checks = finite_check_values(source, programs, options.trigonometry)?;
     let names = names(programs);
     let parts = Parts { source, options: &options, programs, names, checks: &checks };
     let mut files = vec![
@@ -64,23 +64,6 @@ pub fn package_of(
 
 fn file(path: &str, text: String) -> File {
     File { path: path.to_owned(), text }
-}
-
-/// A check value of every function.
-fn checks(
-    source: &Source,
-    programs: &Programs,
-    options: &Options,
-) -> Result<Vec<CheckValue>, Errors> {
-    let functions = programs.module.functions.iter();
-    let checks = functions
-        .map(|function| check_value(&source.name, programs, &function.name, options.trigonometry));
-    let checks: Vec<CheckValue> = checks.collect::<Result<_, _>>()?;
-    // At placeholder values of parameters a root or a quotient may have no value.
-    let is_finite = |check: &CheckValue| {
-        check.outputs.iter().flat_map(|output| &output.values).all(|value| value.is_finite())
-    };
-    Ok(checks.into_iter().filter(is_finite).collect())
 }
 
 /// The ingredients of the files.

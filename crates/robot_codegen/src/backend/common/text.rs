@@ -2,6 +2,7 @@
 //! is Markdown and stays it.
 
 use crate::counts::Counts;
+use crate::module::Function;
 use crate::spec::ParameterSpec;
 
 /// Lines of text that nobody controls, as Markdown that means nothing but the text: no line breaks
@@ -69,6 +70,28 @@ pub fn parameter(spec: &ParameterSpec) -> String {
         line.push_str(&format!("; nominally {value:?}."));
     }
     line
+}
+
+/// The documentation of a function: its own paragraphs, then each input by the name that it has in the code, the
+/// output if there is one only, and the cost of a call.
+#[must_use]
+pub fn function<'n>(
+    function: &Function,
+    inputs: impl IntoIterator<Item = &'n str>,
+    counts: &Counts,
+) -> Vec<String> {
+    let mut lines = paragraphs(&function.doc, &function.name);
+    lines.push(String::new());
+    for (input, name) in function.inputs.iter().zip(inputs) {
+        let meaning = quantity(&input.doc, &input.name, &input.unit, &[]);
+        lines.push(format!("- `{name}`: {meaning}"));
+    }
+    if let [output] = function.outputs.as_slice() {
+        let meaning = quantity(&output.doc, &output.name, &output.unit, &output.shape);
+        lines.extend([String::new(), format!("Returns: {meaning}")]);
+    }
+    lines.extend([String::new(), format!("{}.", operations(counts))]);
+    lines
 }
 
 /// `12 multiplications, 8 additions, 1 division`

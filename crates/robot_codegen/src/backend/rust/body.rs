@@ -70,30 +70,14 @@ impl<'a> Body<'a> {
     pub(super) fn parts(&self, source_name: &dyn Fn(Source) -> Option<Ident>) -> Vec<PartFunction> {
         let part = |part: &Part| PartFunction {
             entering: {
-                let loads = self.part_sources(part).into_iter().filter_map(source_name);
+                let loads =
+                    self.grouped.sources(self.program, part).into_iter().filter_map(source_name);
                 loads.chain(self.names_of(&part.entering)).collect()
             },
             leaving: self.names_of(&part.leaving),
             statements: self.part_statements(part),
         };
         self.grouped.parts.iter().map(part).collect()
-    }
-
-    /// The sources that the statements of a part read, each once, in the order of sources.
-    fn part_sources(&self, part: &Part) -> Vec<Source> {
-        let statements = part.blocks.iter().flat_map(|block| &block.statements);
-        let mut pending: Vec<Value> = statements.copied().collect();
-        let mut sources = vec![];
-        while let Some(value) = pending.pop() {
-            let operation = self.program.operation(value);
-            if let Operation::Load(source) = operation {
-                sources.push(source);
-            }
-            pending.extend(operation.operands().filter(|value| !self.grouped.is_named(*value)));
-        }
-        sources.sort_unstable();
-        sources.dedup();
-        sources
     }
 
     fn part_statements(&self, part: &Part) -> Vec<Stmt> {

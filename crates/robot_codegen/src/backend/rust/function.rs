@@ -398,19 +398,10 @@ impl<'s, 'a> Methods<'s, 'a> {
 
     fn doc(&self) -> Vec<String> {
         let function = self.function;
-        let mut lines = common::paragraphs(&function.doc, &function.name);
-        lines.push(String::new());
-        for input in &function.inputs {
-            let meaning = common::quantity(&input.doc, &input.name, &input.unit, &[]);
-            lines.push(format!("- `{}`: {meaning}", identifier(&input.name)));
-        }
-        if let [output] = function.outputs.as_slice() {
-            let meaning = common::quantity(&output.doc, &output.name, &output.unit, &output.shape);
-            lines.extend([String::new(), format!("Returns: {meaning}")]);
-        }
+        let names: Vec<String> =
+            function.inputs.iter().map(|input| identifier(&input.name)).collect();
         let counts = self.scope.module.counts(function);
-        lines.extend([String::new(), format!("{}.", common::operations(&counts.call))]);
-        lines
+        common::function(function, names.iter().map(String::as_str), &counts.call)
     }
 
     fn sc_doc(&mut self) -> Vec<String> {

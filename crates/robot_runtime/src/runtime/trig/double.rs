@@ -28,17 +28,18 @@ use super::super::number::Number;
 pub const LIMIT: f64 = 1073741824.0;
 
 /// 1.5 · 2⁵²: added to a smaller number it leaves the nearest integer in the low bits of the sum.
-const SHIFT: f64 = 6755399441055744.0;
+pub const SHIFT: f64 = 6755399441055744.0;
 
 /// Parts of π/2, each what the ones before leave.
-const HALF_PI: [f64; 3] =
+pub const HALF_PI: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33];
 
 /// π/2 in shorter parts, for multiply-adds that round twice.
-const SHORT_HALF_PI: [f64; 4] =
+pub const SHORT_HALF_PI: [f64; 4] =
     [1.570796251296997, 7.549790836947068e-08, -8.820551857060331e-15, 1.6446256936324258e-26];
 
-const SINE: [f64; 6] = [
+/// The coefficients of S, from the lowest.
+pub const SINE: [f64; 6] = [
     -0.1666666666666663,
     0.00833333333332184,
     -0.00019841269829358525,
@@ -47,7 +48,8 @@ const SINE: [f64; 6] = [
     1.589543325649899e-10,
 ];
 
-const COSINE: [f64; 6] = [
+/// The coefficients of C, from the lowest.
+pub const COSINE: [f64; 6] = [
     0.0416666666666666,
     -0.0013888888888874474,
     2.480158728967154e-05,

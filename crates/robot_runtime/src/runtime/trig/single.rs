@@ -16,17 +16,19 @@ use super::super::number::Number;
 pub const LIMIT: f32 = 131072.0;
 
 /// 1.5 · 2²³: added to a smaller number it leaves the nearest integer in the low bits of the sum.
-const SHIFT: f32 = 12582912.0;
+pub const SHIFT: f32 = 12582912.0;
 
 /// Parts of π/2, each what the ones before leave.
-const HALF_PI: [f32; 3] = [1.5707964, -4.371139e-8, -1.7151245e-15];
+pub const HALF_PI: [f32; 3] = [1.5707964, -4.371139e-8, -1.7151245e-15];
 
 /// π/2 in shorter parts, for multiply-adds that round twice.
-const SHORT_HALF_PI: [f32; 4] = [1.5625, 8.300781e-3, -4.4703484e-6, 1.5893255e-8];
+pub const SHORT_HALF_PI: [f32; 4] = [1.5625, 8.300781e-3, -4.4703484e-6, 1.5893255e-8];
 
-const SINE: [f32; 3] = [-1.6666655e-1, 8.332188e-3, -1.9518078e-4];
+/// The coefficients of S, from the lowest.
+pub const SINE: [f32; 3] = [-1.6666655e-1, 8.332188e-3, -1.9518078e-4];
 
-const COSINE: [f32; 3] = [4.1666646e-2, -1.3887301e-3, 2.443067e-5];
+/// The coefficients of C, from the lowest.
+pub const COSINE: [f32; 3] = [4.1666646e-2, -1.3887301e-3, 2.443067e-5];
 
 /// Sine and cosine of `angle` (radians).
 #[inline(always)]

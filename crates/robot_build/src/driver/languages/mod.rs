@@ -1,0 +1,133 @@
+//! Code in other languages than Rust: the text of a module, and whole packages.
+
+mod package;
+mod printing;
+
+use robot_codegen::backend::{self, SourceFile, Target};
+use robot_model::diagnostic::Source;
+
+pub use self::package::{package, package_of};
+use crate::driver::budget;
+use crate::driver::options::Options;
+use crate::driver::programs::{Programs, programs};
+use crate::error::{Error, Errors};
+
+/// A language that code is written in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Language {
+    /// Rust, with the runtime crate or a copy of it.
+    #[default]
+    Rust,
+    /// C99: a header that needs `<math.h>` alone.
+    C,
+    /// C++17: a header over that of C.
+    Cpp,
+    /// MATLAB and Octave: a folder of functions over columns of states.
+    Matlab,
+    /// Python: a module of numbers, or of NumPy arrays.
+    Python,
+    /// JavaScript: an ES module with declarations for TypeScript.
+    JavaScript,
+}
+
+impl Language {
+    /// All languages, in the order of lists.
+    pub const ALL: &'static [Language] = &[
+        Language::Rust,
+        Language::C,
+        Language::Cpp,
+        Language::Matlab,
+        Language::Python,
+        Language::JavaScript,
+    ];
+
+    /// The name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Rust => "rust",
+            Language::C => "c",
+            Language::Cpp => "cpp",
+            Language::Matlab => "matlab",
+            Language::Python => "python",
+            Language::JavaScript => "javascript",
+        }
+    }
+
+    /// What a list of languages says of it.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Language::Rust => "Rust, without the standard library if need be",
+            Language::C => "C99, one header",
+            Language::Cpp => "C++17, a header with a namespace over that of C",
+            Language::Matlab => "MATLAB and Octave, a function a file",
+            Language::Python => "Python, for numbers and for NumPy arrays",
+            Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
+        }
+    }
+
+    /// The language of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Language> {
+        Language::ALL.iter().copied().find(|language| language.name() == name)
+    }
+}
+
+/// The source files of a robot's module in a language, for a project of the user's own.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file or the options, and options that the language does not have.
+pub fn sources(
+    source: &Source,
+    options: &Options,
+    language: Language,
+) -> Result<Vec<SourceFile>, Errors> {
+    check(options, language)?;
+    let programs = programs(source, options)?;
+    budget::check(&programs, source, options)?;
+    sources_of(&programs, source, options, language)
+}
+
+/// [`sources`] of existing programs.
+///
+/// # Errors
+///
+/// Options that the language does not have, and numbers beyond the range of single precision.
+pub fn sources_of(
+    programs: &Programs,
+    source: &Source,
+    options: &Options,
+    language: Language,
+) -> Result<Vec<SourceFile>, Errors> {
+    check(options, language)?;
+    let flat = || printing::flat_options(programs, source, options);
+    let target: Box<dyn Target> = match language {
+        Language::Rust => Box::new(printing::rust_options(programs, source, options)),
+        Language::C => Box::new(backend::c::C { options: flat() }),
+        Language::Cpp => Box::new(backend::c::Cpp { options: flat() }),
+        Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),
+        Language::Python => Box::new(backend::python::Python { options: flat() }),
+        Language::JavaScript => Box::new(backend::javascript::JavaScript { options: flat() }),
+    };
+    let module = match language {
+        Language::Rust => programs.module.clone(),
+        _ => printing::described(programs),
+    };
+    target.files(&module).map_err(|errors| Errors::of_code(&source.name, &errors))
+}
+
+/// Refuses options of Rust alone.
+fn check(options: &Options, language: Language) -> Result<(), Errors> {
+    let usual = Options::default();
+    let of_rust = [
+        ("generic", options.generic),
+        ("batch", options.batch.is_some()),
+        ("parallel", options.parallel),
+        ("runtime", options.runtime != usual.runtime),
+    ];
+    let given = of_rust.into_iter().filter(|(_, given)| language != Language::Rust && *given);
+    let errors = given.map(|(option, _)| Error::OfRust { option, language: language.name() });
+    Errors::check(errors.collect(), ())
+}

@@ -1,0 +1,272 @@
+//! A package in C: the header, a test of it, and a file for CMake.
+
+use robot_codegen::backend::SourceFile;
+use robot_codegen::backend::c::{self, Names};
+use robot_codegen::backend::flat::{Function, Tree};
+use robot_codegen::{Scalar, Trigonometry};
+
+use super::description;
+use super::{Parts, file};
+use crate::driver::check::CheckValue;
+use crate::driver::file::File;
+use crate::driver::generate::unnamed_header;
+
+/// The files of the package.
+pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
+    let tree = c::tree(parts.module, parts.flat);
+    let printer = Printer { parts, tree: &tree, names: Names::new(&tree.name) };
+    let mut files = vec![
+        file("README.md", printer.readme()),
+        file("CMakeLists.txt", printer.cmake()),
+        file("robot.json", description::json(parts, &tree)),
+    ];
+    files.extend(sources.into_iter().map(|source| file(&source.name, source.text)));
+    files.push(file("test.c", printer.test()));
+    files
+}
+
+struct Printer<'a> {
+    parts: &'a Parts<'a>,
+    tree: &'a Tree<'a>,
+    names: Names,
+}
+
+impl Printer<'_> {
+    fn real(&self) -> &'static str {
+        match self.parts.options.scalar {
+            Scalar::F64 => "double",
+            Scalar::F32 => "float",
+        }
+    }
+
+    fn cmake(&self) -> String {
+        let name = &self.tree.name;
+        format!(
+            "# {}
+cmake_minimum_required(VERSION 3.13)
+project({name} LANGUAGES C)
+
+add_library({name} INTERFACE)
+target_include_directories({name} INTERFACE ${{CMAKE_CURRENT_SOURCE_DIR}})
+# Products and sums are not fused, so that results have the same bits on every machine.
+target_compile_options({name} INTERFACE $<$<C_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
+# Some versions of gcc fuse pairs of them all the same, where they make vectors of straight code.
+target_compile_options({name} INTERFACE $<$<C_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
+if(UNIX)
+  target_link_libraries({name} INTERFACE m)
+endif()
+
+enable_testing()
+add_executable({name}_test test.c)
+target_link_libraries({name}_test PRIVATE {name})
+set_target_properties({name}_test PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
+add_test(NAME {name} COMMAND {name}_test)
+",
+            unnamed_header()
+        )
+    }
+
+    fn readme(&self) -> String {
+        let name = &self.tree.name;
+        let mut usage = String::new();
+        if let Some(check) = self.parts.checks.first() {
+            let example = self.block(check).map(|lines| lines.join("\n")).unwrap_or_default();
+            usage = format!(
+                "```c\n#include \"{name}.h\"\n\n{}\n{example}\n```\n\n",
+                self.model().join("\n")
+            );
+        }
+        usage.push_str(&format!(
+            "Every function is in the header `{name}.h`, which needs the C library's mathematical functions alone. Arrays are \
+             of numbers of type `{}`; a matrix is an array, row by row. To test it:\n\n\
+             ```sh\ncc -std=c99 -O2 -ffp-contract=off test.c -o test -lm && ./test\n```\n\n\
+             or with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. Without \
+             `-ffp-contract=off` some compilers fuse products and sums, and with `-ffast-math` they reorder them: results \
+             then differ in last bits, which the test says. With gcc add `-fno-tree-slp-vectorize` to `-O3`: version 12 \
+             fuses there all the same.\n",
+            self.real()
+        ));
+        let constructor = self.names.item("model_init");
+        self.parts.readme(
+            self.tree,
+            "C99: straight-line code without branches or allocation",
+            &usage,
+            &constructor,
+        )
+    }
+
+    /// The statements that make `model` at the stated parameters, if there are parameters.
+    fn model(&self) -> Vec<String> {
+        if !self.tree.has_parameters() {
+            return vec![];
+        }
+        let (model, parameters) = (self.names.item("model"), self.names.item("parameters"));
+        let mut lines = vec![format!("{model} model;")];
+        let all = self.parts.module.parameters.iter().all(|one| one.nominal.is_some());
+        if all {
+            lines.push(format!("{parameters} parameters = {}();", self.names.item("nominal")));
+        } else {
+            lines.push(format!("{parameters} parameters;"));
+            let values = self.parts.stated_parameters();
+            let fields = self.tree.parameters.iter().zip(values);
+            lines.extend(fields.map(|(field, value)| format!("parameters.{field} = {value:?};")));
+        }
+        lines.push(format!("{}(&model, &parameters);", self.names.item("model_init")));
+        lines
+    }
+
+    fn function(&self, name: &str) -> Option<&Function<'_>> {
+        self.tree.functions.iter().find(|function| function.source.name == name)
+    }
+
+    fn numbers(&self, values: &[f64]) -> String {
+        let suffix = if self.parts.options.scalar == Scalar::F32 { "F" } else { "" };
+        let values = values.iter().map(|value| format!("{value:?}{suffix}"));
+        values.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The call of a function at its check state, with the declarations before it.
+    fn block(&self, check: &CheckValue) -> Option<Vec<String>> {
+        let (function, real) = (self.function(&check.function)?, self.real());
+        let mut lines = vec![];
+        let mut arguments = vec![];
+        if self.tree.has_parameters() {
+            arguments.push("&model".to_owned());
+        }
+        for (array, (_, values)) in function.inputs.iter().zip(&check.inputs) {
+            let values = self.numbers(values);
+            lines.push(format!("const {real} {}[{}] = {{{values}}};", array.name, array.length));
+            arguments.push(array.name.clone());
+        }
+        for array in &function.outputs {
+            lines.push(format!("{real} {}[{}];", array.name, array.length));
+            arguments.push(array.name.clone());
+        }
+        let name = self.names.item(&function.name);
+        lines.push(format!("{name}({});", arguments.join(", ")));
+        Some(lines)
+    }
+
+    fn test(&self) -> String {
+        let (name, real) = (&self.tree.name, self.real());
+        let mut text = format!(
+            "/* {} */
+/* The check values of the README. */
+
+#include \"{name}.h\"
+
+#include <stdio.h>
+
+static int failures = 0;
+
+/* Compares to a fraction of the largest entry, and, where the code promises them, all bits. */
+static void check(const char *what, const {real} *found, const {real} *stated, int count)
+{{
+    double size = 0.0;
+    int i, differs = 0;
+    for (i = 0; i < count; i++) {{
+        if (fabs((double)stated[i]) > size) {{
+            size = fabs((double)stated[i]);
+        }}
+    }}
+    for (i = 0; i < count; i++) {{
+        if (!(fabs((double)found[i] - (double)stated[i]) <= {} * size)) {{
+            printf(\"%s: entry %d is %.17g, stated is %.17g\\n\", what, i, (double)found[i], (double)stated[i]);
+            failures++;
+        }}
+        differs |= memcmp(&found[i], &stated[i], sizeof found[i]);
+    }}
+",
+            unnamed_header(),
+            self.tolerance(),
+        );
+        text.push_str(&self.bits());
+        text.push_str("}\n\n");
+        text.push_str(&self.flags());
+        text.push_str("int main(void)\n{\n");
+        for line in self.model() {
+            text.push_str(&format!("    {line}\n"));
+        }
+        if self.has_bits() {
+            text.push_str("    name_flags();\n");
+        }
+        for check in self.parts.checks {
+            text.push_str(&self.test_of(check));
+        }
+        text.push_str("    printf(failures ? \"FAILED\\n\" : \"all check values are met\\n\");\n    return failures != 0;\n}\n");
+        text
+    }
+
+    /// Whether the check values are known to the bit: those of the interpreter in double precision.
+    fn has_bits(&self) -> bool {
+        self.parts.options.scalar == Scalar::F64
+            && self.parts.options.trigonometry == Trigonometry::Polynomial
+            && !self.parts.options.fused
+    }
+
+    fn bits(&self) -> String {
+        if !self.has_bits() {
+            return "    (void)differs;\n".to_owned();
+        }
+        "    if (differs) {
+        printf(\"%s: last bits differ from the stated values; see the README for options of compilers\\n\", what);
+        failures++;
+    }
+"
+        .to_owned()
+    }
+
+    /// A function that names the compiler's options under which bits differ.
+    fn flags(&self) -> String {
+        if !self.has_bits() {
+            return String::new();
+        }
+        "/* Says which option of the compiler changes bits. */
+static void name_flags(void)
+{
+    /* (1 + e)^2 - 1 - 2 e is e^2 if a product and a sum are fused, else 0. */
+    volatile double e = 7.450580596923828e-9;
+    const double a = 1.0 + e, b = 1.0 + 2.0 * e;
+    const double fused = a * a - b;
+    if (fused != 0.0) {
+        printf(\"products and sums are fused: compile with -ffp-contract=off\\n\");
+    }
+#ifdef __FAST_MATH__
+    printf(\"sums are reordered: compile without -ffast-math\\n\");
+#endif
+}
+
+"
+        .to_owned()
+    }
+
+    fn tolerance(&self) -> &'static str {
+        match self.parts.options.scalar {
+            Scalar::F64 => "1e-12",
+            Scalar::F32 => "1e-4",
+        }
+    }
+
+    fn test_of(&self, check: &CheckValue) -> String {
+        let (Some(lines), Some(function)) = (self.block(check), self.function(&check.function))
+        else {
+            return String::new();
+        };
+        let mut text = "    {\n".to_owned();
+        for line in lines {
+            text.push_str(&format!("        {line}\n"));
+        }
+        for (array, output) in function.outputs.iter().zip(&check.outputs) {
+            let (length, values) = (array.length, self.numbers(&output.values));
+            text.push_str(&format!(
+                "        {{\n            const {} stated_[{length}] = {{{values}}};\n            \
+                 check(\"{}\", {}, stated_, {length});\n        }}\n",
+                self.real(),
+                function.name,
+                array.name
+            ));
+        }
+        text.push_str("    }\n");
+        text
+    }
+}

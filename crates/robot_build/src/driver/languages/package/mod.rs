@@ -1,0 +1,131 @@
+//! Whole packages: the module, what builds it, a test and a README.
+
+mod c;
+mod call;
+mod cpp;
+mod description;
+mod javascript;
+mod matlab;
+mod python;
+
+use robot_codegen::Module;
+use robot_codegen::backend::flat::{FlatOptions, Tree};
+use robot_model::diagnostic::Source;
+
+use super::{Language, check, printing, sources_of};
+use crate::driver::budget;
+use crate::driver::check::{CheckValue, finite_check_values};
+use crate::driver::file::File;
+use crate::driver::generate::{file_name, unnamed_header};
+use crate::driver::options::Options;
+use crate::driver::package;
+use crate::driver::programs::{Programs, programs};
+use crate::driver::readme::{Sections, paragraph, plain, section};
+use crate::error::Errors;
+
+/// The files of a package with a robot's functions in a language, in a fixed order: what its users build or load at
+/// once, with a README, a description in JSON and a test of the check values.
+///
+/// # Errors
+///
+/// Everything that is wrong with the file or the options, and options that the language does not have.
+pub fn package(
+    source: &Source,
+    options: &Options,
+    language: Language,
+) -> Result<Vec<File>, Errors> {
+    check(options, language)?;
+    if language == Language::Rust {
+        return package::package(source, options);
+    }
+    let programs = programs(source, options)?;
+    budget::check(&programs, source, options)?;
+    package_of(&programs, source, options, language)
+}
+
+/// [`package`] of existing programs, whatever they cost.
+///
+/// # Errors
+///
+/// Options that the language does not have, and numbers beyond the range of single precision.
+pub fn package_of(
+    programs: &Programs,
+    source: &Source,
+    options: &Options,
+    language: Language,
+) -> Result<Vec<File>, Errors> {
+    if language == Language::Rust {
+        return package::package_of(programs, source, options);
+    }
+    let module = printing::described(programs);
+    let flat = printing::flat_options(programs, source, options);
+    let checks = finite_check_values(source, programs, options.trigonometry)?;
+    let files = sources_of(programs, source, options, language)?;
+    let parts = Parts { source, options, programs, module: &module, flat: &flat, checks: &checks };
+    Ok(match language {
+        Language::Rust => vec![],
+        Language::C => c::files(&parts, files),
+        Language::Cpp => cpp::files(&parts, files),
+        Language::Matlab => matlab::files(&parts, files),
+        Language::Python => python::files(&parts, files),
+        Language::JavaScript => javascript::files(&parts, files),
+    })
+}
+
+/// What the files of a package are made from.
+struct Parts<'a> {
+    source: &'a Source,
+    options: &'a Options,
+    programs: &'a Programs,
+    module: &'a Module,
+    flat: &'a FlatOptions,
+    /// The check values that are finite.
+    checks: &'a [CheckValue],
+}
+
+/// A file of a package.
+fn file(path: &str, text: String) -> File {
+    File { path: path.to_owned(), text }
+}
+
+impl Parts<'_> {
+    /// The README: what the package is, how it is used, and the sections that all READMEs have.
+    fn readme(&self, tree: &Tree<'_>, what: &str, usage: &str, constructor: &str) -> String {
+        let robot = &self.programs.robot;
+        let from = plain(file_name(self.source));
+        let mut text = format!(
+            "<!-- {} -->\n\n# {}\n\nThe dynamics of the robot {} in {what}, generated from `{from}`.\n",
+            unnamed_header(),
+            robot.name,
+            robot.name,
+        );
+        if let Some(description) = &robot.description {
+            paragraph(&mut text, &plain(description));
+        }
+        section(&mut text, "Use");
+        text.push_str(usage);
+        let functions: Vec<String> =
+            tree.functions.iter().map(|function| function.name.clone()).collect();
+        let sections = Sections {
+            robot,
+            module: self.module,
+            parameters: &tree.parameters,
+            functions: &functions,
+            constructor,
+            trigonometry: self.options.trigonometry,
+            checks: self.checks,
+        };
+        sections.add(&mut text);
+        text
+    }
+
+    /// The value of each parameter that the check values are for.
+    fn stated_parameters(&self) -> Vec<f64> {
+        let stated = self.checks.first().map_or(&[][..], |check| check.parameters.as_slice());
+        let values = self.module.parameters.iter().map(|parameter| {
+            let stated = stated.iter().find(|(name, _)| *name == parameter.name);
+            parameter.nominal.or(stated.map(|(_, value)| *value)).unwrap_or(1.0)
+        });
+        values.collect()
+    }
+}

@@ -1,0 +1,47 @@
+//! Comments of C.
+
+use crate::backend::common::{comment_line, wrapped};
+
+/// Text inside of a comment: no sequence that ends it, or begins another.
+fn inside(text: &str) -> String {
+    text.replace("*/", "* /").replace("/*", "/ *")
+}
+
+/// A comment of one line.
+pub(super) fn of_line(text: &str) -> String {
+    format!("/* {} */", inside(&comment_line(text)))
+}
+
+/// The comment of an item: paragraphs, or lines of a list.
+pub(super) fn of_paragraphs(paragraphs: &[String]) -> Vec<String> {
+    let mut lines = vec![];
+    for line in paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)) {
+        // One empty line between paragraphs, none at the beginning.
+        if !line.is_empty() || lines.last().is_some_and(|last: &String| !last.is_empty()) {
+            lines.push(inside(&line));
+        }
+    }
+    while lines.last().is_some_and(String::is_empty) {
+        lines.pop();
+    }
+    let mut comment = vec!["/**".to_owned()];
+    comment.extend(lines.iter().map(|line| format!(" * {line}").trim_end().to_owned()));
+    comment.push(" */".to_owned());
+    comment
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_ends_a_comment() {
+        assert_eq!(of_line("a */ b /* c\n d"), "/* a * / b / * c  d */");
+        assert_eq!(of_line("**//"), "/* ** // */");
+        for text in ["*/", "**//", "*\u{200b}/", "/*/", "*/*/*/"] {
+            let comment = of_paragraphs(&[text.to_owned()]).join("\n");
+            assert_eq!(comment.matches("*/").count(), 1, "{comment}");
+            assert_eq!(comment.matches("/*").count(), 1, "{comment}");
+        }
+    }
+}

@@ -1,0 +1,321 @@
+//! The functions that printed C calls: those of the runtime, with the same bits where it does not fuse products and
+//! sums.
+
+use super::Header;
+use super::spelling::{literal, number};
+use crate::backend::common::Scalar;
+use crate::backend::flat::Helpers;
+use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
+use crate::trigonometry::Trigonometry;
+
+/// The macros, and the helpers that the module needs.
+pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
+    let mut lines = macros(header);
+    let scalar = header.options.scalar;
+    let polynomials = header.options.trigonometry == Trigonometry::Polynomial;
+    let functions = header.tree.helpers();
+    let constructor = Helpers::of(&header.tree.constructor);
+    let needed = match scalar {
+        Scalar::F64 => vec![(Scalar::F64, functions.and(constructor))],
+        Scalar::F32 => vec![(Scalar::F64, constructor), (Scalar::F32, functions)],
+    };
+    for (scalar, needed) in needed {
+        let writer = Writer { header, scalar };
+        if needed.mul_add {
+            lines.extend(writer.mul_add());
+        }
+        if needed.circular && polynomials {
+            lines.extend(writer.circular(needed.mul_add));
+        }
+        if needed.sign {
+            lines.extend(writer.sign());
+        }
+        if needed.tanh {
+            lines.extend(writer.tanh());
+        }
+        if needed.recip_positive {
+            lines.extend(writer.recip_positive());
+        }
+    }
+    lines
+}
+
+fn macros(header: &Header<'_>) -> Vec<String> {
+    let name = |name: &str| header.names.private_upper(name);
+    let (inline, part, restrict) = (name("inline"), name("part"), name("restrict"));
+    let text = format!(
+        "#if defined(__GNUC__)
+#define {inline} static inline __attribute__((always_inline, unused))
+#define {part} static __attribute__((noinline, unused))
+#define {restrict} __restrict__
+#else
+#define {inline} static inline
+#define {part} static
+#define {restrict}
+#endif
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#endif
+"
+    );
+    text.lines().map(str::to_owned).chain([String::new()]).collect()
+}
+
+/// Writes the helpers of a number type.
+struct Writer<'h> {
+    header: &'h Header<'h>,
+    scalar: Scalar,
+}
+
+/// Sums of products, or the library's function that rounds once.
+struct MulAdd<'w> {
+    writer: &'w Writer<'w>,
+    once: bool,
+}
+
+impl Arithmetic for MulAdd<'_> {
+    fn number(&self, value: f64) -> String {
+        self.writer.number(value)
+    }
+
+    fn mul_add(&self, a: &str, b: &str, c: &str) -> String {
+        match self.once {
+            true => format!("{}({a}, {b}, {c})", self.writer.library("fma")),
+            false => format!("{a} * {b} + {c}"),
+        }
+    }
+}
+
+/// `name = value;`, indented.
+fn assignments(steps: Vec<Assignment>) -> impl Iterator<Item = String> {
+    steps.into_iter().map(|(name, value)| format!("    {name} = {value};"))
+}
+
+impl Writer<'_> {
+    fn real(&self) -> &'static str {
+        super::function::real(self.scalar)
+    }
+
+    fn bits(&self) -> &'static str {
+        if self.scalar == Scalar::F64 { "uint64_t" } else { "uint32_t" }
+    }
+
+    fn width(&self) -> u32 {
+        if self.scalar == Scalar::F64 { 64 } else { 32 }
+    }
+
+    fn name(&self, name: &str) -> String {
+        self.header.names.private(&super::spelling::helper(name, self.scalar))
+    }
+
+    fn library(&self, name: &str) -> String {
+        super::spelling::library(name, self.scalar)
+    }
+
+    fn number(&self, value: f64) -> String {
+        number(value, self.scalar)
+    }
+
+    /// A mask or pattern of bits.
+    fn pattern(&self, bits: u64) -> String {
+        match self.scalar {
+            Scalar::F64 => format!("UINT64_C(0x{bits:016x})"),
+            Scalar::F32 => format!("UINT32_C(0x{bits:08x})"),
+        }
+    }
+
+    /// The bits of a number of the type.
+    fn bits_of(&self, value: f64) -> u64 {
+        match self.scalar {
+            Scalar::F64 => value.to_bits(),
+            Scalar::F32 => u64::from((value as f32).to_bits()),
+        }
+    }
+
+    fn sign_bit(&self) -> u64 {
+        1 << (self.width() - 1)
+    }
+
+    /// The condition under which fused multiply-adds are fast; clang does not define the macro of C.
+    fn fast(&self) -> String {
+        let macro_of_c = if self.scalar == Scalar::F64 { "FP_FAST_FMA" } else { "FP_FAST_FMAF" };
+        format!("#if defined({macro_of_c}) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)")
+    }
+
+    fn lines(text: &str) -> Vec<String> {
+        text.lines().map(str::to_owned).chain([String::new()]).collect()
+    }
+
+    fn mul_add(&self) -> Vec<String> {
+        let (inline, real, name) = (self.header.inline(), self.real(), self.name("mul_add"));
+        let (fast, fma) = (self.fast(), self.library("fma"));
+        Writer::lines(&format!(
+            "/* a b + c, rounded once where the processor has the instruction. */
+{inline} {real} {name}({real} a, {real} b, {real} c)
+{{
+{fast}
+    return {fma}(a, b, c);
+#else
+    return a * b + c;
+#endif
+}}"
+        ))
+    }
+
+    fn circular(&self, fused: bool) -> Vec<String> {
+        let (inline, real, bits) = (self.header.inline(), self.real(), self.bits());
+        let numbers = Circular::new(self.scalar);
+        let mut lines = Writer::lines(&format!(
+            "/* Sine and cosine of an angle, rad; NaN from {} rad on. By Cody and Waite, Software Manual for the
+ * Elementary Functions (1980), chapter 8: the angle less k right angles, and minimax polynomials. */
+{inline} void {}({real} angle, {real} *sine, {real} *cosine)
+{{
+    {real} shifted, k, x, r, z, s, c;
+    {bits} pattern, turns, swap, s_bits, c_bits;",
+            numbers.limit,
+            self.name("sin_cos")
+        ));
+        lines.pop();
+        if fused {
+            lines.push(self.fast());
+            lines.extend(self.polynomials(&numbers, true));
+            lines.push("#else".to_owned());
+        }
+        lines.extend(self.polynomials(&numbers, false));
+        if fused {
+            lines.push("#endif".to_owned());
+        }
+        lines.extend(self.turned());
+        let sin_cos = self.name("sin_cos");
+        for (name, value) in [(self.name("sin"), "sine"), (self.name("cos"), "cosine")] {
+            lines.extend(Writer::lines(&format!(
+                "{inline} {real} {name}({real} angle)
+{{
+    {real} sine, cosine;
+    {sin_cos}(angle, &sine, &cosine);
+    return {value};
+}}"
+            )));
+        }
+        lines
+    }
+
+    /// `s` and `c`, sine and cosine of the angle less `k` right angles.
+    fn polynomials(&self, numbers: &Circular, once: bool) -> Vec<String> {
+        let language = MulAdd { writer: self, once };
+        let size = self.width() / 8;
+        let mut lines: Vec<String> = assignments(numbers.turns(&language)).collect();
+        let nan = format!(
+            "    memcpy(&pattern, &angle, {size});
+    turns = (pattern & {}) + {};
+    pattern |= 0 - (turns >> {});
+    memcpy(&x, &pattern, {size});",
+            self.pattern(self.sign_bit() - 1),
+            self.pattern(self.sign_bit() - self.bits_of(numbers.limit)),
+            self.width() - 1
+        );
+        lines.extend(nan.lines().map(str::to_owned));
+        lines.extend(assignments(numbers.rest(&language, once)));
+        lines
+    }
+
+    /// Sine and cosine of the angle from `s` and `c`: swapped and signed by the low bits of k.
+    fn turned(&self) -> Vec<String> {
+        let (size, to_sign) = (self.width() / 8, self.width() - 2);
+        Writer::lines(&format!(
+            "    memcpy(&turns, &shifted, {size});
+    memcpy(&s_bits, &s, {size});
+    memcpy(&c_bits, &c, {size});
+    swap = (s_bits ^ c_bits) & (0 - (turns & 1));
+    s_bits ^= swap ^ ((turns & 2) << {to_sign});
+    c_bits ^= swap ^ (((turns + 1) & 2) << {to_sign});
+    memcpy(sine, &s_bits, {size});
+    memcpy(cosine, &c_bits, {size});
+}}"
+        ))
+    }
+
+    fn sign(&self) -> Vec<String> {
+        let (inline, real, bits, size) =
+            (self.header.inline(), self.real(), self.bits(), self.width() / 8);
+        let (name, sign) = (self.name("sign"), self.pattern(self.sign_bit()));
+        let one = self.pattern(self.bits_of(1.0));
+        Writer::lines(&format!(
+            "/* The sign: -1, 0 or 1, and NaN of NaN. */
+{inline} {real} {name}({real} x)
+{{
+    {bits} unit, is_nan;
+    {real} result;
+    memcpy(&unit, &x, {size});
+    is_nan = unit & (0 - ({bits})(x != x));
+    unit = ((unit & {sign}) | {one}) & (0 - ({bits})(x < 0 || x > 0 || x != x));
+    unit |= is_nan;
+    memcpy(&result, &unit, {size});
+    return result;
+}}"
+        ))
+    }
+
+    fn recip_positive(&self) -> Vec<String> {
+        let (inline, real, bits, size) =
+            (self.header.inline(), self.real(), self.bits(), self.width() / 8);
+        let (name, top) = (self.name("recip_positive"), self.width() - 1);
+        let largest = match self.scalar {
+            Scalar::F64 => f64::MAX.to_bits(),
+            Scalar::F32 => u64::from(f32::MAX.to_bits()),
+        };
+        let (largest, one) = (self.pattern(largest), literal(1.0, self.scalar));
+        Writer::lines(&format!(
+            "/* 1/x of a number above 0 and finite, NaN of others. */
+{inline} {real} {name}({real} x)
+{{
+    {bits} bits, outside;
+    {real} result = {one} / x;
+    memcpy(&bits, &x, {size});
+    outside = (bits - 1) | ({largest} - bits);
+    memcpy(&bits, &result, {size});
+    bits |= 0 - (outside >> {top});
+    memcpy(&result, &bits, {size});
+    return result;
+}}"
+        ))
+    }
+
+    fn tanh(&self) -> Vec<String> {
+        let (inline, real, bits, size) =
+            (self.header.inline(), self.real(), self.bits(), self.width() / 8);
+        let (name, fabs, copysign) =
+            (self.name("tanh"), self.library("fabs"), self.library("copysign"));
+        let numbers = HyperbolicTangent::new(self.scalar);
+        let number = |value: f64| self.number(value);
+        let language = MulAdd { writer: self, once: false };
+        let steps: Vec<String> = assignments(numbers.rest(&language)).collect();
+        let steps = steps.join("\n");
+        let mantissa = if self.scalar == Scalar::F64 { 52 } else { 23 };
+        let limit = self.pattern(self.bits_of(numbers.saturated));
+        Writer::lines(&format!(
+            "/* Hyperbolic tangent. */
+{inline} {real} {name}({real} x)
+{{
+    const {real} twice = {} * {fabs}(x);
+    const {bits} beyond = 0 - ({bits})(twice > {});
+    {bits} pattern;
+    {real} y, shifted, n, r, e, power, t;
+    memcpy(&pattern, &twice, {size});
+    pattern = ({limit} & beyond) | (pattern & ~beyond);
+    memcpy(&y, &pattern, {size});
+{steps}
+    memcpy(&pattern, &shifted, {size});
+    pattern = (pattern << {mantissa}) + {};
+    memcpy(&power, &pattern, {size});
+    t = power * e + (power - {});
+    return {copysign}(t / (t + {}), x);
+}}",
+            number(2.0),
+            number(numbers.saturated),
+            self.pattern(self.bits_of(1.0)),
+            number(1.0),
+            number(2.0)
+        ))
+    }
+}

@@ -1,0 +1,150 @@
+//! C (C99, and what C++ compilers take of it).
+//!
+//! One header: a structure of parameters, a structure of what depends on them alone, and a function for each function of the
+//! module, with a form that takes sines and cosines and one over columns of states. It allocates nothing and calls
+//! nothing but `<math.h>`; sines and cosines are the runtime's polynomials unless the standard library's are asked for.
+
+mod batch;
+mod comment;
+mod cpp;
+mod function;
+mod helpers;
+mod items;
+mod keywords;
+mod names;
+mod spelling;
+
+pub use self::cpp::Cpp;
+pub use self::names::Names;
+use self::spelling::Expressions;
+use super::common::{Scalar, check_range};
+use super::flat::{FlatOptions, Tree};
+use super::{Language, SourceFile, Target};
+use crate::error::Errors;
+use crate::module::Module;
+use crate::program::Limits;
+
+/// C.
+///
+/// Compilers take blocks of any size; their time grows faster than the size of a function, which the limits bound.
+pub const LANGUAGE: Language = Language {
+    name: "C",
+    extension: "h",
+    reserved: keywords::RESERVED,
+    limits: Limits { expression: 6, block: usize::MAX, function: 4000, part: 1000 },
+};
+
+/// The printer of C.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct C {
+    /// The options.
+    pub options: FlatOptions,
+}
+
+impl Target for C {
+    fn language(&self) -> &'static Language {
+        &LANGUAGE
+    }
+
+    /// One header.
+    fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
+        check_range(module, self.options.scalar)?;
+        let tree = tree(module, &self.options);
+        let text =
+            Header { tree: &tree, names: Names::new(&tree.name), options: &self.options }.text();
+        Ok(vec![SourceFile { name: format!("{}.{}", tree.name, LANGUAGE.extension), text }])
+    }
+}
+
+/// The place of the form from sines and cosines.
+pub(crate) const SC: usize = 0;
+/// The place of the form over columns of states.
+pub const BATCH: usize = 1;
+
+/// The tree of a module as C prints it.
+#[must_use]
+pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
+    Tree::new(module, &LANGUAGE, names::TAKEN, &["sc", "batch"], &options.setters)
+}
+
+/// What the parts of the header are made from.
+struct Header<'a> {
+    tree: &'a Tree<'a>,
+    names: Names,
+    options: &'a FlatOptions,
+}
+
+impl Header<'_> {
+    fn text(&self) -> String {
+        let mut lines: Vec<String> =
+            self.options.header.iter().map(|line| comment::of_line(line)).collect();
+        lines.extend(self.guard());
+        lines.extend(helpers::helpers(self));
+        lines.extend(items::constants(self));
+        if self.tree.has_parameters() {
+            lines.extend(items::parameters(self));
+            lines.extend(items::setters(self));
+            lines.extend(items::model(self));
+        }
+        for function in &self.tree.functions {
+            lines.extend(function::function(self, function));
+        }
+        lines.extend(self.end());
+        lines.push(String::new());
+        lines.join("\n")
+    }
+
+    /// The type of numbers.
+    fn real(&self) -> &'static str {
+        function::real(self.options.scalar)
+    }
+
+    /// The documentation of the module and the beginning of the header.
+    fn guard(&self) -> Vec<String> {
+        let guard = self.names.upper("H");
+        let mut lines = vec![String::new()];
+        let mut doc = super::common::paragraphs(&self.tree.module.doc, &self.tree.module.name);
+        doc.push(format!("- {}", self.options.trigonometry.range_of_angles()));
+        doc.push(
+            "- Compiled without contraction of products and sums (-ffp-contract=off) and without -ffast-math, results have \
+             the same bits on every machine."
+                .to_owned(),
+        );
+        lines.extend(comment::of_paragraphs(&doc));
+        lines.extend([
+            format!("#ifndef {guard}"),
+            format!("#define {guard}"),
+            String::new(),
+            "#include <math.h>".to_owned(),
+            "#include <stddef.h>".to_owned(),
+            "#include <stdint.h>".to_owned(),
+            "#include <string.h>".to_owned(),
+            String::new(),
+            "#ifdef __cplusplus".to_owned(),
+            "extern \"C\" {".to_owned(),
+            "#endif".to_owned(),
+            String::new(),
+        ]);
+        lines
+    }
+
+    fn end(&self) -> Vec<String> {
+        let lines = ["#ifdef __cplusplus", "}", "#endif", "", "#endif"];
+        lines.map(str::to_owned).to_vec()
+    }
+
+    /// The macro of functions that are inlined.
+    fn inline(&self) -> String {
+        self.names.private_upper("inline")
+    }
+
+    /// The spelling of expressions in a number type.
+    fn expressions(&self, scalar: Scalar) -> Expressions<'_> {
+        Expressions {
+            names: &self.names,
+            fields: &self.tree.fields,
+            scalar,
+            trigonometry: self.options.trigonometry,
+        }
+    }
+}

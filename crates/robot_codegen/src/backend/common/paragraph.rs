@@ -1,0 +1,45 @@
+//! Lines of comments, wrapped.
+
+use super::text::comment_line;
+
+/// The width of lines of comments, in characters.
+const WIDTH: usize = 100;
+
+/// A paragraph in lines of at most [`WIDTH`] characters, but for longer words. What follows the mark of a list is
+/// indented by two spaces.
+#[must_use]
+pub fn wrapped(paragraph: &str) -> Vec<String> {
+    let text = comment_line(paragraph);
+    let indent = if text.starts_with("- ") { "  " } else { "" };
+    let mut lines = vec![];
+    let mut line = String::new();
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.push(std::mem::replace(&mut line, indent.trim_end().to_owned()));
+            line.push_str(indent);
+        }
+        if !line.is_empty() && !line.ends_with(' ') {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    lines.push(line);
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_paragraphs_are_wrapped_and_lists_indented() {
+        let words = "- ".to_owned() + &"word ".repeat(30);
+        let lines = wrapped(&words);
+        assert_eq!(lines.len(), 2);
+        assert!(lines[0].starts_with("- word"), "{lines:?}");
+        assert!(lines[1].starts_with("  word"), "{lines:?}");
+        assert!(lines.iter().all(|line| line.chars().count() <= WIDTH), "{lines:?}");
+        assert_eq!(wrapped(""), [""]);
+        assert_eq!(wrapped("one\nline"), ["one line"]);
+    }
+}

@@ -1,0 +1,317 @@
+//! A module as flat functions: what the printers of most languages have in common.
+//!
+//! A [`Tree`] is made once from a module for a language's names and limits. Each of its functions has two bodies:
+//! one computes the angles whose sines and cosines are needed, the other the outputs. A body is a list of statements,
+//! each of which gives variables their one value, with the expressions of its results behind them.
+//! [`Function::whole`] joins the two. A printer says how all that is spelled; [`infix`] prints expressions for
+//! languages that write them with operators.
+
+mod build;
+mod infix;
+mod names;
+mod options;
+pub mod polynomials;
+
+use robot_symbolic::Function as Call;
+
+pub use self::infix::{Spelling, infix};
+pub use self::options::FlatOptions;
+use crate::module;
+
+/// A module as flat functions.
+#[derive(Clone, Debug)]
+pub struct Tree<'m> {
+    /// The module that it was made from.
+    pub module: &'m module::Module,
+    /// The name of the module.
+    pub name: String,
+    /// The names of the parameters.
+    pub parameters: Vec<String>,
+    /// The names of the model's fields: what the constructor computes from the parameters.
+    pub fields: Vec<String>,
+    /// The constructor: its results are the fields.
+    pub constructor: Body,
+    /// The functions, in the order of the module.
+    pub functions: Vec<Function<'m>>,
+    /// The names of the setters.
+    pub setters: Vec<String>,
+}
+
+/// A function of a [`Tree`].
+#[derive(Clone, Debug)]
+pub struct Function<'m> {
+    /// The function that it was made from.
+    pub source: &'m module::Function,
+    /// The name.
+    pub name: String,
+    /// The names of its further forms, in the order in which the printer asked for them.
+    pub forms: Vec<String>,
+    /// The arrays that it takes.
+    pub inputs: Vec<Array>,
+    /// The arrays or numbers that it gives; the results of `core` are their entries, one after the other.
+    pub outputs: Vec<Array>,
+    /// Computes the angles.
+    pub angles: Body,
+    /// For each angle, the variable of `core` that is its sine.
+    pub sines: Vec<String>,
+    /// For each angle, the variable of `core` that is its cosine.
+    pub cosines: Vec<String>,
+    /// Computes the outputs.
+    pub core: Body,
+}
+
+impl Function<'_> {
+    /// The name of the form at that place, or that of the function if there is none.
+    #[must_use]
+    pub fn form(&self, index: usize) -> &str {
+        self.forms.get(index).unwrap_or(&self.name)
+    }
+
+    /// The function as one body, with the sines and cosines as statements.
+    #[must_use]
+    pub fn whole(&self) -> Body {
+        let mut statements = self.angles.statements.clone();
+        let angles = self.angles.results.iter();
+        for ((angle, sine), cosine) in angles.zip(&self.sines).zip(&self.cosines) {
+            statements.push(Statement::Circular {
+                sine: sine.clone(),
+                cosine: cosine.clone(),
+                angle: angle.clone(),
+            });
+        }
+        let parts = self.angles.parts.len();
+        for statement in &self.core.statements {
+            match statement {
+                Statement::Entry { .. } if statements.contains(statement) => {}
+                Statement::Part(index) => statements.push(Statement::Part(parts + index)),
+                _ => statements.push(statement.clone()),
+            }
+        }
+        // Entries first: the other statements are the same in any order of them.
+        statements.sort_by_key(|statement| !matches!(statement, Statement::Entry { .. }));
+        let parts = self.angles.parts.iter().chain(&self.core.parts).cloned().collect();
+        Body { statements, results: self.core.results.clone(), parts }
+    }
+}
+
+/// An input or an output of a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Array {
+    /// The name.
+    pub name: String,
+    /// The number of entries.
+    pub length: usize,
+    /// Whether the function reads an entry of it; an output is always used.
+    pub is_used: bool,
+}
+
+/// Statements and results.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Body {
+    /// The statements in order.
+    pub statements: Vec<Statement>,
+    /// The results.
+    pub results: Vec<Expression>,
+    /// The parts that [`Statement::Part`] calls, if the body is very long.
+    pub parts: Vec<Part>,
+}
+
+/// A statement of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// A variable is a parameter of the module.
+    Parameter {
+        /// The variable.
+        name: String,
+        /// The index of the parameter.
+        parameter: usize,
+    },
+    /// A variable is an entry of an input.
+    Entry {
+        /// The variable.
+        name: String,
+        /// The index of the input.
+        input: usize,
+        /// The index of the entry, from 0.
+        entry: usize,
+    },
+    /// Two variables are the sine and the cosine of an angle.
+    Circular {
+        /// The variable that is the sine.
+        sine: String,
+        /// The variable that is the cosine.
+        cosine: String,
+        /// The angle, rad.
+        angle: Expression,
+    },
+    /// A variable is the value of an expression.
+    Let {
+        /// The variable.
+        name: String,
+        /// The value.
+        value: Expression,
+    },
+    /// Variables are what a part of the body gives.
+    Part(usize),
+}
+
+/// A part of a very long body: a function of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The name of the function.
+    pub name: String,
+    /// The variables that it takes.
+    pub entering: Vec<String>,
+    /// The variables that it gives.
+    pub leaving: Vec<String>,
+    /// Its statements.
+    pub statements: Vec<Statement>,
+    /// Whether it reads fields of the model.
+    pub reads_fields: bool,
+}
+
+/// An expression of a few operations.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expression {
+    /// A number.
+    Constant(f64),
+    /// A variable.
+    Variable(String),
+    /// A field of the model, by its index.
+    Field(usize),
+    /// An operation on two operands.
+    Binary(Operator, Box<[Expression; 2]>),
+    /// −a
+    Negative(Box<Expression>),
+    /// a b + c, rounded once where the target has the instruction.
+    MulAdd(Box<[Expression; 3]>),
+    /// A function of one argument.
+    Call(Call, Box<Expression>),
+}
+
+/// An operator between two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Operator {
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient.
+    Div,
+}
+
+impl Expression {
+    /// The expression and those that it is made of.
+    pub fn each(&self, visit: &mut impl FnMut(&Expression)) {
+        visit(self);
+        match self {
+            Expression::Constant(_) | Expression::Variable(_) | Expression::Field(_) => {}
+            Expression::Binary(_, operands) => operands.iter().for_each(|a| a.each(visit)),
+            Expression::MulAdd(operands) => operands.iter().for_each(|a| a.each(visit)),
+            Expression::Negative(operand) | Expression::Call(_, operand) => operand.each(visit),
+        }
+    }
+}
+
+impl Statement {
+    /// The expression of the statement, if it has one.
+    #[must_use]
+    pub fn expression(&self) -> Option<&Expression> {
+        match self {
+            Statement::Circular { angle: value, .. } | Statement::Let { value, .. } => Some(value),
+            Statement::Parameter { .. } | Statement::Entry { .. } | Statement::Part(_) => None,
+        }
+    }
+}
+
+impl Body {
+    /// Every expression of the statements, of parts too, and of the results.
+    pub fn each_expression(&self, visit: &mut impl FnMut(&Expression)) {
+        let parts = self.parts.iter().flat_map(|part| &part.statements);
+        let statements = self.statements.iter().chain(parts);
+        let values = statements.filter_map(Statement::expression);
+        values.chain(&self.results).for_each(|value| value.each(visit));
+    }
+
+    /// Whether it reads fields of the model.
+    #[must_use]
+    pub fn reads_fields(&self) -> bool {
+        let mut found = false;
+        self.each_expression(&mut |value| found |= matches!(value, Expression::Field(_)));
+        found
+    }
+}
+
+/// The helper functions that printed code calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Helpers {
+    /// Sine with cosine.
+    pub circular: bool,
+    /// Multiply-add.
+    pub mul_add: bool,
+    /// The sign with sgn 0 = 0.
+    pub sign: bool,
+    /// Hyperbolic tangent.
+    pub tanh: bool,
+    /// The reciprocal of what is positive.
+    pub recip_positive: bool,
+    /// Square root.
+    pub sqrt: bool,
+    /// Absolute value.
+    pub abs: bool,
+}
+
+impl Helpers {
+    /// The helpers that a body calls.
+    #[must_use]
+    pub fn of(body: &Body) -> Helpers {
+        let mut found = Helpers::default();
+        let parts = body.parts.iter().flat_map(|part| &part.statements);
+        let mut statements = body.statements.iter().chain(parts);
+        found.circular = statements.any(|one| matches!(one, Statement::Circular { .. }));
+        body.each_expression(&mut |value| match value {
+            Expression::MulAdd(_) => found.mul_add = true,
+            Expression::Call(function, _) => match function {
+                Call::Sin | Call::Cos => found.circular = true,
+                Call::Sign => found.sign = true,
+                Call::Tanh => found.tanh = true,
+                Call::RecipPositive => found.recip_positive = true,
+                Call::Sqrt => found.sqrt = true,
+                Call::Abs => found.abs = true,
+            },
+            _ => {}
+        });
+        found
+    }
+
+    /// The helpers of both.
+    #[must_use]
+    pub fn and(self, other: Helpers) -> Helpers {
+        Helpers {
+            circular: self.circular | other.circular,
+            mul_add: self.mul_add | other.mul_add,
+            sign: self.sign | other.sign,
+            tanh: self.tanh | other.tanh,
+            recip_positive: self.recip_positive | other.recip_positive,
+            sqrt: self.sqrt | other.sqrt,
+            abs: self.abs | other.abs,
+        }
+    }
+}
+
+impl Tree<'_> {
+    /// The helpers that the functions call.
+    #[must_use]
+    pub fn helpers(&self) -> Helpers {
+        let bodies = self.functions.iter().map(|function| Helpers::of(&function.whole()));
+        bodies.fold(Helpers::default(), Helpers::and)
+    }
+
+    /// Whether the model has fields that depend on parameters.
+    #[must_use]
+    pub fn has_parameters(&self) -> bool {
+        !self.parameters.is_empty()
+    }
+}

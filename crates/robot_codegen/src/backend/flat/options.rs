@@ -1,0 +1,19 @@
+//! The options that printers of flat functions share.
+
+use crate::backend::common::{ConstantItem, Scalar, Setter};
+use crate::trigonometry::Trigonometry;
+
+/// The options that printers of flat functions share.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FlatOptions {
+    /// Lines of the comment at the top of each text.
+    pub header: Vec<String>,
+    /// The source of sines and cosines.
+    pub trigonometry: Trigonometry,
+    /// The number type of the functions.
+    pub scalar: Scalar,
+    /// Further constants of the module.
+    pub constants: Vec<ConstantItem>,
+    /// Functions that set several parameters together.
+    pub setters: Vec<Setter>,
+}

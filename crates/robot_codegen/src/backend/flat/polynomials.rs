@@ -1,0 +1,187 @@
+//! Sine, cosine and hyperbolic tangent of the runtime as assignments, for languages that have no runtime.
+
+use robot_runtime::tanh::{TANH_F32, TANH_F64, Tanh};
+use robot_runtime::trig::{double, single};
+
+use crate::backend::common::Scalar;
+
+/// How a language spells the assignments.
+pub trait Arithmetic {
+    /// A number of either sign.
+    fn number(&self, value: f64) -> String;
+
+    /// The sign of products.
+    fn times(&self) -> &'static str {
+        "*"
+    }
+
+    /// a b + c: a sum of a product, if nothing else is said.
+    fn mul_add(&self, a: &str, b: &str, c: &str) -> String {
+        format!("{a} {} {b} + {c}", self.times())
+    }
+}
+
+/// An assignment: a variable and its new value.
+pub type Assignment = (&'static str, String);
+
+/// The numbers of sine and cosine in a type.
+pub struct Circular {
+    scalar: Scalar,
+    /// Angles are below so many radians.
+    pub limit: f64,
+    shift: f64,
+    two_over_pi: f64,
+    half_pi: [f64; 3],
+    short_half_pi: [f64; 4],
+    sine: Vec<f64>,
+    cosine: Vec<f64>,
+}
+
+impl Circular {
+    /// The numbers of a type.
+    #[must_use]
+    pub fn new(scalar: Scalar) -> Circular {
+        let wide = |values: &[f32]| values.iter().map(|value| f64::from(*value)).collect();
+        match scalar {
+            Scalar::F64 => Circular {
+                scalar,
+                limit: double::LIMIT,
+                shift: double::SHIFT,
+                two_over_pi: std::f64::consts::FRAC_2_PI,
+                half_pi: double::HALF_PI,
+                short_half_pi: double::SHORT_HALF_PI,
+                sine: double::SINE.to_vec(),
+                cosine: double::COSINE.to_vec(),
+            },
+            Scalar::F32 => Circular {
+                scalar,
+                limit: f64::from(single::LIMIT),
+                shift: f64::from(single::SHIFT),
+                two_over_pi: f64::from(std::f32::consts::FRAC_2_PI),
+                half_pi: single::HALF_PI.map(f64::from),
+                short_half_pi: single::SHORT_HALF_PI.map(f64::from),
+                sine: wide(&single::SINE),
+                cosine: wide(&single::COSINE),
+            },
+        }
+    }
+
+    /// From `angle`: `shifted`, whose lowest bits are those of the number `k` of right angles, and `k`.
+    pub fn turns(&self, language: &impl Arithmetic) -> Vec<Assignment> {
+        let number = |value: f64| language.number(value);
+        let shifted = language.mul_add("angle", &number(self.two_over_pi), &number(self.shift));
+        vec![("shifted", shifted), ("k", format!("shifted - {}", number(self.shift)))]
+    }
+
+    /// From `x`, the angle or NaN, and `k`: `s` and `c`, the sine and cosine of the angle less `k` right angles, by way of
+    /// `r` and `z`. `once` says that the multiply-adds of the language round once.
+    pub fn rest(&self, language: &impl Arithmetic, once: bool) -> Vec<Assignment> {
+        let number = |value: f64| language.number(value);
+        let times = language.times();
+        let is_double = self.scalar == Scalar::F64;
+        let (parts, last): (&[f64], Option<f64>) = match (once, is_double) {
+            (true, true) => (&self.half_pi[..2], Some(self.half_pi[2])),
+            (true, false) => (&self.half_pi, None),
+            (false, true) => (&self.short_half_pi[..3], Some(self.short_half_pi[3])),
+            (false, false) => (&self.short_half_pi, None),
+        };
+        let mut steps = vec![];
+        let mut from = "x";
+        for part in parts {
+            steps.push(("r", language.mul_add("k", &number(-part), from)));
+            from = "r";
+        }
+        steps.push(("z", format!("r {times} r")));
+        let rz = format!("(r {times} z)");
+        steps.push(("s", self.polynomial(&self.sine, language)));
+        match last {
+            Some(last) => {
+                steps.push(("k", format!("-(k {times} {})", number(last))));
+                steps.push(("s", format!("r + ({})", language.mul_add(&rz, "s", "k"))));
+            }
+            None => steps.push(("s", language.mul_add(&rz, "s", "r"))),
+        }
+        steps.push(("c", self.polynomial(&self.cosine, language)));
+        steps.push(("c", language.mul_add("z", "c", &number(-0.5))));
+        steps.push(("c", language.mul_add("z", "c", &number(1.0))));
+        steps
+    }
+
+    /// A polynomial in `z`: in Estrin's order in double precision, in Horner's in single.
+    fn polynomial(&self, c: &[f64], language: &impl Arithmetic) -> String {
+        let number = |value: f64| language.number(value);
+        let add = |a: &str, b: &str, c: &str| language.mul_add(a, b, c);
+        if let [c0, c1, c2, c3, c4, c5] = *c {
+            let pair = |low: f64, high: f64| format!("({})", add(&number(high), "z", &number(low)));
+            let zz = format!("(z {} z)", language.times());
+            let inner = add(&pair(c4, c5), &zz, &pair(c2, c3));
+            return add(&format!("({inner})"), &zz, &pair(c0, c1));
+        }
+        let mut text = String::new();
+        for coefficient in c.iter().rev() {
+            let coefficient = number(*coefficient);
+            text = match text.as_str() {
+                "" => coefficient,
+                _ => format!("({})", add(&text, "z", &coefficient)),
+            };
+        }
+        text
+    }
+}
+
+/// The numbers of the hyperbolic tangent in a type.
+pub struct HyperbolicTangent {
+    scalar: Scalar,
+    /// 2|x| from which on the result rounds to 1.
+    pub saturated: f64,
+    shift: f64,
+    ln_2: [f64; 2],
+    exponential: Vec<f64>,
+}
+
+impl HyperbolicTangent {
+    /// The numbers of a type.
+    #[must_use]
+    pub fn new(scalar: Scalar) -> HyperbolicTangent {
+        match scalar {
+            Scalar::F64 => {
+                let Tanh { shift, saturated, ln_2, exponential } = TANH_F64;
+                let exponential = exponential.to_vec();
+                HyperbolicTangent { scalar, saturated, shift, ln_2, exponential }
+            }
+            Scalar::F32 => {
+                let Tanh { shift, saturated, ln_2, exponential } = TANH_F32;
+                HyperbolicTangent {
+                    scalar,
+                    saturated: f64::from(saturated),
+                    shift: f64::from(shift),
+                    ln_2: ln_2.map(f64::from),
+                    exponential: exponential.iter().map(|value| f64::from(*value)).collect(),
+                }
+            }
+        }
+    }
+
+    /// From `y`, the smaller of 2|x| and [`saturated`](Self::saturated): `shifted`, whose lowest bits are those of the
+    /// power `n` of two, `n`, and `e`, eʳ − 1 of the rest `r`.
+    pub fn rest(&self, language: &impl Arithmetic) -> Vec<Assignment> {
+        let number = |value: f64| language.number(value);
+        let log2_e = match self.scalar {
+            Scalar::F64 => std::f64::consts::LOG2_E,
+            Scalar::F32 => f64::from(std::f32::consts::LOG2_E),
+        };
+        let [high, low] = self.ln_2;
+        let mut steps = vec![
+            ("shifted", language.mul_add("y", &number(log2_e), &number(self.shift))),
+            ("n", format!("shifted - {}", number(self.shift))),
+            ("r", language.mul_add("n", &number(-high), "y")),
+            ("r", language.mul_add("n", &number(-low), "r")),
+            ("e", number(0.0)),
+        ];
+        let coefficients = self.exponential.iter();
+        steps.extend(coefficients.map(|value| ("e", language.mul_add("e", "r", &number(*value)))));
+        let rr = format!("r {} r", language.times());
+        steps.push(("e", language.mul_add(&rr, "e", "r")));
+        steps
+    }
+}

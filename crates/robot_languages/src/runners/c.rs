@@ -1,0 +1,185 @@
+//! C, by several compilers.
+
+use std::path::Path;
+
+use robot_build::languages::Language;
+use robot_codegen::Scalar;
+use robot_codegen::backend::c::{self, Names};
+use robot_codegen::backend::flat::{FlatOptions, Function, Tree};
+
+use super::{Found, Runner, read, results, write_package};
+use crate::files;
+use crate::work::Work;
+
+/// A compiler of C.
+struct C {
+    name: &'static str,
+    compiler: &'static str,
+    /// The standard, and the processor.
+    options: &'static [&'static str],
+    /// The ending of the program's source.
+    source: &'static str,
+}
+
+/// Warnings that printed code must not cause.
+const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+
+/// gcc 12 fuses products with pairs of a sum and a difference even with `-ffp-contract=off`, where it makes vectors of
+/// straight code.
+const NO_PAIRS: &str = "-fno-tree-slp-vectorize";
+
+/// All compilers.
+pub(super) fn all() -> Vec<Box<dyn Runner>> {
+    let c = |name, compiler, options| {
+        Box::new(C { name, compiler, options, source: "main.c" }) as Box<dyn Runner>
+    };
+    vec![
+        c("gcc", "gcc", &["-std=c99"]),
+        c("gcc, this processor", "gcc", &["-std=c99", "-O3", "-march=native", NO_PAIRS]),
+        c("clang", "clang", &["-std=c99"]),
+        c("clang, this processor", "clang", &["-std=c99", "-O3", "-march=native"]),
+        Box::new(C { name: "g++", compiler: "g++", options: &["-std=c++17"], source: "main.cpp" }),
+    ]
+}
+
+impl Runner for C {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn missing(&self) -> Option<String> {
+        let is_there = files::is_there(self.compiler, &["--version"]);
+        (!is_there).then(|| format!("{} is not installed", self.compiler))
+    }
+
+    fn has(&self, _: Scalar) -> bool {
+        true
+    }
+
+    fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
+        write_package(work, Language::C, folder)?;
+        let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
+        let tree = c::tree(&work.programs.module, &options);
+        files::write(folder, self.source, program(work, &tree).as_bytes())?;
+        let mut arguments = vec!["-O2", "-ffp-contract=off"];
+        arguments.extend(self.options);
+        arguments.extend(WARNINGS);
+        arguments.extend([self.source, "-o", "main", "-lm"]);
+        files::run(folder, self.compiler, &arguments)?;
+        files::run(folder, "./main", &[])?;
+        let has_batch = |index: usize| has_batch(&tree.functions[index]);
+        Ok(vec![
+            Found {
+                way: "single",
+                results: results(work, &read(folder, "single.bin")?, |_| true)?,
+            },
+            Found { way: "batch", results: results(work, &read(folder, "batch.bin")?, has_batch)? },
+        ])
+    }
+}
+
+/// Whether a function has a form over columns.
+fn has_batch(function: &Function<'_>) -> bool {
+    function.angles.parts.is_empty()
+        && function.core.parts.is_empty()
+        && !function.inputs.is_empty()
+}
+
+/// A program that reads states, calls every function in both ways and writes the results.
+fn program(work: &Work, tree: &Tree<'_>) -> String {
+    let names = Names::new(&tree.name);
+    let real = if work.options.scalar == Scalar::F64 { "double" } else { "float" };
+    let mut text = format!(
+        "#include \"{}.h\"\n#include <stdio.h>\n#include <stdlib.h>\n\nint main(void)\n{{\n    FILE *in = \
+         fopen(\"states.bin\", \"rb\");\n    FILE *single = fopen(\"single.bin\", \"wb\");\n    FILE *batch = \
+         fopen(\"batch.bin\", \"wb\");\n    if (!in || !single || !batch) {{\n        return 2;\n    }}\n",
+        tree.name
+    );
+    if tree.has_parameters() {
+        text.push_str(&format!(
+            "    {} parameters;\n    {} model;\n",
+            names.item("parameters"),
+            names.item("model")
+        ));
+        for (field, value) in tree.parameters.iter().zip(&work.parameters) {
+            text.push_str(&format!("    parameters.{field} = {value:?};\n"));
+        }
+        text.push_str(&format!("    {}(&model, &parameters);\n", names.item("model_init")));
+    }
+    for (function, calls) in tree.functions.iter().zip(&work.functions) {
+        let states = calls.expected.len() / calls.given;
+        text.push_str(&block(tree, function, &names, real, states));
+    }
+    text.push_str("    return fclose(in) | fclose(single) | fclose(batch);\n}\n");
+    text
+}
+
+/// The calls of one function.
+fn block(
+    tree: &Tree<'_>,
+    function: &Function<'_>,
+    names: &Names,
+    real: &str,
+    states: usize,
+) -> String {
+    let name = names.item(&function.name);
+    let batch = names.item(function.form(c::BATCH));
+    let arrays: Vec<(&str, usize)> = function
+        .inputs
+        .iter()
+        .chain(&function.outputs)
+        .map(|array| (array.name.as_str(), array.length))
+        .collect();
+    let model = if tree.has_parameters() { "&model, " } else { "" };
+    let listed = |prefix: &str| {
+        let names = arrays.iter().map(|(name, _)| format!("{prefix}{name}"));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let mut text = "    {\n        size_t i, j;\n".to_owned();
+    for (array, length) in &arrays {
+        text.push_str(&format!("        static {real} {array}[{length}];\n"));
+        if has_batch(function) {
+            text.push_str(&format!(
+                "        static {real} columns_{array}[{length} * {states}];\n"
+            ));
+        }
+    }
+    text.push_str(&format!("        (void)j;\n        for (i = 0; i < {states}; i++) {{\n"));
+    for array in &function.inputs {
+        let (array, length) = (&array.name, array.length);
+        text.push_str(&format!(
+            "            if (fread({array}, sizeof {array}[0], {length}, in) != {length}) {{\n                \
+             return 3;\n            }}\n"
+        ));
+        if has_batch(function) {
+            text.push_str(&format!(
+                "            for (j = 0; j < {length}; j++) {{\n                \
+                 columns_{array}[j * {states} + i] = {array}[j];\n            }}\n"
+            ));
+        }
+    }
+    text.push_str(&format!("            {name}({model}{});\n", listed("")));
+    for array in &function.outputs {
+        let (array, length) = (&array.name, array.length);
+        text.push_str(&format!(
+            "            fwrite({array}, sizeof {array}[0], {length}, single);\n"
+        ));
+    }
+    text.push_str("        }\n");
+    if has_batch(function) {
+        text.push_str(&format!(
+            "        {batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
+            listed("columns_")
+        ));
+        for array in &function.outputs {
+            let (array, length) = (&array.name, array.length);
+            text.push_str(&format!(
+                "            for (j = 0; j < {length}; j++) {{\n                \
+                 fwrite(&columns_{array}[j * {states} + i], sizeof {array}[0], 1, batch);\n            }}\n"
+            ));
+        }
+        text.push_str("        }\n");
+    }
+    text.push_str("    }\n");
+    text
+}
