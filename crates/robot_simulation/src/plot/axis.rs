@@ -159,7 +159,7 @@ mod tests {
         // No numbers are between these.
         assert!(of(1.0, 1.0 + f64::EPSILON, 5).len() <= 5);
         for [low, high] in [[0.0, 0.0], [0.0, f64::INFINITY], [f64::NAN, 1.0]] {
-            assert_eq!(of(low, high, 5), []);
+            assert!(of(low, high, 5).is_empty());
         }
     }
 
