@@ -13,6 +13,7 @@ pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 pub const SOURCES: &[(&str, &str)] = &[
     ("mod.rs", include_str!("runtime/mod.rs")),
     ("batch.rs", include_str!("runtime/batch.rs")),
+    ("field.rs", include_str!("runtime/field.rs")),
     ("fused.rs", include_str!("runtime/fused.rs")),
     ("lanes.rs", include_str!("runtime/lanes.rs")),
     ("lanewise.rs", include_str!("runtime/lanewise.rs")),

@@ -5,6 +5,7 @@
 //! library; without it nothing but `core` is used, and `StdTrig` cannot be called.
 
 mod batch;
+mod field;
 mod fused;
 mod lanes;
 mod lanewise;
@@ -24,6 +25,7 @@ mod tanh;
 pub mod trig;
 
 pub use self::batch::{lanes_from_states, padded_states, states_from_lanes};
+pub use self::field::Field;
 pub use self::fused::FUSED;
 pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
 #[cfg(not(feature = "std"))]

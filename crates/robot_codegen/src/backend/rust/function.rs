@@ -52,17 +52,24 @@ pub(super) fn items(scope: &mut Scope<'_>, function: &Function, plain: &Ident) -
     let dispatched = kernel::is_dispatched(function, &scope.options.limits);
     let fused = dispatched && kernel::is_fused(function);
     let chosen = if fused { number.with_arithmetic() } else { number.clone() };
-    let mut methods = vec![];
     let mut printer = Methods::new(scope, function, &chosen, plain, dispatched);
-    methods.extend(printer.all());
+    let mut methods = printer.all();
     if let Some(lanes) = printer.scope.options.batch {
         methods.extend(printer.batch(lanes));
     }
+    let mut of_any_fields = None;
     if scope.options.generic {
         let generic = derived(&mut scope.methods, plain, "generic");
-        methods.extend(Methods::new(scope, function, &number.generic(), &generic, false).all());
+        let number = number.generic(scope.has_own_fields());
+        let forms = Methods::new(scope, function, &number, &generic, false).all();
+        if scope.has_own_fields() {
+            of_any_fields = Some(syntax::impl_model_of_any_fields(forms));
+        } else {
+            methods.extend(forms);
+        }
     }
     items.push(syntax::impl_model(methods));
+    items.extend(of_any_fields);
     if !scope.has_parameters() {
         items.push(free_function(scope, function, plain));
     }
