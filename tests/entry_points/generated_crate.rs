@@ -87,7 +87,7 @@ fn every_robot_builds_in_both_profiles() {
 
 /// A test of the crate below: two robots in the lanes of one model.
 const PARAMETERS_IN_LANES: &str = "\
-    use match_::match_::{Model, Parameters};\n\
+    use match_::{Model, Parameters};\n\
     use match_::runtime::Lanes;\n\
     #[test]\n\
     fn each_lane_has_its_parameters() {\n    \

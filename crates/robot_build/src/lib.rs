@@ -34,7 +34,7 @@ pub use driver::conventions::CONVENTIONS;
 pub use driver::file::File;
 pub use driver::generate::{Generated, generate, names};
 pub use driver::options::{
-    Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
+    Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, Limbs, OPTIONS, OptionSpec, Options, Value,
     functions_named, kinds_named,
 };
 pub use driver::pivots::{Pivot, Pivots};

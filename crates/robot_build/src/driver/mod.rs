@@ -7,6 +7,7 @@ pub mod check;
 pub(crate) mod conventions;
 pub(crate) mod file;
 pub(crate) mod generate;
+pub(crate) mod limbs;
 pub(crate) mod options;
 pub mod package;
 pub(crate) mod pivots;

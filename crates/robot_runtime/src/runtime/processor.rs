@@ -6,6 +6,7 @@
 
 #![allow(unsafe_code)]
 
+use super::lanewise::Lanewise;
 use super::real::Real;
 
 /// A computation that is compiled for several processors. It is copied, so that nothing is left to drop.
@@ -28,6 +29,18 @@ pub trait Arithmetic: sealed::Sealed {
 
     /// [`sin_cos_each`](super::sin_cos_each) with such multiply-adds.
     fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
+
+    /// Whether [`LanesOn`](super::LanesOn) are in vector registers, so that the limbs of a robot are computed faster
+    /// side by side than one after the other.
+    const SIDE_BY_SIDE: bool;
+
+    /// An operation on each lane of arrays; rounded once where the processor can if `ONCE`.
+    #[doc(hidden)]
+    fn lanewise<T: Real, O, const ONCE: bool, const K: usize, const R: usize, const N: usize>(
+        arguments: [&[T; N]; K],
+    ) -> [[T; N]; R]
+    where
+        O: Lanewise<K, R>;
 }
 
 mod sealed {
@@ -54,6 +67,18 @@ impl Arithmetic for Compiled {
     #[inline(always)]
     fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
         super::sin_cos_each(angles)
+    }
+
+    const SIDE_BY_SIDE: bool = cfg!(target_arch = "x86_64");
+
+    #[inline(always)]
+    fn lanewise<T: Real, O, const ONCE: bool, const K: usize, const R: usize, const N: usize>(
+        arguments: [&[T; N]; K],
+    ) -> [[T; N]; R]
+    where
+        O: Lanewise<K, R>,
+    {
+        T::lanewise::<O, K, R, N>(arguments)
     }
 }
 
@@ -110,6 +135,7 @@ mod x86 {
     use core::sync::atomic::{AtomicU8, Ordering};
     use std::is_x86_feature_detected;
 
+    use super::super::lanewise::Lanewise;
     use super::super::real::Real;
     use super::{Arithmetic, Kernel, apart, sealed};
 
@@ -231,6 +257,18 @@ mod x86 {
         #[inline(always)]
         fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
             unsafe { T::sin_cos_each_once(angles) }
+        }
+
+        const SIDE_BY_SIDE: bool = true;
+
+        #[inline(always)]
+        fn lanewise<T: Real, O, const ONCE: bool, const K: usize, const R: usize, const N: usize>(
+            arguments: [&[T; N]; K],
+        ) -> [[T; N]; R]
+        where
+            O: Lanewise<K, R>,
+        {
+            unsafe { T::lanewise_asked::<O, ONCE, K, R, N>(arguments) }
         }
     }
 }

@@ -10,6 +10,8 @@ pub(super) mod x86;
 use super::lanewise::{Lanewise, one_by_one};
 #[cfg(target_arch = "x86_64")]
 use super::scalar::Scalar;
+#[cfg(target_arch = "x86_64")]
+use super::fused::FUSED;
 
 #[cfg(target_arch = "x86_64")]
 /// A register of `W` numbers of type `F`.
@@ -74,20 +76,55 @@ macro_rules! by_widest {
         {
             #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
             if N % $wide_lanes == 0 {
-                return by_register::<x86::$wide, O, $float, $wide_lanes, A, R, N>(arguments);
+                return by_register::<x86::$wide<FUSED>, O, $float, $wide_lanes, A, R, N>(arguments);
             }
             #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
             if N % $middle_lanes == 0 {
-                return by_register::<x86::$middle, O, $float, $middle_lanes, A, R, N>(arguments);
+                return by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(arguments);
             }
             #[cfg(target_arch = "x86_64")]
             if N % $narrow_lanes == 0 {
-                return by_register::<x86::$narrow, O, $float, $narrow_lanes, A, R, N>(arguments);
+                return by_register::<x86::$narrow<FUSED>, O, $float, $narrow_lanes, A, R, N>(arguments);
             }
             one_by_one::<$float, O, A, R, N>(arguments)
         }
     };
 }
+
+#[cfg(target_arch = "x86_64")]
+macro_rules! asked {
+    ($name:ident, $float:ident: $narrow:ident $narrow_lanes:literal, $middle:ident $middle_lanes:literal) => {
+        /// An operation on each lane of arrays on a processor that has AVX2 and fused multiply-adds.
+        #[inline(always)]
+        pub(super) fn $name<
+            O,
+            const ONCE: bool,
+            const A: usize,
+            const R: usize,
+            const N: usize,
+        >(
+            arguments: [&[$float; N]; A],
+        ) -> [[$float; N]; R]
+        where
+            O: Lanewise<A, R>,
+        {
+            // Where `ONCE` asks for nothing, operations round as they are compiled.
+            match (ONCE, N % $middle_lanes == 0) {
+                (true, true) => by_register::<x86::$middle<true>, O, $float, $middle_lanes, A, R, N>(arguments),
+                (false, true) => by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(arguments),
+                (true, false) if N % $narrow_lanes == 0 => {
+                    by_register::<x86::$narrow<true>, O, $float, $narrow_lanes, A, R, N>(arguments)
+                }
+                _ => $float::<O, A, R, N>(arguments),
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+asked!(asked_f64, f64: F64x2 2, F64x4 4);
+#[cfg(target_arch = "x86_64")]
+asked!(asked_f32, f32: F32x4 4, F32x8 8);
 
 by_widest!(f64: F64x2 2, F64x4 4, F64x8 8);
 by_widest!(f32: F32x4 4, F32x8 8, F32x16 16);

@@ -76,6 +76,18 @@ impl Variables {
         statements
     }
 
+    /// `let [q1, q2, q3] = *q;` for the inputs that are chosen.
+    pub(super) fn take_all(&self, function: &Function, choice: &[bool]) -> Vec<Stmt> {
+        let mut entries = self.entries.iter();
+        let inputs = function.inputs.iter().zip(&self.inputs).zip(choice);
+        let takes = inputs.map(|((input, array), chosen)| {
+            let entries = entries.by_ref().take(input.symbols.len());
+            let patterns: Vec<Pat> = entries.map(syntax::binding).collect();
+            chosen.then(|| take(array, patterns))
+        });
+        takes.collect::<Vec<_>>().into_iter().flatten().collect()
+    }
+
     /// `let [sq1, _] = *s;` and the same for the cosines.
     pub(super) fn take_angles(&self, program: &Program) -> [Stmt; 2] {
         let sources = program.sources();
