@@ -122,6 +122,30 @@ pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
     apart(kernel)
 }
 
+/// The reference, of which the compiler then knows no longer what it refers to; no instruction.
+///
+/// LLVM loads numbers that lie side by side together if it sees that they do, and shuffles them: for lanes that are
+/// gathered from several places, in registers of 512 bits where there are some. Single ones among narrower
+/// instructions make processors of Intel slower by half.
+#[inline(always)]
+pub fn anywhere<T>(reference: &T) -> &T {
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    {
+        let mut pointer: *const T = reference;
+        // SAFETY: the pointer stays what it is.
+        unsafe {
+            core::arch::asm!(
+                "/* {0} */",
+                inout(reg) pointer,
+                options(nomem, nostack, preserves_flags)
+            );
+            &*pointer
+        }
+    }
+    #[cfg(not(all(target_arch = "x86_64", not(miri))))]
+    reference
+}
+
 /// `kernel` as it is compiled for the target, out of line.
 #[inline(never)]
 fn apart<K: Kernel>(kernel: K) -> K::Output {

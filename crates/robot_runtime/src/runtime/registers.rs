@@ -36,30 +36,20 @@ where
     F: Scalar,
 {
     let mut results = [[F::ZERO; N]; R];
-    let mut at = |index: usize| {
-        let zero = [F::ZERO; W];
-        let loaded = arguments
-            .map(|argument| V::load(argument.as_chunks::<W>().0.get(index).unwrap_or(&zero)));
-        for (result, array) in O::of(loaded).into_iter().zip(&mut results) {
-            if let Some(chunk) = array.as_chunks_mut::<W>().0.get_mut(index) {
-                result.store(chunk);
-            }
-        }
-    };
     if N >= W {
-        at(0);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 0);
     }
     if N >= 2 * W {
-        at(1);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 1);
     }
     if N >= 3 * W {
-        at(2);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 2);
     }
     if N >= 4 * W {
-        at(3);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 3);
     }
     for index in 4..(N / W).max(4) {
-        at(index);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, index);
     }
     results
 }
@@ -89,6 +79,31 @@ macro_rules! by_widest {
             one_by_one::<$float, O, A, R, N>(arguments)
         }
     };
+}
+
+/// `operation` of the registers at `index`. A closure would keep instructions of a processor that was asked out of line.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn at<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
+    arguments: &[&[F; N]; A],
+    results: &mut [[F; N]; R],
+    index: usize,
+) where
+    V: Register<F, W>,
+    O: Lanewise<A, R>,
+    F: Scalar,
+{
+    let mut loaded = [V::ZERO; A];
+    for (register, argument) in loaded.iter_mut().zip(arguments) {
+        if let Some(chunk) = argument.as_chunks::<W>().0.get(index) {
+            *register = V::load(chunk);
+        }
+    }
+    for (register, result) in O::of(loaded).into_iter().zip(results) {
+        if let Some(chunk) = result.as_chunks_mut::<W>().0.get_mut(index) {
+            register.store(chunk);
+        }
+    }
 }
 
 #[cfg(target_arch = "x86_64")]

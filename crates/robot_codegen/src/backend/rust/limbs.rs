@@ -52,11 +52,18 @@ impl Methods<'_, '_> {
         let function = self.function;
         let variables = Variables::new(self.scope, function);
         let used = used_by_limbs(function, limbs);
-        let mut statements = variables.take_all(function, &used);
+        let runtime = self.number.runtime();
+        let mut statements = vec![];
         let mut namer = variables.namer.clone();
         let mut items = vec![];
         let mut results: Vec<Vec<Vec<Ident>>> = vec![];
         for (index, call) in limbs.calls.iter().enumerate() {
+            for (lane, entries) in call.inputs.iter().enumerate() {
+                if !call.inputs[..lane].contains(entries) {
+                    let used = used_by(&call.function);
+                    statements.extend(variables.take_lane(function, &used, entries, runtime));
+                }
+            }
             let of_limb = derived(&mut self.scope.methods, &self.names.plain, "limb");
             let (calls, found) = self.limb_call(limbs, index, &of_limb, &variables, &mut namer);
             statements.extend(calls);
@@ -68,7 +75,6 @@ impl Methods<'_, '_> {
             None => syntax::float(0.0),
         });
         let value = outputs::value(self.scope, function, values.collect());
-        let runtime = self.number.runtime();
         let parameters = self.input_parameters(&variables, &used);
         let returned = outputs::returned(self.scope, function, self.number);
         let signature = parse_quote! {
@@ -192,10 +198,19 @@ impl Methods<'_, '_> {
         statements.extend(variables.take_entries(function, &function.angles));
         let (of_angles, angles) = print(&function.angles);
         statements.extend(of_angles);
-        let (s, c) = (&variables.sines, &variables.cosines);
-        let (circular, angles) = (number.circular_of_limb(), syntax::array(angles));
-        statements.push(parse_quote!(let (#s, #c) = &#circular(&#angles);));
-        statements.extend(variables.take_angles(&function.core));
+        if number.is_generic() {
+            // Each a call of its own: one by way of a function value is not inlined into a kernel.
+            let sin_cos = number.method("sin_cos");
+            let sines = variables.sines_and_cosines(&function.core).into_iter().zip(angles);
+            statements.extend(sines.map(|(pattern, angle)| -> Stmt {
+                parse_quote!(let #pattern = #sin_cos(#angle);)
+            }));
+        } else {
+            let (s, c) = (&variables.sines, &variables.cosines);
+            let (circular, angles) = (number.circular_array(), syntax::array(angles));
+            statements.push(parse_quote!(let (#s, #c) = &#circular(&#angles);));
+            statements.extend(variables.take_angles(&function.core));
+        }
         statements.extend(variables.take_entries(function, &function.core));
         let (of_core, results) = print(&function.core);
         statements.extend(of_core);

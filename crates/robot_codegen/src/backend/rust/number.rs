@@ -162,11 +162,6 @@ impl Number {
         }
     }
 
-    /// The same by polynomials, of the angles of one limb: one after the other where they are lanes.
-    pub(super) fn circular_of_limb(&self) -> Expr {
-        if self.is_generic() { self.circular_each() } else { self.circular_array() }
-    }
-
     /// The same by polynomials, for the body of a loop over states.
     pub(super) fn circular_each(&self) -> Expr {
         let runtime = &self.runtime;
