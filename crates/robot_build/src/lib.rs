@@ -34,8 +34,8 @@ pub use driver::conventions::CONVENTIONS;
 pub use driver::file::File;
 pub use driver::generate::{Generated, generate, names};
 pub use driver::options::{
-    Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, Limbs, OPTIONS, OptionSpec, Options, Value,
-    functions_named, kinds_named,
+    Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, Limbs, OPTIONS, OptionSpec, Options,
+    Value, functions_named, kinds_named,
 };
 pub use driver::pivots::{Pivot, Pivots};
 pub use driver::problems::Problem;

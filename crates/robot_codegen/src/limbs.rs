@@ -12,6 +12,10 @@ use crate::trigonometry::Trigonometry;
 
 /// The most lanes: more limbs of a kind are several calls.
 const MAX_LANES: usize = 8;
+/// The fewest lanes: two have not been measured to be faster than code for each limb.
+const MIN_LANES: usize = 4;
+/// The most operations of one limb's function: rustc takes minutes for some thousands over lanes.
+const MAX_OPERATIONS: usize = 600;
 
 /// A kind of limb: the module of one of them, and the limbs.
 #[derive(Clone, Debug)]
@@ -65,13 +69,9 @@ impl LimbCall {
 
 impl Module {
     /// Gives those of the functions of these names that the limbs can compute the programs that do: all of their inputs
-    /// and the sides of all of their outputs are as long as the robot has coordinates.
-    pub fn set_limbs(
-        &mut self,
-        kinds: &[LimbKind],
-        names: &[String],
-        trigonometry: Trigonometry,
-    ) {
+    /// and the sides of all of their outputs are as long as the robot has coordinates. Limbs of which there are two, and
+    /// functions that are long, stay as they are.
+    pub fn set_limbs(&mut self, kinds: &[LimbKind], names: &[String], trigonometry: Trigonometry) {
         let coordinates = kinds.iter().flat_map(|kind| &kind.coordinates).map(Vec::len).sum();
         for function in &mut self.functions {
             if names.contains(&function.name) {
@@ -107,7 +107,13 @@ fn limbs(
             limbs.calls.push(call);
         }
     }
-    Some(limbs)
+    limbs.calls.iter().all(is_worth_it).then_some(limbs)
+}
+
+/// Whether a call is one lane, or is known to be faster and to compile in time.
+fn is_worth_it(call: &LimbCall) -> bool {
+    let operations = call.function.core.operations().len();
+    call.lanes() == 1 || call.lanes() >= MIN_LANES && operations <= MAX_OPERATIONS
 }
 
 /// Puts the results of a limb, in a lane of the next call, where they belong.
@@ -164,7 +170,11 @@ fn limb_call(
         });
         starts.flat_map(|start| coordinates.iter().map(move |index| start + index)).collect()
     };
-    LimbCall { function: alone, fields: fields.numbers, inputs: padded.iter().map(entries).collect() }
+    LimbCall {
+        function: alone,
+        fields: fields.numbers,
+        inputs: padded.iter().map(entries).collect(),
+    }
 }
 
 /// The fields that differ between lanes.

@@ -252,7 +252,8 @@ fn each_lane_has_the_bits_of_a_call_with_its_parameters() {
     let mut calls = String::new();
     for scalar in [Scalar::F64, Scalar::F32] {
         for trigonometry in [Trigonometry::Polynomial, Trigonometry::Standard] {
-            let options = RustOptions { generic: true, scalar, trigonometry, ..RustOptions::default() };
+            let options =
+                RustOptions { generic: true, scalar, trigonometry, ..RustOptions::default() };
             let name = format!("{scalar:?}_{trigonometry:?}").to_lowercase();
             let code = generate(&module, &options).unwrap().to_text();
             writeln!(text, "mod {name} {{ {code} }}").unwrap();

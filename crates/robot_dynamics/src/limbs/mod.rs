@@ -124,7 +124,9 @@ fn pattern(limb: &Robot) -> Robot {
         let value = formula.evaluate(|_| f64::NAN);
         // Equal numbers may be written in several ways.
         *formula = match number {
-            Number::Shape => Rational::from_f64(value).map_or(formula.clone(), |value| Formula::number(&value)),
+            Number::Shape => {
+                Rational::from_f64(value).map_or(formula.clone(), |value| Formula::number(&value))
+            }
             Number::Size => Formula::number(&Rational::ZERO),
         };
     }

@@ -7,11 +7,11 @@
 #[cfg(target_arch = "x86_64")]
 pub(super) mod x86;
 
+#[cfg(target_arch = "x86_64")]
+use super::fused::FUSED;
 use super::lanewise::{Lanewise, one_by_one};
 #[cfg(target_arch = "x86_64")]
 use super::scalar::Scalar;
-#[cfg(target_arch = "x86_64")]
-use super::fused::FUSED;
 
 #[cfg(target_arch = "x86_64")]
 /// A register of `W` numbers of type `F`.
@@ -66,15 +66,21 @@ macro_rules! by_widest {
         {
             #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
             if N % $wide_lanes == 0 {
-                return by_register::<x86::$wide<FUSED>, O, $float, $wide_lanes, A, R, N>(arguments);
+                return by_register::<x86::$wide<FUSED>, O, $float, $wide_lanes, A, R, N>(
+                    arguments,
+                );
             }
             #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
             if N % $middle_lanes == 0 {
-                return by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(arguments);
+                return by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(
+                    arguments,
+                );
             }
             #[cfg(target_arch = "x86_64")]
             if N % $narrow_lanes == 0 {
-                return by_register::<x86::$narrow<FUSED>, O, $float, $narrow_lanes, A, R, N>(arguments);
+                return by_register::<x86::$narrow<FUSED>, O, $float, $narrow_lanes, A, R, N>(
+                    arguments,
+                );
             }
             one_by_one::<$float, O, A, R, N>(arguments)
         }
@@ -111,13 +117,7 @@ macro_rules! asked {
     ($name:ident, $float:ident: $narrow:ident $narrow_lanes:literal, $middle:ident $middle_lanes:literal) => {
         /// An operation on each lane of arrays on a processor that has AVX2 and fused multiply-adds.
         #[inline(always)]
-        pub(super) fn $name<
-            O,
-            const ONCE: bool,
-            const A: usize,
-            const R: usize,
-            const N: usize,
-        >(
+        pub(super) fn $name<O, const ONCE: bool, const A: usize, const R: usize, const N: usize>(
             arguments: [&[$float; N]; A],
         ) -> [[$float; N]; R]
         where
@@ -125,8 +125,12 @@ macro_rules! asked {
         {
             // Where `ONCE` asks for nothing, operations round as they are compiled.
             match (ONCE, N % $middle_lanes == 0) {
-                (true, true) => by_register::<x86::$middle<true>, O, $float, $middle_lanes, A, R, N>(arguments),
-                (false, true) => by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(arguments),
+                (true, true) => {
+                    by_register::<x86::$middle<true>, O, $float, $middle_lanes, A, R, N>(arguments)
+                }
+                (false, true) => {
+                    by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(arguments)
+                }
                 (true, false) if N % $narrow_lanes == 0 => {
                     by_register::<x86::$narrow<true>, O, $float, $narrow_lanes, A, R, N>(arguments)
                 }

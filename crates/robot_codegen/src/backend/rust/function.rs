@@ -414,7 +414,11 @@ impl<'s, 'a> Methods<'s, 'a> {
         self.scope.options.batch.is_some() && !self.number.is_generic()
     }
 
-    pub(super) fn input_parameters(&self, variables: &Variables, include: &[bool]) -> Vec<TokenStream> {
+    pub(super) fn input_parameters(
+        &self,
+        variables: &Variables,
+        include: &[bool],
+    ) -> Vec<TokenStream> {
         let ty = self.number.ty();
         let inputs = variables.inputs.iter().zip(&self.function.inputs).zip(include);
         let included = inputs.filter(|(_, include)| **include);

@@ -132,7 +132,8 @@ impl Methods<'_, '_> {
         let mut statements: Vec<Stmt> = vec![];
         if lanes == 1 {
             let arithmetic = self.arithmetic_argument();
-            statements.push(parse_quote!(let #pattern = Model::#method #arithmetic(#(&#arguments),*);));
+            statements
+                .push(parse_quote!(let #pattern = Model::#method #arithmetic(#(&#arguments),*);));
             return (statements, of_limb.into_iter().map(|name| vec![name]).collect());
         }
         let (runtime, ty) = (self.number.runtime(), self.number.ty());

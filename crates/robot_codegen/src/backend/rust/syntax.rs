@@ -158,7 +158,9 @@ pub(super) fn impl_model(items: Vec<ImplItem>) -> Item {
 
 /// Methods of a model whatever its fields are: they are of the type `P`.
 pub(super) fn impl_model_of_any_fields(items: Vec<ImplItem>) -> Item {
-    let mut block: syn::ItemImpl = parse_quote!(impl<P: ::core::marker::Copy> Model<P> {});
+    let mut block: syn::ItemImpl = parse_quote!(
+        impl<P: ::core::marker::Copy> Model<P> {}
+    );
     block.items = items;
     Item::Impl(block)
 }
