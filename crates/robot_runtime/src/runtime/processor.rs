@@ -128,6 +128,7 @@ pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
 /// gathered from several places, in registers of 512 bits where there are some. Single ones among narrower
 /// instructions make processors of Intel slower by half.
 #[inline(always)]
+#[allow(clippy::pointers_in_nomem_asm_block, reason = "nothing follows the pointer")]
 pub fn anywhere<T>(reference: &T) -> &T {
     #[cfg(all(target_arch = "x86_64", not(miri)))]
     {
