@@ -8,6 +8,7 @@ use syn::{Expr, ImplItem, Stmt, Type, parse_quote};
 use super::body::Body;
 use super::function::Methods;
 use super::namer::{Namer, derived};
+use super::number::Number;
 use super::outputs;
 use super::syntax;
 use super::variables::Variables;
@@ -37,6 +38,27 @@ pub(super) fn used_by_limbs(function: &Function, limbs: &Limbs) -> Vec<bool> {
         }
     }
     used
+}
+
+/// The sines and cosines of a limb's angles, as variables.
+fn sines(
+    function: &Function,
+    number: &Number,
+    variables: &Variables,
+    angles: Vec<Expr>,
+) -> Vec<Stmt> {
+    if number.is_generic() {
+        // Each a call of its own: one by way of a function value is not inlined into a kernel.
+        let sin_cos = number.method("sin_cos");
+        let pairs = variables.sines_and_cosines(&function.core).into_iter().zip(angles);
+        let taken = pairs.map(|(pair, angle)| parse_quote!(let #pair = #sin_cos(#angle);));
+        return taken.collect();
+    }
+    let (s, c) = (&variables.sines, &variables.cosines);
+    let (circular, angles) = (number.circular_array(), syntax::array(angles));
+    let mut statements = vec![parse_quote!(let (#s, #c) = &#circular(&#angles);)];
+    statements.extend(variables.take_angles(&function.core));
+    statements
 }
 
 impl Methods<'_, '_> {
@@ -199,19 +221,7 @@ impl Methods<'_, '_> {
         statements.extend(variables.take_entries(function, &function.angles));
         let (of_angles, angles) = print(&function.angles);
         statements.extend(of_angles);
-        if number.is_generic() {
-            // Each a call of its own: one by way of a function value is not inlined into a kernel.
-            let sin_cos = number.method("sin_cos");
-            let sines = variables.sines_and_cosines(&function.core).into_iter().zip(angles);
-            statements.extend(sines.map(|(pattern, angle)| -> Stmt {
-                parse_quote!(let #pattern = #sin_cos(#angle);)
-            }));
-        } else {
-            let (s, c) = (&variables.sines, &variables.cosines);
-            let (circular, angles) = (number.circular_array(), syntax::array(angles));
-            statements.push(parse_quote!(let (#s, #c) = &#circular(&#angles);));
-            statements.extend(variables.take_angles(&function.core));
-        }
+        statements.extend(sines(function, &number, &variables, angles));
         statements.extend(variables.take_entries(function, &function.core));
         let (of_core, results) = print(&function.core);
         statements.extend(of_core);
