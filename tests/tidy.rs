@@ -49,7 +49,7 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
     (
         "robot_dynamics",
         &[
-            &["vector", "matrix", "quantity"],
+            &["vector", "matrix", "quantity", "limbs"],
             &["mechanism"],
             &["body", "newton_euler"],
             &["economical"],

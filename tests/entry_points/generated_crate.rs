@@ -85,6 +85,22 @@ fn every_robot_builds_in_both_profiles() {
     assert!(shown.contains("link_wrenches_gives_its_check_value ... ok"), "{shown}");
 }
 
+/// A test of the crate below: two robots in the lanes of one model.
+const PARAMETERS_IN_LANES: &str = "\
+    use match_::{Model, Parameters};\n\
+    use match_::runtime::Lanes;\n\
+    #[test]\n\
+    fn each_lane_has_its_parameters() {\n    \
+        let parameters = [3.0, 7.0].map(|f64_| Parameters { f64_, ..Parameters::NOMINAL });\n    \
+        let (q, qd, qdd) = ([[0.3, -1.1], [2.0, 0.4]], [[0.5; 2], [-0.7; 2]], [[1.5; 2], [0.1; 2]]);\n    \
+        let lanes = |states: [[f64; 2]; 2]| match_::runtime::lanes_from_states::<f64, 2, 2>(&states);\n    \
+        let tau = Model::new_lanes(&parameters).inverse_dynamics_generic(&lanes(q), &lanes(qd), &lanes(qdd));\n    \
+        for lane in 0..2 {\n        \
+            let single = Model::new(&parameters[lane]).inverse_dynamics(&q[lane], &qd[lane], &qdd[lane]);\n        \
+            assert_eq!(tau.map(Lanes::to_array).map(|tau| tau[lane]), single);\n    \
+        }\n\
+    }\n";
+
 /// Names of the robot, its parameters and its bundles that Rust reserves, or that a module has for itself; the crate's
 /// own tests compare the check values.
 #[test]
@@ -123,7 +139,9 @@ fn a_robot_with_words_of_rust_for_names_builds() {
     "#;
     package.write("match.toml", robot);
     generate(&package.path("match.toml"), &package.path("generated"), &["--batch=8", "--generic"]);
+    package.write("generated/tests/lanes.rs", PARAMETERS_IN_LANES);
     let shown = package.run(&["test", "--package", "match_", "--tests"]);
+    assert!(shown.contains("test each_lane_has_its_parameters ... ok"), "{shown}");
     for function in ["inverse_dynamics", "mass_matrix", "new_2", "inverse_dynamics_sc", "fn"] {
         let test = format!("test {function}_gives_its_check_value ... ok");
         assert!(shown.contains(&test), "{test}: {shown}");

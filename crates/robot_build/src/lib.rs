@@ -36,8 +36,8 @@ pub use driver::generate::{Generated, generate, names};
 #[cfg(feature = "languages")]
 pub use driver::languages;
 pub use driver::options::{
-    Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, OPTIONS, OptionSpec, Options, Value,
-    functions_named, kinds_named,
+    Commands, DEFAULT_BATCH, DEFAULT_FUNCTIONS, Group, Kind, Limbs, OPTIONS, OptionSpec, Options,
+    Value, functions_named, kinds_named,
 };
 pub use driver::pivots::{Pivot, Pivots};
 pub use driver::problems::Problem;

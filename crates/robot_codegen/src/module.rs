@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::counts::{Counts, FunctionCounts, PassCounts};
 use crate::error::Errors;
+use crate::limbs::Limbs;
 use crate::lower;
 use crate::passes::{self, Options};
 use crate::program::{Program, Source};
@@ -45,6 +46,8 @@ pub struct Function {
     pub core: Program,
     /// The operations of `core`, in calls alone, after each pass, in the order in which they ran.
     pub passes: Vec<PassCounts>,
+    /// The same, computed by the robot's limbs side by side, if some are alike.
+    pub limbs: Option<Limbs>,
 }
 
 /// The inputs with their lengths, the programs, and the values of `core` that are the outputs.
@@ -88,6 +91,7 @@ impl Module {
                 angles: passes::tidy(&lowered.angles),
                 core,
                 passes: report,
+                limbs: None,
             });
         }
         let programs = functions.iter_mut().flat_map(|function| {

@@ -9,6 +9,7 @@ mod body;
 mod derivation;
 pub mod economical;
 pub mod functions;
+pub mod limbs;
 pub mod matrix;
 pub mod mechanism;
 pub mod newton_euler;

@@ -13,8 +13,10 @@ pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 pub const SOURCES: &[(&str, &str)] = &[
     ("mod.rs", include_str!("runtime/mod.rs")),
     ("batch.rs", include_str!("runtime/batch.rs")),
+    ("field.rs", include_str!("runtime/field.rs")),
     ("fused.rs", include_str!("runtime/fused.rs")),
     ("lanes.rs", include_str!("runtime/lanes.rs")),
+    ("lanes_on.rs", include_str!("runtime/lanes_on.rs")),
     ("lanewise.rs", include_str!("runtime/lanewise.rs")),
     ("no_std_trig.rs", include_str!("runtime/no_std_trig.rs")),
     ("number.rs", include_str!("runtime/number.rs")),

@@ -9,6 +9,7 @@ pub(crate) mod file;
 pub(crate) mod generate;
 #[cfg(feature = "languages")]
 pub mod languages;
+pub(crate) mod limbs;
 pub(crate) mod options;
 pub mod package;
 pub(crate) mod pivots;

@@ -12,7 +12,7 @@ use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
 use crate::driver::options::Options;
-use crate::driver::{singular, specification};
+use crate::driver::{limbs, singular, specification};
 use crate::error::{Error, Errors};
 
 /// Functions of more expressions than this do not become code. The usual ones of 64 joints about
@@ -109,14 +109,15 @@ pub(crate) fn programs_under(
     if plan.as_ref().is_some_and(|plan| !plan.fits(robot.links.len())) {
         return Err(Errors::from(Error::Plan { name: name.to_owned() }));
     }
-    let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan);
+    let derivation = Derivation::new(&robot, &graph, &options.mechanism(&robot), plan.clone());
     let more = specification::not_generated(&robot, options, &functions, &bundles);
     let specification = specification::module(&derivation, &functions, &bundles, &more);
     if graph.is_full() {
         return Err(Errors::from(Error::TooLarge { name: name.to_owned(), limit }));
     }
-    let module = Module::compile(&specification, codegen)
+    let mut module = Module::compile(&specification, codegen)
         .map_err(|errors| singular::by_cause(name, &robot, &functions, &bundles, &errors))?;
+    limbs::set_limbs(&mut module, &robot, options, (&functions, &bundles), plan.as_ref());
     let snapped = derivation.mechanism.snapped.clone();
     let source = Source { name: name.to_owned(), text: String::new() };
     let warnings = Diagnostics::new(source, vec![]);

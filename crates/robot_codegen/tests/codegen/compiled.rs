@@ -223,21 +223,7 @@ fn a_module_without_parameters_has_functions_of_its_own() {
 #[test]
 fn sines_of_the_constructor_come_from_where_those_of_calls_come_from() {
     let graph = Graph::new();
-    let (p, q1) = (graph.symbol("p"), graph.symbol("q1"));
-    let tilt =
-        ParameterSpec { name: "p".into(), doc: String::new(), unit: "rad".into(), nominal: None };
-    let spec = ModuleSpec {
-        name: "tilted".into(),
-        doc: vec![],
-        parameters: vec![tilt],
-        functions: vec![Function {
-            name: "f".into(),
-            doc: vec![],
-            inputs: vec![support::arm::joints("q", "rad")],
-            outputs: vec![support::arm::vector("y", "", vec![q1 * p.sin(), q1.sin()])],
-        }],
-    };
-    let module = Module::compile(&spec, &Options::default()).unwrap();
+    let module = tilted(&graph);
     let mut differing = 0;
     for n in 1..2000 {
         let angle = f64::from(n) * 0.1;
@@ -255,4 +241,59 @@ fn sines_of_the_constructor_come_from_where_those_of_calls_come_from() {
         }
     }
     assert!(differing > 0);
+}
+
+/// In both number types and with both sources of sines, that of the parameter among them.
+#[test]
+fn each_lane_has_the_bits_of_a_call_with_its_parameters() {
+    let graph = Graph::new();
+    let module = tilted(&graph);
+    let mut text = "#![deny(warnings)]\nuse robot_runtime::Lanes;\n".to_owned();
+    let mut calls = String::new();
+    for scalar in [Scalar::F64, Scalar::F32] {
+        for trigonometry in [Trigonometry::Polynomial, Trigonometry::Standard] {
+            let options =
+                RustOptions { generic: true, scalar, trigonometry, ..RustOptions::default() };
+            let name = format!("{scalar:?}_{trigonometry:?}").to_lowercase();
+            let code = generate(&module, &options).unwrap().to_text();
+            writeln!(text, "mod {name} {{ {code} }}").unwrap();
+            writeln!(
+                calls,
+                "{{ use {name}::tilted::{{Model, Parameters}};\n\
+                 let parameters = [0.1, -0.7, 1.9].map(|p| Parameters {{ p }});\n\
+                 let model = Model::new_lanes(&parameters);\n\
+                 let q = [Lanes::from([0.3, 0.4, -2.5]), Lanes::splat(0.0)];\n\
+                 let y = model.f_generic(&q).map(Lanes::to_array);\n\
+                 let of_one = Model::new(&parameters[1]).f_generic(&q);\n\
+                 for lane in 0..3 {{\n    \
+                   let single = Model::new(&parameters[lane]);\n    \
+                   let q = q.map(|q| q.to_array()[lane]);\n    \
+                   assert_eq!(y.map(|y| y[lane]), single.f(&q));\n    \
+                   assert_eq!(of_one.map(|y| y.to_array()[lane]), Model::new(&parameters[1]).f(&q));\n\
+                 }} }}"
+            )
+            .unwrap();
+        }
+    }
+    writeln!(text, "fn main() {{\n{calls}}}").unwrap();
+    support::rustc::output_of("lanes-of-models", &text, &["-O"]);
+}
+
+/// A sine of a parameter times an input, and the sine of that input.
+fn tilted(graph: &Graph) -> Module {
+    let (p, q1) = (graph.symbol("p"), graph.symbol("q1"));
+    let tilt =
+        ParameterSpec { name: "p".into(), doc: String::new(), unit: "rad".into(), nominal: None };
+    let spec = ModuleSpec {
+        name: "tilted".into(),
+        doc: vec![],
+        parameters: vec![tilt],
+        functions: vec![Function {
+            name: "f".into(),
+            doc: vec![],
+            inputs: vec![support::arm::joints("q", "rad")],
+            outputs: vec![support::arm::vector("y", "", vec![q1 * p.sin(), q1.sin()])],
+        }],
+    };
+    Module::compile(&spec, &Options::default()).unwrap()
 }

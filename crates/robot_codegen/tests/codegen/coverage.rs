@@ -91,6 +91,7 @@ fn function(name: &str, angles: Program, core: Program) -> Function {
         angles,
         core,
         passes: vec![],
+        limbs: None,
     }
 }
 

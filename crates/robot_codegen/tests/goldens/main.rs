@@ -88,6 +88,34 @@ fn it_computes_the_closed_form() {
     assert_eq!((planar_arm::DOF, planar_arm::COORDINATES), (2, ["q1", "q2"]));
 }
 
+/// The models of four robots in the lanes of one, and states in lanes: each lane has the bits of a call.
+#[test]
+fn lanes_have_parameters_of_their_own() {
+    let nominal = planar_arm::Parameters::NOMINAL;
+    let parameters = [0.0, 1.0, 2.0, 3.0].map(|step| planar_arm::Parameters {
+        m2: nominal.m2 + 0.3 * step,
+        l1: nominal.l1 - 0.1 * step,
+        ..nominal
+    });
+    let model = planar_arm::Model::new_lanes(&parameters);
+    let states = states();
+    let [q, qd, qdd] = [0, 1, 2].map(|input| {
+        let block: [[f64; 2]; 4] = std::array::from_fn(|lane| states[lane][input]);
+        lanes_from_states(&block)
+    });
+    let tau = states_from_lanes(&model.inverse_dynamics_generic(&q, &qd, &qdd));
+    let mass = model.mass_matrix_generic(&q);
+    for (lane, [q, qd, qdd]) in states.iter().take(4).enumerate() {
+        let single = planar_arm::Model::new(&parameters[lane]);
+        assert_eq!(tau[lane], single.inverse_dynamics(q, qd, qdd));
+        assert_eq!(mass.m[1][0].to_array()[lane], single.mass_matrix(q).m[1][0]);
+    }
+    assert_ne!(
+        planar_arm::Model::new(&parameters[1]).inverse_dynamics(&[0.5; 2], &[0.0; 2], &[0.0; 2]),
+        planar_arm::Model::NOMINAL.inverse_dynamics(&[0.5; 2], &[0.0; 2], &[0.0; 2]),
+    );
+}
+
 #[test]
 fn lanes_compute_what_calls_compute() {
     let model = planar_arm::Model::NOMINAL;

@@ -57,12 +57,12 @@ pub mod planar_arm {
     }
     /// The model planar_arm: everything that depends only on its parameters, computed once.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Model {
-        k1: f64,
-        k2: f64,
-        k3: f64,
-        k4: f64,
-        k5: f64,
+    pub struct Model<P = f64> {
+        k1: P,
+        k2: P,
+        k3: P,
+        k4: P,
+        k5: P,
     }
     impl Model {
         /// The model with the nominal parameters.
@@ -81,6 +81,25 @@ pub mod planar_arm {
                 k3: t1 + l1 * (l1 * t2),
                 k4: t1,
                 k5: l1 * (g * t2),
+            }
+        }
+    }
+    impl Model {
+        /// The model whose lane i has `parameters[i]`, for the forms `…_generic` over as many lanes: each field is that of [`Model::new`], lane by lane.
+        #[must_use]
+        pub fn new_lanes<const N: usize>(
+            parameters: &[Parameters; N],
+        ) -> Model<::robot_runtime::Lanes<f64, N>> {
+            let models = parameters.each_ref().map(Model::new);
+            let lanes = |field: fn(&Model) -> f64| {
+                ::robot_runtime::Lanes::from_array(models.each_ref().map(field))
+            };
+            Model {
+                k1: lanes(|model| model.k1),
+                k2: lanes(|model| model.k2),
+                k3: lanes(|model| model.k3),
+                k4: lanes(|model| model.k4),
+                k5: lanes(|model| model.k5),
             }
         }
     }
@@ -339,6 +358,8 @@ pub mod planar_arm {
             }
             tau
         }
+    }
+    impl<P: ::core::marker::Copy> Model<P> {
         /// Joint torques of a motion.
         ///
         /// - `q`: joint q, in rad.
@@ -355,7 +376,10 @@ pub mod planar_arm {
             q: &[T; 2],
             qd: &[T; 2],
             qdd: &[T; 2],
-        ) -> [T; 2] {
+        ) -> [T; 2]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let (s, c) = ::robot_runtime::sin_cos_array(
                 &self.inverse_dynamics_generic_angles(q),
             );
@@ -367,7 +391,10 @@ pub mod planar_arm {
         pub fn inverse_dynamics_generic_angles<T: ::robot_runtime::Scalar>(
             &self,
             q: &[T; 2],
-        ) -> [T; 3] {
+        ) -> [T; 3]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [q1, q2] = *q;
             [q1, q2, q1 + q2]
         }
@@ -382,19 +409,29 @@ pub mod planar_arm {
             c: &[T; 3],
             qd: &[T; 2],
             qdd: &[T; 2],
-        ) -> [T; 2] {
+        ) -> [T; 2]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [_, sq2, _] = *s;
             let [cq1, cq2, c3] = *c;
             let [qd1, qd2] = *qd;
             let [qdd1, qdd2] = *qdd;
-            let t1 = cq2 * T::from_f64(self.k2);
-            let t2 = c3 * T::from_f64(self.k1);
-            let t3 = T::from_f64(self.k2) * sq2;
-            let t4 = T::from_f64(self.k4) + t1;
-            let t5 = qdd2 * t4 + (cq1 * T::from_f64(self.k5) + t2);
+            let t1 = cq2 * ::robot_runtime::Field::<T>::broadcast(self.k2);
+            let t2 = c3 * ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t3 = ::robot_runtime::Field::<T>::broadcast(self.k2) * sq2;
+            let t4 = ::robot_runtime::Field::<T>::broadcast(self.k4) + t1;
+            let t5 = qdd2 * t4
+                + (cq1 * ::robot_runtime::Field::<T>::broadcast(self.k5) + t2);
             let t6 = t5 - (qd2 + T::from_f64(2.0) * qd1) * (qd2 * t3);
-            let t7 = t3 * (qd1 * qd1) + (t2 + qdd2 * T::from_f64(self.k4));
-            [qdd1 * (T::from_f64(self.k3) + t1 * T::from_f64(2.0)) + t6, t4 * qdd1 + t7]
+            let t7 = t3 * (qd1 * qd1)
+                + (t2 + qdd2 * ::robot_runtime::Field::<T>::broadcast(self.k4));
+            [
+                qdd1
+                    * (::robot_runtime::Field::<T>::broadcast(self.k3)
+                        + t1 * T::from_f64(2.0)) + t6,
+                t4 * qdd1 + t7,
+            ]
         }
     }
     /// The outputs of mass_matrix.
@@ -562,6 +599,8 @@ pub mod planar_arm {
             }
             (m, trace)
         }
+    }
+    impl<P: ::core::marker::Copy> Model<P> {
         /// mass_matrix.
         ///
         /// - `q`: joint q, in rad.
@@ -572,7 +611,10 @@ pub mod planar_arm {
         pub fn mass_matrix_generic<T: ::robot_runtime::Scalar>(
             &self,
             q: &[T; 2],
-        ) -> MassMatrix<T> {
+        ) -> MassMatrix<T>
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [_, q2] = *q;
             let (s, c) = ::robot_runtime::sin_cos_array(&[q2]);
             self.mass_matrix_generic_sc(&s, &c)
@@ -586,15 +628,19 @@ pub mod planar_arm {
             &self,
             s: &[T; 1],
             c: &[T; 1],
-        ) -> MassMatrix<T> {
+        ) -> MassMatrix<T>
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [_] = *s;
             let [cq2] = *c;
-            let t1 = cq2 * T::from_f64(self.k2);
-            let t2 = t1 + T::from_f64(self.k4);
-            let t3 = T::from_f64(self.k3) + T::from_f64(2.0) * t1;
+            let t1 = cq2 * ::robot_runtime::Field::<T>::broadcast(self.k2);
+            let t2 = t1 + ::robot_runtime::Field::<T>::broadcast(self.k4);
+            let t3 = ::robot_runtime::Field::<T>::broadcast(self.k3)
+                + T::from_f64(2.0) * t1;
             MassMatrix {
-                m: [[t3, t2], [t2, T::from_f64(self.k4)]],
-                trace: t3 + T::from_f64(self.k4),
+                m: [[t3, t2], [t2, ::robot_runtime::Field::<T>::broadcast(self.k4)]],
+                trace: t3 + ::robot_runtime::Field::<T>::broadcast(self.k4),
             }
         }
     }

@@ -5,8 +5,10 @@
 //! library; without it nothing but `core` is used, and `StdTrig` cannot be called.
 
 mod batch;
+mod field;
 mod fused;
 mod lanes;
+mod lanes_on;
 mod lanewise;
 #[cfg(not(feature = "std"))]
 mod no_std_trig;
@@ -24,11 +26,15 @@ pub mod tanh;
 pub mod trig;
 
 pub use self::batch::{lanes_from_states, padded_states, states_from_lanes};
+pub use self::field::Field;
 pub use self::fused::FUSED;
 pub use self::lanes::{F32x8, F32x16, F64x4, F64x8, Lanes};
+pub use self::lanes_on::LanesOn;
 #[cfg(not(feature = "std"))]
 pub use self::no_std_trig::{StdTrig, std_sin_cos_array};
-pub use self::processor::{Arithmetic, Compiled, Kernel, dispatch, dispatch_apart, dispatch_block};
+pub use self::processor::{
+    Arithmetic, Compiled, Kernel, anywhere, dispatch, dispatch_apart, dispatch_block,
+};
 pub use self::real::Real;
 pub use self::reciprocal::{recip_positive_f32, recip_positive_f64};
 pub use self::scalar::Scalar;

@@ -6,6 +6,7 @@
 
 #![allow(unsafe_code)]
 
+use super::lanewise::Lanewise;
 use super::real::Real;
 
 /// A computation that is compiled for several processors. It is copied, so that nothing is left to drop.
@@ -28,6 +29,18 @@ pub trait Arithmetic: sealed::Sealed {
 
     /// [`sin_cos_each`](super::sin_cos_each) with such multiply-adds.
     fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
+
+    /// Whether [`LanesOn`](super::LanesOn) are in vector registers, so that the limbs of a robot are computed faster
+    /// side by side than one after the other.
+    const SIDE_BY_SIDE: bool;
+
+    /// An operation on each lane of arrays; rounded once where the processor can if `ONCE`.
+    #[doc(hidden)]
+    fn lanewise<T: Real, O, const ONCE: bool, const K: usize, const R: usize, const N: usize>(
+        arguments: [&[T; N]; K],
+    ) -> [[T; N]; R]
+    where
+        O: Lanewise<K, R>;
 }
 
 mod sealed {
@@ -54,6 +67,18 @@ impl Arithmetic for Compiled {
     #[inline(always)]
     fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
         super::sin_cos_each(angles)
+    }
+
+    const SIDE_BY_SIDE: bool = cfg!(target_arch = "x86_64");
+
+    #[inline(always)]
+    fn lanewise<T: Real, O, const ONCE: bool, const K: usize, const R: usize, const N: usize>(
+        arguments: [&[T; N]; K],
+    ) -> [[T; N]; R]
+    where
+        O: Lanewise<K, R>,
+    {
+        T::lanewise::<O, K, R, N>(arguments)
     }
 }
 
@@ -97,6 +122,31 @@ pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
     apart(kernel)
 }
 
+/// The reference, of which the compiler then knows no longer what it refers to; no instruction.
+///
+/// LLVM loads numbers that lie side by side together if it sees that they do, and shuffles them: for lanes that are
+/// gathered from several places, in registers of 512 bits where there are some. Single ones among narrower
+/// instructions make processors of Intel slower by half.
+#[inline(always)]
+#[allow(clippy::pointers_in_nomem_asm_block, reason = "nothing follows the pointer")]
+pub fn anywhere<T>(reference: &T) -> &T {
+    #[cfg(all(target_arch = "x86_64", not(miri)))]
+    {
+        let mut pointer: *const T = reference;
+        // SAFETY: the pointer stays what it is.
+        unsafe {
+            core::arch::asm!(
+                "/* {0} */",
+                inout(reg) pointer,
+                options(nomem, nostack, preserves_flags)
+            );
+            &*pointer
+        }
+    }
+    #[cfg(not(all(target_arch = "x86_64", not(miri))))]
+    reference
+}
+
 /// `kernel` as it is compiled for the target, out of line.
 #[inline(never)]
 fn apart<K: Kernel>(kernel: K) -> K::Output {
@@ -110,6 +160,7 @@ mod x86 {
     use core::sync::atomic::{AtomicU8, Ordering};
     use std::is_x86_feature_detected;
 
+    use super::super::lanewise::Lanewise;
     use super::super::real::Real;
     use super::{Arithmetic, Kernel, apart, sealed};
 
@@ -231,6 +282,18 @@ mod x86 {
         #[inline(always)]
         fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
             unsafe { T::sin_cos_each_once(angles) }
+        }
+
+        const SIDE_BY_SIDE: bool = true;
+
+        #[inline(always)]
+        fn lanewise<T: Real, O, const ONCE: bool, const K: usize, const R: usize, const N: usize>(
+            arguments: [&[T; N]; K],
+        ) -> [[T; N]; R]
+        where
+            O: Lanewise<K, R>,
+        {
+            unsafe { T::lanewise_asked::<O, ONCE, K, R, N>(arguments) }
         }
     }
 }

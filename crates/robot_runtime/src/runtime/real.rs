@@ -2,7 +2,10 @@
 
 #![allow(unsafe_code)]
 
+use super::lanewise::Lanewise;
 use super::number::Number;
+#[cfg(target_arch = "x86_64")]
+use super::registers;
 use super::scalar::Scalar;
 use super::trig::{block, double, single};
 
@@ -36,6 +39,22 @@ pub trait Real: Scalar + sealed::Sealed + 'static {
     /// The processor has fused multiply-adds.
     #[doc(hidden)]
     unsafe fn sin_cos_each_once<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]);
+
+    /// An operation on each lane of arrays, in registers of up to 256 bits that `N` fills; rounded once if `ONCE`.
+    ///
+    /// # Safety
+    ///
+    /// The processor has fused multiply-adds and, if it is an x86-64, AVX2.
+    #[doc(hidden)]
+    unsafe fn lanewise_asked<
+        O: Lanewise<K, R>,
+        const ONCE: bool,
+        const K: usize,
+        const R: usize,
+        const N: usize,
+    >(
+        arguments: [&[Self; N]; K],
+    ) -> [[Self; N]; R];
 }
 
 mod sealed {
@@ -43,7 +62,7 @@ mod sealed {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $polynomials:ident) => {
+    ($float:ident, $polynomials:ident, $asked:ident) => {
         impl sealed::Sealed for $float {}
 
         impl Real for $float {
@@ -73,9 +92,25 @@ macro_rules! implement_real {
             ) -> ([Self; N], [Self; N]) {
                 block::unrolled(angles, $polynomials::compute::<true, Self>)
             }
+
+            #[inline(always)]
+            unsafe fn lanewise_asked<
+                O: Lanewise<K, R>,
+                const ONCE: bool,
+                const K: usize,
+                const R: usize,
+                const N: usize,
+            >(
+                arguments: [&[Self; N]; K],
+            ) -> [[Self; N]; R] {
+                #[cfg(target_arch = "x86_64")]
+                return registers::$asked::<O, ONCE, K, R, N>(arguments);
+                #[cfg(not(target_arch = "x86_64"))]
+                Self::lanewise::<O, K, R, N>(arguments)
+            }
         }
     };
 }
 
-implement_real!(f64, double);
-implement_real!(f32, single);
+implement_real!(f64, double, asked_f64);
+implement_real!(f32, single, asked_f32);

@@ -7,6 +7,8 @@
 #[cfg(target_arch = "x86_64")]
 pub(super) mod x86;
 
+#[cfg(target_arch = "x86_64")]
+use super::fused::FUSED;
 use super::lanewise::{Lanewise, one_by_one};
 #[cfg(target_arch = "x86_64")]
 use super::scalar::Scalar;
@@ -34,30 +36,20 @@ where
     F: Scalar,
 {
     let mut results = [[F::ZERO; N]; R];
-    let mut at = |index: usize| {
-        let zero = [F::ZERO; W];
-        let loaded = arguments
-            .map(|argument| V::load(argument.as_chunks::<W>().0.get(index).unwrap_or(&zero)));
-        for (result, array) in O::of(loaded).into_iter().zip(&mut results) {
-            if let Some(chunk) = array.as_chunks_mut::<W>().0.get_mut(index) {
-                result.store(chunk);
-            }
-        }
-    };
     if N >= W {
-        at(0);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 0);
     }
     if N >= 2 * W {
-        at(1);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 1);
     }
     if N >= 3 * W {
-        at(2);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 2);
     }
     if N >= 4 * W {
-        at(3);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, 3);
     }
     for index in 4..(N / W).max(4) {
-        at(index);
+        at::<V, O, F, W, A, R, N>(&arguments, &mut results, index);
     }
     results
 }
@@ -74,20 +66,84 @@ macro_rules! by_widest {
         {
             #[cfg(all(target_arch = "x86_64", target_feature = "avx512f"))]
             if N % $wide_lanes == 0 {
-                return by_register::<x86::$wide, O, $float, $wide_lanes, A, R, N>(arguments);
+                return by_register::<x86::$wide<FUSED>, O, $float, $wide_lanes, A, R, N>(
+                    arguments,
+                );
             }
             #[cfg(all(target_arch = "x86_64", target_feature = "avx2"))]
             if N % $middle_lanes == 0 {
-                return by_register::<x86::$middle, O, $float, $middle_lanes, A, R, N>(arguments);
+                return by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(
+                    arguments,
+                );
             }
             #[cfg(target_arch = "x86_64")]
             if N % $narrow_lanes == 0 {
-                return by_register::<x86::$narrow, O, $float, $narrow_lanes, A, R, N>(arguments);
+                return by_register::<x86::$narrow<FUSED>, O, $float, $narrow_lanes, A, R, N>(
+                    arguments,
+                );
             }
             one_by_one::<$float, O, A, R, N>(arguments)
         }
     };
 }
+
+/// `operation` of the registers at `index`. A closure would keep instructions of a processor that was asked out of line.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn at<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
+    arguments: &[&[F; N]; A],
+    results: &mut [[F; N]; R],
+    index: usize,
+) where
+    V: Register<F, W>,
+    O: Lanewise<A, R>,
+    F: Scalar,
+{
+    let mut loaded = [V::ZERO; A];
+    for (register, argument) in loaded.iter_mut().zip(arguments) {
+        if let Some(chunk) = argument.as_chunks::<W>().0.get(index) {
+            *register = V::load(chunk);
+        }
+    }
+    for (register, result) in O::of(loaded).into_iter().zip(results) {
+        if let Some(chunk) = result.as_chunks_mut::<W>().0.get_mut(index) {
+            register.store(chunk);
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+macro_rules! asked {
+    ($name:ident, $float:ident: $narrow:ident $narrow_lanes:literal, $middle:ident $middle_lanes:literal) => {
+        /// An operation on each lane of arrays on a processor that has AVX2 and fused multiply-adds.
+        #[inline(always)]
+        pub(super) fn $name<O, const ONCE: bool, const A: usize, const R: usize, const N: usize>(
+            arguments: [&[$float; N]; A],
+        ) -> [[$float; N]; R]
+        where
+            O: Lanewise<A, R>,
+        {
+            // Where `ONCE` asks for nothing, operations round as they are compiled.
+            match (ONCE, N % $middle_lanes == 0) {
+                (true, true) => {
+                    by_register::<x86::$middle<true>, O, $float, $middle_lanes, A, R, N>(arguments)
+                }
+                (false, true) => {
+                    by_register::<x86::$middle<FUSED>, O, $float, $middle_lanes, A, R, N>(arguments)
+                }
+                (true, false) if N % $narrow_lanes == 0 => {
+                    by_register::<x86::$narrow<true>, O, $float, $narrow_lanes, A, R, N>(arguments)
+                }
+                _ => $float::<O, A, R, N>(arguments),
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+asked!(asked_f64, f64: F64x2 2, F64x4 4);
+#[cfg(target_arch = "x86_64")]
+asked!(asked_f32, f32: F32x4 4, F32x8 8);
 
 by_widest!(f64: F64x2 2, F64x4 4, F64x8 8);
 by_widest!(f32: F32x4 4, F32x8 8, F32x16 16);

@@ -4,7 +4,7 @@
 use robot_codegen::{Scalar, Trigonometry};
 use robot_model::robot::BaseFrames;
 
-use super::{DEFAULT_BATCH, Options};
+use super::{DEFAULT_BATCH, Limbs, Options};
 
 /// An option of generated code.
 #[derive(Clone, Copy, Debug)]
@@ -310,6 +310,26 @@ pub const OPTIONS: &[OptionSpec] = &[
             options.trigonometry = match value.word()? {
                 "polynomial" => Trigonometry::Polynomial,
                 "standard" => Trigonometry::Standard,
+                _ => return None,
+            };
+            Some(())
+        },
+        ..PLAIN
+    },
+    OptionSpec {
+        name: "limbs",
+        title: "[limbs that are alike](generated-code.md#limbs-that-are-alike)",
+        help: "Legs, fingers or arms on a fixed base that differ in numbers alone",
+        group: Group::Optimize,
+        kind: Kind::Choice(&[
+            ("side_by_side", "In the lanes of one call, where functions use the runtime's sines"),
+            ("apart", "Each by code of its own"),
+        ]),
+        example: "\"apart\"",
+        set: |options, value| {
+            options.limbs = match value.word()? {
+                "side_by_side" => Limbs::SideBySide,
+                "apart" => Limbs::Apart,
                 _ => return None,
             };
             Some(())

@@ -33,6 +33,16 @@ pub const DEFAULT_BATCH: usize = 8;
 /// The most states that a block of a batch holds: its arrays lie on the stack.
 const MAX_BATCH: usize = 64;
 
+/// How limbs of a robot that are alike, the legs of a walking machine or the fingers of a hand, are computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Limbs {
+    /// In the lanes of one call.
+    #[default]
+    SideBySide,
+    /// Each by code of its own.
+    Apart,
+}
+
 /// The options of generation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -59,6 +69,8 @@ pub struct Options {
     pub fused: bool,
     /// The source of sines and cosines.
     pub trigonometry: Trigonometry,
+    /// Whether limbs of a robot that are alike are computed in the lanes of one call.
+    pub limbs: Limbs,
     /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
     /// for what the robot file says, which is 10⁻⁹ if it says nothing.
     pub snap: Option<f64>,
@@ -98,6 +110,7 @@ impl Default for Options {
             parallel: false,
             fused: false,
             trigonometry: rust.trigonometry,
+            limbs: Limbs::default(),
             snap: None,
             base_frames: None,
             allow_unphysical: false,

@@ -10,7 +10,7 @@ use robot_model::functions::Bundle;
 use robot_model::robot::BaseFrames;
 
 use crate::driver::generate::{Generated, generate};
-use crate::driver::options::{Options, functions_named, kinds_named};
+use crate::driver::options::{Limbs, Options, functions_named, kinds_named};
 use crate::driver::programs::read_with;
 use crate::entry::cargo::{self, Directives};
 use crate::entry::paths::{RobotFile, robot_files};
@@ -128,6 +128,12 @@ impl Builder {
     /// The source of sines and cosines; if not called, the runtime's polynomials.
     pub fn trigonometry(mut self, trigonometry: Trigonometry) -> Builder {
         self.options.trigonometry = trigonometry;
+        self
+    }
+
+    /// How limbs that are alike are computed; if not called, side by side.
+    pub fn limbs(mut self, limbs: Limbs) -> Builder {
+        self.options.limbs = limbs;
         self
     }
 

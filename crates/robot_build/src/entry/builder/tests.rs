@@ -429,7 +429,7 @@ fn a_budget_breaks_the_build() {
 #[test]
 fn each_option_has_its_setter() {
     type Set = fn(Builder) -> Builder;
-    let setters: [(&str, Set); 16] = [
+    let setters: [(&str, Set); 17] = [
         ("functions", |builder| builder.functions(["mass_matrix"])),
         ("bundles", |builder| builder.bundle("dynamics", ["mass_matrix", "bias"])),
         ("snap", |builder| builder.snap(1e-6)),
@@ -440,6 +440,7 @@ fn each_option_has_its_setter() {
         ("parallel", |builder| builder.parallel(true)),
         ("fused", |builder| builder.fused(true)),
         ("trigonometry", |builder| builder.trigonometry(Trigonometry::Standard)),
+        ("limbs", |builder| builder.limbs(Limbs::Apart)),
         ("max_operations", |builder| builder.max_operations(300)),
         ("max_stack", |builder| builder.max_stack(2048)),
         ("runtime", |builder| builder.runtime("::robot_runtime")),

@@ -7,6 +7,7 @@ use syn::{Expr, ImplItem, Item, Stmt, parse_quote};
 use super::body::Body;
 use super::doc;
 use super::kernel::{self, Choice};
+use super::limbs::used_by_limbs;
 use super::namer::{Namer, derived, identifier};
 use super::number::Number;
 use super::outputs;
@@ -27,9 +28,11 @@ pub(super) struct Names {
     pub(super) plain: Ident,
     pub(super) sc: Ident,
     /// The plain method and that of sines and cosines as kernels call them.
-    with: Ident,
+    pub(super) with: Ident,
     sc_with: Ident,
     angles: Ident,
+    /// The plain method limb by limb.
+    limbs: Ident,
 }
 
 impl Names {
@@ -40,6 +43,7 @@ impl Names {
             with: derived(namer, plain, "with"),
             sc_with: derived(namer, plain, "sc_with"),
             angles: derived(namer, plain, "angles"),
+            limbs: derived(namer, plain, "limbs"),
         }
     }
 }
@@ -52,17 +56,24 @@ pub(super) fn items(scope: &mut Scope<'_>, function: &Function, plain: &Ident) -
     let dispatched = kernel::is_dispatched(function, &scope.options.limits);
     let fused = dispatched && kernel::is_fused(function);
     let chosen = if fused { number.with_arithmetic() } else { number.clone() };
-    let mut methods = vec![];
     let mut printer = Methods::new(scope, function, &chosen, plain, dispatched);
-    methods.extend(printer.all());
+    let mut methods = printer.all();
     if let Some(lanes) = printer.scope.options.batch {
         methods.extend(printer.batch(lanes));
     }
+    let mut of_any_fields = None;
     if scope.options.generic {
         let generic = derived(&mut scope.methods, plain, "generic");
-        methods.extend(Methods::new(scope, function, &number.generic(), &generic, false).all());
+        let number = number.generic(scope.has_own_fields());
+        let forms = Methods::new(scope, function, &number, &generic, false).all();
+        if scope.has_own_fields() {
+            of_any_fields = Some(syntax::impl_model_of_any_fields(forms));
+        } else {
+            methods.extend(forms);
+        }
     }
     items.push(syntax::impl_model(methods));
+    items.extend(of_any_fields);
     if !scope.has_parameters() {
         items.push(free_function(scope, function, plain));
     }
@@ -111,7 +122,7 @@ impl<'s, 'a> Methods<'s, 'a> {
     }
 
     /// Whether sines and cosines are calls of the standard library: these stay outside of kernels.
-    fn has_calls(&self) -> bool {
+    pub(super) fn has_calls(&self) -> bool {
         self.scope.options.trigonometry == Trigonometry::Standard
     }
 
@@ -150,7 +161,12 @@ impl<'s, 'a> Methods<'s, 'a> {
         let mut variables = Variables::new(self.scope, function);
         let in_core = used_inputs(function, &function.core);
         let in_angles = used_inputs(function, &function.angles);
-        let used: Vec<bool> = in_core.iter().zip(&in_angles).map(|(a, b)| *a || *b).collect();
+        let mut used: Vec<bool> = in_core.iter().zip(&in_angles).map(|(a, b)| *a || *b).collect();
+        let limbs = self.limbs().cloned();
+        let in_limbs = limbs.as_ref().map(|limbs| used_by_limbs(function, limbs));
+        for (used, in_limbs) in used.iter_mut().zip(in_limbs.into_iter().flatten()) {
+            *used |= in_limbs;
+        }
         let (takes, angles) = self.angles_argument(&mut variables);
         let circular = self.number.circular_array();
         let (s, c) = (&variables.sines, &variables.cosines);
@@ -173,10 +189,23 @@ impl<'s, 'a> Methods<'s, 'a> {
         let (kernel, call) = self.kernel(Choice::Call, &variables, &handed, &with, &returned);
         let parameters = self.input_parameters(&variables, &used);
         let kernel = ignored.into_iter().chain(kernel).collect();
-        vec![
-            self.method(&plain, &docs, &all, kernel, call),
-            self.private(&with, &parameters, statements, value),
-        ]
+        let public = self.method(&plain, &docs, &all, kernel, call);
+        let Some(limbs) = limbs else {
+            return vec![public, self.private(&with, &parameters, statements, value)];
+        };
+        let name = self.names.limbs.clone();
+        let arguments = variables.chosen(&used_by_limbs(function, &limbs));
+        let flat = syntax::block(statements, value);
+        let value = parse_quote! {
+            if A::SIDE_BY_SIDE { Model::#name::<A>(#(#arguments),*) } else #flat
+        };
+        let runtime = self.number.runtime();
+        let signature = parse_quote! {
+            #[inline(always)]
+            fn #with<A: #runtime::Arithmetic>(&self, #(#parameters),*) -> #returned {}
+        };
+        let with = syntax::with_body(signature, vec![], value);
+        [public, with].into_iter().chain(self.of_limbs(&limbs, &name)).collect()
     }
 
     /// `&[q1, q2]` and the statements before it, or a call of the method of the angles.
@@ -385,7 +414,11 @@ impl<'s, 'a> Methods<'s, 'a> {
         self.scope.options.batch.is_some() && !self.number.is_generic()
     }
 
-    fn input_parameters(&self, variables: &Variables, include: &[bool]) -> Vec<TokenStream> {
+    pub(super) fn input_parameters(
+        &self,
+        variables: &Variables,
+        include: &[bool],
+    ) -> Vec<TokenStream> {
         let ty = self.number.ty();
         let inputs = variables.inputs.iter().zip(&self.function.inputs).zip(include);
         let included = inputs.filter(|(_, include)| **include);

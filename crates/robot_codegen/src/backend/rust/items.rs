@@ -110,14 +110,44 @@ pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
         "The model {title}: everything that depends only on its parameters, computed once."
     )]);
     let (fields, ty) = (&scope.fields, scalar_type(scope.options.scalar));
-    vec![
-        parse_quote! {
+    let (parameter, field) = match scope.has_own_fields() {
+        true => (Some(quote!(<P = #ty>)), parse_quote!(P)),
+        false => (None, ty),
+    };
+    let model = parse_quote! {
+        #(#docs)*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Model #parameter { #(#fields: #field),* }
+    };
+    let mut items = vec![model, constructor(scope)];
+    items.extend(scope.has_own_fields().then(|| over_lanes(scope)));
+    items
+}
+
+/// The constructor of a model whose parameters differ between lanes: the models of all lanes, side by side.
+fn over_lanes(scope: &Scope<'_>) -> Item {
+    let (fields, ty) = (&scope.fields, scalar_type(scope.options.scalar));
+    let runtime = scope.number.runtime();
+    let docs = doc::attributes(&[
+        "The model whose lane i has `parameters[i]`, for the forms `…_generic` over as many lanes: each field is \
+            that of [`Model::new`], lane by lane."
+            .to_owned(),
+    ]);
+    parse_quote! {
+        impl Model {
             #(#docs)*
-            #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct Model { #(#fields: #ty),* }
-        },
-        constructor(scope),
-    ]
+            #[must_use]
+            pub fn new_lanes<const N: usize>(
+                parameters: &[Parameters; N],
+            ) -> Model<#runtime::Lanes<#ty, N>> {
+                let models = parameters.each_ref().map(Model::new);
+                let lanes = |field: fn(&Model) -> #ty| {
+                    #runtime::Lanes::from_array(models.each_ref().map(field))
+                };
+                Model { #(#fields: lanes(|model| model.#fields),)* }
+            }
+        }
+    }
 }
 
 fn constructor(scope: &mut Scope<'_>) -> Item {

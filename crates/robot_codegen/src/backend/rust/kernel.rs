@@ -63,7 +63,8 @@ impl Methods<'_, '_> {
             Choice::Apart => quote!(dispatch_apart),
             Choice::Block => quote!(dispatch_block),
         };
-        let arithmetic = self.arithmetic_argument();
+        let by_limbs = *method == self.names.with && self.limbs().is_some();
+        let arithmetic = if by_limbs { Some(quote!(::<A>)) } else { self.arithmetic_argument() };
         let statements = vec![
             parse_quote! {
                 #[derive(Clone, Copy)]

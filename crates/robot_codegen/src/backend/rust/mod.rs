@@ -13,6 +13,7 @@ mod items;
 mod kernel;
 mod keywords;
 mod lanes;
+mod limbs;
 mod namer;
 mod names;
 mod number;

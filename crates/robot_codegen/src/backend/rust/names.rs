@@ -24,7 +24,7 @@ impl Names {
     /// The names, and the namer of the functions of `Model` for the rest of them.
     pub(super) fn new(module: &Module, setters: &[Setter]) -> (Names, Namer) {
         let parameters = module.parameters.iter().map(|parameter| parameter.name.as_str());
-        let mut methods = Namer::with(&["new", "NOMINAL"]);
+        let mut methods = Namer::with(&["new", "new_lanes", "NOMINAL"]);
         let setters = setters.iter().map(|setter| methods.name(&setter.name).to_string());
         let setters = setters.collect();
         let functions = module.functions.iter().map(|function| function.name.as_str());

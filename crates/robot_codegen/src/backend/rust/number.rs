@@ -1,6 +1,7 @@
 //! The number type of generated code, and what of the runtime it calls.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
 use syn::{Expr, Type, parse_quote};
 
 use super::syntax;
@@ -11,12 +12,12 @@ use crate::trigonometry::Trigonometry;
 #[derive(Clone)]
 pub(super) struct Number {
     kind: Kind,
-    /// The type in which the model stores its fields.
-    stored: Scalar,
     runtime: syn::Path,
     trigonometry: Trigonometry,
     /// Whether multiply-adds and polynomials are those of the type parameter `A`.
     arithmetic: bool,
+    /// Whether the model stores its fields in a type of its own, the type parameter `P`.
+    own_fields: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,10 +35,10 @@ impl Number {
     ) -> Number {
         Number {
             kind: Kind::Scalar(scalar),
-            stored: scalar,
             runtime: runtime.clone(),
             trigonometry,
             arithmetic: false,
+            own_fields: false,
         }
     }
 
@@ -55,9 +56,9 @@ impl Number {
         self.arithmetic
     }
 
-    /// The literal for any scalar of the runtime.
-    pub(super) fn generic(&self) -> Number {
-        Number { kind: Kind::Generic, ..self.clone() }
+    /// The number as any scalar of the runtime; `own_fields` if the model has fields.
+    pub(super) fn generic(&self, own_fields: bool) -> Number {
+        Number { kind: Kind::Generic, own_fields, ..self.clone() }
     }
 
     pub(super) fn is_generic(&self) -> bool {
@@ -85,11 +86,14 @@ impl Number {
         }
     }
 
-    /// The bounds on the type beyond being a scalar.
+    /// The bounds on the types beyond `T` being a scalar.
     pub(super) fn where_clause(&self) -> Option<syn::WhereClause> {
         let runtime = &self.runtime;
-        (self.is_generic() && self.trigonometry == Trigonometry::Standard)
-            .then(|| parse_quote!(where #runtime::StdTrig: #runtime::Trig<T>))
+        let fields = self.own_fields.then(|| quote!(P: #runtime::Field<T>));
+        let standard = self.is_generic() && self.trigonometry == Trigonometry::Standard;
+        let sines = standard.then(|| quote!(#runtime::StdTrig: #runtime::Trig<T>));
+        let bounds: Vec<TokenStream> = fields.into_iter().chain(sines).collect();
+        (!bounds.is_empty()).then(|| parse_quote!(where #(#bounds),*))
     }
 
     pub(super) fn constant(&self, value: f64) -> Expr {
@@ -104,10 +108,10 @@ impl Number {
 
     /// A field of the model as an operand.
     pub(super) fn field(&self, field: &Ident) -> Expr {
-        match (self.kind, self.stored) {
-            (Kind::Scalar(_), _) => parse_quote!(self.#field),
-            (Kind::Generic, Scalar::F64) => parse_quote!(T::from_f64(self.#field)),
-            (Kind::Generic, Scalar::F32) => parse_quote!(T::from_f64(f64::from(self.#field))),
+        let runtime = &self.runtime;
+        match self.kind {
+            Kind::Scalar(_) => parse_quote!(self.#field),
+            Kind::Generic => parse_quote!(#runtime::Field::<T>::broadcast(self.#field)),
         }
     }
 

@@ -54,6 +54,9 @@ impl<'a> Scope<'a> {
         let runtime = runtime_path(&options.runtime)?;
         check_range(module, options.scalar)?;
         let mut values = Namer::with(&["Model", "Parameters", "T", "A", "Kernel"]);
+        if options.generic {
+            values.name("P");
+        }
         let constants = options.constants.iter();
         let constants = constants.map(|item| values.name(&item.name.to_uppercase())).collect();
         let output_type = |function: &Function| {
@@ -89,6 +92,11 @@ impl<'a> Scope<'a> {
         let mut functions = self.module.functions.iter();
         let index = functions.position(|known| known.name == function.name)?;
         self.output_types[index].clone()
+    }
+
+    /// Whether the model's fields may be of any type: if there are some and functions over any scalar.
+    pub(super) fn has_own_fields(&self) -> bool {
+        self.has_parameters() && self.options.generic
     }
 
     /// Whether the module's model exists without parameters being given.

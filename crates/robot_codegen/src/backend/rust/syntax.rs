@@ -156,6 +156,15 @@ pub(super) fn impl_model(items: Vec<ImplItem>) -> Item {
     Item::Impl(block)
 }
 
+/// Methods of a model whatever its fields are: they are of the type `P`.
+pub(super) fn impl_model_of_any_fields(items: Vec<ImplItem>) -> Item {
+    let mut block: syn::ItemImpl = parse_quote!(
+        impl<P: ::core::marker::Copy> Model<P> {}
+    );
+    block.items = items;
+    Item::Impl(block)
+}
+
 /// A function whose body is the statements and then the value. `signature` has an empty body; the
 /// nodes of a long body are not printed and parsed again.
 pub(super) fn with_body(mut signature: ImplItemFn, statements: Vec<Stmt>, value: Expr) -> ImplItem {

@@ -76,6 +76,29 @@ impl Variables {
         statements
     }
 
+    /// `let [q1, q2, q3, _] = *anywhere(q);` for the entries of a lane, of those inputs that are chosen.
+    pub(super) fn take_lane(
+        &self,
+        function: &Function,
+        choice: &[bool],
+        of_lane: &[usize],
+        runtime: &syn::Path,
+    ) -> Vec<Stmt> {
+        let mut entries = self.entries.iter().enumerate();
+        let mut statements = vec![];
+        for ((input, array), chosen) in function.inputs.iter().zip(&self.inputs).zip(choice) {
+            let entries = entries.by_ref().take(input.symbols.len());
+            let patterns = entries.map(|(index, name)| {
+                syntax::optional_binding(of_lane.contains(&index).then_some(name))
+            });
+            let pattern = syntax::array_pattern(patterns.collect::<Vec<Pat>>());
+            if *chosen {
+                statements.push(parse_quote!(let #pattern = *#runtime::anywhere(#array);));
+            }
+        }
+        statements
+    }
+
     /// `let [sq1, _] = *s;` and the same for the cosines.
     pub(super) fn take_angles(&self, program: &Program) -> [Stmt; 2] {
         let sources = program.sources();
@@ -84,6 +107,18 @@ impl Variables {
         let cosines = self.cosine.iter().zip(0..);
         let cosines = cosines.map(|(name, index)| pattern(name, &sources, Source::Cos(index)));
         [take(&self.sines, sines.collect()), take(&self.cosines, cosines.collect())]
+    }
+
+    /// `(sq1, cq1)` for each angle.
+    pub(super) fn sines_and_cosines(&self, program: &Program) -> Vec<Pat> {
+        let sources = program.sources();
+        let pairs = self.sine.iter().zip(&self.cosine).zip(0..);
+        let pairs = pairs.map(|((sine, cosine), index)| -> Pat {
+            let sine = pattern(sine, &sources, Source::Sin(index));
+            let cosine = pattern(cosine, &sources, Source::Cos(index));
+            parse_quote!((#sine, #cosine))
+        });
+        pairs.collect()
     }
 
     /// Binds inputs that are not used otherwise to nothing, so that they are not unused variables.

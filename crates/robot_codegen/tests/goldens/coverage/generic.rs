@@ -41,23 +41,23 @@ pub mod generic {
     }
     /// The model generic: everything that depends only on its parameters, computed once.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Model {
-        k1: f32,
-        k2: f32,
-        k3: f32,
-        k4: f32,
-        k5: f32,
-        k6: f32,
-        k7: f32,
-        k8: f32,
-        k9: f32,
-        k10: f32,
-        k11: f32,
-        k12: f32,
-        k13: f32,
-        k14: f32,
-        k15: f32,
-        k16: f32,
+    pub struct Model<P = f32> {
+        k1: P,
+        k2: P,
+        k3: P,
+        k4: P,
+        k5: P,
+        k6: P,
+        k7: P,
+        k8: P,
+        k9: P,
+        k10: P,
+        k11: P,
+        k12: P,
+        k13: P,
+        k14: P,
+        k15: P,
+        k16: P,
     }
     impl Model {
         /// Computes everything that depends only on the parameters.
@@ -105,6 +105,36 @@ pub mod generic {
                 k14: t13 as f32,
                 k15: t14 as f32,
                 k16: (t14 + (t13 + t16)) as f32,
+            }
+        }
+    }
+    impl Model {
+        /// The model whose lane i has `parameters[i]`, for the forms `…_generic` over as many lanes: each field is that of [`Model::new`], lane by lane.
+        #[must_use]
+        pub fn new_lanes<const N: usize>(
+            parameters: &[Parameters; N],
+        ) -> Model<::robot_runtime::Lanes<f32, N>> {
+            let models = parameters.each_ref().map(Model::new);
+            let lanes = |field: fn(&Model) -> f32| {
+                ::robot_runtime::Lanes::from_array(models.each_ref().map(field))
+            };
+            Model {
+                k1: lanes(|model| model.k1),
+                k2: lanes(|model| model.k2),
+                k3: lanes(|model| model.k3),
+                k4: lanes(|model| model.k4),
+                k5: lanes(|model| model.k5),
+                k6: lanes(|model| model.k6),
+                k7: lanes(|model| model.k7),
+                k8: lanes(|model| model.k8),
+                k9: lanes(|model| model.k9),
+                k10: lanes(|model| model.k10),
+                k11: lanes(|model| model.k11),
+                k12: lanes(|model| model.k12),
+                k13: lanes(|model| model.k13),
+                k14: lanes(|model| model.k14),
+                k15: lanes(|model| model.k15),
+                k16: lanes(|model| model.k16),
             }
         }
     }
@@ -202,6 +232,8 @@ pub mod generic {
                 t17 + (t16 + (t15 + (t14 + (t13 + t19)))),
             ]
         }
+    }
+    impl<P: ::core::marker::Copy> Model<P> {
         /// Every operation.
         ///
         /// - `q`: two numbers.
@@ -211,7 +243,10 @@ pub mod generic {
         /// 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
         #[must_use]
-        pub fn plain_generic<T: ::robot_runtime::Scalar>(&self, q: &[T; 2]) -> [T; 19] {
+        pub fn plain_generic<T: ::robot_runtime::Scalar>(&self, q: &[T; 2]) -> [T; 19]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [x, _] = *q;
             let (s, c) = ::robot_runtime::sin_cos_array(&[x]);
             self.plain_generic_sc(&s, &c, q)
@@ -226,22 +261,26 @@ pub mod generic {
             s: &[T; 1],
             c: &[T; 1],
             q: &[T; 2],
-        ) -> [T; 19] {
+        ) -> [T; 19]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [sx] = *s;
             let [cx] = *c;
             let [x, y] = *q;
             let t1 = y * T::from_f64(0.3333333333333333);
-            let t2 = T::from_f64(f64::from(self.k1)) * T::from_f64(0.3333333333333333);
+            let t2 = ::robot_runtime::Field::<T>::broadcast(self.k1)
+                * T::from_f64(0.3333333333333333);
             let t3 = sx * T::from_f64(0.3333333333333333);
             let t4 = cx * T::from_f64(0.3333333333333333);
             let t5 = x * T::from_f64(0.3333333333333333);
-            let t6 = y + T::from_f64(f64::from(self.k1));
-            let t7 = y - T::from_f64(f64::from(self.k1));
-            let t8 = y * T::from_f64(f64::from(self.k1));
-            let t9 = y / T::from_f64(f64::from(self.k1));
+            let t6 = y + ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t7 = y - ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t8 = y * ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t9 = y / ::robot_runtime::Field::<T>::broadcast(self.k1);
             let t10 = ::robot_runtime::Scalar::mul_add(
                 y,
-                T::from_f64(f64::from(self.k1)),
+                ::robot_runtime::Field::<T>::broadcast(self.k1),
                 T::from_f64(0.3333333333333333),
             );
             let t11 = <::robot_runtime::PolyTrig as ::robot_runtime::Trig<T>>::sin_cos(y)
@@ -379,6 +418,8 @@ pub mod generic {
                 t16 + (t15 + (t14 + (t13 + t18))),
             ]
         }
+    }
+    impl<P: ::core::marker::Copy> Model<P> {
         /// Every operation.
         ///
         /// - `q`: two numbers.
@@ -388,7 +429,10 @@ pub mod generic {
         /// 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
         #[inline]
         #[must_use]
-        pub fn turned_generic<T: ::robot_runtime::Scalar>(&self, q: &[T; 2]) -> [T; 18] {
+        pub fn turned_generic<T: ::robot_runtime::Scalar>(&self, q: &[T; 2]) -> [T; 18]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let (s, c) = ::robot_runtime::sin_cos_array(&self.turned_generic_angles(q));
             self.turned_generic_sc(&s, &c, q)
         }
@@ -398,7 +442,10 @@ pub mod generic {
         pub fn turned_generic_angles<T: ::robot_runtime::Scalar>(
             &self,
             q: &[T; 2],
-        ) -> [T; 1] {
+        ) -> [T; 1]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [x, y] = *q;
             [x + y]
         }
@@ -412,21 +459,25 @@ pub mod generic {
             s: &[T; 1],
             c: &[T; 1],
             q: &[T; 2],
-        ) -> [T; 18] {
+        ) -> [T; 18]
+        where
+            P: ::robot_runtime::Field<T>,
+        {
             let [s1] = *s;
             let [c1] = *c;
             let [_, y] = *q;
             let t1 = y * T::from_f64(0.3333333333333333);
-            let t2 = T::from_f64(f64::from(self.k1)) * T::from_f64(0.3333333333333333);
+            let t2 = ::robot_runtime::Field::<T>::broadcast(self.k1)
+                * T::from_f64(0.3333333333333333);
             let t3 = s1 * T::from_f64(0.3333333333333333);
             let t4 = c1 * T::from_f64(0.3333333333333333);
-            let t5 = y + T::from_f64(f64::from(self.k1));
-            let t6 = y - T::from_f64(f64::from(self.k1));
-            let t7 = y * T::from_f64(f64::from(self.k1));
-            let t8 = y / T::from_f64(f64::from(self.k1));
+            let t5 = y + ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t6 = y - ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t7 = y * ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t8 = y / ::robot_runtime::Field::<T>::broadcast(self.k1);
             let t9 = ::robot_runtime::Scalar::mul_add(
                 y,
-                T::from_f64(f64::from(self.k1)),
+                ::robot_runtime::Field::<T>::broadcast(self.k1),
                 T::from_f64(0.3333333333333333),
             );
             let t10 = <::robot_runtime::PolyTrig as ::robot_runtime::Trig<T>>::sin_cos(y)

@@ -41,23 +41,23 @@ pub mod standard {
     }
     /// The model standard: everything that depends only on its parameters, computed once.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct Model {
-        k1: f64,
-        k2: f64,
-        k3: f64,
-        k4: f64,
-        k5: f64,
-        k6: f64,
-        k7: f64,
-        k8: f64,
-        k9: f64,
-        k10: f64,
-        k11: f64,
-        k12: f64,
-        k13: f64,
-        k14: f64,
-        k15: f64,
-        k16: f64,
+    pub struct Model<P = f64> {
+        k1: P,
+        k2: P,
+        k3: P,
+        k4: P,
+        k5: P,
+        k6: P,
+        k7: P,
+        k8: P,
+        k9: P,
+        k10: P,
+        k11: P,
+        k12: P,
+        k13: P,
+        k14: P,
+        k15: P,
+        k16: P,
     }
     impl Model {
         /// Computes everything that depends only on the parameters.
@@ -101,6 +101,36 @@ pub mod standard {
                 k14: t13,
                 k15: t14,
                 k16: t14 + (t13 + t16),
+            }
+        }
+    }
+    impl Model {
+        /// The model whose lane i has `parameters[i]`, for the forms `…_generic` over as many lanes: each field is that of [`Model::new`], lane by lane.
+        #[must_use]
+        pub fn new_lanes<const N: usize>(
+            parameters: &[Parameters; N],
+        ) -> Model<::robot_runtime::Lanes<f64, N>> {
+            let models = parameters.each_ref().map(Model::new);
+            let lanes = |field: fn(&Model) -> f64| {
+                ::robot_runtime::Lanes::from_array(models.each_ref().map(field))
+            };
+            Model {
+                k1: lanes(|model| model.k1),
+                k2: lanes(|model| model.k2),
+                k3: lanes(|model| model.k3),
+                k4: lanes(|model| model.k4),
+                k5: lanes(|model| model.k5),
+                k6: lanes(|model| model.k6),
+                k7: lanes(|model| model.k7),
+                k8: lanes(|model| model.k8),
+                k9: lanes(|model| model.k9),
+                k10: lanes(|model| model.k10),
+                k11: lanes(|model| model.k11),
+                k12: lanes(|model| model.k12),
+                k13: lanes(|model| model.k13),
+                k14: lanes(|model| model.k14),
+                k15: lanes(|model| model.k15),
+                k16: lanes(|model| model.k16),
             }
         }
     }
@@ -194,6 +224,8 @@ pub mod standard {
                 t17 + (t16 + (t15 + (t14 + (t13 + t19)))),
             ]
         }
+    }
+    impl<P: ::core::marker::Copy> Model<P> {
         /// Every operation.
         ///
         /// - `q`: two numbers.
@@ -205,6 +237,7 @@ pub mod standard {
         #[must_use]
         pub fn plain_generic<T: ::robot_runtime::Scalar>(&self, q: &[T; 2]) -> [T; 19]
         where
+            P: ::robot_runtime::Field<T>,
             ::robot_runtime::StdTrig: ::robot_runtime::Trig<T>,
         {
             let [x, _] = *q;
@@ -223,23 +256,25 @@ pub mod standard {
             q: &[T; 2],
         ) -> [T; 19]
         where
+            P: ::robot_runtime::Field<T>,
             ::robot_runtime::StdTrig: ::robot_runtime::Trig<T>,
         {
             let [sx] = *s;
             let [cx] = *c;
             let [x, y] = *q;
             let t1 = y * T::from_f64(0.3333333333333333);
-            let t2 = T::from_f64(self.k1) * T::from_f64(0.3333333333333333);
+            let t2 = ::robot_runtime::Field::<T>::broadcast(self.k1)
+                * T::from_f64(0.3333333333333333);
             let t3 = sx * T::from_f64(0.3333333333333333);
             let t4 = cx * T::from_f64(0.3333333333333333);
             let t5 = x * T::from_f64(0.3333333333333333);
-            let t6 = y + T::from_f64(self.k1);
-            let t7 = y - T::from_f64(self.k1);
-            let t8 = y * T::from_f64(self.k1);
-            let t9 = y / T::from_f64(self.k1);
+            let t6 = y + ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t7 = y - ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t8 = y * ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t9 = y / ::robot_runtime::Field::<T>::broadcast(self.k1);
             let t10 = ::robot_runtime::Scalar::mul_add(
                 y,
-                T::from_f64(self.k1),
+                ::robot_runtime::Field::<T>::broadcast(self.k1),
                 T::from_f64(0.3333333333333333),
             );
             let t11 = <::robot_runtime::StdTrig as ::robot_runtime::Trig<T>>::sin_cos(y)
@@ -370,6 +405,8 @@ pub mod standard {
                 t16 + (t15 + (t14 + (t13 + t18))),
             ]
         }
+    }
+    impl<P: ::core::marker::Copy> Model<P> {
         /// Every operation.
         ///
         /// - `q`: two numbers.
@@ -381,6 +418,7 @@ pub mod standard {
         #[must_use]
         pub fn turned_generic<T: ::robot_runtime::Scalar>(&self, q: &[T; 2]) -> [T; 18]
         where
+            P: ::robot_runtime::Field<T>,
             ::robot_runtime::StdTrig: ::robot_runtime::Trig<T>,
         {
             let (s, c) = ::robot_runtime::std_sin_cos_array(
@@ -396,6 +434,7 @@ pub mod standard {
             q: &[T; 2],
         ) -> [T; 1]
         where
+            P: ::robot_runtime::Field<T>,
             ::robot_runtime::StdTrig: ::robot_runtime::Trig<T>,
         {
             let [x, y] = *q;
@@ -413,22 +452,24 @@ pub mod standard {
             q: &[T; 2],
         ) -> [T; 18]
         where
+            P: ::robot_runtime::Field<T>,
             ::robot_runtime::StdTrig: ::robot_runtime::Trig<T>,
         {
             let [s1] = *s;
             let [c1] = *c;
             let [_, y] = *q;
             let t1 = y * T::from_f64(0.3333333333333333);
-            let t2 = T::from_f64(self.k1) * T::from_f64(0.3333333333333333);
+            let t2 = ::robot_runtime::Field::<T>::broadcast(self.k1)
+                * T::from_f64(0.3333333333333333);
             let t3 = s1 * T::from_f64(0.3333333333333333);
             let t4 = c1 * T::from_f64(0.3333333333333333);
-            let t5 = y + T::from_f64(self.k1);
-            let t6 = y - T::from_f64(self.k1);
-            let t7 = y * T::from_f64(self.k1);
-            let t8 = y / T::from_f64(self.k1);
+            let t5 = y + ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t6 = y - ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t7 = y * ::robot_runtime::Field::<T>::broadcast(self.k1);
+            let t8 = y / ::robot_runtime::Field::<T>::broadcast(self.k1);
             let t9 = ::robot_runtime::Scalar::mul_add(
                 y,
-                T::from_f64(self.k1),
+                ::robot_runtime::Field::<T>::broadcast(self.k1),
                 T::from_f64(0.3333333333333333),
             );
             let t10 = <::robot_runtime::StdTrig as ::robot_runtime::Trig<T>>::sin_cos(y)

@@ -6,14 +6,13 @@ use core::arch::x86_64::*;
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::super::fused::FUSED;
 use super::super::number::Number;
 use super::super::scalar::Scalar;
 use super::super::trig::block::copy;
 use super::super::trig::{double, single};
 use super::Register;
 
-/// A register type.
+/// A register type; multiply-adds and sines round once if `ONCE`.
 ///
 /// SAFETY of every `unsafe` block below: the instructions need a processor that has them. The type is
 /// compiled only for such processors, or used only by code that has asked the processor. Loads and
@@ -32,9 +31,9 @@ macro_rules! register {
         $(#[$attribute])*
         #[derive(Clone, Copy)]
         #[repr(transparent)]
-        pub(in super::super) struct $name($vector);
+        pub(in super::super) struct $name<const ONCE: bool>($vector);
 
-        impl $name {
+        impl<const ONCE: bool> $name<ONCE> {
             #[inline(always)]
             fn bits(self) -> $integer {
                 unsafe { $to_bits(self.0) }
@@ -80,7 +79,7 @@ macro_rules! register {
             }
         }
 
-        impl Register<$float, $lanes> for $name {
+        impl<const ONCE: bool> Register<$float, $lanes> for $name<ONCE> {
             #[inline(always)]
             fn load(from: &[$float; $lanes]) -> Self {
                 Self(unsafe { $load(from.as_ptr()) })
@@ -97,7 +96,7 @@ macro_rules! register {
         register!(@binary $name, Mul, mul, $mul);
         register!(@binary $name, Div, div, $div);
 
-        impl Neg for $name {
+        impl<const ONCE: bool> Neg for $name<ONCE> {
             type Output = Self;
 
             #[inline(always)]
@@ -106,15 +105,15 @@ macro_rules! register {
             }
         }
 
-        impl Number<$float> for $name {
+        impl<const ONCE: bool> Number<$float> for $name<ONCE> {
             #[inline(always)]
             fn splat(value: $float) -> Self {
                 Self(unsafe { $splat(value) })
             }
 
             #[inline(always)]
-            fn multiply_add<const ONCE: bool>(self, factor: Self, addend: Self) -> Self {
-                if ONCE {
+            fn multiply_add<const FUSE: bool>(self, factor: Self, addend: Self) -> Self {
+                if FUSE {
                     return Self(unsafe { $mul_add(self.0, factor.0, addend.0) });
                 }
                 self * factor + addend
@@ -138,7 +137,7 @@ macro_rules! register {
             }
         }
 
-        impl Scalar for $name {
+        impl<const ONCE: bool> Scalar for $name<ONCE> {
             const ZERO: Self = {
                 // SAFETY: both are as many numbers, and any bits are numbers.
                 unsafe { core::mem::transmute::<[$float; $lanes], Self>([0.0; $lanes]) }
@@ -154,7 +153,7 @@ macro_rules! register {
 
             #[inline(always)]
             fn mul_add(self, factor: Self, addend: Self) -> Self {
-                self.multiply_add::<FUSED>(factor, addend)
+                self.multiply_add::<ONCE>(factor, addend)
             }
 
             #[inline(always)]
@@ -192,18 +191,18 @@ macro_rules! register {
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                $polynomials::compute::<FUSED, Self>(self)
+                $polynomials::compute::<ONCE, Self>(self)
             }
         }
 
-        impl PartialEq for $name {
+        impl<const ONCE: bool> PartialEq for $name<ONCE> {
             #[inline]
             fn eq(&self, other: &Self) -> bool {
                 self.lanes() == other.lanes()
             }
         }
 
-        impl fmt::Debug for $name {
+        impl<const ONCE: bool> fmt::Debug for $name<ONCE> {
             #[inline]
             fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
                 self.lanes().fmt(formatter)
@@ -211,7 +210,7 @@ macro_rules! register {
         }
     };
     (@binary $name:ident, $operator:ident, $method:ident, $instruction:ident) => {
-        impl $operator for $name {
+        impl<const ONCE: bool> $operator for $name<ONCE> {
             type Output = Self;
 
             #[inline(always)]
@@ -312,7 +311,7 @@ macro_rules! of_one_state {
                     let (mut padded, mut sine, mut cosine) =
                         ([0.0; $lanes], [0.0; $lanes], [0.0; $lanes]);
                     copy(rest.0, &mut padded);
-                    let (s, c) = $name::compute::<ONCE, _>($register::load(&padded));
+                    let (s, c) = $name::compute::<ONCE, _>($register::<ONCE>::load(&padded));
                     s.store(&mut sine);
                     c.store(&mut cosine);
                     copy(&sine, rest.1);

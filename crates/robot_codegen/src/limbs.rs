@@ -1,0 +1,214 @@
+//! Functions of robots whose limbs are alike: one program for all of them, side by side in lanes.
+//!
+//! The limbs of a robot hang on a base at rest, and nothing couples them: each result of a function is one of a limb's,
+//! or 0. Limbs of the same kind differ in numbers alone, which the program of the limb loads as fields.
+
+use rustc_hash::FxHashMap;
+
+use crate::interpreter::evaluate;
+use crate::module::{Function, Module};
+use crate::program::{Builder, Operation, Program, Source, Value};
+use crate::trigonometry::Trigonometry;
+
+/// The most lanes: more limbs of a kind are several calls.
+const MAX_LANES: usize = 8;
+/// The fewest lanes: two have not been measured to be faster than code for each limb.
+const MIN_LANES: usize = 4;
+/// The most operations of one limb's function: rustc takes minutes for some thousands over lanes.
+const MAX_OPERATIONS: usize = 600;
+
+/// A kind of limb: the module of one of them, and the limbs.
+#[derive(Clone, Debug)]
+pub struct LimbKind {
+    /// The functions of one limb alone, with the numbers in which the limbs differ as parameters.
+    pub module: Module,
+    /// For each limb its coordinates in those of the robot, in the order of the limb's own.
+    pub coordinates: Vec<Vec<usize>>,
+    /// For each limb the values of the parameters.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// A function as the limbs of a robot compute it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Limbs {
+    /// The calls that compute it.
+    pub calls: Vec<LimbCall>,
+    /// For each result of the function where it comes from; `None` if it is 0.
+    pub results: Vec<Option<LimbResult>>,
+}
+
+/// A call of a function of one limb, for several limbs in lanes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimbCall {
+    /// The function of one limb; its fields are the numbers of `fields`.
+    pub function: Function,
+    /// For each field its number in each lane; none if there is one lane.
+    pub fields: Vec<Vec<f64>>,
+    /// For each lane and each entry of the limb's inputs, entry by entry, the entry of the robot's inputs.
+    pub inputs: Vec<Vec<usize>>,
+}
+
+/// A result of a limb.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LimbResult {
+    /// The call, by its index.
+    pub call: usize,
+    /// The lane.
+    pub lane: usize,
+    /// The result of the limb's function.
+    pub result: usize,
+}
+
+impl LimbCall {
+    /// The number of lanes: a power of two, limbs again where there are no more.
+    #[must_use]
+    pub fn lanes(&self) -> usize {
+        self.inputs.len()
+    }
+}
+
+impl Module {
+    /// Gives those of the functions of these names that the limbs can compute the programs that do: all of their inputs
+    /// and the sides of all of their outputs are as long as the robot has coordinates. Limbs of which there are two, and
+    /// functions that are long, stay as they are.
+    pub fn set_limbs(&mut self, kinds: &[LimbKind], names: &[String], trigonometry: Trigonometry) {
+        let coordinates = kinds.iter().flat_map(|kind| &kind.coordinates).map(Vec::len).sum();
+        for function in &mut self.functions {
+            if names.contains(&function.name) {
+                function.limbs = limbs(function, kinds, coordinates, trigonometry);
+            }
+        }
+    }
+}
+
+/// The function as limbs compute it, if they can.
+fn limbs(
+    function: &Function,
+    kinds: &[LimbKind],
+    coordinates: usize,
+    trigonometry: Trigonometry,
+) -> Option<Limbs> {
+    let sides = function.outputs.iter().flat_map(|output| &output.shape);
+    let lengths = function.inputs.iter().map(|input| input.symbols.len());
+    if function.outputs.iter().any(|output| output.shape.is_empty())
+        || sides.copied().chain(lengths).any(|length| length != coordinates)
+    {
+        return None;
+    }
+    let mut limbs = Limbs { calls: vec![], results: vec![None; function.core.results().len()] };
+    for kind in kinds {
+        let alone = kind.module.function(&function.name)?;
+        let numbered: Vec<usize> = (0..kind.coordinates.len()).collect();
+        for chunk in numbered.chunks(MAX_LANES) {
+            let call = limb_call(function, kind, alone, chunk, trigonometry);
+            for (lane, limb) in chunk.iter().enumerate() {
+                place(&mut limbs, function, &kind.coordinates[*limb], lane);
+            }
+            limbs.calls.push(call);
+        }
+    }
+    limbs.calls.iter().all(is_worth_it).then_some(limbs)
+}
+
+/// Whether a call is one lane, or is known to be faster and to compile in time.
+fn is_worth_it(call: &LimbCall) -> bool {
+    let operations = call.function.core.operations().len();
+    call.lanes() == 1 || call.lanes() >= MIN_LANES && operations <= MAX_OPERATIONS
+}
+
+/// Puts the results of a limb, in a lane of the next call, where they belong.
+fn place(limbs: &mut Limbs, function: &Function, coordinates: &[usize], lane: usize) {
+    let call = limbs.calls.len();
+    let (mut first, mut result) = (0, 0);
+    for output in &function.outputs {
+        let side = output.shape[0];
+        let mut set = |entry: usize| {
+            limbs.results[first + entry] = Some(LimbResult { call, lane, result });
+            result += 1;
+        };
+        for row in coordinates {
+            match output.shape.len() {
+                1 => set(*row),
+                _ => coordinates.iter().for_each(|column| set(row * side + column)),
+            }
+        }
+        first += output.len();
+    }
+}
+
+/// The call for some limbs of a kind.
+fn limb_call(
+    function: &Function,
+    kind: &LimbKind,
+    alone: &Function,
+    chunk: &[usize],
+    trigonometry: Trigonometry,
+) -> LimbCall {
+    let lanes = chunk.len().next_power_of_two();
+    let last = chunk.iter().rev().cycle();
+    let padded: Vec<usize> = chunk.iter().chain(last.take(lanes - chunk.len())).copied().collect();
+    let fields_of = |limb: &usize| {
+        let values = &kind.values[*limb];
+        evaluate(&kind.module.constructor, trigonometry, |source| match source {
+            Source::Parameter(index) => values[index as usize],
+            _ => f64::NAN,
+        })
+    };
+    let of_lanes: Vec<Vec<f64>> = padded.iter().map(fields_of).collect();
+    let mut fields = Fields::default();
+    let alone = Function {
+        angles: fields.settle(&alone.angles, &of_lanes),
+        core: fields.settle(&alone.core, &of_lanes),
+        ..alone.clone()
+    };
+    let entries = |limb: &usize| {
+        let coordinates = &kind.coordinates[*limb];
+        let starts = function.inputs.iter().scan(0, |start, input| {
+            let this = *start;
+            *start += input.symbols.len();
+            Some(this)
+        });
+        starts.flat_map(|start| coordinates.iter().map(move |index| start + index)).collect()
+    };
+    LimbCall {
+        function: alone,
+        fields: fields.numbers,
+        inputs: padded.iter().map(entries).collect(),
+    }
+}
+
+/// The fields that differ between lanes.
+#[derive(Default)]
+struct Fields {
+    numbers: Vec<Vec<f64>>,
+    index: FxHashMap<u32, u32>,
+}
+
+impl Fields {
+    /// A program with those fields that are the same in all lanes as constants.
+    fn settle(&mut self, program: &Program, of_lanes: &[Vec<f64>]) -> Program {
+        let mut builder = Builder::new();
+        let mut values: Vec<Value> = Vec::with_capacity(program.operations().len());
+        for (_, operation) in program.values() {
+            let value = match operation {
+                Operation::Load(Source::Field(field)) => self.load(field, of_lanes, &mut builder),
+                _ => builder.apply(operation.map(|operand| values[operand.index()])),
+            };
+            values.push(value);
+        }
+        builder.finish(program.results().iter().map(|value| values[value.index()]).collect())
+    }
+
+    fn load(&mut self, field: u32, of_lanes: &[Vec<f64>], builder: &mut Builder) -> Value {
+        let numbers: Vec<f64> = of_lanes.iter().map(|fields| fields[field as usize]).collect();
+        if numbers.iter().all(|number| *number == numbers[0]) {
+            return builder.constant(numbers[0]);
+        }
+        let next = self.numbers.len() as u32;
+        let index = *self.index.entry(field).or_insert(next);
+        if index == next {
+            self.numbers.push(numbers);
+        }
+        builder.load(Source::Field(index))
+    }
+}
