@@ -11,6 +11,7 @@ mod forms;
 mod generated_crate;
 mod include_macro;
 mod kinds;
+mod limbs;
 mod package;
 mod payload;
 mod reference;

@@ -12,8 +12,8 @@ use crate::trigonometry::Trigonometry;
 
 /// The most lanes: more limbs of a kind are several calls.
 const MAX_LANES: usize = 8;
-/// The fewest lanes: two have not been measured to be faster than code for each limb.
-const MIN_LANES: usize = 4;
+/// The lanes of a call that was measured to be faster than code for each limb; two and eight were not.
+const MEASURED_LANES: usize = 4;
 /// The most operations of one limb's function: rustc takes minutes for some thousands over lanes.
 const MAX_OPERATIONS: usize = 600;
 
@@ -113,7 +113,7 @@ fn limbs(
 /// Whether a call is one lane, or is known to be faster and to compile in time.
 fn is_worth_it(call: &LimbCall) -> bool {
     let operations = call.function.core.operations().len();
-    call.lanes() == 1 || call.lanes() >= MIN_LANES && operations <= MAX_OPERATIONS
+    call.lanes() == 1 || call.lanes() == MEASURED_LANES && operations <= MAX_OPERATIONS
 }
 
 /// Puts the results of a limb, in a lane of the next call, where they belong.

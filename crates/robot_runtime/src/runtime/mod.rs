@@ -38,7 +38,9 @@ pub use self::processor::{
 pub use self::real::Real;
 pub use self::reciprocal::{recip_positive_f32, recip_positive_f64};
 pub use self::scalar::Scalar;
-pub use self::state::{State, chunks, column_length, lane, padded_chunks, set_state, state};
+pub use self::state::{
+    State, chunks, column_length, lane, padded_chunks, set_state, side_by_side, state,
+};
 #[cfg(feature = "std")]
 pub use self::std_trig::{StdTrig, std_sin_cos_array};
 pub use self::trig::{PolyTrig, Trig, sin_cos_array, sin_cos_each};

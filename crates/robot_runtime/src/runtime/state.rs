@@ -17,6 +17,9 @@ pub trait State: Copy {
     /// Puts the state into a lane, if there is one.
     fn set_lane<const W: usize>(self, lanes: &mut Self::Lanes<W>, lane: usize);
 
+    /// The state of a lane; zeros if there is no such lane.
+    fn of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Self;
+
     /// The length of the shortest column; no limit if there is none.
     fn column_length(columns: &Self::Columns<'_>) -> usize;
 
@@ -38,6 +41,11 @@ macro_rules! implement_state {
             #[inline(always)]
             fn set_lane<const W: usize>(self, lanes: &mut [$float; W], lane: usize) {
                 set_state(self, lanes, lane);
+            }
+
+            #[inline(always)]
+            fn of_lane<const W: usize>(lanes: &[$float; W], lane: usize) -> $float {
+                lanes.get(lane).copied().unwrap_or_default()
             }
 
             #[inline(always)]
@@ -81,6 +89,11 @@ impl<S: State, const N: usize> State for [S; N] {
     }
 
     #[inline(always)]
+    fn of_lane<const W: usize>(lanes: &[S::Lanes<W>; N], lane: usize) -> [S; N] {
+        lanes.each_ref().map(|lanes| S::of_lane(lanes, lane))
+    }
+
+    #[inline(always)]
     fn column_length(columns: &[S::Columns<'_>; N]) -> usize {
         columns.iter().map(S::column_length).min().unwrap_or(usize::MAX)
     }
@@ -119,6 +132,20 @@ pub fn set_state<S, const W: usize>(state: S, states: &mut [S; W], index: usize)
     if let Some(to) = states.get_mut(index) {
         *to = state;
     }
+}
+
+/// States side by side: lane i of each coordinate is that of state i.
+#[inline(always)]
+pub fn side_by_side<T: Scalar, const N: usize, const W: usize>(
+    states: &[[T; N]; W],
+) -> [[T; W]; N] {
+    let mut lanes = [[T::ZERO; W]; N];
+    for (index, state) in states.iter().enumerate() {
+        for (lanes, number) in lanes.iter_mut().zip(state) {
+            set_state(*number, lanes, index);
+        }
+    }
+    lanes
 }
 
 /// The length of the shortest column; no limit if there is none.

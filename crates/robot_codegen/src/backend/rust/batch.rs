@@ -27,6 +27,8 @@ pub(super) struct Slices {
     /// Names and shapes of one state.
     pub(super) outputs: Vec<(Ident, Vec<usize>)>,
     /// The number of states in a block.
+    pub(super) count: usize,
+    /// The same as a literal.
     pub(super) lanes: Literal,
 }
 
@@ -149,7 +151,8 @@ impl Methods<'_, '_> {
         let outputs =
             outputs.map(|output| (variables.namer.name(&output.name), output.shape.clone()));
         let outputs = outputs.collect();
-        Slices { variables, inputs, outputs, lanes: Literal::usize_unsuffixed(lanes.max(1)) }
+        let count = lanes.max(1);
+        Slices { variables, inputs, outputs, count, lanes: Literal::usize_unsuffixed(count) }
     }
 
     /// Cuts slices of states into blocks.
