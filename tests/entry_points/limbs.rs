@@ -102,11 +102,8 @@ fn hold(programs: &Programs, trigonometry: Trigonometry, printed: &str) {
 fn legs_side_by_side_give_the_values_of_legs_apart() {
     let runtime = dependency("robot_runtime", ", features = [\"std\"]");
     let package = Package::new("limbs", &format!("[dependencies]\n{runtime}"));
-    for (fused, trigonometry) in [
-        (false, Trigonometry::Polynomial),
-        (true, Trigonometry::Polynomial),
-        (false, Trigonometry::Standard),
-    ] {
+    let trigonometry = Trigonometry::Polynomial;
+    for fused in [false, true] {
         let options = options(fused, trigonometry);
         let programs = programs(&source(), &options).unwrap();
         let code = generate(&source(), &options).unwrap().code;
