@@ -83,7 +83,7 @@ fn write_package(
     let files =
         robot_build::languages::package_of(&work.programs, &work.source, &work.options, language);
     for file in files.map_err(|error| error.to_string())? {
-        files::write(folder, &file.path, file.text.as_bytes())?;
+        files::write(folder, &file.path, file.contents.bytes())?;
     }
     files::write(folder, "states.bin", &work.input_bytes())
 }

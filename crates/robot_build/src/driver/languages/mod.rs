@@ -3,7 +3,8 @@
 mod package;
 mod printing;
 
-use robot_codegen::backend::{self, SourceFile, Target};
+use robot_codegen::backend::{self, Target};
+pub use robot_codegen::backend::{Contents, SourceFile};
 use robot_model::diagnostic::Source;
 
 pub use self::package::{package, package_of};

@@ -8,6 +8,7 @@ mod matlab;
 mod python;
 
 use robot_codegen::Module;
+use robot_codegen::backend::SourceFile;
 use robot_codegen::backend::flat::{FlatOptions, Tree};
 use robot_model::diagnostic::Source;
 
@@ -83,7 +84,12 @@ struct Parts<'a> {
 
 /// A file of a package.
 fn file(path: &str, text: String) -> File {
-    File { path: path.to_owned(), text }
+    File::text(path, text)
+}
+
+/// The source files as files of the package.
+fn of_sources(sources: Vec<SourceFile>) -> impl Iterator<Item = File> {
+    sources.into_iter().map(|SourceFile { name, contents }| File { path: name, contents })
 }
 
 impl Parts<'_> {
