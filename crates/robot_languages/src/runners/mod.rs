@@ -3,6 +3,7 @@
 mod c;
 mod rust;
 mod scripts;
+mod wasm;
 
 use std::path::Path;
 
@@ -44,6 +45,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     let mut runners: Vec<Box<dyn Runner>> = vec![Box::new(rust::Rust)];
     runners.extend(c::all());
     runners.extend(scripts::all());
+    runners.push(Box::new(wasm::Wasm));
     runners
 }
 

@@ -27,12 +27,20 @@ pub enum Language {
     Python,
     /// JavaScript: an ES module with declarations for TypeScript.
     JavaScript,
+    /// WebAssembly: a module with an ES module that loads it.
+    Wasm,
 }
 
 impl Language {
     /// All languages, in the order of lists.
-    pub const ALL: &'static [Language] =
-        &[Language::Rust, Language::C, Language::Matlab, Language::Python, Language::JavaScript];
+    pub const ALL: &'static [Language] = &[
+        Language::Rust,
+        Language::C,
+        Language::Matlab,
+        Language::Python,
+        Language::JavaScript,
+        Language::Wasm,
+    ];
 
     /// The name on the command line.
     #[must_use]
@@ -43,6 +51,7 @@ impl Language {
             Language::Matlab => "matlab",
             Language::Python => "python",
             Language::JavaScript => "javascript",
+            Language::Wasm => "wasm",
         }
     }
 
@@ -55,6 +64,7 @@ impl Language {
             Language::Matlab => "MATLAB and Octave, a function a file",
             Language::Python => "Python, for numbers and for NumPy arrays",
             Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
+            Language::Wasm => "WebAssembly, with an ES module that loads it",
         }
     }
 
@@ -100,6 +110,7 @@ pub fn sources_of(
         Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),
         Language::Python => Box::new(backend::python::Python { options: flat() }),
         Language::JavaScript => Box::new(backend::javascript::JavaScript { options: flat() }),
+        Language::Wasm => Box::new(backend::wasm::Wasm { options: flat(), batch: true }),
     };
     let module = match language {
         Language::Rust => programs.module.clone(),

@@ -22,7 +22,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     files
 }
 
-fn manifest(tree: &Tree<'_>) -> String {
+pub(super) fn manifest(tree: &Tree<'_>) -> String {
     let name = &tree.name;
     // Names of packages are in small letters.
     let package = name.to_lowercase();

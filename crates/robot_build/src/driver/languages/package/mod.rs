@@ -6,6 +6,7 @@ mod description;
 mod javascript;
 mod matlab;
 mod python;
+mod wasm;
 
 use robot_codegen::Module;
 use robot_codegen::backend::SourceFile;
@@ -68,6 +69,7 @@ pub fn package_of(
         Language::Matlab => matlab::files(&parts, files),
         Language::Python => python::files(&parts, files),
         Language::JavaScript => javascript::files(&parts, files),
+        Language::Wasm => wasm::files(&parts, files),
     })
 }
 
