@@ -95,7 +95,7 @@ fn function(name: &str, angles: Program, core: Program) -> Function {
 }
 
 /// A constructor, a function of plain angles and one of an angle that is computed.
-fn module(name: &str) -> Module {
+pub(crate) fn module(name: &str) -> Module {
     let parameters = ["p", "r"].map(|name| ParameterSpec {
         name: name.into(),
         doc: String::new(),

@@ -11,3 +11,5 @@ mod golden;
 mod reserved;
 #[path = "../support/mod.rs"]
 mod support;
+#[cfg(feature = "wasm")]
+mod wasm;

@@ -30,7 +30,7 @@ pub const LANGUAGE: Language = Language {
     extension: "wasm",
     // Its names are those of the ES module.
     reserved: javascript::LANGUAGE.reserved,
-    limits: Limits { expression: 32, block: usize::MAX, function: 8000, part: 2000 },
+    limits: Limits { expression: 32, block: usize::MAX, function: 3000, part: 800 },
 };
 
 /// The name of the memory.
