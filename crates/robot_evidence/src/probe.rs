@@ -47,7 +47,8 @@ impl Probe {
     /// A crate of a module `model` and a module `runtime`.
     pub(crate) fn of_files(mut files: Vec<File>, needs_std: bool) -> Result<Probe, Error> {
         let model = files.iter().find(|file| file.path == "src/model.rs");
-        let roots = model.and_then(|file| file.contents.text()).map(roots).transpose()?.unwrap_or_default();
+        let roots =
+            model.and_then(|file| file.contents.text()).map(roots).transpose()?.unwrap_or_default();
         files.push(File::text(ROOT_FILE, root_text(&roots)));
         Ok(Probe { files, needs_std, roots })
     }

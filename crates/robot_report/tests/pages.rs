@@ -17,6 +17,7 @@ fn page(name: &str, text: &str) -> String {
         snap: 1e-5,
         compiled: &compiled,
         judge,
+        live: true,
     };
     report(&input).unwrap()
 }
@@ -272,6 +273,7 @@ fn hostile_names_are_errors() {
             snap: 1e-5,
             compiled: &compiled,
             judge,
+            live: true,
         };
         let message = report(&input).unwrap_err().to_string();
         assert!(message.contains(reason), "{message}");
@@ -312,6 +314,7 @@ fn a_page_that_reloads_itself_is_the_same_page() {
             snap: 1e-5,
             compiled: &compiled,
             judge,
+            live: false,
         })
         .unwrap()
     };

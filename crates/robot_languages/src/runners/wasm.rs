@@ -53,7 +53,8 @@ fn program(work: &Work) -> String {
     let model = match tree.has_parameters() {
         true => {
             let fields = tree.parameters.iter().zip(&work.parameters);
-            let fields: Vec<String> = fields.map(|(field, value)| format!("{field}: {value:?}")).collect();
+            let fields: Vec<String> =
+                fields.map(|(field, value)| format!("{field}: {value:?}")).collect();
             format!("[robot.create_model({{ {} }})]", fields.join(", "))
         }
         false => "[]".to_owned(),

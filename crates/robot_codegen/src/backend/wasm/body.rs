@@ -37,7 +37,11 @@ pub(super) struct Writer<'w> {
 }
 
 /// The addresses through which the parts of a body hand on their variables.
-pub(super) fn slots<'b>(body: &'b Body, kind: Kind, assembly: &mut Assembly) -> HashMap<&'b str, u32> {
+pub(super) fn slots<'b>(
+    body: &'b Body,
+    kind: Kind,
+    assembly: &mut Assembly,
+) -> HashMap<&'b str, u32> {
     let mut slots = HashMap::new();
     let mut next = assembly.shared();
     for name in body.parts.iter().flat_map(|part| part.entering.iter().chain(&part.leaving)) {

@@ -191,10 +191,12 @@ impl Code {
             Scalar::F64 => bits,
             Scalar::F32 => bits << 32 | bits,
         };
+        let all = (u128::from(wide) << 64 | u128::from(wide)).cast_signed();
+        let mut sink = self.sink();
         match (lanes, scalar) {
-            (false, Scalar::F64) => self.sink().i64_const(bits.cast_signed()),
-            (false, Scalar::F32) => self.sink().i32_const((bits as u32).cast_signed()),
-            (true, _) => self.sink().v128_const((u128::from(wide) << 64 | u128::from(wide)).cast_signed()),
+            (false, Scalar::F64) => sink.i64_const(bits.cast_signed()),
+            (false, Scalar::F32) => sink.i32_const((bits as u32).cast_signed()),
+            (true, _) => sink.v128_const(all),
         };
         self
     }

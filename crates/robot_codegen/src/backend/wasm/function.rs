@@ -10,7 +10,12 @@ use crate::backend::common::Scalar;
 use crate::backend::flat::{Body, Expression, Function, Tree};
 
 /// The constructor: from the address of the model and that of the parameters, which are in double precision.
-pub(super) fn constructor(tree: &Tree<'_>, scalar: Scalar, functions: &Functions, assembly: &mut Assembly) -> u32 {
+pub(super) fn constructor(
+    tree: &Tree<'_>,
+    scalar: Scalar,
+    functions: &Functions,
+    assembly: &mut Assembly,
+) -> u32 {
     let kind = Kind { scalar: Scalar::F64, lanes: false };
     let body = &tree.constructor;
     let slots = slots(body, kind, assembly);

@@ -15,7 +15,8 @@ pub(super) fn text(printer: &Printer<'_>) -> String {
         lines.extend(of_javascript.parameters());
         lines.extend(of_javascript.setters());
     }
-    let parameters: Vec<String> = tree.parameters.iter().map(|name| format!("\"{name}\"")).collect();
+    let parameters: Vec<String> =
+        tree.parameters.iter().map(|name| format!("\"{name}\"")).collect();
     lines.extend([
         format!("const PARAMETERS = [{}];", parameters.join(", ")),
         format!("const FIELDS = {};", tree.fields.len()),

@@ -42,8 +42,20 @@ pub const CONSTRUCTOR: &str = "create_model";
 
 /// Names that the module and what loads it use besides those of functions.
 const TAKEN: &[&str] = &[
-    MEMORY, HEAP_BASE, CONSTRUCTOR, "update_model", "allocate", "numbers", "exports", "load", "nominal", "model",
-    "parameters", "n", "robot", "then",
+    MEMORY,
+    HEAP_BASE,
+    CONSTRUCTOR,
+    "update_model",
+    "allocate",
+    "numbers",
+    "exports",
+    "load",
+    "nominal",
+    "model",
+    "parameters",
+    "n",
+    "robot",
+    "then",
 ];
 
 /// The printer of WebAssembly.

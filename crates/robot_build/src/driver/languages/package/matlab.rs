@@ -5,7 +5,7 @@ use robot_codegen::backend::flat::Tree;
 use robot_codegen::backend::matlab;
 
 use super::call::{arguments, checked, numbers};
-use super::{of_sources, Parts, description, file};
+use super::{Parts, description, file, of_sources};
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 

@@ -100,10 +100,7 @@ fn uncopied(tree: &Tree<'_>, function: &Function<'_>) -> String {
         arguments.push(array.name.clone());
     }
     if let Some(array) = function.inputs.first() {
-        text.push_str(&format!(
-            "robot.numbers({}, {}).fill(0.5);\n",
-            array.name, array.length
-        ));
+        text.push_str(&format!("robot.numbers({}, {}).fill(0.5);\n", array.name, array.length));
     }
     text.push_str(&format!("robot.exports.{}({});\n", function.name, arguments.join(", ")));
     if let Some(array) = function.outputs.first() {
