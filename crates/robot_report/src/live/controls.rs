@@ -67,12 +67,12 @@ pub(super) fn states(robot: &Robot) -> Element {
             element("td")
                 .attribute("data-name", format!("{sign}, {unit}"))
                 .with_all(with_output(slider))
-                .with(Node::from(format!(" {unit}")))
+                .with(holding("small", format!(" {unit}")))
         });
         let heading = holding("th", format!("{symbol}, {}", coordinate.joint));
         element("tr").with(heading.attribute("scope", "row")).with_all(cells)
     });
-    let caption = "Positions within the limits of the file; without limits, velocities and accelerations within a usual range.";
+    let caption = "Positions within the limits of the file; half a turn or 0.5 m to either side if it has none.";
     let table = element("table")
         .class("sliders")
         .with(holding("caption", holding("span", caption)))

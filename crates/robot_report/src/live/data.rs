@@ -21,7 +21,7 @@ pub(super) fn of(programs: &Programs) -> String {
         json!({ "symbol": symbol, "low": low, "high": high })
     });
     let [up, front] = upright(robot).map(list);
-    let frames = drawn_frames(robot).map(|(_, frame)| of_frame(robot, frame));
+    let frames = frames(robot).into_iter().map(|frame| of_frame(robot, frame));
     json!({
         "coordinates": coordinates.collect::<Vec<_>>(),
         "links": robot.links.iter().map(|link| of_link(robot, link)).collect::<Vec<_>>(),
@@ -46,6 +46,23 @@ fn of_link(robot: &Robot, link: &Link) -> Value {
         "axis": list(axis.try_normalize(0.0).unwrap_or_default()),
         "path": path,
     })
+}
+
+/// The frames of the scheme; if it has none because there are too many, that farthest out on the end of an arm.
+fn frames(robot: &Robot) -> Vec<&Frame> {
+    let drawn: Vec<&Frame> = drawn_frames(robot).map(|(_, frame)| frame).collect();
+    if !drawn.is_empty() {
+        return drawn;
+    }
+    let is_end = |frame: &&Frame| {
+        frame.link.is_some() && robot.links.iter().all(|link| link.parent != frame.link)
+    };
+    let length = |frame: &&Frame| {
+        let (path, _) = walked(robot, &frame.placement);
+        path.last().map_or(0.0, |end| Vector3::from(*end).norm())
+    };
+    let ends = robot.frames.iter().filter(is_end);
+    ends.max_by(|a, b| length(a).total_cmp(&length(b))).into_iter().collect()
 }
 
 /// A frame: the way to it and its axes in its link's frame.

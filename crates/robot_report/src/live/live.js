@@ -43,13 +43,14 @@
     const places = largest > 0 ? Math.min(8, Math.max(0, 3 - Math.floor(Math.log10(largest)))) : 0;
     values.forEach((value, i) => {
       const cell = cells[i], text = exact(value);
-      if (cell.dataset.value === text) return;
-      cell.dataset.value = text;
-      const shown = value.toFixed(places);
-      cell.firstChild.data = (Number(shown) === 0 ? shown.replace("-", "") : shown).replace("-", "\u2212");
+      if (cell.dataset.value !== text) cell.dataset.value = text;
+      const fixed = value.toFixed(places);
+      const shown = (Number(fixed) === 0 ? fixed.replace("-", "") : fixed).replace("-", "\u2212");
+      if (cell.firstChild.data !== shown) cell.firstChild.data = shown;
     });
   }
 
+  // Some browsers round `valueAsNumber`.
   const sliders = ["q", "qd", "qdd"].map((name) => find(`input[data-state=${name}]`));
   const payload = find("input[data-parameter]");
   const told = (slider) => { slider.nextElementSibling.firstChild.data = Number(slider.value).toFixed(2).replace("-", "\u2212"); };
@@ -102,7 +103,7 @@
     axes = [plus(side.map((x) => x * ca), front, -sa), plus(up.map((x) => x * ce), forth, -se), plus(forth.map((x) => x * ce), up, se)];
   }
   const turned = (vector) => [dot(vector, axes[0]), -dot(vector, axes[1])];
-  const scale = () => zoom * 0.42 * HEIGHT / extent;
+  const scale = () => zoom * 0.37 * HEIGHT / extent;
   function project(point) {
     const [x, y] = turned(plus(point, center, -1));
     return [WIDTH / 2 + x * scale(), HEIGHT / 2 + y * scale()];
@@ -252,7 +253,7 @@
         swing((time - begun) / 1000);
         ask();
       }
-      ["q", "qd", "qdd"].forEach((name, k) => sliders[k].forEach((slider, i) => { values[name][i] = slider.valueAsNumber; }));
+      ["q", "qd", "qdd"].forEach((name, k) => sliders[k].forEach((slider, i) => { values[name][i] = Number(slider.value); }));
       move();
       draw(values);
       compute();
@@ -265,7 +266,7 @@
       const slider = event.target;
       if (slider.dataset.state) stop();
       if (slider.dataset.parameter) {
-        values.parameters[slider.dataset.parameter] = slider.valueAsNumber;
+        values.parameters[slider.dataset.parameter] = Number(slider.value);
         configure();
       }
       told(slider);
@@ -283,7 +284,7 @@
       for (const slider of [...sliders.flat(), ...payload]) {
         slider.value = slider.defaultValue;
         told(slider);
-        if (slider.dataset.parameter) values.parameters[slider.dataset.parameter] = slider.valueAsNumber;
+        if (slider.dataset.parameter) values.parameters[slider.dataset.parameter] = Number(slider.value);
       }
       configure();
       [angles, zoom] = [[...FIRST], 1];

@@ -26,9 +26,9 @@ pub(super) fn torques(robot: &Robot) -> Element {
     });
     let headings = element("tr")
         .with(column("Coordinate"))
+        .with(column("parts"))
         .with(column("τ"))
-        .with_all(colored)
-        .with(column("as bars"));
+        .with_all(colored);
     let rows = robot.coordinates.iter().enumerate().map(|(index, coordinate)| {
         let symbol = text::symbol(&JointVariable::Position.symbol(index));
         let unit = text::unit(JointVariable::Torque.unit(coordinate.kind));
@@ -36,9 +36,9 @@ pub(super) fn torques(robot: &Robot) -> Element {
         let cells = causes.iter().map(|_| number("data-cause"));
         element("tr")
             .with(heading)
+            .with(holding("td", bars(causes.len())))
             .with(number("data-cause").class("total"))
             .with_all(cells)
-            .with(holding("td", bars(causes.len())))
     });
     let caption = "Joint torques τ and what they consist of: inertia M q̈, Coriolis and centrifugal terms C q̇, gravity g, and \
         friction if there is any. A bar is as long as its part of the largest value so far; the upright line is τ.";
