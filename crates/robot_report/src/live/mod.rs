@@ -81,7 +81,7 @@ pub(crate) fn live(input: &Input<'_>, robot: &Robot) -> Result<Live, String> {
 
 /// The words above the sliders.
 const WORDS: &str = "Computed in this page by the robot's own code, compiled to WebAssembly: the same numbers, to the last \
-    bit, as those of the generated Rust.";
+    bit, as those of Rust generated with the same functions.";
 
 /// The words below the scheme.
 const CAPTION: &str =
