@@ -74,14 +74,19 @@ fn program(work: &Work) -> String {
         )
     });
     let array = if work.options.scalar == Scalar::F64 { "Float64Array" } else { "Float32Array" };
-    format!(
-        "import * as fs from \"node:fs\";
-import {{ load }} from \"./{name}.mjs\";
+    let calls: String = calls.collect();
+    let words =
+        [("NAME", name.as_str()), ("MODEL_OF", &model), ("ARRAY", array), ("CALLS", &calls)];
+    words.into_iter().fold(PROGRAM.to_owned(), |text, (word, by)| text.replace(word, by))
+}
+
+const PROGRAM: &str = "import * as fs from \"node:fs\";
+import { load } from \"./NAME.mjs\";
 
 const robot = await load();
-const MODEL = {model};
+const MODEL = MODEL_OF;
 const bytes = fs.readFileSync(\"states.bin\");
-const data = new {array}(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+const data = new ARRAY(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
 let place = 0;
 const single = [], batch = [];
 const flat = (value) =>
@@ -90,44 +95,41 @@ const flat = (value) =>
 const most = 1 << 17;
 const memory = robot.allocate(most);
 
-function calls(one, many, taken, given, states) {{
+function calls(one, many, taken, given, states) {
     const stride = states + 1;
     let next = memory;
-    const columns = [...taken, ...given].map((length) => {{
+    const columns = [...taken, ...given].map((length) => {
         const address = next;
         next += length * stride * data.BYTES_PER_ELEMENT;
         return address;
-    }});
-    if (next > memory + most * data.BYTES_PER_ELEMENT) {{
+    });
+    if (next > memory + most * data.BYTES_PER_ELEMENT) {
         throw new Error(\"there is no room for the columns\");
-    }}
-    for (let i = 0; i < states; i++) {{
+    }
+    for (let i = 0; i < states; i++) {
         const inputs = taken.map((length) => data.subarray(place, (place += length)));
         single.push(...flat(robot[one](...MODEL, ...inputs)));
-        inputs.forEach((values, k) => values.forEach((value, j) => {{
+        inputs.forEach((values, k) => values.forEach((value, j) => {
             robot.numbers(columns[k] + (j * stride + i) * data.BYTES_PER_ELEMENT, 1)[0] = value;
-        }}));
-    }}
+        }));
+    }
     if (!many) return;
     // One state fewer in lanes of each type than would leave nothing for the single form.
     const first = states - 1;
     robot.exports[many](...MODEL, first, stride, ...columns);
     const rest = columns.map((address) => address + first * data.BYTES_PER_ELEMENT);
     robot.exports[many](...MODEL, states - first, stride, ...rest);
-    for (let i = 0; i < states; i++) {{
-        given.forEach((length, k) => {{
-            for (let j = 0; j < length; j++) {{
+    for (let i = 0; i < states; i++) {
+        given.forEach((length, k) => {
+            for (let j = 0; j < length; j++) {
                 const address = columns[taken.length + k] + (j * stride + i) * data.BYTES_PER_ELEMENT;
                 batch.push(robot.numbers(address, 1)[0]);
-            }}
-        }});
-    }}
-}}
-
-{}
-fs.writeFileSync(\"single.bin\", new Uint8Array({array}.from(single).buffer));
-fs.writeFileSync(\"batch.bin\", new Uint8Array({array}.from(batch).buffer));
-",
-        calls.collect::<String>()
-    )
+            }
+        });
+    }
 }
+
+CALLS
+fs.writeFileSync(\"single.bin\", new Uint8Array(ARRAY.from(single).buffer));
+fs.writeFileSync(\"batch.bin\", new Uint8Array(ARRAY.from(batch).buffer));
+";

@@ -51,14 +51,14 @@ impl Target for Matlab {
         let printer = Printer { tree: &tree, options: &self.options };
         let mut files = vec![];
         if tree.has_parameters() {
-            files.push(printer.file("nominal", printer.nominal()));
+            files.push(printer.file("nominal", &printer.nominal()));
             for (setter, name) in self.options.setters.iter().zip(&tree.setters) {
-                files.push(printer.file(name, printer.setter(setter, name)));
+                files.push(printer.file(name, &printer.setter(setter, name)));
             }
-            files.push(printer.file("create_model", printer.model()));
+            files.push(printer.file("create_model", &printer.model()));
         }
         for function in &tree.functions {
-            files.push(printer.file(&function.name, printer.function(function)));
+            files.push(printer.file(&function.name, &printer.function(function)));
         }
         Ok(files)
     }
@@ -133,7 +133,7 @@ fn documentation(name: &str, paragraphs: &[String]) -> Vec<String> {
 }
 
 impl Printer<'_> {
-    fn file(&self, name: &str, lines: Vec<String>) -> SourceFile {
+    fn file(&self, name: &str, lines: &[String]) -> SourceFile {
         let mut text = lines.join("\n");
         for line in &self.options.header {
             text.push_str(&format!("\n% {}", comment_line(line)));

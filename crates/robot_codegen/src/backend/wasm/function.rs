@@ -135,16 +135,7 @@ pub(super) fn batch(
         code.call(lanes);
         advance(code, width);
     });
-    let lengths = function.inputs.iter().chain(&function.outputs).map(|array| array.length as u32);
-    let mut place = GATHERED;
-    let gathered: Vec<(Local, u32, u32)> = arguments
-        .arrays()
-        .zip(lengths)
-        .map(|(array, length)| {
-            place += length * kind.size();
-            (array, length, place - length * kind.size())
-        })
-        .collect();
+    let gathered = gathered(function, &arguments, kind);
     let (inputs, outputs) = gathered.split_at(arguments.inputs.len());
     code.repeat(n, 1, |code| {
         for (array, length, place) in inputs {
@@ -171,4 +162,16 @@ pub(super) fn batch(
         advance(code, 1);
     });
     assembly.add(code)
+}
+
+/// The arrays with their lengths and the addresses at which one state of each is gathered.
+fn gathered(function: &Function<'_>, arguments: &Arguments, kind: Kind) -> Vec<(Local, u32, u32)> {
+    let arrays = function.inputs.iter().chain(&function.outputs);
+    let mut next = GATHERED;
+    let places = arguments.arrays().zip(arrays).map(|(local, array)| {
+        let (place, length) = (next, array.length as u32);
+        next += length * kind.size();
+        (local, length, place)
+    });
+    places.collect()
 }

@@ -95,7 +95,7 @@ pub(super) fn bytes(printer: &Printer<'_>) -> Vec<u8> {
             exports.export(name, ExportKind::Func, index);
         }
     }
-    finished(printer, assembly, &exports)
+    finished(printer, &assembly, &exports)
 }
 
 /// The bytes of the arrays of the largest function.
@@ -108,7 +108,7 @@ fn gathered(tree: &Tree<'_>, scalar: Scalar) -> u32 {
     (most * scalar.size()).next_multiple_of(16) as u32
 }
 
-fn finished(printer: &Printer<'_>, assembly: Assembly, exports: &ExportSection) -> Vec<u8> {
+fn finished(printer: &Printer<'_>, assembly: &Assembly, exports: &ExportSection) -> Vec<u8> {
     let heap = assembly.heap.next_multiple_of(16);
     let mut types = TypeSection::new();
     for (parameters, results) in &assembly.types {
