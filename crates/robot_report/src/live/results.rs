@@ -36,7 +36,7 @@ pub(super) fn torques(robot: &Robot) -> Element {
         let cells = causes.iter().map(|_| number("data-cause"));
         element("tr")
             .with(heading)
-            .with(holding("td", bars(causes.len())))
+            .with(holding("td", bars(&symbol, causes.len())))
             .with(number("data-cause").class("total"))
             .with_all(cells)
     });
@@ -51,7 +51,7 @@ pub(super) fn torques(robot: &Robot) -> Element {
 }
 
 /// A line at 0, a line for the sum, and a bar for each cause.
-fn bars(causes: usize) -> Element {
+fn bars(symbol: &str, causes: usize) -> Element {
     let height = 6 * causes;
     let path = |class: String| element("path").class(class);
     let parts = (0..causes).map(|index| path(format!("cause-{index}")));
@@ -60,6 +60,8 @@ fn bars(causes: usize) -> Element {
         .class("bars")
         .attribute("viewBox", format!("-104 0 208 {height}"))
         .attribute("aria-hidden", "true")
+        .with(holding("title", format!("Parts of the torque of {symbol}")))
+        .with(holding("desc", "Bars of the numbers in this row."))
         .with(path("sum".to_owned()))
         .with_all(parts)
         .with(path("zero".to_owned()).attribute("d", format!("M0 0V{height}")))
@@ -79,7 +81,10 @@ pub(super) fn mass_matrix(robot: &Robot) -> Element {
     let table = element("table")
         .class("grid mass")
         .with(holding("caption", holding("span", caption)))
-        .with(holding("thead", element("tr").with(element("th")).with_all(columns)))
+        .with(holding(
+            "thead",
+            element("tr").with(holding("th", "M").attribute("scope", "col")).with_all(columns),
+        ))
         .with(element("tbody").with_all(rows));
     wide(table)
 }
