@@ -138,7 +138,7 @@ impl<'a> Delivery<'a> {
             return Ok(terminal.output.write_all(text.as_bytes())?);
         };
         if self.check {
-            return up_to_date([(path.to_owned(), text)]);
+            return up_to_date([(path.to_owned(), text.as_bytes())]);
         }
         let ownership = self.ownership;
         let output = Output { path: path.to_owned(), bytes: text.as_bytes(), ownership };
@@ -197,7 +197,7 @@ pub(crate) fn deliver_folder(
         return Err(Failure::Usage(vec![message.to_owned()]));
     }
     if check {
-        return up_to_date(files.iter().map(|file| (file.path_in(folder), file.text.as_str())));
+        return up_to_date(files.iter().map(|file| (file.path_in(folder), file.contents.bytes())));
     }
     let (changed, all) = (writer.write_folder(folder, files)?, files.len());
     let count = if changed == all { String::new() } else { format!("{changed} of ") };
@@ -207,12 +207,13 @@ pub(crate) fn deliver_folder(
     Ok(())
 }
 
-/// Whether files have those texts; all that have not are told.
-fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a str)>) -> Result<(), Failure> {
+/// Whether files hold what they should; all that do not are told.
+fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a [u8])>) -> Result<(), Failure> {
     let mut stale = vec![];
-    for (path, text) in files {
-        match staleness(&path, text)? {
+    for (path, bytes) in files {
+        match staleness(&path, bytes)? {
             None => {}
+            Some(Staleness::Bytes) => stale.push(format!("{} is out of date", shown(&path))),
             Some(Staleness::Missing) => stale.push(format!("{} is missing", shown(&path))),
             Some(Staleness::Differs { line }) => {
                 stale.push(format!("{}:{line} is out of date", shown(&path)));

@@ -182,6 +182,12 @@ pub enum Error {
         /// The language.
         language: &'static str,
     },
+    /// Sines that a language does not have.
+    #[error("{language} has no sines of a standard library; leave out the option `trigonometry`")]
+    Trigonometry {
+        /// The language.
+        language: &'static str,
+    },
 }
 
 /// All that was found wrong; never empty.

@@ -45,7 +45,7 @@ impl From<String> for Node {
 }
 
 /// Elements that have no end in HTML.
-const VOID: [&str; 5] = ["meta", "link", "br", "hr", "col"];
+const VOID: [&str; 6] = ["meta", "link", "br", "hr", "col", "input"];
 
 /// An element of that name, such as `mrow`.
 #[must_use]

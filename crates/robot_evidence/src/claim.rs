@@ -397,7 +397,7 @@ mod tests {
     "#;
 
     fn broken(profile: Profile) -> Module {
-        let file = |path: &str, text: &str| File { path: path.to_owned(), text: text.to_owned() };
+        let file = |path: &str, text: &str| File::text(path, text.to_owned());
         let files =
             vec![file("src/model.rs", BROKEN), file("src/runtime/mod.rs", "//! No runtime.")];
         let probe = Probe::of_files(files, false).unwrap();

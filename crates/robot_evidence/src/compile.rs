@@ -87,7 +87,7 @@ impl Compiler {
             if let Some(parent) = path.parent() {
                 std::fs::create_dir_all(parent)?;
             }
-            std::fs::write(path, &file.text)?;
+            std::fs::write(path, file.contents.bytes())?;
         }
         let mut command = Command::new(self.path());
         // One unit, so that one file has all the code.

@@ -47,8 +47,9 @@ impl Probe {
     /// A crate of a module `model` and a module `runtime`.
     pub(crate) fn of_files(mut files: Vec<File>, needs_std: bool) -> Result<Probe, Error> {
         let model = files.iter().find(|file| file.path == "src/model.rs");
-        let roots = model.map(|file| roots(&file.text)).transpose()?.unwrap_or_default();
-        files.push(File { path: ROOT_FILE.to_owned(), text: root_text(&roots) });
+        let roots =
+            model.and_then(|file| file.contents.text()).map(roots).transpose()?.unwrap_or_default();
+        files.push(File::text(ROOT_FILE, root_text(&roots)));
         Ok(Probe { files, needs_std, roots })
     }
 }

@@ -11,6 +11,7 @@ mod equations;
 mod evidence;
 mod folded;
 mod formula;
+mod live;
 mod motion;
 mod page;
 mod parts;
@@ -36,6 +37,7 @@ use robot_model::robot::Robot;
 use robot_model::snap;
 
 use formula::Symbols;
+use live::{Live, live};
 use page::{Section, page};
 use reload::Stamp;
 use structure::Structure;
@@ -54,6 +56,8 @@ pub struct Input<'a> {
     pub compiled: &'a Compiled,
     /// Holds the programs against an independent solver, or says why it cannot.
     pub judge: fn(&Programs) -> Result<Accuracy, String>,
+    /// Whether the robot can be moved in the page, if that adds at most 80 kB.
+    pub live: bool,
 }
 
 /// The function whose costs are taken apart.
@@ -78,8 +82,8 @@ const FUNCTIONS: [FunctionKind; 9] = [
 ///
 /// Everything that is wrong with the file or the options.
 pub fn report(input: &Input<'_>) -> Result<String, Errors> {
-    let (robot, sections) = sections(input)?;
-    Ok(page(&robot, sections, None))
+    let (robot, live, sections) = sections(input)?;
+    Ok(page(&robot, live.as_ref(), sections, None))
 }
 
 /// The page about the robot of a file that is being edited.
@@ -100,15 +104,15 @@ pub struct Reloading {
 ///
 /// The errors of [`report`].
 pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
-    let (robot, sections) = sections(input)?;
-    let still = page(&robot, sections.clone(), None);
+    let (robot, live, sections) = sections(input)?;
+    let still = page(&robot, live.as_ref(), sections.clone(), None);
     let stamp = Stamp::of(&still);
-    let page = page(&robot, sections, Some(stamp));
+    let page = page(&robot, live.as_ref(), sections, Some(stamp));
     Ok(Reloading { page, stamp: stamp.picture(), still })
 }
 
 /// The robot of a file, and what the page says of it.
-fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
+fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Errors> {
     let robot = robot_build::read_with(input.source, input.options)?.robot;
     let base_frames = input.options.base_frames.unwrap_or(robot.base_frames);
     let robot = Robot { base_frames, ..robot };
@@ -123,8 +127,16 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
     };
     let functions = Functions::Chosen(FUNCTIONS.into_iter().filter(has).collect());
     let programs = programs(input.source, &Options { functions, ..input.options.clone() })?;
+    let (live, lacks) = match input.live.then(|| live(input, &robot)) {
+        None => (None, None),
+        Some(Ok(live)) => (Some(live), None),
+        Some(Err(reason)) => {
+            let words = format!("This robot cannot be moved in the page: {reason}");
+            (None, Some(holding("p", words).class("note")))
+        }
+    };
     let sections = vec![
-        kinematics(&shown, &snapped),
+        kinematics(&shown, [snapped, lacks]),
         Section {
             id: "masses",
             title: "Masses",
@@ -137,7 +149,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Vec<Section>), Errors> {
         costs(input, &programs, lacking.as_ref()),
         evidence(input, &programs),
     ];
-    Ok((robot, sections))
+    Ok((robot, live, sections))
 }
 
 /// What the page says of constant angles that it shows as multiples of π/2 while code takes them as they are.
@@ -156,11 +168,11 @@ fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> 
     Some(holding("p", words).class("note"))
 }
 
-fn kinematics(robot: &Robot, snapped: &Option<Element>) -> Section {
+fn kinematics(robot: &Robot, notes: [Option<Element>; 2]) -> Section {
     let caption = holding("figcaption", scheme::CAPTION);
     let figure = element("figure").with(scheme::scheme(robot)).with(caption);
     let tables = [Some(tables::kinematics(robot)), tables::frames(robot)];
-    let parts = [Some(figure), snapped.clone()].into_iter().chain(tables);
+    let parts = std::iter::once(Some(figure)).chain(notes).chain(tables);
     Section {
         id: "kinematics",
         title: "Kinematics",

@@ -7,6 +7,7 @@ use robot_document::markup::{Element, Node, element, holding};
 use robot_document::math_font;
 use robot_model::robot::Robot;
 
+use crate::live::{self, Live};
 use crate::reload::Stamp;
 
 const STYLE: &str = include_str!("style.css");
@@ -25,12 +26,20 @@ pub(crate) struct Section {
     pub(crate) body: Vec<Node>,
 }
 
-/// The page of a robot; with a stamp it reloads itself if the picture beside it has another one.
-pub(crate) fn page(robot: &Robot, sections: Vec<Section>, stamp: Option<Stamp>) -> String {
+/// The page of a robot, with the part in which it moves if there is one; with a stamp it reloads itself if the picture beside it has another one.
+pub(crate) fn page(
+    robot: &Robot,
+    live: Option<&Live>,
+    sections: Vec<Section>,
+    stamp: Option<Stamp>,
+) -> String {
     let contents = sections.iter().map(|section| {
         let anchor = format!("#{}", section.id);
         holding("li", holding("a", section.title).attribute("href", anchor))
     });
+    let entry = holding("li", holding("a", "Live").attribute("href", "#live"));
+    let entry = live.map(|_| entry.attribute("data-live", "").attribute("hidden", "hidden"));
+    let contents = entry.into_iter().chain(contents);
     let contents =
         element("nav").attribute("aria-label", "Contents").with(element("ol").with_all(contents));
     let main = sections.into_iter().map(|section| {
@@ -41,33 +50,33 @@ pub(crate) fn page(robot: &Robot, sections: Vec<Section>, stamp: Option<Stamp>) 
             .with(holding("h2", section.title).attribute("id", &heading))
             .with_all(section.body)
     });
+    let first = live.map(|live| live.section.clone());
+    let script = |text| element("script").with(Node::Verbatim(text));
     let body = element("body")
         .with(holding("a", "Skip to content").class("skip").attribute("href", "#content"))
         .with(header(robot))
         .with(contents)
-        .with(element("main").attribute("id", "content").with_all(main))
+        .with(element("main").attribute("id", "content").with_all(first).with_all(main))
         .with(footer())
-        .with(element("script").with(Node::Verbatim(SCRIPT)));
+        .with(script(SCRIPT))
+        .with_all(live.map(|_| script(live::SCRIPT)));
     let html =
         element("html").attribute("xmlns", "http://www.w3.org/1999/xhtml").attribute("lang", "en");
     let (html, body) = match stamp {
         None => (html, body),
-        Some(stamp) => (
-            html.attribute("data-page", stamp.words()),
-            body.with(element("script").with(Node::Verbatim(RELOAD))),
-        ),
+        Some(stamp) => (html.attribute("data-page", stamp.words()), body.with(script(RELOAD))),
     };
-    let html = html.with(head(robot, stamp.is_some())).with(body);
+    let html = html.with(head(robot, live.is_some(), stamp.is_some())).with(body);
     format!("<!DOCTYPE html>\n<!-- {MARKER} -->\n{html}\n")
 }
 
-fn head(robot: &Robot, reloads: bool) -> Element {
+fn head(robot: &Robot, moves: bool, reloads: bool) -> Element {
     let meta = |name: &'static str, value: &str| {
         element("meta").attribute("name", name).attribute("content", value)
     };
     let policy = element("meta")
         .attribute("http-equiv", "Content-Security-Policy")
-        .attribute("content", policy(reloads));
+        .attribute("content", policy(moves, reloads));
     element("head")
         .with(element("meta").attribute("charset", "utf-8"))
         .with(policy)
@@ -77,21 +86,29 @@ fn head(robot: &Robot, reloads: bool) -> Element {
         .with(holding("title", format!("{}: equations of motion", robot.name)))
         .with(element("style").with(Node::Verbatim(STYLE)))
         .with(element("style").with(Node::Verbatim(&math_font::RULES)))
+        .with_all(moves.then(|| element("style").with(Node::Verbatim(live::STYLE))))
 }
 
 /// The page's own styles and scripts, by their hashes, the font of equations within them, and nothing else; of a page that reloads itself the
-/// picture beside it, too.
-fn policy(reloads: bool) -> String {
+/// picture beside it, too; of one in which the robot moves the robot's own module.
+fn policy(moves: bool, reloads: bool) -> String {
     let hash = |text: &str| {
         let hash = BASE64_STANDARD.encode(hmac_sha256::Hash::hash(text.as_bytes()));
         format!("'sha256-{hash}'")
+    };
+    let (style, script) = match moves {
+        false => (String::new(), String::new()),
+        true => (
+            format!(" {}", hash(live::STYLE)),
+            format!(" {} 'wasm-unsafe-eval'", hash(live::SCRIPT)),
+        ),
     };
     let more = match reloads {
         false => String::new(),
         true => format!(" {}; img-src 'self' file:", hash(RELOAD)),
     };
     format!(
-        "default-src 'none'; style-src {} {}; font-src data:; script-src {}{more}; base-uri 'none'; \
+        "default-src 'none'; style-src {} {}{style}; font-src data:; script-src {}{script}{more}; base-uri 'none'; \
          form-action 'none'",
         hash(STYLE),
         hash(&math_font::RULES),
@@ -120,7 +137,7 @@ mod tests {
     /// Style and script are in the page unescaped: nothing in them may be markup.
     #[test]
     fn style_and_script_have_no_signs_of_markup() {
-        for own in [STYLE, SCRIPT, RELOAD] {
+        for own in [STYLE, SCRIPT, RELOAD, live::STYLE, live::SCRIPT] {
             assert!(!own.contains(['<', '&']) && own.len() > 100);
         }
     }

@@ -9,6 +9,10 @@ use robot_report::{Accuracy, Compiled, Input, reloading, report};
 use roxmltree::{Document, Node, ParsingOptions};
 
 fn page(name: &str, text: &str) -> String {
+    page_with(name, text, true)
+}
+
+fn page_with(name: &str, text: &str, live: bool) -> String {
     let source = Source { name: name.to_owned(), text: text.to_owned() };
     let compiled = Compiled::Unread { reason: "a test.".to_owned() };
     let input = Input {
@@ -17,6 +21,7 @@ fn page(name: &str, text: &str) -> String {
         snap: 1e-5,
         compiled: &compiled,
         judge,
+        live,
     };
     report(&input).unwrap()
 }
@@ -226,6 +231,53 @@ fn the_same_file_gives_the_same_page() {
     assert_eq!(page_of("scara"), page_of("scara"));
 }
 
+/// The page with the part in which the robot moves is that without it, a hidden section, and at most 80 kB more.
+#[test]
+fn robots_move_in_pages_that_stay_short() {
+    for robot in ["trttr1", "puma560", "panda", "planar_2r"] {
+        let path = format!("{}/../../robots/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let (moving, still) = (page_of(robot), page_with(&format!("{robot}.toml"), &text, false));
+        assert!(moving.len() - still.len() <= 80_000, "{robot}: {}", moving.len() - still.len());
+        assert!(!still.contains("wasm") && !still.contains("data-live"), "{robot}");
+        let document = parsed(&moving);
+        let parts: Vec<_> =
+            document.descendants().filter(|node| node.attribute("data-live").is_some()).collect();
+        assert!(parts.len() == 2 && parts.iter().all(|part| part.attribute("hidden").is_some()));
+        let live = parts.iter().find(|part| part.attribute("id") == Some("live")).unwrap();
+        assert!(live.attribute("data-module").unwrap().starts_with("AGFzbQ"), "{robot}");
+        let described: serde_json::Value =
+            serde_json::from_str(live.attribute("data-robot").unwrap()).unwrap();
+        let sliders = live.descendants().filter(|node| node.attribute("data-state").is_some());
+        let coordinates = described["coordinates"].as_array().unwrap().len();
+        assert_eq!(sliders.count(), 3 * coordinates, "{robot}");
+    }
+}
+
+#[test]
+fn the_payload_has_sliders_for_its_mass_and_center() {
+    let text = chain(2) + "[payload]\nparent = \"2\"\n";
+    let page = page("chain.toml", &text);
+    let document = parsed(&page);
+    let sliders = document.descendants().filter(|node| node.attribute("data-parameter").is_some());
+    let sliders: Vec<_> = sliders.map(|slider| slider.attribute("aria-label").unwrap()).collect();
+    assert_eq!(sliders, ["mass, kg", "center x, m", "center y, m", "center z, m"]);
+}
+
+#[test]
+fn pages_say_why_a_robot_cannot_be_moved() {
+    let nameless = chain(2).replace("mass = 1\n", "mass = \"m\"\n");
+    let nameless = nameless.replace("[robot]", "[parameters]\nm = { unit = \"kg\" }\n[robot]");
+    for (text, reason) in [
+        (nameless, "parameters have no values in the file: m."),
+        (chain(26), "the limit is 80 kB."),
+    ] {
+        let page = page("chain.toml", &text);
+        assert!(page.contains("This robot cannot be moved in the page: ") && page.contains(reason));
+        assert!(!page.contains("wasm-unsafe-eval") && !page.contains("data-live"));
+    }
+}
+
 /// Text that would be markup or script.
 const HOSTILE: &str =
     r#"</script><script>document.title=1</script>"><img src=x onerror=alert(1)>&lt;'"#;
@@ -256,7 +308,7 @@ fn hostile_text_is_text() {
         let elements = |name: &str| {
             document.descendants().filter(|node| node.tag_name().name() == name).count()
         };
-        assert_eq!((elements("script"), elements("img")), (1, 0), "{place}");
+        assert_eq!((elements("script"), elements("img")), (2, 0), "{place}");
     }
 }
 
@@ -272,6 +324,7 @@ fn hostile_names_are_errors() {
             snap: 1e-5,
             compiled: &compiled,
             judge,
+            live: true,
         };
         let message = report(&input).unwrap_err().to_string();
         assert!(message.contains(reason), "{message}");
@@ -291,6 +344,7 @@ fn the_policy_allows_nothing_from_elsewhere() {
     assert!(policy.starts_with("default-src 'none'; style-src 'sha256-"), "{policy}");
     assert!(policy.contains("; font-src data:; script-src "), "{policy}");
     assert!(page.contains("url(data:font/woff2;base64,"));
+    let policy = policy.replace(" 'wasm-unsafe-eval'", "");
     assert!(!policy.contains("unsafe") && !policy.contains("http"), "{policy}");
     // Nothing is written where the policy would refuse it.
     for attribute in ["style", "src", "onclick", "onload"] {
@@ -312,11 +366,12 @@ fn a_page_that_reloads_itself_is_the_same_page() {
             snap: 1e-5,
             compiled: &compiled,
             judge,
+            live: false,
         })
         .unwrap()
     };
     let found = of(text);
-    assert_eq!(found.still, page("planar_2r.toml", text));
+    assert_eq!(found.still, page_with("planar_2r.toml", text, false));
     assert!(!found.still.contains("img-src") && !found.still.contains("data-page"));
     let document = parsed(&found.page);
     let scripts = document.descendants().filter(|node| node.tag_name().name() == "script");

@@ -76,7 +76,7 @@ pub(crate) fn rust_text(
     let printer = rust_options(programs, source, options, wrapping);
     let files = printer.files(&programs.module);
     let files = files.map_err(|errors| Errors::of_code(&source.name, &errors))?;
-    Ok(files.into_iter().map(|file| file.text).collect())
+    Ok(files.iter().filter_map(|file| file.contents.text()).collect())
 }
 
 /// The names that the items of the printed module have.

@@ -1,7 +1,7 @@
 //! `generate`: the module of a robot, in a file.
 
 use clap::Args;
-use robot_build::languages::{self, Language};
+use robot_build::languages::{self, Contents, Language, SourceFile};
 use robot_build::{Options, Source, check_runtime_path, generate};
 
 use crate::Terminal;
@@ -58,7 +58,7 @@ fn text(source: &Source, options: &Options, language: Language) -> Result<String
     }
     let mut files = languages::sources(source, options, language)?;
     match files.pop() {
-        Some(file) if files.is_empty() => Ok(file.text),
+        Some(SourceFile { contents: Contents::Text(text), .. }) if files.is_empty() => Ok(text),
         _ => Err(Failure::input(format!(
             "a module in `{}` has several files; write them with `robot-symbolic crate`",
             language.name()

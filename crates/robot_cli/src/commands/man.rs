@@ -37,7 +37,7 @@ impl Arguments {
         let own = page(&command)?;
         let writer = self.force.writer([], self.folder.is_some() && !self.check)?;
         let Some(folder) = &self.folder else {
-            return Ok(terminal.output.write_all(own.text.as_bytes())?);
+            return Ok(terminal.output.write_all(own.contents.bytes())?);
         };
         let mut pages = vec![own];
         for command in command.get_subcommands() {
@@ -52,5 +52,5 @@ fn page(command: &clap::Command) -> Result<File, Failure> {
     let mut text = vec![];
     man.render(&mut text)?;
     let text = format!(".\\\" {MARKER}\n{}", String::from_utf8_lossy(&text));
-    Ok(File { path: man.get_filename(), text })
+    Ok(File::text(&man.get_filename(), text))
 }

@@ -39,6 +39,9 @@ pub(crate) struct Arguments {
     /// Do not start a compiler: the page then has no evidence about machine code
     #[arg(long)]
     without_compiler: bool,
+    /// Leave out the part in which the robot moves, and the script of it
+    #[arg(long)]
+    without_live: bool,
 }
 
 impl Arguments {
@@ -91,7 +94,8 @@ impl Arguments {
         } else {
             compiled(source, options)?
         };
-        Ok(report(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge })?)
+        let live = !self.without_live;
+        Ok(report(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge, live })?)
     }
 }
 

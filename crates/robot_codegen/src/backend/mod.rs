@@ -15,5 +15,7 @@ pub mod python;
 #[cfg(feature = "rust")]
 pub mod rust;
 mod target;
+#[cfg(feature = "wasm")]
+pub mod wasm;
 
-pub use target::{Language, SourceFile, Target};
+pub use target::{Contents, Language, SourceFile, Target};

@@ -22,8 +22,45 @@ pub struct Language {
 pub struct SourceFile {
     /// The name, without a folder.
     pub name: String,
-    /// The text.
-    pub text: String,
+    /// What is in it.
+    pub contents: Contents,
+}
+
+impl SourceFile {
+    /// A file of text.
+    #[must_use]
+    pub fn text(name: String, text: String) -> SourceFile {
+        SourceFile { name, contents: Contents::Text(text) }
+    }
+}
+
+/// What is in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Contents {
+    /// Text.
+    Text(String),
+    /// Bytes that are not text.
+    Bytes(Vec<u8>),
+}
+
+impl Contents {
+    /// The bytes of the file.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        match self {
+            Contents::Text(text) => text.as_bytes(),
+            Contents::Bytes(bytes) => bytes,
+        }
+    }
+
+    /// The text; `None` of bytes that are not text.
+    #[must_use]
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            Contents::Text(text) => Some(text),
+            Contents::Bytes(_) => None,
+        }
+    }
 }
 
 /// A language with the options of its printer.

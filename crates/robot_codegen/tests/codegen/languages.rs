@@ -36,7 +36,7 @@ fn every_operation_is_printed_as_committed_in_every_language() {
     ];
     for (name, printer) in printers {
         for file in printer.files(&module(name)).unwrap() {
-            hold(&format!("languages/{name}/{}", file.name), &file.text);
+            hold(&format!("languages/{name}/{}", file.name), file.contents.text().unwrap());
         }
     }
 }

@@ -13,3 +13,5 @@ mod languages;
 mod reserved;
 #[path = "../support/mod.rs"]
 mod support;
+#[cfg(feature = "wasm")]
+mod wasm;

@@ -3,6 +3,7 @@
 mod c;
 mod rust;
 mod scripts;
+mod wasm;
 
 use std::path::Path;
 
@@ -44,6 +45,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     let mut runners: Vec<Box<dyn Runner>> = vec![Box::new(rust::Rust)];
     runners.extend(c::all());
     runners.extend(scripts::all());
+    runners.push(Box::new(wasm::Wasm));
     runners
 }
 
@@ -83,7 +85,7 @@ fn write_package(
     let files =
         robot_build::languages::package_of(&work.programs, &work.source, &work.options, language);
     for file in files.map_err(|error| error.to_string())? {
-        files::write(folder, &file.path, file.text.as_bytes())?;
+        files::write(folder, &file.path, file.contents.bytes())?;
     }
     files::write(folder, "states.bin", &work.input_bytes())
 }

@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use robot_document::robot::words;
-use robot_model::robot::{Axis, Move, Placement, Robot};
+use robot_model::robot::{Axis, Frame, Move, Placement, Robot};
 use robot_symbolic::Formula;
 
 use super::view::View;
@@ -68,20 +68,24 @@ pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
         let place = layout.place(robot, view, scale, link.parent, &link.placement, axis);
         layout.links.push(place);
     }
-    let crowded = robot.frames.len() > MAX_FRAMES;
-    for (index, frame) in robot.frames.iter().enumerate() {
-        if !crowded || frame.wrench.is_some() {
-            let own = Vector3::zeros();
-            // What is at the base's origin is the base.
-            if frame.link.is_none() && words::moves(&frame.placement).next().is_none() {
-                layout.bases.push(index);
-                continue;
-            }
-            let place = layout.place(robot, view, scale, frame.link, &frame.placement, own);
-            layout.frames.push((index, place));
+    for (index, frame) in drawn_frames(robot) {
+        let own = Vector3::zeros();
+        // What is at the base's origin is the base.
+        if frame.link.is_none() && words::moves(&frame.placement).next().is_none() {
+            layout.bases.push(index);
+            continue;
         }
+        let place = layout.place(robot, view, scale, frame.link, &frame.placement, own);
+        layout.frames.push((index, place));
     }
     layout
+}
+
+/// The named frames that are drawn, with their indices.
+pub(crate) fn drawn_frames(robot: &Robot) -> impl Iterator<Item = (usize, &Frame)> {
+    let crowded = robot.frames.len() > MAX_FRAMES;
+    let frames = robot.frames.iter().enumerate();
+    frames.filter(move |(_, frame)| !crowded || frame.wrench.is_some())
 }
 
 /// The longest component of all offsets, m.

@@ -21,6 +21,9 @@ use robot_model::robot::Robot;
 pub use pdf::scheme_pdf;
 pub use picture::scheme_picture;
 
+pub(crate) use layout::drawn_frames;
+pub(crate) use view::upright;
+
 use layout::{Layout, confusion, layout};
 use view::View;
 

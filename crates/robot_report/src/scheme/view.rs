@@ -24,14 +24,7 @@ const ANGLES: [[f64; 2]; 6] =
 
 /// Views with gravity pointing down the page: the next base axis comes toward the eye.
 pub(crate) fn views(robot: &Robot) -> [View; 6] {
-    let gravity = robot.gravity.each_ref().map(|part| text::value(robot, part));
-    let gravity = Vector3::from(gravity.map(|part| if part.is_finite() { part } else { 0.0 }));
-    // If there is no gravity, z is upright.
-    let vertical = if gravity.norm() > 0.0 { gravity.iamax() } else { 2 };
-    let sign = if gravity.norm() > 0.0 && gravity[vertical] > 0.0 { -1.0 } else { 1.0 };
-    let axis = |index: usize| Vector3::ith(index % 3, 1.0);
-    let up = axis(vertical) * sign;
-    let front = axis(vertical + 1);
+    let [up, front] = upright(robot);
     let side = up.cross(&front);
     let view = |[azimuth, elevation]: [f64; 2]| {
         let (sin, cos) = azimuth.to_radians().sin_cos();
@@ -41,6 +34,17 @@ pub(crate) fn views(robot: &Robot) -> [View; 6] {
         View { right, up: up * cos - forth * sin, toward: forth * cos + up * sin, vertical: up }
     };
     ANGLES.map(view)
+}
+
+/// The base axis that points away from gravity, and the next one, which comes toward the eye.
+pub(crate) fn upright(robot: &Robot) -> [Vector3<f64>; 2] {
+    let gravity = robot.gravity.each_ref().map(|part| text::value(robot, part));
+    let gravity = Vector3::from(gravity.map(|part| if part.is_finite() { part } else { 0.0 }));
+    // If there is no gravity, z is upright.
+    let vertical = if gravity.norm() > 0.0 { gravity.iamax() } else { 2 };
+    let sign = if gravity.norm() > 0.0 && gravity[vertical] > 0.0 { -1.0 } else { 1.0 };
+    let axis = |index: usize| Vector3::ith(index % 3, 1.0);
+    [axis(vertical) * sign, axis(vertical + 1)]
 }
 
 impl View {

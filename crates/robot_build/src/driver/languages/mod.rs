@@ -3,7 +3,8 @@
 mod package;
 mod printing;
 
-use robot_codegen::backend::{self, SourceFile, Target};
+use robot_codegen::backend::{self, Target};
+pub use robot_codegen::backend::{Contents, SourceFile};
 use robot_model::diagnostic::Source;
 
 pub use self::package::{package, package_of};
@@ -28,6 +29,8 @@ pub enum Language {
     Python,
     /// JavaScript: an ES module with declarations for TypeScript.
     JavaScript,
+    /// WebAssembly: a module with an ES module that loads it.
+    Wasm,
 }
 
 impl Language {
@@ -39,6 +42,7 @@ impl Language {
         Language::Matlab,
         Language::Python,
         Language::JavaScript,
+        Language::Wasm,
     ];
 
     /// The name on the command line.
@@ -51,6 +55,7 @@ impl Language {
             Language::Matlab => "matlab",
             Language::Python => "python",
             Language::JavaScript => "javascript",
+            Language::Wasm => "wasm",
         }
     }
 
@@ -64,6 +69,7 @@ impl Language {
             Language::Matlab => "MATLAB and Octave, a function a file",
             Language::Python => "Python, for numbers and for NumPy arrays",
             Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
+            Language::Wasm => "WebAssembly, with an ES module that loads it",
         }
     }
 
@@ -110,6 +116,7 @@ pub fn sources_of(
         Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),
         Language::Python => Box::new(backend::python::Python { options: flat() }),
         Language::JavaScript => Box::new(backend::javascript::JavaScript { options: flat() }),
+        Language::Wasm => Box::new(backend::wasm::Wasm { options: flat(), batch: true }),
     };
     let module = match language {
         Language::Rust => programs.module.clone(),

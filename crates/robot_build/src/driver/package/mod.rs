@@ -63,7 +63,7 @@ pub fn package_of(
 }
 
 fn file(path: &str, text: String) -> File {
-    File { path: path.to_owned(), text }
+    File::text(path, text)
 }
 
 /// The ingredients of the files.

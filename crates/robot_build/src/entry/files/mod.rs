@@ -27,14 +27,16 @@ pub enum Staleness {
         /// The line.
         line: usize,
     },
+    /// Bytes that are not text differ.
+    Bytes,
 }
 
-/// Compares the file on disk with `text`, line ends apart; `None` if they are equal.
+/// Compares the file on disk with what it should hold, ends of lines of text apart; `None` if they are equal.
 ///
 /// # Errors
 ///
 /// A file that is there but cannot be read; what is not a regular file, which is never read.
-pub fn staleness(path: &Path, text: &str) -> Result<Option<Staleness>, Error> {
+pub fn staleness(path: &Path, wanted: &[u8]) -> Result<Option<Staleness>, Error> {
     let failed = |reason: String| Error::File { action: "read", path: path.to_owned(), reason };
     match std::fs::metadata(path) {
         Ok(metadata) if metadata.is_file() => {}
@@ -45,6 +47,9 @@ pub fn staleness(path: &Path, text: &str) -> Result<Option<Staleness>, Error> {
         Err(error) => return Err(failed(error.to_string())),
     }
     let present = std::fs::read(path).map_err(|error| failed(error.to_string()))?;
+    let Ok(text) = std::str::from_utf8(wanted) else {
+        return Ok((present != wanted).then_some(Staleness::Bytes));
+    };
     let present = String::from_utf8_lossy(&present);
     let (mut old, mut new) = (present.lines(), text.lines());
     let mut line = 1;

@@ -146,7 +146,7 @@ fn what_will_be_refused_is_known_before() {
 fn a_folder_appears_whole_and_a_present_one_keeps_what_is_in_it() {
     let folder = Folder::new("folder");
     let files = ["Cargo.toml", "src/lib.rs"];
-    let files = files.map(|path| File { path: path.to_owned(), text: NEW.to_owned() });
+    let files = files.map(|path| File::text(path, NEW.to_owned()));
     let at = folder.path("a/new");
     assert_eq!(Writer::new().write_folder(&at, &files), Ok(2));
     assert_eq!(fs::read_to_string(at.join("src/lib.rs")).unwrap(), NEW);
@@ -191,7 +191,7 @@ fn leftovers_of_a_killed_process_go_and_those_of_a_living_one_stay() {
     write(&path, NEW).unwrap();
     assert!(!living.exists() && other.exists());
     fs::create_dir_all(folder.path(".new.robot-symbolic-tmp-7-0/src")).unwrap();
-    let files = [File { path: "src/lib.rs".to_owned(), text: NEW.to_owned() }];
+    let files = [File::text("src/lib.rs", NEW.to_owned())];
     Writer::new().write_folder(&folder.path("new"), &files).unwrap();
     assert_eq!(folder.names(), [".a.rs.robot-symbolic-tmp-x", "a.rs", "new"]);
 }
@@ -256,7 +256,7 @@ mod unix {
         assert_eq!(write(Path::new("/dev/null"), NEW), Ok(1));
         if Path::new("/dev/full").exists() {
             assert!(message(write(Path::new("/dev/full"), NEW)).contains("cannot write /dev/full"));
-            assert!(staleness(Path::new("/dev/full"), NEW).is_err());
+            assert!(staleness(Path::new("/dev/full"), NEW.as_bytes()).is_err());
             // What was made for the other outputs goes again.
             let folder = Folder::new("vain");
             let outputs = [folder.path("a/b/c.rs"), PathBuf::from("/dev/full")];

@@ -198,7 +198,7 @@ impl Writer {
                 let outputs: Vec<Output<'_>> = outputs
                     .map(|file| Output {
                         path: file.path_in(folder),
-                        bytes: file.text.as_bytes(),
+                        bytes: file.contents.bytes(),
                         ownership: Ownership::Marked,
                     })
                     .collect();
@@ -216,7 +216,7 @@ impl Writer {
         for file in files {
             let path = file.path_in(staged.path());
             fs::create_dir_all(folder_of(&path))
-                .and_then(|()| create(&path, file.text.as_bytes()))
+                .and_then(|()| create(&path, file.contents.bytes()))
                 .map_err(|error| cannot_write(&file.path_in(folder), &error))?;
         }
         staged.put().map_err(failed)?;

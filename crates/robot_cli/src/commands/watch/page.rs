@@ -50,7 +50,9 @@ impl Page {
     pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Errors> {
         let reason = "the page was made without a compiler, while the file was watched.".to_owned();
         let compiled = Compiled::Unread { reason };
-        reloading(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge })
+        // A page that reloads itself would forget its sliders.
+        let live = false;
+        reloading(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge, live })
     }
 
     /// The state of the path if no page can be made.

@@ -31,7 +31,7 @@ impl Target for Cpp {
         let names = Names::new(&tree.name);
         let header = Header { tree: &tree, names, options: &self.options };
         let name = format!("{}.{}", tree.name, LANGUAGE.extension);
-        files.push(SourceFile { name, text: text(&header) });
+        files.push(SourceFile::text(name, text(&header)));
         Ok(files)
     }
 }

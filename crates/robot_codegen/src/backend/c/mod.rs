@@ -52,7 +52,7 @@ impl Target for C {
         let tree = tree(module, &self.options);
         let text =
             Header { tree: &tree, names: Names::new(&tree.name), options: &self.options }.text();
-        Ok(vec![SourceFile { name: format!("{}.{}", tree.name, LANGUAGE.extension), text }])
+        Ok(vec![SourceFile::text(format!("{}.{}", tree.name, LANGUAGE.extension), text)])
     }
 }
 

@@ -29,12 +29,16 @@ pub struct Circular {
     scalar: Scalar,
     /// Angles are below so many radians.
     pub limit: f64,
-    shift: f64,
-    two_over_pi: f64,
+    /// Added to a smaller number it leaves the nearest integer in the low bits of the sum.
+    pub shift: f64,
+    /// 2/π.
+    pub two_over_pi: f64,
     half_pi: [f64; 3],
     short_half_pi: [f64; 4],
-    sine: Vec<f64>,
-    cosine: Vec<f64>,
+    /// The coefficients of the sine's polynomial, from the lowest.
+    pub sine: Vec<f64>,
+    /// The coefficients of the cosine's polynomial, from the lowest.
+    pub cosine: Vec<f64>,
 }
 
 impl Circular {
@@ -78,13 +82,7 @@ impl Circular {
     pub fn rest(&self, language: &impl Arithmetic, once: bool) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
         let times = language.times();
-        let is_double = self.scalar == Scalar::F64;
-        let (parts, last): (&[f64], Option<f64>) = match (once, is_double) {
-            (true, true) => (&self.half_pi[..2], Some(self.half_pi[2])),
-            (true, false) => (&self.half_pi, None),
-            (false, true) => (&self.short_half_pi[..3], Some(self.short_half_pi[3])),
-            (false, false) => (&self.short_half_pi, None),
-        };
+        let (parts, last) = self.parts_of_half_pi(once);
         let mut steps = vec![];
         let mut from = "x";
         for part in parts {
@@ -105,6 +103,17 @@ impl Circular {
         steps.push(("c", language.mul_add("z", "c", &number(-0.5))));
         steps.push(("c", language.mul_add("z", "c", &number(1.0))));
         steps
+    }
+
+    /// The parts of π/2 that are taken from the angle one after the other, and the one that is added to the sine alone.
+    #[must_use]
+    pub fn parts_of_half_pi(&self, once: bool) -> (&[f64], Option<f64>) {
+        match (once, self.scalar) {
+            (true, Scalar::F64) => (&self.half_pi[..2], Some(self.half_pi[2])),
+            (true, Scalar::F32) => (&self.half_pi, None),
+            (false, Scalar::F64) => (&self.short_half_pi[..3], Some(self.short_half_pi[3])),
+            (false, Scalar::F32) => (&self.short_half_pi, None),
+        }
     }
 
     /// A polynomial in `z`: in Estrin's order in double precision, in Horner's in single.
@@ -134,9 +143,12 @@ pub struct HyperbolicTangent {
     scalar: Scalar,
     /// 2|x| from which on the result rounds to 1.
     pub saturated: f64,
-    shift: f64,
-    ln_2: [f64; 2],
-    exponential: Vec<f64>,
+    /// Added to a smaller number it leaves the nearest integer in the low bits of the sum.
+    pub shift: f64,
+    /// ln 2 in two parts.
+    pub ln_2: [f64; 2],
+    /// The coefficients of the exponential's polynomial, from the highest.
+    pub exponential: Vec<f64>,
 }
 
 impl HyperbolicTangent {
@@ -162,14 +174,20 @@ impl HyperbolicTangent {
         }
     }
 
+    /// The logarithm of e to base 2.
+    #[must_use]
+    pub fn log2_e(&self) -> f64 {
+        match self.scalar {
+            Scalar::F64 => std::f64::consts::LOG2_E,
+            Scalar::F32 => f64::from(std::f32::consts::LOG2_E),
+        }
+    }
+
     /// From `y`, the smaller of 2|x| and [`saturated`](Self::saturated): `shifted`, whose lowest bits are those of the
     /// power `n` of two, `n`, and `e`, eʳ − 1 of the rest `r`.
     pub fn rest(&self, language: &impl Arithmetic) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
-        let log2_e = match self.scalar {
-            Scalar::F64 => std::f64::consts::LOG2_E,
-            Scalar::F32 => f64::from(std::f32::consts::LOG2_E),
-        };
+        let log2_e = self.log2_e();
         let [high, low] = self.ln_2;
         let mut steps = vec![
             ("shifted", language.mul_add("y", &number(log2_e), &number(self.shift))),

@@ -7,6 +7,20 @@ use crate::backend::flat::Function;
 /// The text of the declarations.
 pub(super) fn text(printer: &Printer<'_>) -> String {
     let mut lines = printer.header();
+    lines.extend(constants(printer));
+    if printer.tree.has_parameters() {
+        lines.extend(model(printer));
+        lines.extend(parameters(printer));
+    }
+    for function in &printer.tree.functions {
+        lines.extend(declaration(printer, function));
+    }
+    lines.join("\n")
+}
+
+/// The type of inputs, and the constants.
+pub(in crate::backend) fn constants(printer: &Printer<'_>) -> Vec<String> {
+    let mut lines = vec![];
     lines.extend([
         "/** Numbers, in an array of any kind. */".to_owned(),
         "export type Entries = ArrayLike<number>;".to_owned(),
@@ -24,27 +38,27 @@ pub(super) fn text(printer: &Printer<'_>) -> String {
         lines.push(format!("export declare const {}: {ty};", item.name.to_uppercase()));
     }
     lines.push(String::new());
-    if printer.tree.has_parameters() {
-        lines.extend(parameters(printer));
-    }
-    for function in &printer.tree.functions {
-        lines.extend(declaration(printer, function));
-    }
-    lines.join("\n")
+    lines
 }
 
-fn parameters(printer: &Printer<'_>) -> Vec<String> {
-    let tree = printer.tree;
-    let interface = |name: &str, fields: &[String]| {
-        let mut lines = vec![format!("export interface {name} {{")];
-        lines.extend(fields.iter().map(|field| format!("    {field}: number;")));
-        lines.extend(["}", ""].map(str::to_owned));
-        lines
-    };
-    let mut lines = interface("Parameters", &tree.parameters);
-    lines.extend(interface("Model", &tree.fields));
-    lines.push("export declare function nominal(): Parameters;".to_owned());
+fn interface(name: &str, fields: &[String]) -> Vec<String> {
+    let mut lines = vec![format!("export interface {name} {{")];
+    lines.extend(fields.iter().map(|field| format!("    {field}: number;")));
+    lines.extend(["}", ""].map(str::to_owned));
+    lines
+}
+
+fn model(printer: &Printer<'_>) -> Vec<String> {
+    let mut lines = interface("Model", &printer.tree.fields);
     lines.push("export declare function create_model(parameters: Parameters): Model;".to_owned());
+    lines
+}
+
+/// The parameters, and functions that set several together.
+pub(in crate::backend) fn parameters(printer: &Printer<'_>) -> Vec<String> {
+    let tree = printer.tree;
+    let mut lines = interface("Parameters", &tree.parameters);
+    lines.push("export declare function nominal(): Parameters;".to_owned());
     for (setter, name) in printer.options.setters.iter().zip(&tree.setters) {
         let arguments = setter.arguments.iter().map(|argument| {
             let ty = if argument.parameters.len() == 1 { "number" } else { "Entries" };

@@ -1,6 +1,6 @@
 //! JavaScript: an ES module with its declarations for TypeScript.
 
-mod declarations;
+pub(in crate::backend) mod declarations;
 mod helpers;
 mod keywords;
 
@@ -48,10 +48,7 @@ impl Target for JavaScript {
         }
         let tree = tree(module, &self.options);
         let printer = Printer { tree: &tree, options: &self.options };
-        let file = |ending: &str, text: String| SourceFile {
-            name: format!("{}.{ending}", tree.name),
-            text,
-        };
+        let file = |ending: &str, text| SourceFile::text(format!("{}.{ending}", tree.name), text);
         Ok(vec![file("mjs", printer.text()), file("d.mts", declarations::text(&printer))])
     }
 }
@@ -62,9 +59,9 @@ pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
 }
 
-struct Printer<'a> {
-    tree: &'a Tree<'a>,
-    options: &'a FlatOptions,
+pub(in crate::backend) struct Printer<'a> {
+    pub(in crate::backend) tree: &'a Tree<'a>,
+    pub(in crate::backend) options: &'a FlatOptions,
 }
 
 impl Spelling for Printer<'_> {
@@ -95,7 +92,7 @@ impl Spelling for Printer<'_> {
 }
 
 /// A comment of documentation.
-fn documentation(paragraphs: &[String], indent: &str) -> Vec<String> {
+pub(in crate::backend) fn documentation(paragraphs: &[String], indent: &str) -> Vec<String> {
     let mut lines: Vec<String> = vec![];
     for line in paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)) {
         if !line.is_empty() || lines.last().is_some_and(|last| !last.is_empty()) {
@@ -113,7 +110,7 @@ fn documentation(paragraphs: &[String], indent: &str) -> Vec<String> {
 }
 
 impl Printer<'_> {
-    fn header(&self) -> Vec<String> {
+    pub(in crate::backend) fn header(&self) -> Vec<String> {
         let header = self.options.header.iter();
         let mut lines: Vec<String> =
             header.map(|line| format!("// {}", comment_line(line))).collect();
@@ -142,7 +139,7 @@ impl Printer<'_> {
         lines.join("\n")
     }
 
-    fn parameters(&self) -> Vec<String> {
+    pub(in crate::backend) fn parameters(&self) -> Vec<String> {
         let title = common::markdown_line(&self.tree.module.name);
         let doc =
             format!("The nominal parameters of {title}; NaN for those that have no nominal value.");
@@ -157,7 +154,7 @@ impl Printer<'_> {
         lines
     }
 
-    fn setters(&self) -> Vec<String> {
+    pub(in crate::backend) fn setters(&self) -> Vec<String> {
         let mut lines = vec![];
         for (setter, name) in self.options.setters.iter().zip(&self.tree.setters) {
             let mut doc = common::paragraphs(&setter.doc, &setter.name);
@@ -257,7 +254,7 @@ impl Printer<'_> {
         model.into_iter().chain(function.inputs.iter().map(|array| array.name.clone())).collect()
     }
 
-    fn function_doc(&self, function: &Function<'_>) -> Vec<String> {
+    pub(in crate::backend) fn function_doc(&self, function: &Function<'_>) -> Vec<String> {
         let counts = self.tree.module.counts(function.source);
         let names = function.inputs.iter().map(|array| array.name.as_str());
         common::function(function.source, names, &counts.call)
@@ -298,7 +295,7 @@ impl Printer<'_> {
 }
 
 /// A constant of the module.
-fn constant(item: &ConstantItem) -> Vec<String> {
+pub(in crate::backend) fn constant(item: &ConstantItem) -> Vec<String> {
     let value = match &item.value {
         ConstantValue::Size(size) => size.to_string(),
         ConstantValue::Number(number) => format!("{number:?}"),

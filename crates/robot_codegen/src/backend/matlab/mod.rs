@@ -139,7 +139,7 @@ impl Printer<'_> {
             text.push_str(&format!("\n% {}", comment_line(line)));
         }
         text.push('\n');
-        SourceFile { name: format!("{name}.m"), text }
+        SourceFile::text(format!("{name}.m"), text)
     }
 
     fn nominal(&self) -> Vec<String> {

@@ -48,7 +48,7 @@ impl Target for Python {
         }
         let tree = tree(module, &self.options);
         let text = Printer { tree: &tree, options: &self.options }.text();
-        Ok(vec![SourceFile { name: format!("{}.{}", tree.name, LANGUAGE.extension), text }])
+        Ok(vec![SourceFile::text(format!("{}.{}", tree.name, LANGUAGE.extension), text)])
     }
 }
 

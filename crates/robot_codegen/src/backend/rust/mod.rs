@@ -61,7 +61,7 @@ impl Target for RustOptions {
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         let text = generate(module, self)?.to_text();
         let name = format!("{}.{}", identifier(&module.name), LANGUAGE.extension);
-        Ok(vec![SourceFile { name, text }])
+        Ok(vec![SourceFile::text(name, text)])
     }
 }
 

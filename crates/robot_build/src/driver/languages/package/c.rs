@@ -6,7 +6,7 @@ use robot_codegen::backend::flat::{Function, Tree};
 use robot_codegen::{Scalar, Trigonometry};
 
 use super::description;
-use super::{Parts, file};
+use super::{Parts, file, of_sources};
 use crate::driver::check::CheckValue;
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
@@ -20,7 +20,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
         file("CMakeLists.txt", printer.cmake()),
         file("robot.json", description::json(parts, &tree)),
     ];
-    files.extend(sources.into_iter().map(|source| file(&source.name, source.text)));
+    files.extend(of_sources(sources));
     files.push(file("test.c", printer.test()));
     files
 }

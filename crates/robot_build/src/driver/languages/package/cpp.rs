@@ -6,7 +6,7 @@ use robot_codegen::backend::c;
 use robot_codegen::backend::flat::Tree;
 
 use super::call::{checked, numbers};
-use super::{Parts, description, file};
+use super::{Parts, description, file, of_sources};
 use crate::driver::check::CheckValue;
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
@@ -19,7 +19,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
         file("CMakeLists.txt", cmake(&tree)),
         file("robot.json", description::json(parts, &tree)),
     ];
-    files.extend(sources.into_iter().map(|source| file(&source.name, source.text)));
+    files.extend(of_sources(sources));
     files.push(file("test.cpp", test(parts, &tree)));
     files
 }

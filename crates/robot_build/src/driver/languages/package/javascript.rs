@@ -5,7 +5,7 @@ use robot_codegen::backend::flat::Tree;
 use robot_codegen::backend::javascript;
 
 use super::call::{arguments, checked, numbers};
-use super::{Parts, description, file};
+use super::{Parts, description, file, of_sources};
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
@@ -17,12 +17,12 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
         file("package.json", manifest(&tree)),
         file("robot.json", description::json(parts, &tree)),
     ];
-    files.extend(sources.into_iter().map(|source| file(&source.name, source.text)));
+    files.extend(of_sources(sources));
     files.push(file("test.mjs", test(parts, &tree)));
     files
 }
 
-fn manifest(tree: &Tree<'_>) -> String {
+pub(super) fn manifest(tree: &Tree<'_>) -> String {
     let name = &tree.name;
     // Names of packages are in small letters.
     let package = name.to_lowercase();

@@ -5,7 +5,7 @@ use robot_codegen::backend::flat::Tree;
 use robot_codegen::backend::matlab;
 
 use super::call::{arguments, checked, numbers};
-use super::{Parts, description, file};
+use super::{Parts, description, file, of_sources};
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
@@ -18,7 +18,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     ];
     let folder = format!("+{}", tree.name);
     files.extend(
-        sources.into_iter().map(|source| file(&format!("{folder}/{}", source.name), source.text)),
+        of_sources(sources).map(|file| File { path: format!("{folder}/{}", file.path), ..file }),
     );
     files.push(file("test_functions.m", test(parts, &tree)));
     files

@@ -7,8 +7,10 @@ mod description;
 mod javascript;
 mod matlab;
 mod python;
+mod wasm;
 
 use robot_codegen::Module;
+use robot_codegen::backend::SourceFile;
 use robot_codegen::backend::flat::{FlatOptions, Tree};
 use robot_model::diagnostic::Source;
 
@@ -69,6 +71,7 @@ pub fn package_of(
         Language::Matlab => matlab::files(&parts, files),
         Language::Python => python::files(&parts, files),
         Language::JavaScript => javascript::files(&parts, files),
+        Language::Wasm => wasm::files(&parts, files),
     })
 }
 
@@ -85,7 +88,12 @@ struct Parts<'a> {
 
 /// A file of a package.
 fn file(path: &str, text: String) -> File {
-    File { path: path.to_owned(), text }
+    File::text(path, text)
+}
+
+/// The source files as files of the package.
+fn of_sources(sources: Vec<SourceFile>) -> impl Iterator<Item = File> {
+    sources.into_iter().map(|SourceFile { name, contents }| File { path: name, contents })
 }
 
 impl Parts<'_> {

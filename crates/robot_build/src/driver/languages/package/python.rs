@@ -5,7 +5,7 @@ use robot_codegen::backend::flat::Tree;
 use robot_codegen::backend::python;
 
 use super::call::{arguments, checked, numbers};
-use super::{Parts, description, file};
+use super::{Parts, description, file, of_sources};
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
@@ -17,7 +17,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
         file("pyproject.toml", project(&tree)),
         file("robot.json", description::json(parts, &tree)),
     ];
-    files.extend(sources.into_iter().map(|source| file(&source.name, source.text)));
+    files.extend(of_sources(sources));
     files.push(file("test.py", test(parts, &tree)));
     files
 }

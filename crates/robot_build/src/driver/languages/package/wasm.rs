@@ -1,0 +1,182 @@
+//! A package in WebAssembly: the module, what loads it, its declarations, a test, and `package.json`.
+
+use robot_codegen::backend::SourceFile;
+use robot_codegen::backend::flat::{Function, Tree};
+use robot_codegen::backend::wasm;
+use robot_codegen::{Scalar, Trigonometry};
+
+use super::call::{checked, numbers};
+use super::javascript::manifest;
+use super::{Parts, description, file, of_sources};
+use crate::driver::check::CheckValue;
+use crate::driver::file::File;
+use crate::driver::generate::unnamed_header;
+
+/// The states of the test of functions over columns: lanes of any type, and a rest.
+const STATES: usize = 7;
+
+/// The files of the package.
+pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
+    let tree = wasm::tree(parts.module, parts.flat);
+    let mut files = vec![
+        file("README.md", readme(parts, &tree)),
+        file("package.json", manifest(&tree)),
+        file("robot.json", description::json(parts, &tree)),
+    ];
+    files.extend(of_sources(sources));
+    files.push(file("test.mjs", test(parts, &tree)));
+    files
+}
+
+/// The statement that makes `model`, if there are parameters.
+fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
+    if !tree.has_parameters() {
+        return String::new();
+    }
+    let specs = parts.module.parameters.iter().zip(&tree.parameters).zip(parts.stated_parameters());
+    let given = specs.filter(|((spec, _), _)| spec.nominal.is_none());
+    let given: Vec<String> =
+        given.map(|((_, field), value)| format!(", {field}: {value:?}")).collect();
+    format!("const model = robot.create_model({{ ...nominal(){} }});\n", given.join(""))
+}
+
+/// The names that are imported.
+fn imports(tree: &Tree<'_>) -> &'static str {
+    if tree.has_parameters() { "load, nominal" } else { "load" }
+}
+
+/// The call of a function at its check state; over columns of so many equal states if that is given.
+fn call(tree: &Tree<'_>, name: &str, check: &CheckValue, states: Option<usize>) -> String {
+    let model = tree.has_parameters().then(|| "model".to_owned());
+    let inputs = check.inputs.iter().map(|(_, values)| match states {
+        Some(_) => format!("columns([{}])", numbers(values, ", ")),
+        None => format!("[{}]", numbers(values, ", ")),
+    });
+    let count = states.map(|states| states.to_string());
+    let arguments: Vec<String> = model.into_iter().chain(count).chain(inputs).collect();
+    format!("robot.{name}({})", arguments.join(", "))
+}
+
+fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
+    let name = &tree.name;
+    let real = if parts.options.scalar == Scalar::F64 { "Float64Array" } else { "Float32Array" };
+    let mut usage = format!(
+        "```js\nimport {{ {} }} from \"./{name}.mjs\";\n\nconst robot = await load();\n{}",
+        imports(tree),
+        model(parts, tree)
+    );
+    let first = checked(parts, tree).next();
+    if let Some((function, check)) = first {
+        usage.push_str(&format!("{};\n", call(tree, &function.name, check, None)));
+    }
+    usage.push_str(&format!(
+        "```\n\n`{name}.mjs` loads `{name}.wasm` from beside itself, in a browser and in node; `load` also takes the module's \
+         bytes, its address, a response or a compiled module. Inputs are arrays of any kind. Outputs are new `{real}`s, or \
+         those that are given behind the inputs; a matrix is an array, row by row. Test it by `node test.mjs`.\n\n\
+         Functions whose names end in `_batch` take many states: behind the model the number `n` of states, and in each array \
+         entry `j` of state `i` at `j * n + i`. They compute in the lanes of 128 bits.\n\n\
+         The wrapped functions copy arrays into the module's memory and out of it. To copy nothing, keep arrays there and call \
+         `robot.exports`, whose functions take addresses:\n\n"
+    ));
+    if let Some((function, _)) = first {
+        usage.push_str(&uncopied(tree, function));
+    }
+    usage.push_str(
+        "\nThe functions over columns take there, behind the model, the number of states and the numbers from one column to \
+         the next. Memory that grows makes earlier views of it empty.\n",
+    );
+    parts.readme(tree, "WebAssembly", &usage, "create_model")
+}
+
+/// A call by addresses.
+fn uncopied(tree: &Tree<'_>, function: &Function<'_>) -> String {
+    let mut text = "```js\n".to_owned();
+    let mut arguments = vec![];
+    if tree.has_parameters() {
+        arguments.push("model".to_owned());
+    }
+    for array in function.inputs.iter().chain(&function.outputs) {
+        text.push_str(&format!("const {} = robot.allocate({});\n", array.name, array.length));
+        arguments.push(array.name.clone());
+    }
+    if let Some(array) = function.inputs.first() {
+        text.push_str(&format!("robot.numbers({}, {}).fill(0.5);\n", array.name, array.length));
+    }
+    text.push_str(&format!("robot.exports.{}({});\n", function.name, arguments.join(", ")));
+    if let Some(array) = function.outputs.first() {
+        text.push_str(&format!("robot.numbers({}, {});\n", array.name, array.length));
+    }
+    text + "```\n"
+}
+
+/// Whether the check values are known to the bit: those of the interpreter in double precision.
+fn has_bits(parts: &Parts<'_>) -> bool {
+    parts.options.scalar == Scalar::F64
+        && parts.options.trigonometry == Trigonometry::Polynomial
+        && !parts.options.fused
+}
+
+fn test(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
+    let scalar = parts.options.scalar;
+    let tolerance = if scalar == Scalar::F64 { "1e-12" } else { "1e-4" };
+    let bits = if has_bits(parts) {
+        "\n    if (!found.every((value, i) => value === stated[i])) {\n        throw new Error(`${what}: last bits differ from the \
+         stated values`);\n    }"
+    } else {
+        ""
+    };
+    let mut text = format!(
+        "// {}
+// The check values of the README.
+
+import {{ {} }} from \"./{}.mjs\";
+
+const robot = await load();
+const STATES = {STATES};
+const arrays = (value) => (typeof value === \"number\" ? [[value]] : ArrayBuffer.isView(value) ? [value] : Object.values(value).flatMap(arrays));
+const columns = (values) => values.flatMap((value) => Array(STATES).fill(value));
+
+function check(what, found, stated) {{
+    const size = Math.max(0, ...stated.map(Math.abs));
+    const meets = found.length === stated.length && found.every((value, i) => Math.abs(value - stated[i]) <= {tolerance} * size);
+    if (!meets) {{
+        throw new Error(`${{what}} gives ${{found}}, stated is ${{stated}}`);
+    }}{bits}
+}}
+
+function one(what, found, stated) {{
+    check(what, arrays(found).flatMap((array) => [...array]), stated);
+}}
+
+function batch(what, found, stated) {{
+    for (let i = 0; i < STATES; i++) {{
+        check(what, arrays(found).flatMap((array) => [...array].filter((_, place) => place % STATES === i)), stated);
+    }}
+}}
+
+{}",
+        unnamed_header(),
+        imports(tree),
+        tree.name,
+        model(parts, tree)
+    );
+    let batch_names = wasm::batch_names(tree);
+    for (function, check) in checked(parts, tree) {
+        let name = &function.name;
+        let stated: Vec<f64> =
+            check.outputs.iter().flat_map(|output| output.values.iter().copied()).collect();
+        let stated = numbers(&stated, ", ");
+        let place = tree.functions.iter().position(|one| one.name == *name);
+        let over_columns = place.and_then(|place| batch_names.get(place)).and_then(Option::as_ref);
+        text.push_str(&format!(
+            "one(\"{name}\", {}, [{stated}]);\n",
+            call(tree, name, check, None)
+        ));
+        if let Some(over_columns) = over_columns {
+            let called = call(tree, over_columns, check, Some(STATES));
+            text.push_str(&format!("batch(\"{over_columns}\", {called}, [{stated}]);\n"));
+        }
+    }
+    text.push_str("console.log(\"all check values are met\");\n");
+    text
+}

@@ -1,0 +1,125 @@
+//! The part of the page in which the robot moves: its code in WebAssembly, sliders, and what they change.
+//!
+//! The part is hidden until the page's script has started, and left out of pages for which it would be too large.
+
+mod controls;
+mod data;
+mod results;
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use robot_build::{Effects, FunctionKind, Functions, Options, Programs, programs};
+use robot_codegen::backend::flat::FlatOptions;
+use robot_codegen::backend::wasm::Wasm;
+use robot_codegen::{Scalar, Trigonometry};
+use robot_document::markup::{Element, Node, element, holding};
+use robot_model::robot::Robot;
+
+use crate::Input;
+
+/// The script of the part.
+pub(crate) const SCRIPT: &str = include_str!("live.js");
+/// Its style.
+pub(crate) const STYLE: &str = include_str!("live.css");
+
+/// The most bytes that the part adds to a page.
+pub(crate) const LIMIT: usize = 80_000;
+
+/// The part of a page in which the robot moves.
+#[derive(Clone)]
+pub(crate) struct Live {
+    /// The section, hidden.
+    pub(crate) section: Element,
+}
+
+/// The functions that the part calls.
+fn functions(robot: &Robot) -> Vec<FunctionKind> {
+    let mut kinds = vec![
+        FunctionKind::ForwardKinematics,
+        FunctionKind::MassMatrix,
+        FunctionKind::Gravity,
+        FunctionKind::Bias,
+        FunctionKind::InverseDynamics(Effects::NONE),
+    ];
+    if robot.has_friction() {
+        kinds.push(FunctionKind::InverseDynamics(Effects::FRICTION));
+    }
+    kinds
+}
+
+/// The part of a robot, or the reason why the page does not have it.
+pub(crate) fn live(input: &Input<'_>, robot: &Robot) -> Result<Live, String> {
+    let lacking: Vec<&str> = robot
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.value.is_none())
+        .map(|parameter| parameter.name.as_str())
+        .collect();
+    if !lacking.is_empty() {
+        let names = lacking.join(", ");
+        return Err(format!("parameters have no values in the file: {names}."));
+    }
+    // What the page computes is what Rust computes without options, to the last bit.
+    let options = Options {
+        functions: Functions::Chosen(functions(robot)),
+        trigonometry: Trigonometry::Polynomial,
+        scalar: Scalar::F64,
+        fused: false,
+        ..input.options.clone()
+    };
+    let programs = programs(input.source, &options).map_err(|errors| format!("{errors}"))?;
+    let wasm = Wasm { options: FlatOptions::default(), batch: false };
+    let module = wasm.bytes(&programs.module).map_err(|errors| format!("{errors}"))?;
+    let section = section(&programs, &module);
+    let size = section.to_string().len() + SCRIPT.len() + STYLE.len();
+    if size > LIMIT {
+        let [size, limit] = [size, LIMIT].map(|bytes| bytes.div_ceil(1000));
+        return Err(format!("it would add {size} kB to the page, and the limit is {limit} kB."));
+    }
+    Ok(Live { section })
+}
+
+/// The words above the sliders.
+const WORDS: &str = "Computed in this page by the robot's own code, compiled to WebAssembly: the same numbers, to the last \
+    bit, as those of Rust generated with the same functions.";
+
+/// The words below the scheme.
+const CAPTION: &str =
+    "The robot to scale. Drag the picture to turn it, or focus it and use the arrow keys, + and −.";
+
+fn section(programs: &Programs, module: &[u8]) -> Element {
+    let robot = &programs.robot;
+    let button = |name: &str| holding("button", name).attribute("type", "button");
+    let scheme = element("svg")
+        .attribute("xmlns", "http://www.w3.org/2000/svg")
+        .class("scheme")
+        .attribute("viewBox", "0 0 640 440")
+        .attribute("tabindex", "0")
+        .attribute("role", "img")
+        .attribute("aria-labelledby", "live-scheme-title live-scheme-description")
+        .with(
+            holding("title", format!("Moving scheme of {}", robot.name))
+                .attribute("id", "live-scheme-title"),
+        )
+        .with(holding("desc", CAPTION).attribute("id", "live-scheme-description"));
+    let figure = element("figure").with(scheme).with(holding("figcaption", CAPTION));
+    let mut body: Vec<Node> = vec![
+        holding("h2", "Live").attribute("id", "live-heading").into(),
+        holding("p", WORDS).class("note").into(),
+        figure.into(),
+        button("Swing").attribute("aria-pressed", "false").into(),
+        button("Reset").into(),
+        controls::states(robot).into(),
+    ];
+    body.extend(controls::payload(robot).map(Node::from));
+    body.push(results::torques(robot).into());
+    body.push(results::mass_matrix(robot).into());
+    element("section")
+        .attribute("id", "live")
+        .attribute("aria-labelledby", "live-heading")
+        .attribute("data-live", "")
+        .attribute("hidden", "hidden")
+        .attribute("data-robot", data::of(programs))
+        .attribute("data-module", BASE64_STANDARD.encode(module))
+        .with_all(body)
+}
