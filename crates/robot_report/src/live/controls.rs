@@ -47,7 +47,7 @@ fn with_output(slider: Element) -> [Node; 2] {
 /// Positions, velocities and accelerations of all coordinates.
 pub(super) fn states(robot: &Robot) -> Element {
     let variables = [
-        (JointVariable::Position, "q", "position"),
+        (JointVariable::Position, JointVariable::Position.name(), "position"),
         (JointVariable::Velocity, "q̇", "velocity"),
         (JointVariable::Acceleration, "q̈", "acceleration"),
     ];
