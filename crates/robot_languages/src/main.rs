@@ -43,10 +43,8 @@ fn run() -> Result<usize, String> {
     for scalar in [Scalar::F64, Scalar::F32] {
         let chosen = robots()?.into_iter().filter(|robot| only.is_none_or(|only| only == robot));
         let works: Vec<String> = chosen.collect();
-        let works = works
-            .iter()
-            .map(|robot| Work::new(robot, scalar))
-            .collect::<Result<Vec<_>, _>>()?;
+        let works =
+            works.iter().map(|robot| Work::new(robot, scalar)).collect::<Result<Vec<_>, _>>()?;
         different += compare(&runners, &works, scalar)?;
     }
     Ok(different)

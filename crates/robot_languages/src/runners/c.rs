@@ -22,7 +22,8 @@ struct C {
 }
 
 /// Warnings that printed code must not cause.
-const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+pub(super) const WARNINGS: [&str; 5] =
+    ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
 
 /// gcc 12 fuses products with pairs of a sum and a difference even with `-ffp-contract=off`, where it makes vectors of
 /// straight code.

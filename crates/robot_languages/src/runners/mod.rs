@@ -1,6 +1,7 @@
 //! One runner for each language and tool.
 
 mod c;
+mod casadi;
 mod rust;
 mod scripts;
 
@@ -44,6 +45,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     let mut runners: Vec<Box<dyn Runner>> = vec![Box::new(rust::Rust)];
     runners.extend(c::all());
     runners.extend(scripts::all());
+    runners.push(Box::new(casadi::Casadi));
     runners
 }
 

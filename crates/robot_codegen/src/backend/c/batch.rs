@@ -1,8 +1,8 @@
 //! Functions over columns of states.
 
-use super::{BATCH, Header, SC};
 use super::comment;
 use super::function::{circular, model_argument, model_parameter, used_by};
+use super::{BATCH, Header, SC};
 use crate::backend::flat::{Array, Function, Statement};
 
 /// A loop over states whose entries lie in columns, which compilers turn into vectors. A body that is cut into
@@ -27,7 +27,11 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
     parameters.extend(inputs.map(|array| format!("const {real} *{restrict} {}", array.name)));
     let outputs = function.outputs.iter();
     parameters.extend(outputs.map(|array| format!("{real} *{restrict} {}", array.name)));
-    lines.push(format!("static inline void {}({})", header.names.item(function.form(BATCH)), parameters.join(", ")));
+    lines.push(format!(
+        "static inline void {}({})",
+        header.names.item(function.form(BATCH)),
+        parameters.join(", ")
+    ));
     lines.extend(["{", "    size_t i;"].map(str::to_owned));
     for array in function.inputs.iter().filter(|array| !array.is_used) {
         lines.push(format!("    (void){};", array.name));

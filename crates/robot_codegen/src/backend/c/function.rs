@@ -1,9 +1,9 @@
 //! The functions of a module: from the state, and from sines and cosines.
 
-use super::{Header, SC};
 use super::batch;
 use super::comment;
 use super::spelling::{helper, library};
+use super::{Header, SC};
 use crate::backend::common::{self, Scalar};
 use crate::backend::flat::{Array, Body, Function, Part, Statement};
 use crate::trigonometry::Trigonometry;
