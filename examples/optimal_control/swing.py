@@ -42,9 +42,13 @@ def problem(inverse_dynamics):
         opti.set_initial(q[:, k], [(1 - part) * a + part * b for a, b in zip(START, END)])
     torques = casadi.horzcat(*torques)
     opti.minimize(step * casadi.sumsqr(torques))
-    # The functions have no second derivatives.
-    options = {"hessian_approximation": "limited-memory", "print_level": 0, "max_iter": 1000}
-    opti.solver("ipopt", {"print_time": False}, options)
+    # The functions have no second derivatives: Gauss and Newton's Hessian, from the exact Jacobian of the torques.
+    jacobian = casadi.jacobian(casadi.vec(torques), opti.x)
+    factor, multipliers = casadi.MX.sym("factor"), casadi.MX.sym("multipliers", opti.ng)
+    hessian = casadi.triu(2 * step * factor * (jacobian.T @ jacobian))
+    hessian = casadi.Function("nlp_hess_l", [opti.x, opti.p, factor, multipliers], [hessian])
+    options = {"print_level": 0, "sb": "yes"}
+    opti.solver("ipopt", {"print_time": False, "hess_lag": hessian}, options)
     return opti, q, torques
 
 

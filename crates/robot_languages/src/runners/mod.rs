@@ -4,6 +4,7 @@ mod c;
 mod casadi;
 mod rust;
 mod scripts;
+mod thumb;
 
 use std::path::Path;
 
@@ -46,6 +47,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     runners.extend(c::all());
     runners.extend(scripts::all());
     runners.push(Box::new(casadi::Casadi));
+    runners.push(Box::new(thumb::Thumb));
     runners
 }
 
