@@ -1,7 +1,7 @@
 """A swing of the UR5 between two postures that costs the least torque, by CasADi and IPOPT.
 
 The accelerations of 20 steps are the unknowns, with the positions and velocities that they lead to; the cost is the sum
-of the squared joint torques of generated inverse dynamics, whose Jacobian is exact. To run it:
+of the squares of the joint torques, by generated inverse dynamics with its exact Jacobian, and of the accelerations. To run it:
 
     robot-symbolic crate robots/ur5.toml --language c --function all -o ur5_c
     cc -std=c99 -O2 -ffp-contract=off -shared -fPIC ur5_c/ur5_casadi.c -o libur5_casadi.so -lm
@@ -19,6 +19,8 @@ START = [0.0, -1.2, 1.0, -0.5, 0.3, 0.0]
 END = [1.0, -0.6, 0.4, 0.5, -0.3, 0.5]
 # N m, of the UR5's three large and three small joints.
 LIMITS = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0]
+# rad/s
+SPEED = 3.14
 
 
 def problem(inverse_dynamics):
@@ -41,9 +43,12 @@ def problem(inverse_dynamics):
         part = k / STEPS
         opti.set_initial(q[:, k], [(1 - part) * a + part * b for a, b in zip(START, END)])
     torques = casadi.horzcat(*torques)
-    opti.minimize(step * casadi.sumsqr(torques))
-    # The functions have no second derivatives: Gauss and Newton's Hessian, from the exact Jacobian of the torques.
-    jacobian = casadi.jacobian(casadi.vec(torques), opti.x)
+    # A little of the accelerations makes the Hessian regular.
+    residuals = casadi.vertcat(casadi.vec(torques), casadi.vec(qdd))
+    opti.subject_to(opti.bounded(-SPEED, casadi.vec(qd), SPEED))
+    opti.minimize(step * casadi.sumsqr(residuals))
+    # The functions have no second derivatives: Gauss and Newton's Hessian, from the exact Jacobian.
+    jacobian = casadi.jacobian(residuals, opti.x)
     factor, multipliers = casadi.MX.sym("factor"), casadi.MX.sym("multipliers", opti.ng)
     hessian = casadi.triu(2 * step * factor * (jacobian.T @ jacobian))
     hessian = casadi.Function("nlp_hess_l", [opti.x, opti.p, factor, multipliers], [hessian])
@@ -64,7 +69,7 @@ def solve(name, inverse_dynamics):
     largest = abs(solution.value(torques)).max()
     print(
         f"{name}: {statistics['return_status']}, {statistics['iter_count']} iterations, {seconds * 1e3:.1f} ms, "
-        f"{within * 1e3:.1f} ms of them in the functions, cost {cost:.9g} N²m²s, largest torque {largest:.2f} N m"
+        f"{within * 1e3:.1f} ms of them in the functions, cost {cost:.9g}, largest torque {largest:.2f} N m"
     )
     return cost
 
