@@ -2,6 +2,7 @@
 
 mod c;
 mod casadi;
+mod cppcheck;
 mod rust;
 mod scripts;
 mod thumb;
@@ -48,6 +49,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     runners.extend(scripts::all());
     runners.push(Box::new(casadi::Casadi));
     runners.push(Box::new(thumb::Thumb));
+    runners.push(Box::new(cppcheck::Cppcheck));
     runners
 }
 
