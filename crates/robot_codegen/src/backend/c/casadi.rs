@@ -65,7 +65,7 @@ pub fn casadi(module: &Module, options: &FlatOptions) -> Option<Casadi> {
     let mut symbol = |name: &str| {
         // `gravity_work` is what CasADi looks up beside `gravity`.
         let is_ending = |ending: &&str| name.ends_with(&format!("_{ending}"));
-        let ending = if ENDINGS.iter().any(|ending| is_ending(&ending)) { "_f" } else { "" };
+        let ending = if ENDINGS.iter().any(is_ending) { "_f" } else { "" };
         namer.name(&format!("casadi_{}_{name}{ending}", tree.name))
     };
     let mut lines = beginning(&header);
