@@ -2,7 +2,7 @@
 //! `robot_languages`, which runs them.
 
 use robot_codegen::backend::Target;
-use robot_codegen::backend::c::{C, Cpp};
+use robot_codegen::backend::c::{C, Cpp, casadi};
 use robot_codegen::backend::flat::FlatOptions;
 use robot_codegen::backend::javascript::JavaScript;
 use robot_codegen::backend::matlab::Matlab;
@@ -37,6 +37,32 @@ fn every_operation_is_printed_as_committed_in_every_language() {
     for (name, printer) in printers {
         for file in printer.files(&module(name)).unwrap() {
             hold(&format!("languages/{name}/{}", file.name), file.contents.text().unwrap());
+        }
+    }
+}
+
+#[test]
+fn external_functions_of_casadi_are_printed_as_committed() {
+    let found = casadi(&module("double"), &options()).unwrap();
+    hold(&format!("languages/double/{}", found.file.name), &found.file.text);
+    assert_eq!(casadi(&module("single"), &FlatOptions { scalar: Scalar::F32, ..options() }), None);
+}
+
+#[test]
+fn no_external_function_has_a_name_that_casadi_looks_up_or_refuses() {
+    let mut module = module("static__");
+    let function = module.functions[0].clone();
+    module.functions = vec![function; 4];
+    let names = ["gravity", "gravity_work", "gravity_n_in", "gravity_work_f"];
+    for (function, name) in module.functions.iter_mut().zip(names) {
+        function.name = name.to_owned();
+    }
+    let found = casadi(&module, &options()).unwrap();
+    for (name, _) in &found.functions {
+        assert!(!name.contains("__"), "{name}: CasADi refuses two underscores");
+        let others = found.functions.iter().map(|(other, _)| other);
+        for ending in others.filter_map(|other| other.strip_prefix(&format!("{name}_"))) {
+            assert!(!["work", "n_in"].contains(&ending), "{name} and {name}_{ending}");
         }
     }
 }

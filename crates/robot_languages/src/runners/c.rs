@@ -22,7 +22,8 @@ struct C {
 }
 
 /// Warnings that printed code must not cause.
-const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+pub(super) const WARNINGS: [&str; 5] =
+    ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
 
 /// gcc 12 fuses products with pairs of a sum and a difference even with `-ffp-contract=off`, where it makes vectors of
 /// straight code.
@@ -79,14 +80,14 @@ impl Runner for C {
 }
 
 /// Whether a function has a form over columns.
-fn has_batch(function: &Function<'_>) -> bool {
+pub(super) fn has_batch(function: &Function<'_>) -> bool {
     function.angles.parts.is_empty()
         && function.core.parts.is_empty()
         && !function.inputs.is_empty()
 }
 
 /// A program that reads states, calls every function in both ways and writes the results.
-fn program(work: &Work, tree: &Tree<'_>) -> String {
+pub(super) fn program(work: &Work, tree: &Tree<'_>) -> String {
     let names = Names::new(&tree.name);
     let real = if work.options.scalar == Scalar::F64 { "double" } else { "float" };
     let mut text = format!(

@@ -1,9 +1,12 @@
 //! One runner for each language and tool.
 
 mod c;
+mod casadi;
+mod cppcheck;
 mod rust;
 mod scripts;
 mod wasm;
+mod thumb;
 
 use std::path::Path;
 
@@ -46,6 +49,9 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     runners.extend(c::all());
     runners.extend(scripts::all());
     runners.push(Box::new(wasm::Wasm));
+    runners.push(Box::new(casadi::Casadi));
+    runners.push(Box::new(thumb::Thumb));
+    runners.push(Box::new(cppcheck::Cppcheck));
     runners
 }
 

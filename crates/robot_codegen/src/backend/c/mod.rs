@@ -5,6 +5,7 @@
 //! nothing but `<math.h>`; sines and cosines are the runtime's polynomials unless the standard library's are asked for.
 
 mod batch;
+mod casadi;
 mod comment;
 mod cpp;
 mod function;
@@ -14,6 +15,7 @@ mod keywords;
 mod names;
 mod spelling;
 
+pub use self::casadi::{Casadi, casadi};
 pub use self::cpp::Cpp;
 pub use self::names::Names;
 use self::spelling::Expressions;

@@ -1,12 +1,11 @@
 //! A package in C: the header, a test of it, and a file for CMake.
 
 use robot_codegen::backend::SourceFile;
-use robot_codegen::backend::c::{self, Names};
+use robot_codegen::backend::c::{self, Casadi, Names};
 use robot_codegen::backend::flat::{Function, Tree};
 use robot_codegen::{Scalar, Trigonometry};
 
-use super::description;
-use super::{Parts, file, of_sources};
+use super::{Parts, casadi, description, file, of_sources};
 use crate::driver::check::CheckValue;
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
@@ -14,7 +13,9 @@ use crate::driver::generate::unnamed_header;
 /// The files of the package.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     let tree = c::tree(parts.module, parts.flat);
-    let printer = Printer { parts, tree: &tree, names: Names::new(&tree.name) };
+    let casadi = c::casadi(parts.module, parts.flat);
+    let printer =
+        Printer { parts, tree: &tree, names: Names::new(&tree.name), casadi: casadi.as_ref() };
     let mut files = vec![
         file("README.md", printer.readme()),
         file("CMakeLists.txt", printer.cmake()),
@@ -22,6 +23,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     ];
     files.extend(of_sources(sources));
     files.push(file("test.c", printer.test()));
+    files.extend(of_sources(casadi.into_iter().map(|casadi| casadi.file).collect()));
     files
 }
 
@@ -29,6 +31,8 @@ struct Printer<'a> {
     parts: &'a Parts<'a>,
     tree: &'a Tree<'a>,
     names: Names,
+    /// In double precision.
+    casadi: Option<&'a Casadi>,
 }
 
 impl Printer<'_> {
@@ -61,8 +65,9 @@ add_executable({name}_test test.c)
 target_link_libraries({name}_test PRIVATE {name})
 set_target_properties({name}_test PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
 add_test(NAME {name} COMMAND {name}_test)
-",
-            unnamed_header()
+{}",
+            unnamed_header(),
+            self.casadi.map(|_| casadi::cmake(name)).unwrap_or_default()
         )
     }
 
@@ -86,6 +91,9 @@ add_test(NAME {name} COMMAND {name}_test)
              fuses there all the same.\n",
             self.real()
         ));
+        usage.push_str(
+            &self.casadi.map(|casadi| casadi::usage(self.tree, casadi)).unwrap_or_default(),
+        );
         let constructor = self.names.item("model_init");
         self.parts.readme(
             self.tree,

@@ -2,6 +2,7 @@
 
 mod c;
 mod call;
+mod casadi;
 mod cpp;
 mod description;
 mod javascript;

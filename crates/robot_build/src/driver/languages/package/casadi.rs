@@ -1,0 +1,54 @@
+//! What a package in C says of its external functions for CasADi.
+
+use robot_codegen::backend::c::Casadi;
+use robot_codegen::backend::flat::Tree;
+
+/// The target of the shared library.
+pub(super) fn cmake(name: &str) -> String {
+    format!(
+        "
+# For CasADi's `external`: a shared library.
+add_library({name}_casadi SHARED {name}_casadi.c)
+target_link_libraries({name}_casadi PRIVATE {name})
+set_target_properties({name}_casadi PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
+"
+    )
+}
+
+/// A section of the README.
+pub(super) fn usage(tree: &Tree<'_>, casadi: &Casadi) -> String {
+    let name = &tree.name;
+    let with = casadi.functions.iter().find(|(_, has_jacobian)| *has_jacobian);
+    let Some((function, _)) = with.or(casadi.functions.first()) else { return String::new() };
+    let mut text = format!(
+        "\nFor CasADi, and what takes its functions (acados, do-mpc, Opti), `{name}_casadi.c` is compiled to a shared \
+         library, by CMake or so:\n\n```sh\ncc -std=c99 -O2 -ffp-contract=off -shared -fPIC {name}_casadi.c -o \
+         lib{name}_casadi.so -lm\n```\n\n```python\nimport casadi\n\nf = casadi.external(\"{function}\", \
+         \"./lib{name}_casadi.so\")\n```\n\nEach function has the name `casadi_{name}_…`. Matrices are CasADi's, column \
+         by column."
+    );
+    let exact = casadi.functions.iter().filter(|(_, has_jacobian)| *has_jacobian);
+    let exact: Vec<String> = exact.map(|(name, _)| format!("`{name}`")).collect();
+    if exact.is_empty() {
+        text.push_str(
+            " No function has a Jacobian: generate the derivatives too \
+             (`inverse_dynamics_derivatives` with `mass_matrix`, `forward_dynamics_derivatives`).",
+        );
+    } else {
+        text.push_str(&format!(
+            " CasADi finds exact Jacobians of {}, not of others; none has second derivatives.",
+            exact.join(", ")
+        ));
+    }
+    if tree.has_parameters() {
+        text.push_str(&format!(
+            " The last input is the column of parameters, [{}], which CasADi takes as constant where it differentiates.",
+            tree.parameters.join(", ")
+        ));
+    }
+    if let Some(nominal) = &casadi.nominal {
+        text.push_str(&format!(" `{nominal}` gives the nominal ones."));
+    }
+    text.push('\n');
+    text
+}

@@ -1,0 +1,170 @@
+//! External functions of CasADi: a source file beside the header that gives each function CasADi's interface of C, with the
+//! Jacobian where the module computes it exactly.
+
+use super::{Header, Names, comment, tree};
+use crate::backend::SourceFile;
+use crate::backend::common::{Namer, Scalar};
+use crate::backend::flat::{FlatOptions, Function};
+use crate::module::Module;
+
+mod blocks;
+mod external;
+
+use self::external::{External, Port};
+
+/// Names that CasADi refuses for functions.
+const RESERVED: &[&str] = &["null", "jac", "hess"];
+
+/// The endings of the further functions that CasADi looks up beside each.
+const ENDINGS: &[&str] = &[
+    "n_in",
+    "n_out",
+    "name_in",
+    "name_out",
+    "sparsity_in",
+    "sparsity_out",
+    "default_in",
+    "diff_in",
+    "diff_out",
+    "work",
+    "work_bytes",
+    "mem",
+    "alloc_mem",
+    "init_mem",
+    "free_mem",
+    "checkout",
+    "release",
+    "incref",
+    "decref",
+    "config",
+];
+
+/// The external functions of a module.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Casadi {
+    /// The source file.
+    pub file: SourceFile,
+    /// For each function of the module, the name that `external` takes, and whether CasADi finds its Jacobian.
+    pub functions: Vec<(String, bool)>,
+    /// The function without inputs that gives the nominal parameters, if all have nominal values.
+    pub nominal: Option<String>,
+}
+
+/// The external functions of a module in double precision, which is CasADi's; nothing in single.
+///
+/// All arrays are dense columns, matrices column by column. Parameters of the module are a further input, `parameters`, in
+/// their order. With respect to them CasADi takes the functions as constant.
+#[must_use]
+pub fn casadi(module: &Module, options: &FlatOptions) -> Option<Casadi> {
+    if options.scalar != Scalar::F64 {
+        return None;
+    }
+    let tree = tree(module, options);
+    let header = Header { tree: &tree, names: Names::new(&tree.name), options };
+    let mut namer = Namer::new(RESERVED, &[]);
+    let mut symbol = |name: &str| {
+        // `gravity_work` is what CasADi looks up beside `gravity`.
+        let is_ending = |ending: &&str| name.ends_with(&format!("_{ending}"));
+        let ending = if ENDINGS.iter().any(is_ending) { "_f" } else { "" };
+        namer.name(&format!("casadi_{}_{name}{ending}", tree.name))
+    };
+    let mut lines = beginning(&header);
+    let mut functions = vec![];
+    for function in &tree.functions {
+        let name = symbol(&function.source.name);
+        let external = External::of(&header, function, &name);
+        let jacobian = blocks::jacobian(&header, function, &external);
+        lines.extend(external.lines());
+        lines.extend(jacobian.iter().flat_map(External::lines));
+        functions.push((name, jacobian.is_some()));
+    }
+    let has_nominal =
+        tree.has_parameters() && module.parameters.iter().all(|one| one.nominal.is_some());
+    let nominal = has_nominal.then(|| {
+        let name = symbol("nominal");
+        lines.extend(external::nominal(&header, &name).lines());
+        name
+    });
+    let name = format!("{}_casadi.c", tree.name);
+    let file = SourceFile { name, text: lines.join("\n") };
+    Some(Casadi { file, functions, nominal })
+}
+
+fn beginning(header: &Header<'_>) -> Vec<String> {
+    let mut lines: Vec<String> =
+        header.options.header.iter().map(|line| comment::of_line(line)).collect();
+    lines.push(String::new());
+    lines.extend(comment::of_paragraphs(&[
+        format!("The functions of `{}.h` for CasADi's `external`, with exact Jacobians where the header computes them.", header.tree.name),
+        String::new(),
+        "Arrays are dense columns, and matrices lie column by column. Where CasADi gives no array, its entries are 0.".to_owned(),
+    ]));
+    lines.extend([format!("#include \"{}.h\"", header.tree.name)]);
+    lines.extend(
+        "
+#ifndef casadi_real
+#define casadi_real double
+#endif
+#ifndef casadi_int
+#define casadi_int long long int
+#endif
+#if defined(_WIN32)
+#define CASADI_EXPORT_ __declspec(dllexport)
+#elif defined(__GNUC__)
+#define CASADI_EXPORT_ __attribute__((visibility(\"default\")))
+#else
+#define CASADI_EXPORT_
+#endif
+
+#ifdef __cplusplus
+extern \"C\" {
+#endif
+
+static void take_(double *to, const casadi_real *from, int length)
+{
+    int i;
+    for (i = 0; i < length; i++) {
+        to[i] = from ? from[i] : 0.0;
+    }
+}
+
+/* A matrix that lies row by row, column by column. */
+static void give_(casadi_real *to, const double *from, int rows, int columns)
+{
+    int i, j;
+    if (!to) {
+        return;
+    }
+    for (i = 0; i < rows; i++) {
+        for (j = 0; j < columns; j++) {
+            to[j * rows + i] = from[i * columns + j];
+        }
+    }
+}
+"
+        .lines()
+        .map(str::to_owned),
+    );
+    lines
+}
+
+/// The names of inputs and outputs, which are CasADi's keywords: each once.
+fn ports(function: &Function<'_>, parameters: usize) -> (Vec<Port>, Vec<Port>) {
+    let source = function.source;
+    let mut namer = Namer::new(RESERVED, &[]);
+    let mut inputs: Vec<Port> = vec![];
+    for (input, array) in source.inputs.iter().zip(&function.inputs) {
+        inputs.push(Port::dense(namer.name(&input.name), array.length, 1));
+    }
+    if parameters > 0 {
+        inputs.push(Port::dense(namer.name("parameters"), parameters, 1));
+    }
+    let outputs = source.outputs.iter().map(|output| {
+        let (rows, columns) = match output.shape.as_slice() {
+            [rows, columns] => (*rows, *columns),
+            _ => (output.len(), 1),
+        };
+        Port::dense(namer.name(&output.name), rows, columns)
+    });
+    (inputs, outputs.collect())
+}
