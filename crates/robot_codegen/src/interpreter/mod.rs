@@ -146,6 +146,12 @@ impl<'m> Interpreter<'m> {
         })
     }
 
+    /// The fields: what the constructor stores.
+    #[must_use]
+    pub fn fields(&self) -> &[f64] {
+        &self.fields
+    }
+
     /// A function by its name.
     ///
     /// # Errors
