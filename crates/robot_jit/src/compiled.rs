@@ -1,6 +1,8 @@
 //! Compiled modules, and handles of their functions.
 
-use robot_codegen::{Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry};
+use robot_codegen::{
+    Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry,
+};
 
 use crate::emit::{Fault, LanesEntry, SingleEntry, emit_lanes, emit_single};
 use crate::error::Error;
@@ -105,9 +107,7 @@ fn emit(
     }
     let failed = |fault| match fault {
         Fault::Missing => Error::Load { function: name() },
-        Fault::Encoding(error) => {
-            Error::Encoding { function: name(), reason: error.to_string() }
-        }
+        Fault::Encoding(error) => Error::Encoding { function: name(), reason: error.to_string() },
     };
     let single = emit_single(function, fields, registers).map_err(failed)?;
     let lanes = emit_lanes(function, fields, registers).map_err(failed)?;
@@ -126,6 +126,12 @@ impl<'m> Compiled<'m> {
         let (_, single, lanes) =
             found.ok_or_else(|| Error::NotCompiled { function: name.to_owned() })?;
         Ok(Function { callable, single, lanes, registers: self.registers })
+    }
+
+    /// The bytes of the code of all functions, without constants.
+    #[must_use]
+    pub fn code_size(&self) -> usize {
+        self.functions.iter().map(|(_, single, lanes)| single.size() + lanes.size()).sum()
     }
 
     /// The registers that the code is made for.

@@ -27,7 +27,9 @@ pub enum Error {
         function: String,
     },
     /// A function that loads what it does not declare.
-    #[error("function `{function}` loads an entry that it does not have; compile it from a specification")]
+    #[error(
+        "function `{function}` loads an entry that it does not have; compile it from a specification"
+    )]
     Load {
         /// The function.
         function: String,
@@ -43,7 +45,9 @@ pub enum Error {
         most: usize,
     },
     /// An instruction that could not be encoded: a fault of this crate.
-    #[error("an instruction of function `{function}` has no encoding ({reason}); please report this")]
+    #[error(
+        "an instruction of function `{function}` has no encoding ({reason}); please report this"
+    )]
     Encoding {
         /// The function.
         function: String,

@@ -14,6 +14,10 @@ mod error;
 mod list;
 mod memory;
 mod processor;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
 
 pub use compiled::{Compiled, Function, Options, compile, compile_with};
 pub use error::Error;

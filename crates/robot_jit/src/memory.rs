@@ -25,15 +25,26 @@ const NUMBERS_OF_LINE: usize = 8;
 /// Lines of working memory that a call of one state has on the stack; more are allocated.
 const LINES_ON_STACK: usize = 48;
 
-type Single = unsafe extern "sysv64" fn(*const f64, *mut f64, *const u64, *mut Line);
-type Lanes = unsafe extern "sysv64" fn(
-    *const *const f64,
-    *const *mut f64,
-    *const u64,
-    *mut Line,
-    usize,
-    usize,
-);
+/// The types of the code, by the ABI of System V on every system. Elsewhere than on x86-64 nothing has them, as
+/// `place` refuses.
+macro_rules! types {
+    ($abi:literal) => {
+        type Single = unsafe extern $abi fn(*const f64, *mut f64, *const u64, *mut Line);
+        type Lanes = unsafe extern $abi fn(
+            *const *const f64,
+            *const *mut f64,
+            *const u64,
+            *mut Line,
+            usize,
+            usize,
+        );
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+types!("sysv64");
+#[cfg(not(target_arch = "x86_64"))]
+types!("C");
 
 /// Code in executable memory.
 #[derive(Debug)]
@@ -96,6 +107,11 @@ impl Code {
 }
 
 impl SingleCode {
+    /// The bytes of the code.
+    pub(crate) fn size(&self) -> usize {
+        self.0.entry.code.len()
+    }
+
     /// Computes one state; false, and nothing else, if a length is not the function's.
     #[inline]
     pub(crate) fn call(&self, inputs: &[f64], outputs: &mut [f64]) -> bool {
@@ -132,6 +148,11 @@ impl SingleCode {
 }
 
 impl LanesCode {
+    /// The bytes of the code.
+    pub(crate) fn size(&self) -> usize {
+        self.0.entry.code.len()
+    }
+
     /// Computes the states from 0 to `states`, a multiple of the lanes; false, and nothing else, if it is not, or if
     /// columns are missing or shorter.
     pub(crate) fn call(

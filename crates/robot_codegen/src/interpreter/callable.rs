@@ -122,11 +122,7 @@ impl<'i> Callable<'i> {
     /// # Errors
     ///
     /// Those of [`Callable::columns`].
-    pub fn check_lengths(
-        self,
-        inputs: &[&[f64]],
-        outputs: &[&mut [f64]],
-    ) -> Result<usize, Errors> {
+    pub fn check_lengths(self, inputs: &[&[f64]], outputs: &[&mut [f64]]) -> Result<usize, Errors> {
         let mut errors = match self.check_columns(inputs.len(), outputs.len()) {
             Ok(()) => vec![],
             Err(errors) => errors.as_slice().to_vec(),

@@ -225,9 +225,7 @@ impl Bytes {
     pub(super) fn store(&mut self, target: Target, from: u8) {
         let memory = match (target, self.addressing) {
             (Target::Working(index), _) => Bytes::at(WORKING, i64::from(index), false),
-            (Target::Output(entry), Addressing::Row) => {
-                Bytes::at(OUTPUTS, i64::from(entry), false)
-            }
+            (Target::Output(entry), Addressing::Row) => Bytes::at(OUTPUTS, i64::from(entry), false),
             (Target::Output(entry), Addressing::Columns) => self.column(OUTPUTS, entry),
         };
         self.store_to(memory, from);

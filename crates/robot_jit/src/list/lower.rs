@@ -13,10 +13,7 @@ pub(crate) enum Angles<'p> {
     /// They are computed before they are first used, from what this program gives.
     Here(&'p Program),
     /// They are in the working memory: sines from one number on, cosines from another.
-    Working {
-        sines: u32,
-        cosines: u32,
-    },
+    Working { sines: u32, cosines: u32 },
     /// The program has none.
     None,
 }

@@ -42,8 +42,14 @@ pub(crate) fn assert_same_function(
         found.entries(&entries, &mut single).unwrap();
         for (entry, value) in single.iter().enumerate() {
             let (lanes, right) = (ours[entry][state], theirs[entry][state]);
-            assert!(same(lanes, right), "{place}: lanes[{entry}] at {state}: {lanes:e} for {right:e}");
-            assert!(same(*value, right), "{place}: single[{entry}] at {state}: {value:e} for {right:e}");
+            assert!(
+                same(lanes, right),
+                "{place}: lanes[{entry}] at {state}: {lanes:e} for {right:e}"
+            );
+            assert!(
+                same(*value, right),
+                "{place}: single[{entry}] at {state}: {value:e} for {right:e}"
+            );
         }
     }
 }
