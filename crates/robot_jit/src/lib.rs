@@ -1,7 +1,7 @@
 //! Straight-line programs as machine code in memory.
 //!
 //! [`compile`] makes code of the functions of a module, for one state and for several side by side in the lanes of
-//! vector registers, in about a millisecond. A [`Function`] is called as the interpreter's
+//! vector registers, in a tenth of a millisecond to two. A [`Function`] is called as the interpreter's
 //! [`Callable`](robot_codegen::Callable) is, and gives its bits, but for two things: a multiply-add of the program
 //! rounds once, as in code that is compiled for the processor, and a NaN may have other bits.
 //!

@@ -232,29 +232,6 @@ fn what_cannot_be_compiled_is_an_error() {
     assert!(matches!(compile_with(&module, &[], &options), Err(Error::Load { .. })));
 }
 
-/// Pages of memory that this process has.
-#[cfg(target_os = "linux")]
-fn pages() -> usize {
-    let text = std::fs::read_to_string("/proc/self/statm").unwrap();
-    text.split(' ').nth(1).unwrap().parse().unwrap()
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn memory_is_bounded_over_many_compilations() {
-    if registers().is_empty() {
-        return;
-    }
-    let module = module(9, 1, false);
-    let compile = || drop(compile_with(&module, &[], &Options::default()).unwrap());
-    (0..500).for_each(|_| compile());
-    let before = pages();
-    (0..20_000).for_each(|_| compile());
-    // Without the return of memory there would be 20 000 pages and mappings more; other tests run beside this one.
-    let after = pages();
-    assert!(after < before + 8_000, "{before} pages became {after}");
-}
-
 #[test]
 fn code_is_shared_between_threads() {
     fn shared<T: Send + Sync>() {}

@@ -106,7 +106,8 @@ impl Plan {
         if angles.len() < 2 {
             return None;
         }
-        let lanes = if angles.len() > 4 { registers.lanes() } else { 4 };
+        // Registers of 512 bits cost a single call more than they save: it waits until all units run on them.
+        let lanes = Registers::Avx2.lanes();
         let inputs = inputs(function);
         let input = |index: usize| match function.angles.operation(*angles.get(index)?) {
             Operation::Load(Source::Input(entry)) => Some(entry as usize),
