@@ -93,7 +93,7 @@ fn measure(
         single.time(|| {
             rows.iter().for_each(|inputs| {
                 black_box(jit.entries(black_box(inputs), &mut row)).unwrap_or_default();
-            })
+            });
         });
         lanes.time(|| black_box(jit.columns(&inputs, &mut outputs)).unwrap_or_default());
         if round % 8 == 0 {
@@ -111,7 +111,7 @@ fn measure(
                         })
                         .collect();
                     drop(black_box(interpreted.call(&named)));
-                })
+                });
             });
         }
     }

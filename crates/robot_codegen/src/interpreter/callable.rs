@@ -12,6 +12,9 @@ use crate::trigonometry::Trigonometry;
 /// of a program stay in the cache.
 const BLOCK: usize = 16;
 
+/// The rows that have an entry of an input, one for each state, and its place in them.
+pub type Place<'v> = (&'v [Vec<f64>], usize);
+
 /// A function of a module whose parameters are given, looked up once.
 #[derive(Clone, Copy, Debug)]
 pub struct Callable<'i> {
@@ -187,7 +190,7 @@ impl<'i> Callable<'i> {
         self,
         states: usize,
         inputs: &[(&str, &'v [Vec<f64>])],
-    ) -> Result<Vec<(&'v [Vec<f64>], usize)>, Errors> {
+    ) -> Result<Vec<Place<'v>>, Errors> {
         let mut errors = vec![];
         for (_, rows) in inputs.iter().filter(|(_, rows)| rows.len() != states) {
             let (function, found) = (self.function.name.clone(), rows.len());

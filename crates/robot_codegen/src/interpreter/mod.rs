@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 
 use rustc_hash::FxHashMap;
 
-pub use self::callable::Callable;
+pub use self::callable::{Callable, Place};
 pub(crate) use self::evaluation::call;
 pub use self::evaluation::evaluate;
 use crate::error::{Error, Errors};
