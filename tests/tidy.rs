@@ -9,12 +9,13 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// The crates along the arrow of ARCHITECTURE.md: each may depend on those before it.
-const CRATES: [&str; 16] = [
+const CRATES: [&str; 17] = [
     "robot_runtime",
     "robot_symbolic",
     "robot_model",
     "robot_dynamics",
     "robot_codegen",
+    "robot_jit",
     "robot_build",
     "robot_macros",
     "robot_document",

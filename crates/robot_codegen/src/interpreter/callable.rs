@@ -12,6 +12,9 @@ use crate::trigonometry::Trigonometry;
 /// of a program stay in the cache.
 const BLOCK: usize = 16;
 
+/// The rows that have an entry of an input, one for each state, and its place in them.
+pub type Place<'v> = (&'v [Vec<f64>], usize);
+
 /// A function of a module whose parameters are given, looked up once.
 #[derive(Clone, Copy, Debug)]
 pub struct Callable<'i> {
@@ -111,28 +114,50 @@ impl<'i> Callable<'i> {
     ///
     /// Another number of columns than there are entries; columns that are not all of one length.
     pub fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
-        let function = || self.function.name.clone();
-        let mut errors = vec![];
-        for (kind, expected, found) in [
-            ("inputs", self.input_size(), inputs.len()),
-            ("outputs", self.output_size(), outputs.len()),
-        ] {
-            if expected != found {
-                errors.push(Error::Columns { function: function(), kind, expected, found });
-            }
-        }
+        let states = self.check_lengths(inputs, outputs)?;
+        let read = |entry: usize, state: usize| inputs[entry][state];
+        self.blocks::<BLOCK>(states, read, |entry, state, value| outputs[entry][state] = value);
+        Ok(())
+    }
+
+    /// The number of states of columns, if they are those of [`Callable::columns`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Callable::columns`].
+    pub fn check_lengths(self, inputs: &[&[f64]], outputs: &[&mut [f64]]) -> Result<usize, Errors> {
+        let mut errors = match self.check_columns(inputs.len(), outputs.len()) {
+            Ok(()) => vec![],
+            Err(errors) => errors.as_slice().to_vec(),
+        };
         let lengths = || {
             let inputs = inputs.iter().map(|column| column.len());
             inputs.chain(outputs.iter().map(|column| column.len()))
         };
         let states = lengths().next().unwrap_or_default();
         if let Some(found) = lengths().find(|length| *length != states) {
-            errors.push(Error::States { function: function(), expected: states, found });
+            let function = self.function.name.clone();
+            errors.push(Error::States { function, expected: states, found });
         }
-        Errors::check(errors, ())?;
-        let read = |entry: usize, state: usize| inputs[entry][state];
-        self.blocks::<BLOCK>(states, read, |entry, state, value| outputs[entry][state] = value);
-        Ok(())
+        Errors::check(errors, states)
+    }
+
+    /// Whether there are as many columns, or numbers of one state, as entries.
+    ///
+    /// # Errors
+    ///
+    /// Another number.
+    pub fn check_columns(self, inputs: usize, outputs: usize) -> Result<(), Errors> {
+        let mut errors = vec![];
+        for (kind, expected, found) in
+            [("inputs", self.input_size(), inputs), ("outputs", self.output_size(), outputs)]
+        {
+            if expected != found {
+                let function = self.function.name.clone();
+                errors.push(Error::Columns { function, kind, expected, found });
+            }
+        }
+        Errors::check(errors, ())
     }
 
     /// Computes a number of states: `inputs` has for each input, by name, its entries at each state; the result for
@@ -146,6 +171,26 @@ impl<'i> Callable<'i> {
         states: usize,
         inputs: &[(&str, &[Vec<f64>])],
     ) -> Result<Vec<Vec<f64>>, Errors> {
+        let entries = self.rows(states, inputs)?;
+        let mut found = vec![vec![0.0; self.output_size()]; states];
+        let read = |entry: usize, state: usize| {
+            let (rows, entry) = entries[entry];
+            rows[state][entry]
+        };
+        self.blocks::<BLOCK>(states, read, |entry, state, value| found[state][entry] = value);
+        Ok(found)
+    }
+
+    /// For each entry of the inputs, in their order, the rows that have it and its place in them.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Callable::states`].
+    pub fn rows<'v>(
+        self,
+        states: usize,
+        inputs: &[(&str, &'v [Vec<f64>])],
+    ) -> Result<Vec<Place<'v>>, Errors> {
         let mut errors = vec![];
         for (_, rows) in inputs.iter().filter(|(_, rows)| rows.len() != states) {
             let (function, found) = (self.function.name.clone(), rows.len());
@@ -159,19 +204,10 @@ impl<'i> Callable<'i> {
             self.check(&lengths)?;
         }
         let given = |input: &Input| inputs.iter().find(|(name, _)| *name == input.name);
-        let entries: Vec<(&[Vec<f64>], usize)> = self
-            .inputs()
-            .iter()
-            .flat_map(|input| (0..input.symbols.len()).map(move |entry| (input, entry)))
-            .filter_map(|(input, entry)| Some((given(input)?.1, entry)))
-            .collect();
-        let mut found = vec![vec![0.0; self.output_size()]; states];
-        let read = |entry: usize, state: usize| {
-            let (rows, entry) = entries[entry];
-            rows[state][entry]
-        };
-        self.blocks::<BLOCK>(states, read, |entry, state, value| found[state][entry] = value);
-        Ok(found)
+        let entries = self.inputs().iter().flat_map(|input| {
+            (0..input.symbols.len()).filter_map(move |entry| Some((given(input)?.1, entry)))
+        });
+        Ok(entries.collect())
     }
 
     /// Computes the states block by block. `read` gives an entry of the inputs at a state, `write` takes one of the
@@ -245,7 +281,11 @@ impl<'i> Callable<'i> {
     }
 
     /// The entries of all inputs in the order of the function.
-    pub(super) fn gather(self, given: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
+    ///
+    /// # Errors
+    ///
+    /// Inputs that are missing, unknown or of the wrong length.
+    pub fn gather(self, given: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
         let lengths: Vec<(&str, usize)> =
             given.iter().map(|(name, entries)| (*name, entries.len())).collect();
         self.check(&lengths)?;

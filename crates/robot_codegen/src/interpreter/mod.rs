@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 
 use rustc_hash::FxHashMap;
 
-pub use self::callable::Callable;
+pub use self::callable::{Callable, Place};
 pub(crate) use self::evaluation::call;
 pub use self::evaluation::evaluate;
 use crate::error::{Error, Errors};
@@ -144,6 +144,12 @@ impl<'m> Interpreter<'m> {
             };
             Rounded::loaded(source, self.trigonometry, value)
         })
+    }
+
+    /// The fields: what the constructor stores.
+    #[must_use]
+    pub fn fields(&self) -> &[f64] {
+        &self.fields
     }
 
     /// A function by its name.

@@ -44,7 +44,7 @@ fn every_operation_is_printed_as_committed_in_every_language() {
 #[test]
 fn external_functions_of_casadi_are_printed_as_committed() {
     let found = casadi(&module("double"), &options()).unwrap();
-    hold(&format!("languages/double/{}", found.file.name), &found.file.text);
+    hold(&format!("languages/double/{}", found.file.name), found.file.contents.text().unwrap());
     assert_eq!(casadi(&module("single"), &FlatOptions { scalar: Scalar::F32, ..options() }), None);
 }
 

@@ -46,7 +46,7 @@ impl Runner for Cppcheck {
         let files = files.map_err(|error| error.to_string())?;
         let mut unit = String::new();
         for file in files.iter().filter(|file| file.path.ends_with(".h")) {
-            files::write(folder, &file.path, file.text.as_bytes())?;
+            files::write(folder, &file.path, file.contents.bytes())?;
             unit.push_str(&format!("#include \"{}\"\n", file.path));
         }
         files::write(folder, "unit.c", unit.as_bytes())?;

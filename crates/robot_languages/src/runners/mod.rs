@@ -5,8 +5,8 @@ mod casadi;
 mod cppcheck;
 mod rust;
 mod scripts;
-mod wasm;
 mod thumb;
+mod wasm;
 
 use std::path::Path;
 

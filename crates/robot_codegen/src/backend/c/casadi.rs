@@ -86,7 +86,7 @@ pub fn casadi(module: &Module, options: &FlatOptions) -> Option<Casadi> {
         name
     });
     let name = format!("{}_casadi.c", tree.name);
-    let file = SourceFile { name, text: lines.join("\n") };
+    let file = SourceFile::text(name, lines.join("\n"));
     Some(Casadi { file, functions, nominal })
 }
 

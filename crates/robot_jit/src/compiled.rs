@@ -1,0 +1,312 @@
+//! Compiled modules, and handles of their functions.
+
+use robot_codegen::{
+    Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry,
+};
+
+use crate::emit::{Fault, LanesEntry, SingleEntry, emit_lanes, emit_single};
+use crate::error::Error;
+use crate::memory::{LanesCode, SingleCode, place};
+use crate::processor::Registers;
+
+/// States that are gathered into columns at once.
+const BLOCK: usize = 64;
+
+/// The most values of a function, so that all addresses fit into 31 bits.
+const MOST_VALUES: usize = 1 << 18;
+
+/// What is compiled, and for which processor.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// The registers; those of this machine if `None`.
+    pub registers: Option<Registers>,
+    /// The source of sines and cosines: the polynomials, or there is an error.
+    pub trigonometry: Trigonometry,
+    /// The names of the functions; all if `None`.
+    pub functions: Option<Vec<String>>,
+}
+
+/// A module with its parameters given, as machine code.
+#[derive(Debug)]
+pub struct Compiled<'m> {
+    interpreter: Interpreter<'m>,
+    registers: Registers,
+    /// The functions that were compiled, by their names.
+    functions: Vec<(String, SingleCode, LanesCode)>,
+}
+
+/// A function in machine code.
+#[derive(Clone, Copy, Debug)]
+pub struct Function<'c> {
+    callable: Callable<'c>,
+    single: &'c SingleCode,
+    lanes: &'c LanesCode,
+    registers: Registers,
+}
+
+/// Compiles all functions: the parameters that `given` names, the others at their nominal values. The constructor runs
+/// through the interpreter.
+///
+/// # Errors
+///
+/// A machine without the registers; parameters as for [`Interpreter::new`]; memory that the system does not give.
+pub fn compile<'m>(module: &'m Module, given: &[(&str, f64)]) -> Result<Compiled<'m>, Error> {
+    compile_with(module, given, &Options::default())
+}
+
+/// [`compile`] with options.
+///
+/// # Errors
+///
+/// Those of [`compile`]; the standard library's sines; unknown names of functions.
+pub fn compile_with<'m>(
+    module: &'m Module,
+    given: &[(&str, f64)],
+    options: &Options,
+) -> Result<Compiled<'m>, Error> {
+    let registers = match options.registers {
+        Some(registers) => registers.check()?,
+        None => Registers::detect()?,
+    };
+    if options.trigonometry != Trigonometry::Polynomial {
+        return Err(Error::Trigonometry);
+    }
+    let interpreter = Interpreter::new(module, given)?;
+    let names: Vec<&str> = match &options.functions {
+        Some(names) => names.iter().map(String::as_str).collect(),
+        None => module.functions.iter().map(|function| function.name.as_str()).collect(),
+    };
+    let mut entries = vec![];
+    for name in &names {
+        interpreter.function(name)?;
+        if let Some(function) = module.function(name) {
+            entries.push(emit(function, interpreter.fields(), registers)?);
+        }
+    }
+    let names = names.into_iter().map(str::to_owned);
+    let functions = names.zip(place(entries)?).map(|(name, (single, lanes))| (name, single, lanes));
+    let functions = functions.collect();
+    Ok(Compiled { interpreter, registers, functions })
+}
+
+/// The code of a function for one state and for several.
+fn emit(
+    function: &robot_codegen::module::Function,
+    fields: &[f64],
+    registers: Registers,
+) -> Result<(SingleEntry, LanesEntry), Error> {
+    let name = || function.name.clone();
+    let inputs: usize = function.inputs.iter().map(|input| input.symbols.len()).sum();
+    let values = function.angles.operations().len()
+        + function.angles.results().len()
+        + function.core.operations().len()
+        + function.core.results().len()
+        + inputs;
+    if values > MOST_VALUES {
+        return Err(Error::Size { function: name(), values, most: MOST_VALUES });
+    }
+    let failed = |fault| match fault {
+        Fault::Missing => Error::Load { function: name() },
+        Fault::Encoding(error) => Error::Encoding { function: name(), reason: error.to_string() },
+    };
+    let single = emit_single(function, fields, registers).map_err(failed)?;
+    let lanes = emit_lanes(function, fields, registers).map_err(failed)?;
+    Ok((single, lanes))
+}
+
+impl<'m> Compiled<'m> {
+    /// A function by its name.
+    ///
+    /// # Errors
+    ///
+    /// A function that the module has not, or that was not compiled.
+    pub fn function(&self, name: &str) -> Result<Function<'_>, Error> {
+        let callable = self.interpreter.function(name)?;
+        let found = self.functions.iter().find(|(compiled, ..)| compiled == name);
+        let (_, single, lanes) =
+            found.ok_or_else(|| Error::NotCompiled { function: name.to_owned() })?;
+        Ok(Function { callable, single, lanes, registers: self.registers })
+    }
+
+    /// The bytes of the code of all functions, without constants.
+    #[must_use]
+    pub fn code_size(&self) -> usize {
+        self.functions.iter().map(|(_, single, lanes)| single.size() + lanes.size()).sum()
+    }
+
+    /// The registers that the code is made for.
+    #[must_use]
+    pub fn registers(&self) -> Registers {
+        self.registers
+    }
+
+    /// The interpreter of the same module and parameters.
+    #[must_use]
+    pub fn interpreter(&self) -> &Interpreter<'m> {
+        &self.interpreter
+    }
+
+    /// Calls a function; inputs by name.
+    ///
+    /// # Errors
+    ///
+    /// An unknown function; inputs that are missing, unknown or of the wrong length.
+    pub fn call(
+        &self,
+        function: &str,
+        inputs: &[(&str, &[f64])],
+    ) -> Result<Vec<OutputValues>, Error> {
+        let function = self.function(function)?;
+        Ok(function.named(function.call(inputs)?))
+    }
+}
+
+impl<'c> Function<'c> {
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'c str {
+        self.callable.name()
+    }
+
+    /// The inputs.
+    #[must_use]
+    pub fn inputs(self) -> &'c [Input] {
+        self.callable.inputs()
+    }
+
+    /// The outputs.
+    #[must_use]
+    pub fn outputs(self) -> &'c [Output] {
+        self.callable.outputs()
+    }
+
+    /// The number of entries of all inputs.
+    #[must_use]
+    pub fn input_size(self) -> usize {
+        self.callable.input_size()
+    }
+
+    /// The number of entries of all outputs.
+    #[must_use]
+    pub fn output_size(self) -> usize {
+        self.callable.output_size()
+    }
+
+    /// The outputs of [`Function::call`] with their names and shapes.
+    #[must_use]
+    pub fn named(self, values: Vec<f64>) -> Vec<OutputValues> {
+        self.callable.named(values)
+    }
+
+    /// The entries of all outputs at a state; inputs by name.
+    ///
+    /// # Errors
+    ///
+    /// Inputs that are missing, unknown or of the wrong length.
+    pub fn call(self, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
+        let entries = self.callable.gather(inputs)?;
+        let mut found = vec![0.0; self.output_size()];
+        self.entries(&entries, &mut found)?;
+        Ok(found)
+    }
+
+    /// Computes one state: the entries of all inputs, in their order, and those of all outputs. Nothing is allocated,
+    /// but for functions that put more than 380 numbers aside.
+    ///
+    /// # Errors
+    ///
+    /// Another number of entries.
+    #[inline]
+    pub fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
+        if self.single.call(inputs, outputs) {
+            return Ok(());
+        }
+        self.callable.check_columns(inputs.len(), outputs.len())
+    }
+
+    /// Computes many states: `inputs` has a column for each entry of the inputs, in their order, `outputs` one for
+    /// each entry of the outputs; row i of all columns is of state i. Nothing is allocated for a state.
+    ///
+    /// # Errors
+    ///
+    /// Another number of columns than there are entries; columns that are not all of one length.
+    pub fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
+        let states = self.callable.check_lengths(inputs, outputs)?;
+        let whole = states - states % self.registers.lanes();
+        self.lanes.call(inputs, outputs, whole);
+        if whole < states {
+            let read = |entry: usize, state: usize| inputs[entry][whole + state];
+            let mut block = Block::new(self, self.registers.lanes());
+            block.run(states - whole, read, |entry, state, value| {
+                outputs[entry][whole + state] = value;
+            });
+        }
+        Ok(())
+    }
+
+    /// Computes a number of states: `inputs` has for each input, by name, its entries at each state; the result for
+    /// each state the entries of all outputs.
+    ///
+    /// # Errors
+    ///
+    /// Inputs that are missing, unknown, of the wrong length at a state, or of another number of states.
+    pub fn states(
+        self,
+        states: usize,
+        inputs: &[(&str, &[Vec<f64>])],
+    ) -> Result<Vec<Vec<f64>>, Errors> {
+        let entries = self.callable.rows(states, inputs)?;
+        let mut found = vec![vec![0.0; self.output_size()]; states];
+        let mut block = Block::new(self, BLOCK);
+        for start in (0..states).step_by(BLOCK) {
+            let read = |entry: usize, state: usize| {
+                let (rows, entry) = entries[entry];
+                rows[start + state][entry]
+            };
+            block.run(BLOCK.min(states - start), read, |entry, state, value| {
+                found[start + state][entry] = value;
+            });
+        }
+        Ok(found)
+    }
+}
+
+/// Columns for a few states.
+struct Block<'c> {
+    function: Function<'c>,
+    length: usize,
+    inputs: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl<'c> Block<'c> {
+    /// `length`: the most states, a multiple of the lanes.
+    fn new(function: Function<'c>, length: usize) -> Block<'c> {
+        let inputs = vec![0.0; length * function.input_size()];
+        let outputs = vec![0.0; length * function.output_size()];
+        Block { function, length, inputs, outputs }
+    }
+
+    /// Computes so many states, at least one; the last register is filled up with the last state.
+    fn run(
+        &mut self,
+        states: usize,
+        read: impl Fn(usize, usize) -> f64,
+        mut write: impl FnMut(usize, usize, f64),
+    ) {
+        let whole = states.next_multiple_of(self.function.registers.lanes());
+        for (entry, column) in self.inputs.chunks_exact_mut(self.length).enumerate() {
+            for (state, value) in column[..whole].iter_mut().enumerate() {
+                *value = read(entry, state.min(states - 1));
+            }
+        }
+        let inputs: Vec<&[f64]> = self.inputs.chunks_exact(self.length).collect();
+        let mut outputs: Vec<&mut [f64]> = self.outputs.chunks_exact_mut(self.length).collect();
+        self.function.lanes.call(&inputs, &mut outputs, whole);
+        for (entry, column) in outputs.iter().enumerate() {
+            for (state, value) in column[..states].iter().enumerate() {
+                write(entry, state, *value);
+            }
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! Which value is in which register.
+//!
+//! A list has no branches, so that it is known when each value is needed next. Of the values in registers the one
+//! that is needed last makes room (L. A. Belady, "A study of replacement algorithms for a virtual-storage
+//! computer", IBM Systems Journal 5(2), 1966); it is stored unless memory has it already.
+
+use super::encoder::{Bytes, Form, Memory, Operand};
+use crate::list::{Binary, Home, Id, Instruction, List, Step};
+
+const NEVER: u32 = u32::MAX;
+const NOWHERE: u8 = u8::MAX;
+
+/// The steps that use each value, in order.
+struct Uses {
+    steps: Vec<u32>,
+    /// For each value the next of its steps, and the end of them.
+    next: Vec<(u32, u32)>,
+}
+
+impl Uses {
+    /// The uses by steps that something stored depends on, and for each step whether it is one.
+    fn new(list: &List) -> (Uses, Vec<bool>) {
+        let count = list.steps.len();
+        let mut needed = vec![false; count];
+        let mut next = vec![(0, 0); count];
+        for (position, step) in list.steps.iter().enumerate().rev() {
+            needed[position] |= matches!(step, Step::Store(..));
+            if needed[position] {
+                for value in distinct(*step) {
+                    needed[value.index()] = true;
+                    next[value.index()].1 += 1;
+                }
+            }
+        }
+        let mut start = 0;
+        for (first, end) in &mut next {
+            let length = *end;
+            (*first, *end) = (start, start);
+            start += length;
+        }
+        let mut steps = vec![0; start as usize];
+        for (position, step) in list.steps.iter().enumerate().filter(|(at, _)| needed[*at]) {
+            for value in distinct(*step) {
+                let end = &mut next[value.index()].1;
+                steps[*end as usize] = position as u32;
+                *end += 1;
+            }
+        }
+        (Uses { steps, next }, needed)
+    }
+
+    /// The next step that uses the value.
+    fn next(&self, value: Id) -> u32 {
+        let (at, end) = self.next[value.index()];
+        if at < end { self.steps[at as usize] } else { NEVER }
+    }
+
+    /// The one after it.
+    fn after(&self, value: Id) -> u32 {
+        let (at, end) = self.next[value.index()];
+        if at + 1 < end { self.steps[at as usize + 1] } else { NEVER }
+    }
+}
+
+/// The values that a step uses, each once.
+fn distinct(step: Step) -> impl Iterator<Item = Id> {
+    let operands: [Option<Id>; 3] = match step {
+        Step::Store(value, _) => [Some(value), None, None],
+        Step::Value(instruction) => {
+            let mut operands = instruction.operands();
+            std::array::from_fn(|_| operands.next())
+        }
+    };
+    let [a, b, c] = operands;
+    let b = b.filter(|b| Some(*b) != a);
+    let c = c.filter(|c| Some(*c) != a && Some(*c) != b);
+    [a, b, c].into_iter().flatten()
+}
+
+struct Body<'a> {
+    list: &'a List,
+    bytes: &'a mut Bytes,
+    uses: Uses,
+    /// For each value its register.
+    register: Vec<u8>,
+    /// For each value where it was put aside.
+    slot: Vec<Option<u32>>,
+    /// For each register its value.
+    value: Vec<Option<Id>>,
+    free_slots: Vec<u32>,
+    slots: u32,
+}
+
+/// Appends the code of a list; how many registers are put aside at once.
+pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
+    let (uses, needed) = Uses::new(list);
+    let count = list.steps.len();
+    let value = vec![None; bytes.shape.registers.count()];
+    let mut body = Body {
+        list,
+        bytes,
+        uses,
+        register: vec![NOWHERE; count],
+        slot: vec![None; count],
+        value,
+        free_slots: vec![],
+        slots: 0,
+    };
+    for (position, step) in list.steps.iter().enumerate() {
+        match step {
+            _ if !needed[position] => {}
+            Step::Value(Instruction::Home(_)) => {}
+            Step::Value(instruction) => body.compute(Id::at(position), *instruction),
+            Step::Store(value, target) => {
+                let from = body.loaded(*value, &[]);
+                body.bytes.store(*target, from);
+                let freed = body.release(&[*value]);
+                body.free_slots.extend(freed.into_iter().flatten());
+            }
+        }
+    }
+    body.slots
+}
+
+impl Body<'_> {
+    fn held(&self, value: Id) -> Option<u8> {
+        let register = self.register[value.index()];
+        (register != NOWHERE).then_some(register)
+    }
+
+    fn home(&self, value: Id) -> Option<Home> {
+        match self.list.steps[value.index()] {
+            Step::Value(Instruction::Home(home)) => Some(home),
+            _ => None,
+        }
+    }
+
+    /// Where a value lies that no register has.
+    fn memory(&self, value: Id) -> Memory {
+        match (self.home(value), self.slot[value.index()]) {
+            (Some(home), _) => Memory::Home(home),
+            // A value leaves its register for a slot alone.
+            (None, slot) => Memory::Spill(slot.unwrap_or_default()),
+        }
+    }
+
+    fn is_constant(&self, value: Id) -> bool {
+        matches!(self.home(value), Some(Home::Constant(_)))
+    }
+
+    fn dies(&self, value: Id) -> bool {
+        self.uses.after(value) == NEVER
+    }
+
+    fn bind(&mut self, value: Id, register: u8) {
+        self.register[value.index()] = register;
+        self.value[usize::from(register)] = Some(value);
+    }
+
+    /// The register whose value is needed last, and when; none of those of `kept`.
+    fn farthest(&self, kept: &[Id]) -> (u8, u32) {
+        let mut best = (0, 0);
+        for (register, value) in self.value.iter().enumerate() {
+            let next = match value {
+                Some(value) if kept.contains(value) => continue,
+                Some(value) => self.uses.next(*value),
+                None => NEVER,
+            };
+            if next > best.1 {
+                best = (register as u8, next);
+            }
+        }
+        best
+    }
+
+    fn free(&self) -> Option<u8> {
+        self.value.iter().position(Option::is_none).map(|register| register as u8)
+    }
+
+    /// A register without a value. Those of `kept` keep theirs.
+    fn vacant(&mut self, kept: &[Id]) -> u8 {
+        if let Some(register) = self.free() {
+            return register;
+        }
+        let (register, _) = self.farthest(kept);
+        if let Some(value) = self.value[usize::from(register)].take() {
+            self.register[value.index()] = NOWHERE;
+            if self.home(value).is_none() && self.slot[value.index()].is_none() {
+                let slot = self.free_slots.pop().unwrap_or_else(|| {
+                    self.slots += 1;
+                    self.slots - 1
+                });
+                self.slot[value.index()] = Some(slot);
+                self.bytes.spill(slot, register);
+            }
+        }
+        register
+    }
+
+    /// The value in a register.
+    fn loaded(&mut self, value: Id, kept: &[Id]) -> u8 {
+        if let Some(register) = self.held(value) {
+            return register;
+        }
+        let register = self.vacant(kept);
+        let memory = self.memory(value);
+        self.bytes.load(register, memory);
+        self.bind(value, register);
+        register
+    }
+
+    /// The value in a register, or in memory where that is as good.
+    fn operand(&mut self, value: Id, kept: &[Id], arithmetic: bool) -> Operand {
+        if let Some(register) = self.held(value) {
+            return Operand::Register(register);
+        }
+        let memory = self.memory(value);
+        let later = || self.free().is_none() && self.uses.after(value) >= self.farthest(kept).1;
+        let stays = self.is_constant(value) || self.dies(value) || later();
+        if stays && self.bytes.reads(memory, arithmetic) {
+            return Operand::Memory(memory);
+        }
+        Operand::Register(self.loaded(value, kept))
+    }
+
+    /// Takes the registers from values that are not needed after this step; their slots, which are free once it is
+    /// encoded.
+    fn release(&mut self, values: &[Id]) -> [Option<u32>; 3] {
+        let mut freed = [None; 3];
+        for (index, value) in values.iter().enumerate() {
+            if values[..index].contains(value) {
+                continue;
+            }
+            self.uses.next[value.index()].0 += 1;
+            if self.uses.next(*value) == NEVER {
+                if let Some(register) = self.held(*value) {
+                    self.value[usize::from(register)] = None;
+                    self.register[value.index()] = NOWHERE;
+                }
+                freed[index] = self.slot[value.index()].take();
+            }
+        }
+        freed
+    }
+
+    fn compute(&mut self, result: Id, instruction: Instruction) {
+        let freed = match instruction {
+            Instruction::Home(_) => return,
+            Instruction::Binary(binary, a, b) => self.binary(result, binary, a, b),
+            Instruction::MulAdd(a, b, c) => self.multiply_add(result, a, b, c),
+            Instruction::Sqrt(a) | Instruction::ShiftLeft(a, _) | Instruction::SpreadSign(a) => {
+                let from = self.loaded(a, &[a]);
+                let freed = self.release(&[a]);
+                let to = self.vacant(&[]);
+                match instruction {
+                    Instruction::Sqrt(_) => self.bytes.sqrt(to, from),
+                    Instruction::ShiftLeft(_, by) => self.bytes.shift_left(to, from, by),
+                    _ => self.bytes.spread_sign(to, from),
+                }
+                self.bind(result, to);
+                freed
+            }
+        };
+        self.free_slots.extend(freed.into_iter().flatten());
+    }
+
+    /// The operands of a sum or product so that the second is the one to be read from memory.
+    fn ordered(&self, a: Id, b: Id) -> (Id, Id) {
+        let stays = |value| self.is_constant(value) || self.dies(value);
+        match (self.held(a), self.held(b)) {
+            (None, Some(_)) => (b, a),
+            (None, None) if stays(a) && !self.is_constant(b) => (b, a),
+            _ => (a, b),
+        }
+    }
+
+    fn binary(&mut self, result: Id, binary: Binary, a: Id, b: Id) -> [Option<u32>; 3] {
+        let (a, b) = if binary.commutes() { self.ordered(a, b) } else { (a, b) };
+        let kept = [a, b];
+        let first = self.loaded(a, &kept);
+        let second = self.operand(b, &kept, binary.is_arithmetic());
+        let freed = self.release(&kept);
+        let to = self.vacant(&[]);
+        self.bytes.binary(binary, to, first, second);
+        self.bind(result, to);
+        freed
+    }
+
+    /// The result replaces one of the three: one that is not needed any more, else a copy of the addend.
+    fn multiply_add(&mut self, result: Id, a: Id, b: Id, c: Id) -> [Option<u32>; 3] {
+        let (a, b) = self.ordered(a, b);
+        let kept = [a, b, c];
+        let goes = |body: &Self, value| body.held(value).filter(|_| body.dies(value));
+        let (form, first, second, third) = if let Some(first) = goes(self, c) {
+            let second = self.loaded(a, &kept);
+            (Form::F231, first, second, self.operand(b, &kept, true))
+        } else if let Some(first) = goes(self, a).filter(|_| self.held(b).is_none()) {
+            let second = self.loaded(c, &kept);
+            (Form::F132, first, second, self.operand(b, &kept, true))
+        } else if let Some(first) = goes(self, a) {
+            let second = self.loaded(b, &kept);
+            (Form::F213, first, second, self.operand(c, &kept, true))
+        } else if let Some(first) = goes(self, b) {
+            let second = self.loaded(a, &kept);
+            (Form::F213, first, second, self.operand(c, &kept, true))
+        } else {
+            let second = self.loaded(a, &kept);
+            let third = self.operand(b, &kept, true);
+            let first = self.vacant(&kept);
+            match self.held(c) {
+                Some(addend) => self.bytes.copy(first, addend),
+                None => {
+                    let memory = self.memory(c);
+                    self.bytes.load(first, memory);
+                }
+            }
+            (Form::F231, first, second, third)
+        };
+        self.bytes.multiply_add(form, first, second, third);
+        let freed = self.release(&kept);
+        self.bind(result, first);
+        freed
+    }
+}

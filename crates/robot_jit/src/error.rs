@@ -1,0 +1,63 @@
+//! What may go wrong before there is code.
+
+use robot_codegen::Errors;
+
+/// Why there is no code.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The processor has no registers that code is made for.
+    #[error(
+        "machine code needs an x86-64 processor with {needed}, which this machine is not; the interpreter \
+         computes the same"
+    )]
+    Processor {
+        /// The extensions.
+        needed: &'static str,
+    },
+    /// Sines and cosines of the standard library.
+    #[error(
+        "machine code has the polynomial sines and cosines alone; the interpreter has the standard library's"
+    )]
+    Trigonometry,
+    /// A function that was left out.
+    #[error("function `{function}` was not compiled: name it in the options")]
+    NotCompiled {
+        /// The function.
+        function: String,
+    },
+    /// A function that loads what it does not declare.
+    #[error(
+        "function `{function}` loads an entry that it does not have; compile it from a specification"
+    )]
+    Load {
+        /// The function.
+        function: String,
+    },
+    /// A function whose values do not fit into 2 GiB.
+    #[error("function `{function}` has {values} values, more than {most}; split it")]
+    Size {
+        /// The function.
+        function: String,
+        /// The number of its values.
+        values: usize,
+        /// The most that there may be.
+        most: usize,
+    },
+    /// An instruction that could not be encoded: a fault of this crate.
+    #[error(
+        "an instruction of function `{function}` has no encoding ({reason}); please report this"
+    )]
+    Encoding {
+        /// The function.
+        function: String,
+        /// What the encoder says.
+        reason: String,
+    },
+    /// Memory that the system does not give, or not for code.
+    #[error("the system gives no memory for code ({0}); the interpreter computes the same")]
+    Memory(#[from] std::io::Error),
+    /// What is wrong with the parameters, or an unknown function.
+    #[error(transparent)]
+    Module(#[from] Errors),
+}

@@ -1,0 +1,181 @@
+//! Random functions for the tests.
+
+use robot_codegen::module::Function;
+use robot_codegen::program::{Builder, Operation, Program, Source, Value};
+use robot_codegen::{Input, Module, Output};
+use robot_runtime::{Scalar, trig};
+use robot_symbolic::{Function as Call, Random};
+
+/// Every function that a program may call.
+const CALLS: [Call; 7] =
+    [Call::Sin, Call::Cos, Call::Sqrt, Call::Abs, Call::Sign, Call::Tanh, Call::RecipPositive];
+
+/// Numbers at which something is different.
+const SPECIAL: [f64; 20] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    0.0,
+    -0.0,
+    f64::MIN_POSITIVE,
+    -f64::MIN_POSITIVE,
+    5e-324,
+    -5e-324,
+    1e-310,
+    f64::MAX,
+    f64::MIN,
+    1.0,
+    -1.0,
+    1073741824.0,
+    1073741823.9999999,
+    -1073741824.0,
+    22.0,
+    -22.000000000000004,
+    1e5,
+];
+
+/// A number, special in one case of so many.
+pub(crate) fn number(random: &mut Random, rarely: usize) -> f64 {
+    match random.index(rarely) {
+        0 => SPECIAL[random.index(SPECIAL.len())],
+        1 => random.uniform(-1e6, 1e6),
+        _ => random.uniform(-3.0, 3.0),
+    }
+}
+
+/// A module without parameters of so many random functions, `f0` and so on; with multiply-adds if `fused`.
+pub(crate) fn module(seed: u64, functions: usize, fused: bool) -> Module {
+    let mut random = Random::new(seed);
+    let functions = (0..functions).map(|index| function(&mut random, index, fused)).collect();
+    Module {
+        name: format!("seed {seed}"),
+        doc: vec![],
+        parameters: vec![],
+        constructor: Builder::new().finish(vec![]),
+        functions,
+    }
+}
+
+fn function(random: &mut Random, index: usize, fused: bool) -> Function {
+    let inputs = 1 + random.index(24);
+    let angles = angles(random, inputs);
+    let core = core(random, inputs, angles.results().len(), fused);
+    let symbols = (0..inputs).map(|entry| format!("x{entry}")).collect();
+    let output = Output {
+        name: "y".to_owned(),
+        doc: String::new(),
+        shape: vec![core.results().len()],
+        values: (),
+        unit: String::new(),
+    };
+    Function {
+        name: format!("f{index}"),
+        doc: vec![],
+        inputs: vec![Input {
+            name: "x".to_owned(),
+            doc: String::new(),
+            symbols,
+            unit: String::new(),
+        }],
+        outputs: vec![output],
+        angles,
+        core,
+        passes: vec![],
+    }
+}
+
+/// Up to eleven angles: neighboring inputs, then some that are computed.
+fn angles(random: &mut Random, inputs: usize) -> Program {
+    let mut builder = Builder::new();
+    let plain = random.index(10).min(inputs);
+    let first = random.index(inputs - plain + 1);
+    let load = |builder: &mut Builder, entry: usize| builder.load(Source::Input(entry as u32));
+    let mut results: Vec<Value> =
+        (0..plain).map(|angle| load(&mut builder, first + angle)).collect();
+    for _ in 0..random.index(3) {
+        let [a, b] = [0; 2].map(|_| load(&mut builder, random.index(inputs)));
+        let sum = builder.push(Operation::Add(a, b));
+        results.push(sum);
+    }
+    builder.finish(results)
+}
+
+/// Between few and several hundred operations, whose operands are from anywhere before or from near.
+fn core(random: &mut Random, inputs: usize, angles: usize, fused: bool) -> Program {
+    let mut builder = Builder::new();
+    let mut pool: Vec<Value> =
+        (0..inputs).map(|entry| builder.load(Source::Input(entry as u32))).collect();
+    for angle in 0..angles as u32 {
+        pool.push(builder.load(Source::Sin(angle)));
+        pool.push(builder.load(Source::Cos(angle)));
+    }
+    for _ in 0..1 + random.index(6) {
+        let constant = builder.constant(number(random, 4));
+        pool.push(constant);
+    }
+    let length = [10, 60, 300][random.index(3)];
+    let window = [8, 40, 1000][random.index(3)];
+    for _ in 0..1 + random.index(length) {
+        let [a, b, c] = [0; 3].map(|_| pool[pool.len() - 1 - random.index(window.min(pool.len()))]);
+        let operation = match random.index(24) {
+            0..=5 => Operation::Add(a, b),
+            6..=9 => Operation::Sub(a, b),
+            10..=15 => Operation::Mul(a, b),
+            16 => Operation::Neg(a),
+            17 => Operation::Div(a, b),
+            18..=21 if fused => Operation::MulAdd(a, b, c),
+            18..=21 => Operation::Mul(a, a),
+            _ => Operation::Call(CALLS[random.index(CALLS.len())], a),
+        };
+        let value = builder.push(operation);
+        pool.push(value);
+    }
+    let results = (0..1 + random.index(12)).map(|_| pool[random.index(pool.len())]);
+    let results = results.chain(pool.last().copied()).collect();
+    builder.finish(results)
+}
+
+fn call(function: Call, x: f64) -> f64 {
+    match function {
+        Call::Sin => trig::double::portable_sin_cos(x).0,
+        Call::Cos => trig::double::portable_sin_cos(x).1,
+        Call::Sqrt => x.sqrt(),
+        Call::Abs => x.abs(),
+        Call::Sign => x.signum0(),
+        Call::Tanh => Scalar::tanh(x),
+        Call::RecipPositive => x.recip_positive(),
+    }
+}
+
+fn values(program: &Program, load: impl Fn(Source) -> f64) -> Vec<f64> {
+    let mut values: Vec<f64> = vec![];
+    for operation in program.operations() {
+        let at = |value: Value| values[value.index()];
+        values.push(match *operation {
+            Operation::Constant(constant) => constant.get(),
+            Operation::Load(source) => load(source),
+            Operation::Add(a, b) => at(a) + at(b),
+            Operation::Sub(a, b) => at(a) - at(b),
+            Operation::Mul(a, b) => at(a) * at(b),
+            Operation::Div(a, b) => at(a) / at(b),
+            Operation::Neg(a) => -at(a),
+            Operation::MulAdd(a, b, c) => at(a).mul_add(at(b), at(c)),
+            Operation::Call(function, a) => call(function, at(a)),
+        });
+    }
+    program.results().iter().map(|value| values[value.index()]).collect()
+}
+
+/// The outputs of a function at a state, with multiply-adds that round once.
+pub(crate) fn reference(function: &Function, inputs: &[f64]) -> Vec<f64> {
+    let input = |source| match source {
+        Source::Input(entry) => inputs[entry as usize],
+        other => panic!("{other:?}"),
+    };
+    let angles = values(&function.angles, input);
+    values(&function.core, |source| match source {
+        Source::Sin(angle) => call(Call::Sin, angles[angle as usize]),
+        Source::Cos(angle) => call(Call::Cos, angles[angle as usize]),
+        other => input(other),
+    })
+}

@@ -1,0 +1,50 @@
+//! Machine code against the interpreter, to the bit: all robots, all functions.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod support;
+
+use std::path::Path;
+
+use robot_build::{Functions, Options, Source};
+use robot_codegen::Interpreter;
+use robot_symbolic::Random;
+use support::{assert_same_function, registers};
+
+const STATES: usize = 203;
+
+#[test]
+fn all_functions_of_all_robots_have_the_bits_of_the_interpreter() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+    let mut paths: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    assert!(paths.len() >= 9, "{}", paths.len());
+    for path in paths {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        let source = Source { name, text: std::fs::read_to_string(&path).unwrap() };
+        let bundles = robot_build::read(&source).unwrap().code.bundles;
+        let options = Options { functions: Functions::All, bundles, ..Options::default() };
+        let programs = robot_build::programs(&source, &options).unwrap();
+        let module = &programs.module;
+        let missing = module.parameters.iter().filter(|parameter| parameter.nominal.is_none());
+        let given: Vec<(&str, f64)> =
+            missing.map(|parameter| (parameter.name.as_str(), 0.7)).collect();
+        let interpreter = Interpreter::new(module, &given).unwrap();
+        for registers in registers() {
+            let options = robot_jit::Options { registers: Some(registers), ..Default::default() };
+            let compiled = robot_jit::compile_with(module, &given, &options).unwrap();
+            for function in &module.functions {
+                let mut random = Random::new(7);
+                let expected = interpreter.function(&function.name).unwrap();
+                let columns: Vec<Vec<f64>> = (0..expected.input_size())
+                    .map(|_| (0..STATES).map(|_| random.uniform(-3.0, 3.0)).collect())
+                    .collect();
+                let found = compiled.function(&function.name).unwrap();
+                let place = format!("{} {} {registers:?}", source.name, function.name);
+                assert_same_function(&place, expected, found, &columns, STATES);
+            }
+        }
+    }
+}
