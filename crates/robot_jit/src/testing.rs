@@ -81,6 +81,7 @@ fn function(random: &mut Random, index: usize, fused: bool) -> Function {
         angles,
         core,
         passes: vec![],
+        limbs: None,
     }
 }
 

@@ -31,6 +31,7 @@ fn module() -> Module {
         angles: angles.finish(vec![angle]),
         core: core.finish(vec![square]),
         passes: vec![],
+        limbs: None,
     };
     Module {
         name: "m".to_owned(),

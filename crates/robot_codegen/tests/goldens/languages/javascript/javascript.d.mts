@@ -11,11 +11,6 @@
 export type Entries = ArrayLike<number>;
 
 
-export interface Parameters {
-    p: number;
-    r: number;
-}
-
 export interface Model {
     k1: number;
     k2: number;
@@ -35,8 +30,13 @@ export interface Model {
     k16: number;
 }
 
-export declare function nominal(): Parameters;
 export declare function create_model(parameters: Parameters): Model;
+export interface Parameters {
+    p: number;
+    r: number;
+}
+
+export declare function nominal(): Parameters;
 
 /**
  * Every operation.
