@@ -5,7 +5,7 @@ use super::text::comment_line;
 /// The width of lines of comments, in characters.
 const WIDTH: usize = 100;
 
-/// A paragraph in lines of at most [`WIDTH`] characters, but for longer words. What follows the mark of a list is
+/// A paragraph in lines of at most 100 characters, but for longer words. What follows the mark of a list is
 /// indented by two spaces.
 #[must_use]
 pub fn wrapped(paragraph: &str) -> Vec<String> {

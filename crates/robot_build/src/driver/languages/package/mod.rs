@@ -46,7 +46,7 @@ pub fn package(
     package_of(&programs, source, options, language)
 }
 
-/// [`package`] of existing programs, whatever they cost.
+/// [`package()`] of existing programs, whatever they cost.
 ///
 /// # Errors
 ///
