@@ -1,6 +1,6 @@
 //! Comments of C.
 
-use crate::backend::common::{comment_line, wrapped};
+use crate::backend::common::{comment_line, comment_lines};
 
 /// Text inside of a comment: no sequence that ends it, or begins another.
 fn inside(text: &str) -> String {
@@ -14,16 +14,7 @@ pub(super) fn of_line(text: &str) -> String {
 
 /// The comment of an item: paragraphs, or lines of a list.
 pub(super) fn of_paragraphs(paragraphs: &[String]) -> Vec<String> {
-    let mut lines = vec![];
-    for line in paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)) {
-        // One empty line between paragraphs, none at the beginning.
-        if !line.is_empty() || lines.last().is_some_and(|last: &String| !last.is_empty()) {
-            lines.push(inside(&line));
-        }
-    }
-    while lines.last().is_some_and(String::is_empty) {
-        lines.pop();
-    }
+    let lines: Vec<String> = comment_lines(paragraphs).iter().map(|line| inside(line)).collect();
     let mut comment = vec!["/**".to_owned()];
     comment.extend(lines.iter().map(|line| format!(" * {line}").trim_end().to_owned()));
     comment.push(" */".to_owned());

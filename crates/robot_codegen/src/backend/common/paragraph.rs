@@ -27,6 +27,22 @@ pub fn wrapped(paragraph: &str) -> Vec<String> {
     lines
 }
 
+/// The lines of a comment of several paragraphs, as they are written: an empty line between two at most, none at either
+/// end.
+#[must_use]
+pub fn comment_lines(paragraphs: &[String]) -> Vec<String> {
+    let mut lines: Vec<String> = vec![];
+    for line in paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)) {
+        if !line.is_empty() || lines.last().is_some_and(|last| !last.is_empty()) {
+            lines.push(line);
+        }
+    }
+    while lines.last().is_some_and(String::is_empty) {
+        lines.pop();
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

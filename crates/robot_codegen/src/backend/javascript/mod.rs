@@ -7,7 +7,7 @@ mod keywords;
 use robot_symbolic::Function as Call;
 
 use super::common::{
-    self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, wrapped,
+    self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, comment_lines,
 };
 use super::flat::{
     Array, Expression, FlatOptions, Function, Helpers, Spelling, Statement, Tree, infix,
@@ -93,16 +93,10 @@ impl Spelling for Printer<'_> {
 
 /// A comment of documentation.
 pub(in crate::backend) fn documentation(paragraphs: &[String], indent: &str) -> Vec<String> {
-    let mut lines: Vec<String> = vec![];
-    for line in paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)) {
-        if !line.is_empty() || lines.last().is_some_and(|last| !last.is_empty()) {
-            // No text ends the comment, or names a tag.
-            lines.push(line.replace("*/", "* /").replace('@', "(at)"));
-        }
-    }
-    while lines.last().is_some_and(String::is_empty) {
-        lines.pop();
-    }
+    let lines = comment_lines(paragraphs).into_iter();
+    // No text ends the comment, or names a tag.
+    let lines: Vec<String> =
+        lines.map(|line| line.replace("*/", "* /").replace('@', "(at)")).collect();
     let mut comment = vec![format!("{indent}/**")];
     comment.extend(lines.iter().map(|line| format!("{indent} * {line}").trim_end().to_owned()));
     comment.push(format!("{indent} */"));

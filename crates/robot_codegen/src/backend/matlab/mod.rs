@@ -8,7 +8,7 @@ mod keywords;
 
 use robot_symbolic::Function as Call;
 
-use super::common::{self, Scalar, SetterArgument, comment_line, wrapped};
+use super::common::{self, Scalar, SetterArgument, comment_line, comment_lines};
 use super::flat::{
     Array, Body, FlatOptions, Function, Helpers, Operator, Spelling, Statement, Tree, infix,
 };
@@ -113,15 +113,7 @@ impl Spelling for Printer<'_> {
 
 /// Lines of a comment of documentation, the first with the name of the function.
 fn documentation(name: &str, paragraphs: &[String]) -> Vec<String> {
-    let mut lines: Vec<String> = vec![];
-    for line in paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)) {
-        if !line.is_empty() || lines.last().is_some_and(|last| !last.is_empty()) {
-            lines.push(line);
-        }
-    }
-    while lines.last().is_some_and(String::is_empty) {
-        lines.pop();
-    }
+    let lines = comment_lines(paragraphs);
     let mut comment = vec![];
     for (index, line) in lines.iter().enumerate() {
         comment.push(match index {

@@ -9,7 +9,7 @@ mod keywords;
 use robot_symbolic::Function as Call;
 
 use super::common::{
-    self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, wrapped,
+    self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, comment_lines,
 };
 use super::flat::{Array, Body, FlatOptions, Function, Spelling, Statement, Tree, infix};
 use super::{Language, SourceFile, Target};
@@ -97,15 +97,7 @@ fn inside(text: &str) -> String {
 
 /// A documentation string.
 fn docstring(paragraphs: &[String], indent: &str) -> Vec<String> {
-    let mut lines: Vec<String> = vec![];
-    for line in paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)) {
-        if !line.is_empty() || lines.last().is_some_and(|last| !last.is_empty()) {
-            lines.push(inside(&line));
-        }
-    }
-    while lines.last().is_some_and(String::is_empty) {
-        lines.pop();
-    }
+    let lines: Vec<String> = comment_lines(paragraphs).iter().map(|line| inside(line)).collect();
     // A quote at the end of the text would join those that end the string.
     let text = lines.join(&format!("\n{indent}"));
     let closing = if lines.len() > 1 { format!("\n{indent}\"\"\"") } else { " \"\"\"".to_owned() };
