@@ -68,7 +68,7 @@ impl Runner for C {
         arguments.extend([self.source, "-o", "main", "-lm"]);
         files::run(folder, self.compiler, &arguments)?;
         files::run(folder, "./main", &[])?;
-        let has_batch = |index: usize| has_batch(&tree.functions[index]);
+        let has_batch = |index: usize| c::has_batch(&tree.functions[index]);
         Ok(vec![
             Found {
                 way: "single",
@@ -77,13 +77,6 @@ impl Runner for C {
             Found { way: "batch", results: results(work, &read(folder, "batch.bin")?, has_batch)? },
         ])
     }
-}
-
-/// Whether a function has a form over columns.
-pub(super) fn has_batch(function: &Function<'_>) -> bool {
-    function.angles.parts.is_empty()
-        && function.core.parts.is_empty()
-        && !function.inputs.is_empty()
 }
 
 /// A program that reads states, calls every function in both ways and writes the results.
@@ -139,7 +132,7 @@ fn block(
     let mut text = "    {\n        size_t i, j;\n".to_owned();
     for (array, length) in &arrays {
         text.push_str(&format!("        static {real} {array}[{length}];\n"));
-        if has_batch(function) {
+        if c::has_batch(function) {
             text.push_str(&format!(
                 "        static {real} columns_{array}[{length} * {states}];\n"
             ));
@@ -152,7 +145,7 @@ fn block(
             "            if (fread({array}, sizeof {array}[0], {length}, in) != {length}) {{\n                \
              return 3;\n            }}\n"
         ));
-        if has_batch(function) {
+        if c::has_batch(function) {
             text.push_str(&format!(
                 "            for (j = 0; j < {length}; j++) {{\n                \
                  columns_{array}[j * {states} + i] = {array}[j];\n            }}\n"
@@ -167,7 +160,7 @@ fn block(
         ));
     }
     text.push_str("        }\n");
-    if has_batch(function) {
+    if c::has_batch(function) {
         text.push_str(&format!(
             "        {batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
             listed("columns_")

@@ -7,7 +7,7 @@ use robot_codegen::Scalar;
 use robot_codegen::backend::c::{self, Names};
 use robot_codegen::backend::flat::{FlatOptions, Function, Tree};
 
-use super::c::{WARNINGS, has_batch, program};
+use super::c::{WARNINGS, program};
 use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
@@ -106,7 +106,7 @@ impl Runner for Thumb {
         arguments.extend(["-serial", "none", "-kernel", "main"]);
         arguments.extend(semihosting);
         files::run(folder, MACHINE, &arguments)?;
-        let has = |index: usize| has_batch(&tree.functions[index]);
+        let has = |index: usize| c::has_batch(&tree.functions[index]);
         Ok(vec![
             Found {
                 way: "single",
@@ -122,7 +122,7 @@ impl Runner for Thumb {
 fn straight(tree: &Tree<'_>, folder: &Path) -> Result<(), String> {
     let names = Names::new(&tree.name);
     let mut text = format!("#include \"{}.h\"\n", tree.name);
-    for function in tree.functions.iter().filter(|one| has_batch(one)) {
+    for function in tree.functions.iter().filter(|one| c::has_batch(one)) {
         text.push_str(&alone(tree, function, &names));
     }
     files::write(folder, "alone.c", text.as_bytes())?;

@@ -5,11 +5,17 @@ use super::function::{circular, model_argument, model_parameter, used_by};
 use super::{BATCH, Header, SC};
 use crate::backend::flat::{Array, Function, Statement};
 
-/// A loop over states whose entries lie in columns, which compilers turn into vectors. A body that is cut into
-/// parts has none that they would.
-pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
+/// Whether a function has a form over columns: it has inputs, and its body is not cut into parts, of which compilers
+/// would make no vectors.
+#[must_use]
+pub fn has_batch(function: &Function<'_>) -> bool {
     let is_cut = !(function.angles.parts.is_empty() && function.core.parts.is_empty());
-    if is_cut || function.inputs.is_empty() {
+    !is_cut && !function.inputs.is_empty()
+}
+
+/// A loop over states whose entries lie in columns, which compilers turn into vectors.
+pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
+    if !has_batch(function) {
         return vec![];
     }
     let plain = header.names.item(&function.name);
@@ -63,13 +69,13 @@ fn iteration(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     // Without angles the arithmetic takes every input.
     let handed = |index: usize| !has_angles || in_core[index];
     let mut lines = vec![];
-    for (index, array) in function.inputs.iter().enumerate().filter(|(index, _)| handed(*index)) {
+    let inputs = function.inputs.iter().enumerate();
+    for (_, array) in inputs.filter(|(index, _)| handed(*index)) {
         let entry = |entry: usize| match array.is_used {
             true => format!("{}[{}]", array.name, place(entry)),
             false => "0".to_owned(),
         };
         let entries: Vec<String> = (0..array.length).map(entry).collect();
-        let _ = index;
         lines.push(format!(
             "    const {real} {}[{}] = {{{}}};",
             one(array),

@@ -1,6 +1,7 @@
 //! C++17 over the header of C: a namespace, arrays by value, and results that are returned.
 
 use super::comment;
+use super::function::real;
 use super::{C, Header, Names, tree};
 use crate::backend::common::{self, Scalar, check_range};
 use crate::backend::flat::{Array, FlatOptions, Function};
@@ -93,10 +94,6 @@ fn model(header: &Header<'_>) -> Vec<String> {
         String::new(),
     ]);
     lines
-}
-
-fn real(scalar: Scalar) -> &'static str {
-    super::function::real(scalar)
 }
 
 /// `double`, or an array.

@@ -15,6 +15,7 @@ mod keywords;
 mod names;
 mod spelling;
 
+pub use self::batch::has_batch;
 pub use self::casadi::{Casadi, casadi};
 pub use self::cpp::Cpp;
 pub use self::names::Names;

@@ -31,8 +31,7 @@ fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     }
     let name = &tree.name;
     let mut text = format!("parameters = {name}.nominal();\n");
-    let specs = parts.module.parameters.iter().zip(&tree.parameters).zip(parts.stated_parameters());
-    for ((_, field), value) in specs.filter(|((spec, _), _)| spec.nominal.is_none()) {
+    for (field, value) in parts.given_parameters(tree) {
         text.push_str(&format!("parameters.{field} = {value:?};\n"));
     }
     text.push_str(&format!("model = {name}.create_model(parameters);\n"));

@@ -128,6 +128,13 @@ impl Parts<'_> {
         text
     }
 
+    /// The fields of the parameters without nominal values, with the values that the check values are for.
+    fn given_parameters<'t>(&self, tree: &'t Tree<'_>) -> Vec<(&'t str, f64)> {
+        let fields = tree.parameters.iter().map(String::as_str).zip(self.stated_parameters());
+        let specs = self.module.parameters.iter().zip(fields);
+        specs.filter(|(spec, _)| spec.nominal.is_none()).map(|(_, given)| given).collect()
+    }
+
     /// The value of each parameter that the check values are for.
     fn stated_parameters(&self) -> Vec<f64> {
         let stated = self.checks.first().map_or(&[][..], |check| check.parameters.as_slice());

@@ -50,10 +50,8 @@ fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         return String::new();
     }
     let name = &tree.name;
-    let specs = parts.module.parameters.iter().zip(&tree.parameters).zip(parts.stated_parameters());
-    let given = specs.filter(|((spec, _), _)| spec.nominal.is_none());
-    let given: Vec<String> =
-        given.map(|((_, field), value)| format!("{field}={value:?}")).collect();
+    let given = parts.given_parameters(tree).into_iter();
+    let given: Vec<String> = given.map(|(field, value)| format!("{field}={value:?}")).collect();
     format!("model = {name}.Model({name}.Parameters({}))\n", given.join(", "))
 }
 
