@@ -32,7 +32,7 @@ pub struct Compiled<'m> {
     interpreter: Interpreter<'m>,
     registers: Registers,
     /// The functions that were compiled, by their names.
-    functions: Vec<(String, SingleCode, LanesCode)>,
+    functions: Vec<Placed>,
 }
 
 /// A function in machine code.
@@ -64,6 +64,36 @@ pub fn compile_with<'m>(
     given: &[(&str, f64)],
     options: &Options,
 ) -> Result<Compiled<'m>, Error> {
+    let interpreter = Interpreter::new(module, given)?;
+    let (registers, functions) = functions_of(module, &interpreter, options)?;
+    Ok(Compiled { interpreter, registers, functions })
+}
+
+/// [`compile_with`] with ownership of the module, for callers that cannot borrow it.
+///
+/// # Errors
+///
+/// Those of [`compile_with`].
+pub fn compile_owned(
+    module: Module,
+    given: &[(&str, f64)],
+    options: &Options,
+) -> Result<Compiled<'static>, Error> {
+    let (registers, functions) =
+        functions_of(&module, &Interpreter::new(&module, given)?, options)?;
+    let interpreter = Interpreter::owned(module, given)?;
+    Ok(Compiled { interpreter, registers, functions })
+}
+
+/// The code of a function for one state and for several, under its name.
+type Placed = (String, SingleCode, LanesCode);
+
+/// The registers, and the code of the functions that the options name.
+fn functions_of(
+    module: &Module,
+    interpreter: &Interpreter<'_>,
+    options: &Options,
+) -> Result<(Registers, Vec<Placed>), Error> {
     let registers = match options.registers {
         Some(registers) => registers.check()?,
         None => Registers::detect()?,
@@ -71,7 +101,6 @@ pub fn compile_with<'m>(
     if options.trigonometry != Trigonometry::Polynomial {
         return Err(Error::Trigonometry);
     }
-    let interpreter = Interpreter::new(module, given)?;
     let names: Vec<&str> = match &options.functions {
         Some(names) => names.iter().map(String::as_str).collect(),
         None => module.functions.iter().map(|function| function.name.as_str()).collect(),
@@ -85,8 +114,7 @@ pub fn compile_with<'m>(
     }
     let names = names.into_iter().map(str::to_owned);
     let functions = names.zip(place(entries)?).map(|(name, (single, lanes))| (name, single, lanes));
-    let functions = functions.collect();
-    Ok(Compiled { interpreter, registers, functions })
+    Ok((registers, functions.collect()))
 }
 
 /// The code of a function for one state and for several.

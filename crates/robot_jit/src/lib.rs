@@ -19,6 +19,6 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-pub use compiled::{Compiled, Function, Options, compile, compile_with};
+pub use compiled::{Compiled, Function, Options, compile, compile_owned, compile_with};
 pub use error::Error;
 pub use processor::Registers;
