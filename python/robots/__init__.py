@@ -1,0 +1,9 @@
+"""Equations of motion and dynamics of robots, from robot files (TOML or URDF).
+
+``arm = robots.load("panda.urdf")`` reads a file; the functions of the robot are methods of ``arm``.
+"""
+
+from ._native import RobotError
+from ._robot import Robot, load
+
+__all__ = ["Robot", "RobotError", "load"]

@@ -1,0 +1,216 @@
+//! Functions that run over tables of states.
+
+use pyo3::buffer::PyBuffer;
+use pyo3::prelude::*;
+use robot_codegen::{Callable, Errors, Interpreter, Module};
+use robot_jit::{Compiled, Function, compile_owned};
+
+use crate::strided::Table;
+use crate::wrong;
+
+/// States that are put into columns at once: they stay in the nearest cache.
+const BLOCK: usize = 64;
+
+/// A function as machine code, or interpreted where there is none for the machine.
+#[pyclass(frozen)]
+pub(crate) struct Engine {
+    code: Code,
+    /// The name of the function.
+    name: String,
+}
+
+enum Code {
+    Native(Compiled<'static>),
+    Interpreted(Interpreter<'static>),
+}
+
+/// A handle of the function.
+#[derive(Clone, Copy)]
+enum Handle<'e> {
+    Native(Function<'e>),
+    Interpreted(Callable<'e>),
+}
+
+impl Handle<'_> {
+    fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
+        match self {
+            Handle::Native(function) => function.columns(inputs, outputs),
+            Handle::Interpreted(function) => function.columns(inputs, outputs),
+        }
+    }
+
+    fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
+        match self {
+            Handle::Native(function) => function.entries(inputs, outputs),
+            Handle::Interpreted(function) => {
+                let inputs: Vec<&[f64]> = inputs.chunks(1).collect();
+                let mut outputs: Vec<&mut [f64]> = outputs.chunks_mut(1).collect();
+                function.columns(&inputs, &mut outputs)
+            }
+        }
+    }
+}
+
+impl Engine {
+    /// The first function of a module with parameters given.
+    pub(crate) fn new(module: &Module, given: &[(String, f64)]) -> Result<Engine, String> {
+        let given: Vec<(&str, f64)> =
+            given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let function = module.functions.first().ok_or("the robot has no function")?;
+        let name = function.name.clone();
+        let text = |error: &dyn std::fmt::Display| error.to_string();
+        // What is wrong with the parameters is wrong with both.
+        let interpreter =
+            Interpreter::owned(module.clone(), &given).map_err(|error| text(&error))?;
+        let code = match compile_owned(module.clone(), &given, &robot_jit::Options::default()) {
+            Ok(compiled) => Code::Native(compiled),
+            Err(_) => Code::Interpreted(interpreter),
+        };
+        Ok(Engine { code, name })
+    }
+
+    fn handle(&self) -> PyResult<Handle<'_>> {
+        match &self.code {
+            Code::Native(compiled) => {
+                compiled.function(&self.name).map(Handle::Native).map_err(wrong)
+            }
+            Code::Interpreted(program) => {
+                program.function(&self.name).map(Handle::Interpreted).map_err(wrong)
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Engine {
+    /// Whether the function is machine code.
+    #[getter]
+    fn is_native(&self) -> bool {
+        matches!(self.code, Code::Native(_))
+    }
+
+    /// Names and numbers of entries of the inputs.
+    fn inputs(&self) -> PyResult<Vec<(String, usize)>> {
+        let inputs = match self.handle()? {
+            Handle::Native(function) => function.inputs(),
+            Handle::Interpreted(function) => function.inputs(),
+        };
+        Ok(inputs.iter().map(|input| (input.name.clone(), input.symbols.len())).collect())
+    }
+
+    /// Names and shapes of the outputs.
+    fn outputs(&self) -> PyResult<Vec<(String, Vec<usize>)>> {
+        let handle = self.handle()?;
+        let named = match handle {
+            Handle::Native(function) => function.named(vec![0.0; function.output_size()]),
+            Handle::Interpreted(function) => function.named(vec![0.0; function.output_size()]),
+        };
+        Ok(named.into_iter().map(|output| (output.name, output.shape)).collect())
+    }
+
+    /// Computes all states: tables (states, entries) of every input and output, in their order.
+    fn call(
+        &self,
+        py: Python<'_>,
+        inputs: Vec<PyBuffer<f64>>,
+        outputs: Vec<PyBuffer<f64>>,
+        threads: usize,
+    ) -> PyResult<()> {
+        let handle = self.handle()?;
+        let tables = |buffers: &[PyBuffer<f64>], writes: bool| -> PyResult<Vec<Table>> {
+            buffers.iter().map(|buffer| Table::new(buffer, writes)).collect()
+        };
+        let (inputs, outputs) = (tables(&inputs, false)?, tables(&outputs, true)?);
+        let states = outputs.first().map_or(0, |table| table.states());
+        if inputs.iter().chain(&outputs).any(|table| table.states() != states) {
+            return Err(wrong("the arrays differ in their numbers of states"));
+        }
+        let entries = |tables: &[Table]| tables.iter().map(|table| table.entries()).sum::<usize>();
+        let (given, found) = (entries(&inputs), entries(&outputs));
+        let (wanted, made) = match handle {
+            Handle::Native(function) => (function.input_size(), function.output_size()),
+            Handle::Interpreted(function) => (function.input_size(), function.output_size()),
+        };
+        if (given, found) != (wanted, made) {
+            return Err(wrong(format!("{given} and {found} entries, not {wanted} and {made}")));
+        }
+        let task = Task { handle, inputs: &inputs, outputs: &outputs, sizes: [wanted, made] };
+        match states {
+            0 => Ok(()),
+            1 => task.single().map_err(wrong),
+            _ => py.detach(|| task.all(states, threads)).map_err(wrong),
+        }
+    }
+}
+
+/// A call over tables.
+struct Task<'t> {
+    handle: Handle<'t>,
+    inputs: &'t [Table],
+    outputs: &'t [Table],
+    sizes: [usize; 2],
+}
+
+impl Task<'_> {
+    /// One state.
+    fn single(&self) -> Result<(), Errors> {
+        let read = |table: &Table| {
+            let table = *table;
+            (0..table.entries()).map(move |entry| table.read(0, entry))
+        };
+        let given: Vec<f64> = self.inputs.iter().flat_map(read).collect();
+        let mut found = vec![0.0; self.sizes[1]];
+        self.handle.entries(&given, &mut found)?;
+        let mut values = found.into_iter();
+        for table in self.outputs {
+            (0..table.entries())
+                .zip(&mut values)
+                .for_each(|(entry, value)| table.write(0, entry, value));
+        }
+        Ok(())
+    }
+
+    /// So many states, in so many threads, which are never more than there are blocks.
+    fn all(&self, states: usize, threads: usize) -> Result<(), Errors> {
+        let blocks = states.div_ceil(BLOCK);
+        let length = blocks.div_ceil(threads.clamp(1, blocks)) * BLOCK;
+        if length >= states {
+            return self.range(0, states);
+        }
+        std::thread::scope(|scope| {
+            let starts = (0..states).step_by(length);
+            let run = |start: usize| self.range(start, states.min(start + length));
+            let parts: Vec<_> = starts.map(|start| scope.spawn(move || run(start))).collect();
+            let ended = parts
+                .into_iter()
+                .map(|part| part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            ended.collect::<Result<Vec<()>, Errors>>().map(|_| ())
+        })
+    }
+
+    /// The states from `start` to `end`, a block at a time.
+    fn range(&self, start: usize, end: usize) -> Result<(), Errors> {
+        let [mut given, mut found] = self.sizes.map(|size| vec![0.0; size * BLOCK]);
+        for first in (start..end).step_by(BLOCK) {
+            let states = BLOCK.min(end - first);
+            let mut columns = given.chunks_exact_mut(BLOCK);
+            for table in self.inputs {
+                for (entry, column) in (0..table.entries()).zip(&mut columns) {
+                    (0..states).for_each(|state| column[state] = table.read(first + state, entry));
+                }
+            }
+            let inputs: Vec<&[f64]> =
+                given.chunks_exact(BLOCK).map(|column| &column[..states]).collect();
+            let mut outputs: Vec<&mut [f64]> =
+                found.chunks_exact_mut(BLOCK).map(|column| &mut column[..states]).collect();
+            self.handle.columns(&inputs, &mut outputs)?;
+            let mut columns = found.chunks_exact(BLOCK);
+            for table in self.outputs {
+                for (entry, column) in (0..table.entries()).zip(&mut columns) {
+                    (0..states).for_each(|state| table.write(first + state, entry, column[state]));
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,167 @@
+//! The native part of the Python package `robots`: programs of robot files as callables over arrays, and the command
+//! with its streams as texts. Everything else of the package is Python.
+
+mod engine;
+mod strided;
+
+use std::path::{Path, PathBuf};
+
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use robot_build::{Bundle, FunctionKind, Functions, Options, Robot, RobotFile, kinds_named};
+use robot_cli::Terminal;
+
+use engine::Engine;
+
+create_exception!(
+    robots,
+    RobotError,
+    PyValueError,
+    "What is wrong with a robot file, an option or an input."
+);
+
+/// An error for Python, with its whole text.
+fn wrong(error: impl std::fmt::Display) -> PyErr {
+    RobotError::new_err(error.to_string())
+}
+
+/// A robot file that has been read.
+#[pyclass(frozen)]
+struct RobotSource {
+    robot: Robot,
+    name: String,
+    options: Options,
+}
+
+#[pymethods]
+impl RobotSource {
+    /// Reads a robot file and the plan that is pinned beside it.
+    #[new]
+    fn new(py: Python<'_>, path: PathBuf, search: bool) -> PyResult<RobotSource> {
+        py.detach(|| read(&path, search))
+    }
+
+    /// The robot's name.
+    #[getter]
+    fn robot(&self) -> &str {
+        &self.robot.name
+    }
+
+    /// The number of coordinates.
+    #[getter]
+    fn degrees_of_freedom(&self) -> usize {
+        self.robot.degrees_of_freedom()
+    }
+
+    /// The parameters and their nominal values.
+    fn parameters(&self) -> Vec<(String, Option<f64>)> {
+        let parameters = self.robot.parameters.iter();
+        parameters
+            .map(|parameter| {
+                (parameter.name.clone(), parameter.value.as_ref().map(|value| value.to_f64()))
+            })
+            .collect()
+    }
+
+    /// The names of the functions that the robot has.
+    fn functions(&self) -> Vec<String> {
+        let kinds = FunctionKind::of_robot(&self.robot);
+        kinds.into_iter().map(|kind| kind.full_name(&self.robot)).collect()
+    }
+
+    /// The programs of functions, as one if there are several.
+    fn program(&self, py: Python<'_>, names: Vec<String>) -> PyResult<Program> {
+        py.detach(|| {
+            let kinds = kinds_named(&names, &self.robot).map_err(wrong)?;
+            let (functions, bundles) = match kinds.len() {
+                1 => (Functions::Chosen(kinds), vec![]),
+                _ => {
+                    let bundle = Bundle { name: "joined".to_owned(), functions: kinds };
+                    (Functions::Usual, vec![bundle])
+                }
+            };
+            let options = Options { functions, bundles, ..self.options.clone() };
+            let programs = robot_build::programs_of(self.robot.clone(), &self.name, &options);
+            Ok(Program { module: programs.map_err(wrong)?.module })
+        })
+    }
+}
+
+/// Reads a robot file, with the plan that is pinned beside it or, if that is wanted, one that is searched.
+fn read(path: &Path, search: bool) -> PyResult<RobotSource> {
+    let file = RobotFile::read(path).map_err(wrong)?;
+    let options = file.with_pin(&Options { search, ..Options::default() }).map_err(wrong)?;
+    let described = robot_build::read_with(&file.source, &options).map_err(wrong)?;
+    let robot = described.robot;
+    let options = robot_build::planned(&robot, &options);
+    Ok(RobotSource { robot, name: file.source.name, options })
+}
+
+/// The program of one function.
+#[pyclass(frozen)]
+struct Program {
+    module: robot_codegen::Module,
+}
+
+#[pymethods]
+impl Program {
+    /// The documentation of the function.
+    #[getter]
+    fn doc(&self) -> String {
+        self.module.functions.first().map(|function| function.doc.join("\n\n")).unwrap_or_default()
+    }
+
+    /// What can be called, with parameters at other values than the nominal ones.
+    fn compile(&self, py: Python<'_>, parameters: Vec<(String, f64)>) -> PyResult<Engine> {
+        py.detach(|| Engine::new(&self.module, &parameters).map_err(wrong))
+    }
+}
+
+/// Runs the command; gives the exit code, standard output and standard error.
+#[pyfunction]
+fn command(py: Python<'_>, arguments: Vec<String>, input: Vec<u8>) -> (u8, Vec<u8>, Vec<u8>) {
+    py.detach(|| {
+        let (mut input, mut output, mut errors) = (input.as_slice(), vec![], vec![]);
+        let mut terminal = Terminal {
+            input: &mut input,
+            output: &mut output,
+            errors: &mut errors,
+            colors: false,
+            progress: false,
+            screen: None,
+        };
+        let code =
+            robot_cli::run(std::iter::once("robots".to_owned()).chain(arguments), &mut terminal);
+        (code, output, errors)
+    })
+}
+
+/// Runs the command with the streams of the process.
+#[pyfunction]
+fn main(py: Python<'_>, arguments: Vec<String>) -> u8 {
+    py.detach(|| {
+        let (mut input, mut output, mut errors) =
+            (std::io::stdin(), std::io::stdout(), std::io::stderr());
+        let mut terminal = Terminal {
+            input: &mut input,
+            output: &mut output,
+            errors: &mut errors,
+            colors: false,
+            progress: false,
+            screen: None,
+        };
+        robot_cli::run(std::iter::once("robots".to_owned()).chain(arguments), &mut terminal)
+    })
+}
+
+/// The native part of the package.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("RobotError", module.py().get_type::<RobotError>())?;
+    module.add_class::<RobotSource>()?;
+    module.add_class::<Program>()?;
+    module.add_class::<Engine>()?;
+    module.add_function(wrap_pyfunction!(command, module)?)?;
+    module.add_function(wrap_pyfunction!(main, module)?)
+}
