@@ -284,8 +284,8 @@ impl Writer<'_> {
     fn tanh(&self) -> Vec<String> {
         let (inline, real, bits, size) =
             (self.header.inline(), self.real(), self.bits(), self.width() / 8);
-        let (name, fabs, copysign) =
-            (self.name("tanh"), self.library("fabs"), self.library("copysign"));
+        let (name, fabs) = (self.name("tanh"), self.library("fabs"));
+        let sign = self.pattern(self.sign_bit());
         let numbers = HyperbolicTangent::new(self.scalar);
         let number = |value: f64| self.number(value);
         let language = MulAdd { writer: self, once: false };
@@ -299,7 +299,7 @@ impl Writer<'_> {
 {{
     const {real} twice = {} * {fabs}(x);
     const {bits} beyond = 0 - ({bits})(twice > {});
-    {bits} pattern;
+    {bits} pattern, of_x;
     {real} y, shifted, n, r, e, power, t;
     memcpy(&pattern, &twice, {size});
     pattern = ({limit} & beyond) | (pattern & ~beyond);
@@ -309,7 +309,13 @@ impl Writer<'_> {
     pattern = (pattern << {mantissa}) + {};
     memcpy(&power, &pattern, {size});
     t = power * e + (power - {});
-    return {copysign}(t / (t + {}), x);
+    t = t / (t + {});
+    /* As copysign, which some compilers turn into a branch. */
+    memcpy(&pattern, &t, {size});
+    memcpy(&of_x, &x, {size});
+    pattern = (pattern & ~{sign}) | (of_x & {sign});
+    memcpy(&t, &pattern, {size});
+    return t;
 }}",
             number(2.0),
             number(numbers.saturated),

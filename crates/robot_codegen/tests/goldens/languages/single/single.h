@@ -125,7 +125,7 @@ SINGLE_INLINE_ double single_tanh_f64_(double x)
 {
     const double twice = 2.0 * fabs(x);
     const uint64_t beyond = 0 - (uint64_t)(twice > 44.0);
-    uint64_t pattern;
+    uint64_t pattern, of_x;
     double y, shifted, n, r, e, power, t;
     memcpy(&pattern, &twice, 8);
     pattern = (UINT64_C(0x4046000000000000) & beyond) | (pattern & ~beyond);
@@ -150,7 +150,13 @@ SINGLE_INLINE_ double single_tanh_f64_(double x)
     pattern = (pattern << 52) + UINT64_C(0x3ff0000000000000);
     memcpy(&power, &pattern, 8);
     t = power * e + (power - 1.0);
-    return copysign(t / (t + 2.0), x);
+    t = t / (t + 2.0);
+    /* As copysign, which some compilers turn into a branch. */
+    memcpy(&pattern, &t, 8);
+    memcpy(&of_x, &x, 8);
+    pattern = (pattern & ~UINT64_C(0x8000000000000000)) | (of_x & UINT64_C(0x8000000000000000));
+    memcpy(&t, &pattern, 8);
+    return t;
 }
 
 /* 1/x of a number above 0 and finite, NaN of others. */
@@ -258,7 +264,7 @@ SINGLE_INLINE_ float single_tanh_f32_(float x)
 {
     const float twice = 2.0F * fabsf(x);
     const uint32_t beyond = 0 - (uint32_t)(twice > 20.0F);
-    uint32_t pattern;
+    uint32_t pattern, of_x;
     float y, shifted, n, r, e, power, t;
     memcpy(&pattern, &twice, 4);
     pattern = (UINT32_C(0x41a00000) & beyond) | (pattern & ~beyond);
@@ -278,7 +284,13 @@ SINGLE_INLINE_ float single_tanh_f32_(float x)
     pattern = (pattern << 23) + UINT32_C(0x3f800000);
     memcpy(&power, &pattern, 4);
     t = power * e + (power - 1.0F);
-    return copysignf(t / (t + 2.0F), x);
+    t = t / (t + 2.0F);
+    /* As copysign, which some compilers turn into a branch. */
+    memcpy(&pattern, &t, 4);
+    memcpy(&of_x, &x, 4);
+    pattern = (pattern & ~UINT32_C(0x80000000)) | (of_x & UINT32_C(0x80000000));
+    memcpy(&t, &pattern, 4);
+    return t;
 }
 
 /* 1/x of a number above 0 and finite, NaN of others. */

@@ -59,7 +59,7 @@ STANDARD_INLINE_ double standard_tanh_f64_(double x)
 {
     const double twice = 2.0 * fabs(x);
     const uint64_t beyond = 0 - (uint64_t)(twice > 44.0);
-    uint64_t pattern;
+    uint64_t pattern, of_x;
     double y, shifted, n, r, e, power, t;
     memcpy(&pattern, &twice, 8);
     pattern = (UINT64_C(0x4046000000000000) & beyond) | (pattern & ~beyond);
@@ -84,7 +84,13 @@ STANDARD_INLINE_ double standard_tanh_f64_(double x)
     pattern = (pattern << 52) + UINT64_C(0x3ff0000000000000);
     memcpy(&power, &pattern, 8);
     t = power * e + (power - 1.0);
-    return copysign(t / (t + 2.0), x);
+    t = t / (t + 2.0);
+    /* As copysign, which some compilers turn into a branch. */
+    memcpy(&pattern, &t, 8);
+    memcpy(&of_x, &x, 8);
+    pattern = (pattern & ~UINT64_C(0x8000000000000000)) | (of_x & UINT64_C(0x8000000000000000));
+    memcpy(&t, &pattern, 8);
+    return t;
 }
 
 /* 1/x of a number above 0 and finite, NaN of others. */
