@@ -1,8 +1,10 @@
-//! `cargo run --release -p robot_languages [-- [--write] [--robot=NAME] [RUNNER…]]`: runs every language whose tools are installed and
-//! says which are not; `--write` writes the digests anew, from the interpreter. Names of runners run those alone.
+//! `cargo run --release -p robot_languages [-- [--write] [--robot=NAME]… [RUNNER…]]`: runs every language whose tools
+//! are installed on all robots and says which are not; `--write` writes the digests anew, from the interpreter. Names of
+//! robots and runners run those alone.
 
 use std::collections::BTreeMap;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use robot_codegen::Scalar;
 use robot_languages::digests::{self, committed, digest};
@@ -29,7 +31,7 @@ fn run() -> Result<usize, String> {
     if flags.iter().any(|flag| flag == "--write") {
         return write();
     }
-    let only = flags.iter().find_map(|flag| flag.strip_prefix("--robot="));
+    let only: Vec<&str> = flags.iter().filter_map(|flag| flag.strip_prefix("--robot=")).collect();
     let mut runners = vec![];
     for runner in runners::all() {
         let is_chosen = names.is_empty() || names.iter().any(|name| name == runner.name());
@@ -41,10 +43,10 @@ fn run() -> Result<usize, String> {
     }
     let mut different = 0;
     for scalar in [Scalar::F64, Scalar::F32] {
-        let chosen = robots()?.into_iter().filter(|robot| only.is_none_or(|only| only == robot));
-        let works: Vec<String> = chosen.collect();
+        let mut chosen = robots()?;
+        chosen.retain(|robot| only.is_empty() || only.contains(&robot.as_str()));
         let works =
-            works.iter().map(|robot| Work::new(robot, scalar)).collect::<Result<Vec<_>, _>>()?;
+            chosen.iter().map(|robot| Work::new(robot, scalar)).collect::<Result<Vec<_>, _>>()?;
         different += compare(&runners, &works, scalar)?;
     }
     Ok(different)
@@ -59,8 +61,7 @@ fn compare(runners: &[Box<dyn Runner>], works: &[Work], scalar: Scalar) -> Resul
         Scalar::F32 => BTreeMap::new(),
     };
     for runner in runners.iter().filter(|runner| runner.has(scalar)) {
-        let mut compared = 0;
-        let before = different;
+        let (mut compared, before, start) = (0, different, Instant::now());
         for work in works {
             let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
             for found in runner.run(work, folder.path())? {
@@ -78,10 +79,11 @@ fn compare(runners: &[Box<dyn Runner>], works: &[Work], scalar: Scalar) -> Resul
             }
         }
         println!(
-            "{} {}: {compared} functions, {} with other bits",
+            "{} {}: {compared} functions, {} with other bits ({} s)",
             runner.name(),
             digests::type_name(scalar),
-            different - before
+            different - before,
+            start.elapsed().as_secs()
         );
     }
     Ok(different)
