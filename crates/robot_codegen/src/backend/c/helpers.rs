@@ -248,7 +248,7 @@ impl Writer<'_> {
     {real} result;
     memcpy(&unit, &x, {size});
     is_nan = unit & (0 - ({bits})(x != x));
-    unit = ((unit & {sign}) | {one}) & (0 - ({bits})(x < 0 || x > 0 || x != x));
+    unit = ((unit & {sign}) | {one}) & (0 - ({bits})(x != 0));
     unit |= is_nan;
     memcpy(&result, &unit, {size});
     return result;
