@@ -65,8 +65,7 @@ pub fn compile_with<'m>(
     options: &Options,
 ) -> Result<Compiled<'m>, Error> {
     let interpreter = Interpreter::new(module, given)?;
-    let (registers, functions) = functions_of(module, &interpreter, options)?;
-    Ok(Compiled { interpreter, registers, functions })
+    compile_interpreted(interpreter, options).map_err(|(_, error)| error)
 }
 
 /// [`compile_with`] with ownership of the module, for callers that cannot borrow it.
@@ -79,10 +78,19 @@ pub fn compile_owned(
     given: &[(&str, f64)],
     options: &Options,
 ) -> Result<Compiled<'static>, Error> {
-    let (registers, functions) =
-        functions_of(&module, &Interpreter::new(&module, given)?, options)?;
     let interpreter = Interpreter::owned(module, given)?;
-    Ok(Compiled { interpreter, registers, functions })
+    compile_interpreted(interpreter, options).map_err(|(_, error)| error)
+}
+
+/// The code of what an interpreter runs; the interpreter, unchanged, with the reason if there is none.
+pub(crate) fn compile_interpreted<'m>(
+    interpreter: Interpreter<'m>,
+    options: &Options,
+) -> Result<Compiled<'m>, (Interpreter<'m>, Error)> {
+    match functions_of(&interpreter, options) {
+        Ok((registers, functions)) => Ok(Compiled { interpreter, registers, functions }),
+        Err(error) => Err((interpreter, error)),
+    }
 }
 
 /// The code of a function for one state and for several, under its name.
@@ -90,10 +98,10 @@ type Placed = (String, SingleCode, LanesCode);
 
 /// The registers, and the code of the functions that the options name.
 fn functions_of(
-    module: &Module,
     interpreter: &Interpreter<'_>,
     options: &Options,
 ) -> Result<(Registers, Vec<Placed>), Error> {
+    let module = interpreter.module();
     let registers = match options.registers {
         Some(registers) => registers.check()?,
         None => Registers::detect()?,
@@ -149,11 +157,16 @@ impl<'m> Compiled<'m> {
     ///
     /// A function that the module has not, or that was not compiled.
     pub fn function(&self, name: &str) -> Result<Function<'_>, Error> {
-        let callable = self.interpreter.function(name)?;
-        let found = self.functions.iter().find(|(compiled, ..)| compiled == name);
-        let (_, single, lanes) =
-            found.ok_or_else(|| Error::NotCompiled { function: name.to_owned() })?;
-        Ok(Function { callable, single, lanes, registers: self.registers })
+        // The name of no function is told before that of one that was left out.
+        self.interpreter.function(name)?;
+        self.compiled(name).ok_or_else(|| Error::NotCompiled { function: name.to_owned() })
+    }
+
+    /// A function by its name, if it was compiled.
+    pub(crate) fn compiled(&self, name: &str) -> Option<Function<'_>> {
+        let callable = self.interpreter.function(name).ok()?;
+        let (_, single, lanes) = self.functions.iter().find(|(compiled, ..)| compiled == name)?;
+        Some(Function { callable, single, lanes, registers: self.registers })
     }
 
     /// The bytes of the code of all functions, without constants.
@@ -190,6 +203,11 @@ impl<'m> Compiled<'m> {
 }
 
 impl<'c> Function<'c> {
+    /// The same function, interpreted.
+    pub(crate) fn callable(self) -> Callable<'c> {
+        self.callable
+    }
+
     /// The name.
     #[must_use]
     pub fn name(self) -> &'c str {

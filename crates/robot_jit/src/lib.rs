@@ -5,12 +5,13 @@
 //! [`Callable`](robot_codegen::Callable) is, and gives its bits, but for two things: a multiply-add of the program
 //! rounds once, as in code that is compiled for the processor, and a NaN may have other bits.
 //!
-//! For x86-64 with AVX2 and FMA, or AVX-512 F, DQ and VL, chosen when it runs. Elsewhere there is an error, and the
-//! interpreter does the same.
+//! For x86-64 with AVX2 and FMA, or AVX-512 F, DQ and VL, chosen when it runs. Elsewhere there is an error;
+//! an [`Executable`] then runs the interpreter.
 
 mod compiled;
 mod emit;
 mod error;
+mod executable;
 mod list;
 mod memory;
 mod processor;
@@ -21,4 +22,5 @@ mod tests;
 
 pub use compiled::{Compiled, Function, Options, compile, compile_owned, compile_with};
 pub use error::Error;
+pub use executable::{Executable, Handle};
 pub use processor::Registers;

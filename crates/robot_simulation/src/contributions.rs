@@ -1,7 +1,7 @@
 //! The joint torques along a trajectory, split by cause.
 
 use robot_build::{Effects, FunctionKind, Programs, Trigonometry, too_large_angle};
-use robot_codegen::Interpreter;
+use robot_jit::Executable;
 use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
 use robot_model::variable::JointVariable::{Acceleration, Position, Torque, Velocity};
@@ -111,9 +111,9 @@ pub fn torque_contributions(
 ) -> Result<TorqueContributions, Error> {
     let wrench = trajectory.wrenches.is_some();
     check_functions(programs, &TorqueContributions::functions(friction, wrench))?;
-    let interpreter = Interpreter::new(&programs.module, given)?;
+    let executable = Executable::new(&programs.module, given, Trigonometry::default())?;
     let loads = wrenches(&programs.robot, trajectory);
-    let motion = Motion { interpreter: &interpreter, trajectory, loads: &loads };
+    let motion = Motion { executable: &executable, trajectory, loads: &loads };
     let contributions = motion.contributions(friction)?;
     for ((total, t), q) in contributions.total.iter().zip(&contributions.t).zip(&trajectory.q) {
         if total.iter().all(|torque| torque.is_finite()) {
@@ -143,7 +143,7 @@ fn wrenches(robot: &Robot, trajectory: &Trajectory) -> Vec<(String, Series)> {
 
 /// A trajectory whose joint torques are computed.
 struct Motion<'t> {
-    interpreter: &'t Interpreter<'t>,
+    executable: &'t Executable<'t>,
     trajectory: &'t Trajectory,
     loads: &'t [(String, Series)],
 }
@@ -151,8 +151,8 @@ struct Motion<'t> {
 impl Motion<'_> {
     /// The outputs of a function at all times.
     fn series(&self, kind: FunctionKind, inputs: &[(&str, &[Vec<f64>])]) -> Result<Series, Error> {
-        let callable = self.interpreter.function(kind.name())?;
-        Ok(callable.states(self.trajectory.t.len(), inputs)?)
+        let handle = self.executable.function(kind.name())?;
+        Ok(handle.states(self.trajectory.t.len(), inputs)?)
     }
 
     fn contributions(&self, friction: bool) -> Result<TorqueContributions, Error> {

@@ -1,7 +1,7 @@
 //! Motions of robots.
 //!
 //! [`simulate`] integrates the motion q(t), the forward dynamics (7) of the paper, over any
-//! [`Dynamics`]: the interpreted program of a robot ([`RobotProgram`]), generated code or a closure.
+//! [`Dynamics`]: the program of a robot ([`RobotProgram`]), generated code or a closure.
 //! [`torque_contributions`] is inverse dynamics along a [`Trajectory`], split by cause. Both give series over
 //! time, which [`Table`] writes as CSV and [`plot`] draws.
 //!

@@ -1,7 +1,7 @@
-//! The interpreted program of a robot as dynamics.
+//! The program of a robot as dynamics.
 
 use robot_build::{Effects, FunctionKind, Pivot, Pivots, Programs, Trigonometry, too_large_angle};
-use robot_codegen::Interpreter;
+use robot_jit::Executable;
 use robot_model::robot::{Friction, JointKind, Robot};
 use robot_model::variable::JointVariable::{Acceleration, Position, Torque, Velocity};
 use robot_symbolic::Formula;
@@ -11,14 +11,14 @@ use crate::error::{Cause, Error};
 use crate::expressions::parameters;
 use crate::friction::{Mode, balance};
 
-/// The interpreted program of a robot, its parameters given: dynamics with or without friction, and
+/// The program of a robot, its parameters given, as machine code or interpreted: dynamics with or without friction, and
 /// the energies.
 ///
 /// It does the operations of the generated code, one by one.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct RobotProgram<'p> {
     robot: &'p Robot,
-    interpreter: Interpreter<'p>,
+    executable: Executable<'p>,
     friction: Option<RobotFriction>,
     /// Determines why there are no accelerations.
     pivots: Option<Pivots>,
@@ -60,9 +60,9 @@ impl<'p> RobotProgram<'p> {
     ) -> Result<RobotProgram<'p>, Error> {
         check_functions(programs, &RobotProgram::functions(friction))?;
         let robot = &programs.robot;
-        let interpreter = Interpreter::new(&programs.module, given)?;
+        let executable = Executable::new(&programs.module, given, Trigonometry::default())?;
         let friction = friction.then(|| robot_friction(robot, given)).transpose()?;
-        Ok(RobotProgram { robot, interpreter, friction, pivots: None })
+        Ok(RobotProgram { robot, executable, friction, pivots: None })
     }
 
     /// This program with the pivots of the robot's mass matrix, so that if there are no accelerations the
@@ -85,16 +85,16 @@ impl<'p> RobotProgram<'p> {
     /// A state with another number of coordinates.
     pub fn energies(&self, state: &State) -> Result<[f64; 2], Error> {
         let inputs = [(Position.name(), state.q.as_slice()), (Velocity.name(), &state.qd)];
-        let values = values(&self.interpreter, FunctionKind::Energies, &inputs)?;
+        let values = values(&self.executable, FunctionKind::Energies, &inputs)?;
         match values.as_slice() {
             &[kinetic, potential] => Ok([kinetic, potential]),
             _ => Err(Error::input("the program does not compute energies")),
         }
     }
 
-    /// All outputs of a function; what the interpreter says is the cause.
+    /// All outputs of a function; what is wrong is the cause.
     fn values(&self, kind: FunctionKind, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Cause> {
-        values(&self.interpreter, kind, inputs).map_err(|error| Cause::Other(error.to_string()))
+        values(&self.executable, kind, inputs).map_err(|error| Cause::Other(error.to_string()))
     }
 
     /// The pivot for which a state has no accelerations.
@@ -220,11 +220,11 @@ pub(crate) fn check_functions(programs: &Programs, needed: &[FunctionKind]) -> R
 
 /// All outputs of a function, one after the other.
 fn values(
-    interpreter: &Interpreter<'_>,
+    executable: &Executable<'_>,
     kind: FunctionKind,
     inputs: &[(&str, &[f64])],
 ) -> Result<Vec<f64>, Error> {
-    Ok(interpreter.function(kind.name())?.call(inputs)?)
+    Ok(executable.function(kind.name())?.call(inputs)?)
 }
 
 /// a − b.

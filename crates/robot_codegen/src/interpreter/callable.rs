@@ -91,8 +91,19 @@ impl<'i> Callable<'i> {
     pub fn call(self, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
         let entries = self.gather(inputs)?;
         let mut found = vec![0.0; self.output_size()];
-        self.blocks::<1>(1, |entry, _| entries[entry], |entry, _, value| found[entry] = value);
+        self.entries(&entries, &mut found)?;
         Ok(found)
+    }
+
+    /// Computes one state: the entries of all inputs, in their order, and those of all outputs.
+    ///
+    /// # Errors
+    ///
+    /// Another number of entries.
+    pub fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
+        self.check_columns(inputs.len(), outputs.len())?;
+        self.blocks::<1>(1, |entry, _| inputs[entry], |entry, _, value| outputs[entry] = value);
+        Ok(())
     }
 
     /// The outputs of [`Callable::call`] with their names and shapes.

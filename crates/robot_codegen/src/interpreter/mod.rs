@@ -146,6 +146,12 @@ impl<'m> Interpreter<'m> {
         })
     }
 
+    /// The module.
+    #[must_use]
+    pub fn module(&self) -> &Module {
+        &self.module
+    }
+
     /// The fields: what the constructor stores.
     #[must_use]
     pub fn fields(&self) -> &[f64] {

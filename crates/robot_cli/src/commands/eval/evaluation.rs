@@ -3,8 +3,9 @@
 use std::ops::ControlFlow;
 
 use robot_build::Trigonometry;
+use robot_codegen::Errors;
 use robot_codegen::module::Function;
-use robot_codegen::{Callable, Errors};
+use robot_jit::Handle;
 use robot_model::robot::Robot;
 use robot_model::variable::WRENCH;
 
@@ -27,7 +28,7 @@ pub(super) struct Task<'e> {
     pub(super) digits: &'e Digits,
     pub(super) function: &'e Function,
     /// None if the states are only checked.
-    pub(super) callable: Option<Callable<'e>>,
+    pub(super) handle: Option<Handle<'e>>,
     /// Why no state may have a wrench.
     pub(super) unloadable: Option<String>,
     pub(super) printer: Printer,
@@ -98,7 +99,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
             array: layout.position(&input.name),
             size: input.symbols.len(),
         });
-        let sizes = task.callable.map_or([0; 2], |one| [one.input_size(), one.output_size()]);
+        let sizes = task.handle.map_or([0; 2], |one| [one.input_size(), one.output_size()]);
         Evaluation {
             inputs: inputs.collect(),
             block: vec![State::new(layout); BLOCK],
@@ -144,7 +145,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
     /// Computes the states that wait, and prints their outputs.
     fn compute(&mut self) -> Result<(), Failure> {
         let states = &self.block[..std::mem::take(&mut self.waiting)];
-        let Task { callable: Some(callable), digits, printer, .. } = &self.task else {
+        let Task { handle: Some(handle), digits, printer, .. } = &self.task else {
             return Ok(());
         };
         let [inputs, outputs] = &mut self.columns;
@@ -152,12 +153,12 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         outputs.iter_mut().for_each(|column| column.resize(states.len(), 0.0));
         let given: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
         let mut found: Vec<&mut [f64]> = outputs.iter_mut().map(Vec::as_mut_slice).collect();
-        callable.columns(&given, &mut found).map_err(|errors| failed(self.task.file, &errors))?;
+        handle.columns(&given, &mut found).map_err(|errors| failed(self.task.file, &errors))?;
         for (row, state) in states.iter().enumerate() {
             let values = || outputs.iter().map(|column| column[row]);
             if !values().all(f64::is_finite) {
                 let Task { robot, settings, trigonometry, .. } = &self.task;
-                let outputs = callable.named(values().collect());
+                let outputs = handle.named(values().collect());
                 let messages =
                     infinite::messages(robot, settings, state, &outputs, digits, *trigonometry);
                 self.wrong.infinite.extend(messages);

@@ -14,7 +14,7 @@ use robot_build::{
     Bundle, Effects, FunctionKind, Functions, Options, Ownership, Programs, Trigonometry, Writer,
     programs_of,
 };
-use robot_codegen::Interpreter;
+use robot_jit::Executable;
 use robot_model::description::Described;
 use robot_model::robot::Robot;
 
@@ -108,21 +108,20 @@ impl Arguments {
         let programs = watched("deriving", terminal, || programs_of(robot, name, &options))?;
         let digits = Digits::of(&programs, &options, &self.settings.pairs(), self.trigonometry)?;
         let settings = &self.settings.pairs();
-        let interpreter =
-            before.is_empty().then(|| self.interpreter(name, &programs)).transpose()?;
+        let executable = before.is_empty().then(|| self.executable(name, &programs)).transpose()?;
         let Some(function) = programs.module.functions.first() else {
             let message = format!("the robot does not have the function `{}`", self.function);
             return Err(Failure::input(message));
         };
-        let callable = interpreter.as_ref().map(|one| one.function(&function.name));
-        let callable = callable.transpose().map_err(|errors| failed(name, &errors))?;
+        let handle = executable.as_ref().map(|one| one.function(&function.name));
+        let handle = handle.transpose().map_err(|errors| failed(name, &errors))?;
         let task = Task {
             robot: &programs.robot,
             settings,
             trigonometry: self.trigonometry,
             digits: &digits,
             function,
-            callable,
+            handle,
             unloadable: unloadable.flatten(),
             printer: match self.format {
                 Format::Json => Printer::json(&function.outputs),
@@ -152,14 +151,13 @@ impl Arguments {
     }
 
     /// The programs with the parameters that are set.
-    fn interpreter<'p>(
+    fn executable<'p>(
         &self,
         file: &str,
         programs: &'p Programs,
-    ) -> Result<Interpreter<'p>, Failure> {
-        let interpreter = Interpreter::new(&programs.module, &self.settings.pairs());
-        let interpreter = interpreter.map_err(|errors| failed(file, &errors))?;
-        Ok(interpreter.with_trigonometry(self.trigonometry))
+    ) -> Result<Executable<'p>, Failure> {
+        Executable::new(&programs.module, &self.settings.pairs(), self.trigonometry)
+            .map_err(|errors| failed(file, &errors))
     }
 
     /// The one function of that name.

@@ -1,0 +1,185 @@
+//! Functions that run on every machine: as machine code where there is some for it, else interpreted.
+
+use robot_codegen::{
+    Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry,
+};
+
+use crate::compiled::{Compiled, Function, Options, compile_interpreted};
+
+/// A module with its parameters given, as machine code if there is some for the machine and the source of sines, else
+/// interpreted. Both give the same bits but for those that [`compile`](crate::compile()) names.
+#[derive(Debug)]
+pub struct Executable<'m>(Code<'m>);
+
+#[derive(Debug)]
+enum Code<'m> {
+    Native(Compiled<'m>),
+    Interpreted(Interpreter<'m>),
+}
+
+/// A function of an [`Executable`], looked up once.
+#[derive(Clone, Copy, Debug)]
+pub struct Handle<'e>(Found<'e>);
+
+#[derive(Clone, Copy, Debug)]
+enum Found<'e> {
+    Native(Function<'e>),
+    Interpreted(Callable<'e>),
+}
+
+impl<'m> Executable<'m> {
+    /// Runs the constructor, and compiles all functions: the parameters that `given` names, the others at their nominal
+    /// values.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Interpreter::new`].
+    pub fn new(
+        module: &'m Module,
+        given: &[(&str, f64)],
+        trigonometry: Trigonometry,
+    ) -> Result<Executable<'m>, Errors> {
+        Ok(Executable::of(Interpreter::new(module, given)?, trigonometry))
+    }
+
+    /// [`Executable::new`] with ownership of the module.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Interpreter::new`].
+    pub fn owned(
+        module: Module,
+        given: &[(&str, f64)],
+        trigonometry: Trigonometry,
+    ) -> Result<Executable<'static>, Errors> {
+        Ok(Executable::of(Interpreter::owned(module, given)?, trigonometry))
+    }
+
+    fn of(interpreter: Interpreter<'_>, trigonometry: Trigonometry) -> Executable<'_> {
+        let interpreter = interpreter.with_trigonometry(trigonometry);
+        let options = Options { trigonometry, ..Options::default() };
+        // Whatever machine code lacks, the interpreter has.
+        Executable(match compile_interpreted(interpreter, &options) {
+            Ok(compiled) => Code::Native(compiled),
+            Err((interpreter, _)) => Code::Interpreted(interpreter),
+        })
+    }
+
+    /// Whether the functions are machine code.
+    #[must_use]
+    pub fn is_native(&self) -> bool {
+        matches!(self.0, Code::Native(_))
+    }
+
+    /// A function by its name.
+    ///
+    /// # Errors
+    ///
+    /// An unknown function.
+    pub fn function(&self, name: &str) -> Result<Handle<'_>, Errors> {
+        Ok(Handle(match &self.0 {
+            Code::Native(compiled) => match compiled.compiled(name) {
+                Some(function) => Found::Native(function),
+                None => Found::Interpreted(compiled.interpreter().function(name)?),
+            },
+            Code::Interpreted(interpreter) => Found::Interpreted(interpreter.function(name)?),
+        }))
+    }
+}
+
+impl<'e> Handle<'e> {
+    fn callable(self) -> Callable<'e> {
+        match self.0 {
+            Found::Native(function) => function.callable(),
+            Found::Interpreted(callable) => callable,
+        }
+    }
+
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'e str {
+        self.callable().name()
+    }
+
+    /// The inputs.
+    #[must_use]
+    pub fn inputs(self) -> &'e [Input] {
+        self.callable().inputs()
+    }
+
+    /// The outputs.
+    #[must_use]
+    pub fn outputs(self) -> &'e [Output] {
+        self.callable().outputs()
+    }
+
+    /// The number of entries of all inputs.
+    #[must_use]
+    pub fn input_size(self) -> usize {
+        self.callable().input_size()
+    }
+
+    /// The number of entries of all outputs.
+    #[must_use]
+    pub fn output_size(self) -> usize {
+        self.callable().output_size()
+    }
+
+    /// The entries of all outputs with their names and shapes.
+    #[must_use]
+    pub fn named(self, values: Vec<f64>) -> Vec<OutputValues> {
+        self.callable().named(values)
+    }
+
+    /// The entries of all outputs at a state; inputs by name.
+    ///
+    /// # Errors
+    ///
+    /// Inputs that are missing, unknown or of the wrong length.
+    pub fn call(self, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Errors> {
+        match self.0 {
+            Found::Native(function) => function.call(inputs),
+            Found::Interpreted(callable) => callable.call(inputs),
+        }
+    }
+
+    /// Computes one state: the entries of all inputs, in their order, and those of all outputs.
+    ///
+    /// # Errors
+    ///
+    /// Another number of entries.
+    pub fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
+        match self.0 {
+            Found::Native(function) => function.entries(inputs, outputs),
+            Found::Interpreted(callable) => callable.entries(inputs, outputs),
+        }
+    }
+
+    /// Computes many states, as [`Callable::columns`] does.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Callable::columns`].
+    pub fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
+        match self.0 {
+            Found::Native(function) => function.columns(inputs, outputs),
+            Found::Interpreted(callable) => callable.columns(inputs, outputs),
+        }
+    }
+
+    /// Computes a number of states, as [`Callable::states`] does.
+    ///
+    /// # Errors
+    ///
+    /// The errors of [`Callable::states`].
+    pub fn states(
+        self,
+        states: usize,
+        inputs: &[(&str, &[Vec<f64>])],
+    ) -> Result<Vec<Vec<f64>>, Errors> {
+        match self.0 {
+            Found::Native(function) => function.states(states, inputs),
+            Found::Interpreted(callable) => callable.states(states, inputs),
+        }
+    }
+}
