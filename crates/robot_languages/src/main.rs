@@ -3,13 +3,16 @@
 //! robots and runners run those alone.
 
 use std::collections::BTreeMap;
+use std::num::NonZero;
 use std::process::ExitCode;
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
 use std::time::Instant;
 
 use robot_codegen::Scalar;
 use robot_languages::digests::{self, committed, digest};
 use robot_languages::files;
-use robot_languages::runners::{self, Runner};
+use robot_languages::runners::{self, Found, Runner};
 use robot_languages::work::{Work, robots};
 
 fn main() -> ExitCode {
@@ -62,9 +65,8 @@ fn compare(runners: &[Box<dyn Runner>], works: &[Work], scalar: Scalar) -> Resul
     };
     for runner in runners.iter().filter(|runner| runner.has(scalar)) {
         let (mut compared, before, start) = (0, different, Instant::now());
-        for work in works {
-            let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
-            for found in runner.run(work, folder.path())? {
+        for (work, ways) in works.iter().zip(run_all(runner.as_ref(), works)) {
+            for found in ways? {
                 for (calls, results) in work.functions.iter().zip(found.results) {
                     let Some(results) = results else { continue };
                     let name = digests::name(work, &calls.name);
@@ -87,6 +89,31 @@ fn compare(runners: &[Box<dyn Runner>], works: &[Work], scalar: Scalar) -> Resul
         );
     }
     Ok(different)
+}
+
+/// Runs one of them on all robots, as many at a time as there are cores; the results in the order of the robots.
+fn run_all(runner: &dyn Runner, works: &[Work]) -> Vec<Result<Vec<Found>, String>> {
+    let next = AtomicUsize::new(0);
+    let run = || {
+        let mut done = vec![];
+        while let Some((index, work)) =
+            Some(next.fetch_add(1, Relaxed)).and_then(|index| Some((index, works.get(index)?)))
+        {
+            let folder = tempfile::tempdir().map_err(|error| error.to_string());
+            done.push((index, folder.and_then(|folder| runner.run(work, folder.path()))));
+        }
+        done
+    };
+    let threads = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let mut all = std::thread::scope(|scope| {
+        let started: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
+        let ended = started
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        ended.flatten().collect::<Vec<_>>()
+    });
+    all.sort_unstable_by_key(|(index, _)| *index);
+    all.into_iter().map(|(_, found)| found).collect()
 }
 
 /// Writes the digests of what the interpreter gives.

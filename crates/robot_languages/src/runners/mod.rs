@@ -16,7 +16,7 @@ use crate::files;
 use crate::work::Work;
 
 /// Runs the functions of a robot in a language.
-pub trait Runner {
+pub trait Runner: Sync {
     /// Its name.
     fn name(&self) -> &'static str;
 
