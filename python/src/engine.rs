@@ -40,8 +40,8 @@ impl Engine {
 impl Engine {
     /// Whether the function is machine code.
     #[getter]
-    fn is_native(&self) -> bool {
-        self.executable.is_native()
+    fn is_native(&self) -> PyResult<bool> {
+        Ok(self.handle()?.is_native())
     }
 
     /// Names and numbers of entries of the inputs.

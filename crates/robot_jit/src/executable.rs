@@ -1,13 +1,15 @@
 //! Functions that run on every machine: as machine code where there is some for it, else interpreted.
 
+use robot_codegen::program::Operation;
 use robot_codegen::{
     Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry,
 };
 
 use crate::compiled::{Compiled, Function, Options, compile_interpreted};
 
-/// A module with its parameters given, as machine code if there is some for the machine and the source of sines, else
-/// interpreted. Both give the same bits but for those that [`compile`](crate::compile()) names.
+/// A module with its parameters given. Functions are machine code if there is some for the machine and the source of sines;
+/// else they are interpreted, as are functions with multiply-adds, which machine code rounds once and the interpreter
+/// twice. So the bits are those of the interpreter on every machine, but for those of a NaN.
 #[derive(Debug)]
 pub struct Executable<'m>(Code<'m>);
 
@@ -57,18 +59,15 @@ impl<'m> Executable<'m> {
 
     fn of(interpreter: Interpreter<'_>, trigonometry: Trigonometry) -> Executable<'_> {
         let interpreter = interpreter.with_trigonometry(trigonometry);
-        let options = Options { trigonometry, ..Options::default() };
+        let functions = interpreter.module().functions.iter();
+        let plain = functions.filter(|function| !has_multiply_adds(function));
+        let functions = Some(plain.map(|function| function.name.clone()).collect());
+        let options = Options { trigonometry, functions, ..Options::default() };
         // Whatever machine code lacks, the interpreter has.
         Executable(match compile_interpreted(interpreter, &options) {
             Ok(compiled) => Code::Native(compiled),
             Err((interpreter, _)) => Code::Interpreted(interpreter),
         })
-    }
-
-    /// Whether the functions are machine code.
-    #[must_use]
-    pub fn is_native(&self) -> bool {
-        matches!(self.0, Code::Native(_))
     }
 
     /// A function by its name.
@@ -87,7 +86,18 @@ impl<'m> Executable<'m> {
     }
 }
 
+fn has_multiply_adds(function: &robot_codegen::module::Function) -> bool {
+    let mut operations = function.angles.operations().iter().chain(function.core.operations());
+    operations.any(|operation| matches!(operation, Operation::MulAdd(..)))
+}
+
 impl<'e> Handle<'e> {
+    /// Whether the function is machine code.
+    #[must_use]
+    pub fn is_native(self) -> bool {
+        matches!(self.0, Found::Native(_))
+    }
+
     fn callable(self) -> Callable<'e> {
         match self.0 {
             Found::Native(function) => function.callable(),

@@ -7,7 +7,8 @@ mod support;
 use std::path::Path;
 
 use robot_build::{Functions, Options, Source};
-use robot_codegen::Interpreter;
+use robot_codegen::{Interpreter, Trigonometry};
+use robot_jit::Executable;
 use robot_symbolic::Random;
 use support::{assert_same_function, registers};
 
@@ -45,6 +46,31 @@ fn all_functions_of_all_robots_have_the_bits_of_the_interpreter() {
                 let place = format!("{} {} {registers:?}", source.name, function.name);
                 assert_same_function(&place, expected, found, &columns, STATES);
             }
+        }
+    }
+}
+
+#[test]
+fn an_executable_has_the_bits_of_the_interpreter_whatever_the_options() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/puma560.toml");
+    let source =
+        Source { name: "puma560.toml".to_owned(), text: std::fs::read_to_string(path).unwrap() };
+    let inputs = [[0.3, -0.7, 1.1, 0.2, -1.9, 0.6], [0.1; 6], [-0.4; 6]].concat();
+    for fused in [false, true] {
+        let options = Options { fused, ..Options::default() };
+        let programs = robot_build::programs(&source, &options).unwrap();
+        for trigonometry in [Trigonometry::Polynomial, Trigonometry::Standard] {
+            let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
+            let interpreter = interpreter.with_trigonometry(trigonometry);
+            let executable = Executable::new(&programs.module, &[], trigonometry).unwrap();
+            let handle = executable.function("inverse_dynamics").unwrap();
+            let is_plain = !fused && trigonometry == Trigonometry::Polynomial;
+            assert_eq!(handle.is_native(), is_plain && !registers().is_empty());
+            let [mut expected, mut found] = [[0.0; 6]; 2];
+            let callable = interpreter.function("inverse_dynamics").unwrap();
+            callable.entries(&inputs, &mut expected).unwrap();
+            handle.entries(&inputs, &mut found).unwrap();
+            assert_eq!(found, expected, "fused: {fused}, {trigonometry:?}");
         }
     }
 }
