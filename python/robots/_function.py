@@ -55,6 +55,11 @@ class Function:
         **named: Any,
     ) -> Any:
         """Computes the outputs at the states: an array, or a tuple of arrays if there are several outputs."""
+        # One state of f64, which is what control loops have, is checked and computed at once.
+        if self._nominal is not None and parameters is None and out is None and not named and threads == 1:
+            results = [np.empty(shape) for _, shape in self.outputs]
+            if self._nominal.state(given, results):
+                return self._one_or_all(results, False)
         engine = self._engine(parameters)
         arrays, single, states, dtype = self._arrays(given, named)
         shapes = [shape if single else (states, *shape) for _, shape in self.outputs]
@@ -70,8 +75,12 @@ class Function:
         for result, table in zip(results, tables):
             if not np.may_share_memory(result, table):
                 result[...] = table.reshape(result.shape)
+        return self._one_or_all(results, out is not None)
+
+    @staticmethod
+    def _one_or_all(results: list[Any], keeps_arrays: bool) -> Any:
         if len(results) == 1:
-            return results[0] if results[0].ndim or out is not None else results[0][()]
+            return results[0] if results[0].ndim or keeps_arrays else results[0][()]
         return tuple(results)
 
     def _arrays(self, given: tuple[Any, ...], named: dict[str, Any]) -> Any:

@@ -56,6 +56,30 @@ impl Engine {
         Ok(named.into_iter().map(|output| (output.name, output.shape)).collect())
     }
 
+    /// Computes one state, from an array of one dimension for each input into contiguous arrays. False, and nothing is
+    /// written, if that is not what is given: then Python looks closer.
+    fn state(
+        &self,
+        inputs: Vec<Bound<'_, PyAny>>,
+        outputs: Vec<PyBuffer<f64>>,
+    ) -> PyResult<bool> {
+        let handle = self.handle()?;
+        let found: Option<Vec<Table>> = outputs.iter().map(Table::flat).collect();
+        let buffers: Vec<PyBuffer<f64>> =
+            inputs.iter().map_while(|array| PyBuffer::get(array).ok()).collect();
+        let given: Option<Vec<Table>> = buffers.iter().map(Table::state).collect();
+        let (Some(given), Some(found)) = (given, found) else { return Ok(false) };
+        let sizes = handle.inputs().iter().map(|input| input.symbols.len());
+        let made: usize = found.iter().map(|table| table.entries()).sum();
+        let fits = given.iter().map(|table| table.entries()).eq(sizes);
+        if !fits || made != handle.output_size() {
+            return Ok(false);
+        }
+        let sizes = [handle.input_size(), made];
+        let task = Task { handle, inputs: &given, outputs: &found, sizes };
+        task.single().map(|()| true).map_err(wrong)
+    }
+
     /// Computes all states: tables (states, entries) of every input and output, in their order.
     fn call(
         &self,

@@ -33,6 +33,22 @@ impl Table {
         Ok(Table { start, strides: [by_state, by_entry], shape: [states, entries] })
     }
 
+    /// One state: an array of one dimension, if it is one.
+    pub(crate) fn state(buffer: &PyBuffer<f64>) -> Option<Table> {
+        let (&[entries], &[stride]) = (buffer.shape(), buffer.strides()) else { return None };
+        let start = buffer.buf_ptr().cast();
+        let is_plain = buffer.suboffsets().is_none();
+        is_plain.then_some(Table { start, strides: [0, stride], shape: [1, entries] })
+    }
+
+    /// All entries of an output of any number of dimensions, row by row, as those of one state.
+    pub(crate) fn flat(buffer: &PyBuffer<f64>) -> Option<Table> {
+        let is_plain = buffer.is_c_contiguous() && !buffer.readonly();
+        let start = buffer.buf_ptr().cast();
+        let strides = [0, size_of::<f64>() as isize];
+        is_plain.then_some(Table { start, strides, shape: [1, buffer.item_count()] })
+    }
+
     pub(crate) fn states(self) -> usize {
         self.shape[0]
     }
@@ -54,7 +70,7 @@ impl Table {
     }
 
     pub(crate) fn write(self, state: usize, entry: usize, value: f64) {
-        // SAFETY: as in `read`; `new` has checked outputs, which alone are written.
+        // SAFETY: as in `read`; `new` and `flat` have checked outputs, which alone are written.
         unsafe { self.place(state, entry).write_unaligned(value) }
     }
 }

@@ -32,6 +32,28 @@ def test_batches_are_single_calls():
         assert np.array_equal(tau, robot.inverse_dynamics(q, qd, qdd, threads=3))
 
 
+def test_one_state_is_that_of_a_batch():
+    robot = arm("puma560")
+    q, qd, qdd = (array[0] for array in states(robot, 1))
+    robot.inverse_dynamics(q, qd, qdd)  # Compiled with the first call; later ones take the short way.
+    tau = robot.inverse_dynamics(q[None], qd[None], qdd[None])[0]
+    wide = np.zeros(12)
+    wide[::2] = qd
+    assert np.array_equal(tau, robot.inverse_dynamics(q, wide[::2], qdd[::-1][::-1]))
+    assert np.array_equal(tau, robot.inverse_dynamics(list(q), tuple(qd), qdd))
+    assert np.array_equal(tau, robot.inverse_dynamics(q, qd=qd, qdd=qdd))
+    narrow = robot.inverse_dynamics(*(array.astype(np.float32) for array in (q, qd, qdd)))
+    assert narrow.dtype == np.float32 and np.allclose(narrow, tau, rtol=1e-4)
+    assert robot.inverse_dynamics(q, qd, 0).shape == (6,)
+    assert robot.mass_matrix(q).shape == robot.mass_matrix(q).shape == (6, 6)
+    assert np.array_equal(robot.mass_matrix(q), robot.mass_matrix(q[None])[0])
+    energies = robot.energies
+    assert energies(q, qd) == energies(q, qd) and all(np.ndim(energy) == 0 for energy in energies(q, qd))
+    for given in ((q[:5], qd, qdd), (q, qd), (q, qd, qdd, q), (q.astype(complex), qd, qdd), (q, qd, None)):
+        with pytest.raises(robots.RobotError):
+            robot.inverse_dynamics(*given)
+
+
 def test_functions_agree():
     robot = arm("puma560")
     q, qd, qdd = states(robot, 50)
