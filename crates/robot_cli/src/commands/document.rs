@@ -81,13 +81,14 @@ impl Arguments {
     }
 
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let writer =
-            self.force.writer(self.robot.inputs(), file_of(self.output.as_deref()).is_some())?;
+        let inputs = self.robot.inputs().into_iter().chain(self.equations.inputs());
+        let writer = self.force.writer(inputs, file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
-        let options = self.equations.options(&self.robot, Form::default())?;
+        let mut options = self.equations.options(&self.robot, Form::default())?;
         let (robot, snaps) = self.robot.printed_with_snaps(terminal)?;
+        options.order = self.equations.order(&self.robot, &robot)?;
         self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);

@@ -17,9 +17,10 @@ use crate::robot::words;
 pub(super) fn blocks(
     robot: &Robot,
     symbols: &SymbolTable,
+    digits: Option<usize>,
     figure: Option<Figure>,
 ) -> Result<Vec<Block>, Error> {
-    let formulas = Formulas { graph: Graph::new(), symbols };
+    let formulas = Formulas { graph: Graph::new(), symbols, digits };
     let mut blocks = vec![heading("The robot")];
     blocks.extend(figure.map(Block::Figure));
     blocks.push(gravity(robot, &formulas)?);
@@ -37,12 +38,14 @@ pub(super) fn blocks(
 struct Formulas<'n> {
     graph: Graph,
     symbols: &'n SymbolTable,
+    /// The most significant digits of decimals.
+    digits: Option<usize>,
 }
 
 impl Formulas<'_> {
     fn math(&self, formula: &Formula) -> Result<Math, Error> {
         let value = formula.lower(&self.graph, &mut |name| self.graph.symbol(name));
-        Ok(tidied(&self.symbols.expression(value)?, None))
+        Ok(tidied(&self.symbols.expression(value)?, self.digits))
     }
 
     fn vector(&self, formulas: &[Formula; 3]) -> Result<Cell, Error> {
