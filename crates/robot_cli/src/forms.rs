@@ -141,11 +141,7 @@ impl EquationArguments {
     }
 
     /// The order of terms in the published equations.
-    pub(crate) fn order(
-        &self,
-        file: &RobotArgument,
-        robot: &Robot,
-    ) -> Result<TermOrder, Failure> {
+    pub(crate) fn order(&self, file: &RobotArgument, robot: &Robot) -> Result<TermOrder, Failure> {
         let Some(path) = &self.like else { return Ok(TermOrder::default()) };
         let printed = RobotFile::read(path)?.source;
         let options = errata::Options { notation: None, snap: file.snap() };

@@ -242,7 +242,9 @@ fn digits_are_rounded_for_people_alone() {
     let found = complaint(2, &[&grouped[..], &["--format", "json"]].concat(), "");
     assert!(found.contains("--digits has no effect on JSON"), "{found}");
     let document = output(&["document", &file, "--digits", "3"], "");
-    assert!(document.contains("Decimals in the equations are rounded to 3 significant digits."));
+    assert!(
+        document.contains("Decimals of equations and poses are rounded to 3 significant digits.")
+    );
     assert!(!output(&["document", &file], "").contains("significant digits"));
 }
 

@@ -67,7 +67,7 @@ impl TermOrder {
 /// The factors of a term without brackets, numbers left out.
 fn product<'g>(term: &Formula, graph: &'g Graph) -> Option<Product<'g>> {
     let of = |atom: Expr<'g>| (Some(vec![(atom, 1)]), atom);
-    let (factors, _) = term.fold(|step| {
+    let (factors, _) = term.fold(|step: Step<'_, (Option<Product<'g>>, Expr<'g>)>| {
         Some(match step {
             Step::Number(value) => (Some(vec![]), graph.number(value.clone())),
             Step::Pi => of(graph.pi()),
@@ -77,7 +77,9 @@ fn product<'g>(term: &Formula, graph: &'g Graph) -> Option<Product<'g>> {
             Step::Mul((one, a), (other, b)) => (joined(one, other, 1), a * b),
             Step::Div((one, a), (other, b)) => (joined(one, other, -1), a / b),
             Step::Neg((factors, a)) => (factors, -a),
-            Step::Power((factors, a), exponent) => (joined(Some(vec![]), factors, exponent), a.powi(exponent)),
+            Step::Power((factors, a), exponent) => {
+                (joined(Some(vec![]), factors, exponent), a.powi(exponent))
+            }
             Step::Call(function, (_, a)) => of(a.apply(function)),
             Step::Tan((_, a)) => (Some(vec![(a.sin(), 1), (a.cos(), -1)]), a.sin() / a.cos()),
         })

@@ -72,8 +72,11 @@ pub fn document(
     let Some((_, first)) = parts.first() else {
         return Ok(Document { title, blocks });
     };
-    blocks.extend(tables::blocks(robot, &first.symbols, options.digits, extras.figure)?);
-    let rounded = options.digits.filter(|_| parts.iter().any(|(_, part)| part.rounded));
+    let (tables, has_rounded_poses) =
+        tables::blocks(robot, &first.symbols, options.digits, extras.figure)?;
+    blocks.extend(tables);
+    let is_rounded = has_rounded_poses || parts.iter().any(|(_, part)| part.rounded);
+    let rounded = options.digits.filter(|_| is_rounded);
     blocks.extend(conventions(options, rounded, extras.snaps)?);
     for (form, part) in &parts {
         blocks.extend(sections::blocks(*form, part, options));
@@ -106,9 +109,11 @@ fn conventions(
         false => "Joint friction is not included.",
     };
     let rounded = match rounded {
-        Some(1) => " Decimals in the equations are rounded to 1 significant digit.".to_owned(),
+        Some(1) => {
+            " Decimals of equations and poses are rounded to 1 significant digit.".to_owned()
+        }
         Some(digits) => {
-            format!(" Decimals in the equations are rounded to {digits} significant digits.")
+            format!(" Decimals of equations and poses are rounded to {digits} significant digits.")
         }
         None => String::new(),
     };
