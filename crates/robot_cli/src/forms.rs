@@ -234,14 +234,7 @@ impl EquationArguments {
         equations: &Equations,
         terminal: &mut Terminal<'_>,
     ) -> Result<(), Failure> {
-        if equations.rounded && self.digits.is_none() {
-            let message = "note: decimals of the equations are rounded to";
-            writeln!(
-                terminal.errors,
-                "{message} {DIGITS} significant digits; --digits 17 prints all"
-            )?;
-        }
-        Ok(())
+        tell_rounding(equations.rounded && self.digits.is_none(), terminal)
     }
 
     /// Refuses friction that the robot has not.
@@ -288,6 +281,19 @@ impl EquationArguments {
             digits: Some(self.digits().unwrap_or(DIGITS)),
         })
     }
+}
+
+/// Why JSON has no digits.
+pub(crate) const NO_DIGITS: &str =
+    "--digits has no effect on JSON, whose equations are exact; leave it out";
+
+/// Says that decimals are rounded though nothing asks for it, if so.
+pub(crate) fn tell_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    if is_rounded {
+        let message = "significant digits; --digits 17 prints all";
+        writeln!(terminal.errors, "note: decimals are rounded to {DIGITS} {message}")?;
+    }
+    Ok(())
 }
 
 /// What is said of an option of typeset formulas where none are.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgAction, Args, ValueEnum};
 use robot_build::MARKER;
 use robot_document::Form;
+use robot_document::document::{Block, Document};
 use robot_document::robot::{Extras, document};
 use robot_document::{latex, latex::Page, markdown, typst};
 
@@ -104,6 +105,7 @@ impl Arguments {
             snaps: &snaps,
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
+        tell_length(&document, &forms, terminal)?;
         let shown = match self.format() {
             Format::Latex => commented("% ", "", latex::document(&document, page)),
             Format::Typst => commented("// ", "", typst::document(&document, page)),
@@ -127,6 +129,27 @@ impl Arguments {
         writeln!(terminal.errors, "{message} {file} -o NAME.svg` draws it")?;
         Ok(())
     }
+}
+
+/// Documents of more equations are for nobody to read from the first page to the last.
+const LONG: usize = 300;
+
+/// Says that other forms are shorter, if the document is long.
+fn tell_length(
+    document: &Document,
+    forms: &[Form],
+    terminal: &mut Terminal<'_>,
+) -> Result<(), Failure> {
+    let equations = document.blocks.iter().map(|block| match block {
+        Block::Equations(list) => list.len(),
+        _ => 0,
+    });
+    let count: usize = equations.sum();
+    if count > LONG && forms.contains(&Form::Grouped) {
+        let message = "equations; --form compact or recursive has fewer";
+        writeln!(terminal.errors, "note: the document has {count} {message}")?;
+    }
+    Ok(())
 }
 
 /// The document behind a comment that says who wrote it.

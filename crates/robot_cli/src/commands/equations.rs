@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
-use crate::forms::{EquationArguments, FormName, failed};
+use crate::forms::{EquationArguments, FormName, NO_DIGITS, failed};
 use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
@@ -64,8 +64,7 @@ impl Arguments {
             self.layout.check_markdown()?;
         }
         if self.equations.digits().is_some() && matches!(self.format, Format::Json) {
-            let message = "--digits has no effect on JSON, whose equations are exact; leave it out";
-            return Err(Failure::Usage(vec![message.to_owned()]));
+            return Err(Failure::Usage(vec![NO_DIGITS.to_owned()]));
         }
         let form = forms.first().copied().unwrap_or_default();
         let mut options = self.equations.options(&self.robot, form)?;

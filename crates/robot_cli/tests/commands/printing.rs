@@ -248,6 +248,59 @@ fn digits_are_rounded_for_people_alone() {
     assert!(!output(&["document", &file], "").contains("significant digits"));
 }
 
+/// Doubles that a program wrote into a robot file have their noise in the equations of nobody but machines, and that is said.
+#[test]
+fn the_noise_of_doubles_is_not_printed() {
+    let folder = crate::folder("noise");
+    let path = folder.join("noisy.urdf");
+    let noisy = crate::URDF
+        .replace("xyz=\"0.5 0 0\"", "xyz=\"0.17500000000000002 0 0\"")
+        .replace("<axis", "<origin xyz=\"0 0 0.41700000000000004\"/><axis");
+    std::fs::write(&path, noisy).unwrap();
+    let file = path.to_str().unwrap();
+    let note = "note: decimals are rounded to 10 significant digits; --digits 17 prints all\n";
+    for arguments in [
+        &["equations", file][..],
+        &["equations", file, "--form", "compact"],
+        &["equations", file, "--form", "grouped", "--format", "latex"],
+        &["base", file],
+        &["base", file, "--format", "typst"],
+    ] {
+        let done = run(arguments);
+        assert_eq!((done.code, done.errors.as_str()), (0, note), "{arguments:?}");
+        assert!(!done.output.contains("00000"), "{}", done.output);
+        let all = run(&[arguments, &["--digits", "17"]].concat());
+        assert_eq!((all.code, all.errors.as_str()), (0, ""), "{arguments:?}");
+        assert!(all.output.contains("00000000"), "{}", all.output);
+    }
+    for command in ["equations", "base"] {
+        let exact = run(&[command, file, "--format", "json"]);
+        assert_eq!((exact.code, exact.errors.as_str()), (0, ""), "{command}");
+        assert!(exact.output.contains("00000000"), "{}", exact.output);
+        let found = complaint(2, &[command, file, "--format", "json", "--digits", "4"], "");
+        assert!(found.contains("--digits has no effect on JSON"), "{found}");
+    }
+    let document = output(&["document", file], "");
+    let said = "Decimals of equations and poses are rounded to 10 significant digits.";
+    assert!(document.contains(said) && !document.contains("00000"), "{document}");
+    assert!(document.contains("0.417"), "{document}");
+    let page = output(&["report", file, "--without-compiler"], "");
+    assert!(page.contains("Decimals are rounded to 10 significant digits."));
+    assert!(
+        !output(&["report", &robot("planar_2r"), "--without-compiler"], "")
+            .contains("rounded to 10")
+    );
+}
+
+#[test]
+fn a_long_document_names_shorter_forms() {
+    let done = run(&["document", &robot("iiwa")]);
+    let note = done.errors.lines().find(|line| line.starts_with("note: the document has "));
+    assert!(note.unwrap().ends_with(" equations; --form compact or recursive has fewer"));
+    let short = run(&["document", &robot("iiwa"), "--form", "compact"]);
+    assert!(!short.errors.contains("the document has"), "{}", short.errors);
+}
+
 #[test]
 fn no_number_is_a_quotient_of_long_ones_and_constants_are_a_table() {
     let shown = output(&["document", &robot("panda"), "--form", "compact", "--columns", "2"], "");

@@ -21,6 +21,20 @@ fn without_a_compiler_the_page_says_so() {
 }
 
 #[test]
+fn base_parameters_of_a_page_are_in_the_frames_that_are_asked_for() {
+    let file = robot("planar_2r");
+    let page = |frames: &str| {
+        output(&["report", &file, "--without-compiler", "--base-frames", frames], "")
+    };
+    let [own, other] = ["file", "denavit_hartenberg"].map(page);
+    // Moments of inertia about the joint axes: of the file's frames ZZ, of the others the second moments SYY.
+    let name = |page: &str, letters: &str| page.contains(&format!("<mi>{letters}</mi>"));
+    assert!(name(&own, "ZZR") && !name(&own, "SYY"));
+    assert!(name(&other, "SYY") && !name(&other, "ZZR"));
+    assert_eq!(own, output(&["report", &file, "--without-compiler"], ""));
+}
+
+#[test]
 fn there_is_no_page_about_a_file_that_is_wrong() {
     assert!(complaint(1, &["report", "none.toml"], "").contains("there is no such file"));
 }
