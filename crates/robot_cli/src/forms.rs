@@ -1,12 +1,16 @@
 //! Which equations a command prints, and in which form.
 
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
-use robot_build::shown;
-use robot_document::{Equations, Error, Form, Letters, Trigonometry};
+use robot_build::{RobotFile, shown};
+use robot_check::errata;
+use robot_document::{DIGITS, Equations, Error, Form, Letters, TermOrder, Trigonometry};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
 
+use crate::Terminal;
 use crate::failure::Failure;
 use crate::friction::has_friction;
 use crate::robot::RobotArgument;
@@ -46,11 +50,16 @@ pub(crate) struct EquationArguments {
     #[arg(long, value_enum, conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
           "no_references", "letters"])]
     style: Option<StyleName>,
+    /// Equations like those published in this file, which has them as `compare` reads them: in the style paper, with the
+    /// terms and factors in the order of the file
+    #[arg(long, value_name = "PRINTED", conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
+          "no_references", "letters"])]
+    like: Option<PathBuf>,
     /// Letters of joint torques, mass matrix, velocity terms and gravity terms, such as tau,M,C,g; `field` for
     /// these, `paper` for Q and letters that no symbol of the robot has [default: paper]
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
-    /// Round decimals in equations to so many significant digits
+    /// Significant digits of decimals in equations [default: 10]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
     digits: Option<u8>,
     /// Include friction in the joint torques
@@ -121,6 +130,25 @@ enum StyleName {
 }
 
 impl EquationArguments {
+    /// Whether the equations have the style of the paper.
+    fn has_style(&self) -> bool {
+        self.style.is_some() || self.like.is_some()
+    }
+
+    /// The files that the equations are made of besides the robot's.
+    pub(crate) fn inputs(&self) -> Option<PathBuf> {
+        self.like.clone()
+    }
+
+    /// The order of terms in the published equations.
+    pub(crate) fn order(&self, file: &RobotArgument, robot: &Robot) -> Result<TermOrder, Failure> {
+        let Some(path) = &self.like else { return Ok(TermOrder::default()) };
+        let printed = RobotFile::read(path)?.source;
+        let options = errata::Options { notation: None, snap: file.snap() };
+        let found = errata::term_order(robot, &printed, &options);
+        found.map_err(|errors| Failure::Robot(errors.into()))
+    }
+
     /// The forms in which a style prints, or those that are asked for.
     pub(crate) fn forms(&self, asked: &[FormName]) -> Vec<Form> {
         let mut forms: Vec<Form> = vec![];
@@ -129,14 +157,14 @@ impl EquationArguments {
                 forms.push(form);
             }
         }
-        if self.style.is_some() { vec![Form::Expanded] } else { forms }
+        if self.has_style() { vec![Form::Expanded] } else { forms }
     }
 
     /// Whether vectors are columns, and coefficients matrices: if nothing is said, where formulas are set in a form
     /// that consists of them.
     pub(crate) fn has_arrays(&self, forms: &[Form], typeset: bool) -> bool {
         let consists = forms.iter().any(|form| matches!(form, Form::Grouped | Form::Recursive));
-        let usual = typeset && consists || self.style.is_some();
+        let usual = typeset && consists || self.has_style();
         self.layout.map_or(usual, |layout| layout == LayoutStyle::Vectors)
     }
 
@@ -195,9 +223,18 @@ impl EquationArguments {
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
     }
 
-    /// The most significant digits of decimals, if they are rounded.
+    /// The most significant digits of decimals, if they are given.
     pub(crate) fn digits(&self) -> Option<usize> {
         self.digits.map(usize::from)
+    }
+
+    /// Says that decimals are rounded though nothing asks for it.
+    pub(crate) fn tell_rounding(
+        &self,
+        equations: &Equations,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        tell_rounding(equations.rounded && self.digits.is_none(), terminal)
     }
 
     /// Refuses friction that the robot has not.
@@ -217,15 +254,15 @@ impl EquationArguments {
     ) -> Result<robot_document::EquationOptions, Failure> {
         Ok(robot_document::EquationOptions {
             form,
-            kinds: match self.style {
-                Some(StyleName::Paper) => Kind::ALL.to_vec(),
-                None => kinds(&self.quantities)?,
+            kinds: match self.has_style() {
+                true => Kind::ALL.to_vec(),
+                false => kinds(&self.quantities)?,
             },
             friction: self.friction,
             snap: robot.snap(),
-            trigonometry: match self.trig.unwrap_or(match self.style {
-                Some(StyleName::Paper) => TrigonometryStyle::Paper,
-                None => TrigonometryStyle::Named,
+            trigonometry: match self.trig.unwrap_or(match self.has_style() {
+                true => TrigonometryStyle::Paper,
+                false => TrigonometryStyle::Named,
             }) {
                 TrigonometryStyle::Named => Trigonometry::Named,
                 TrigonometryStyle::Short => Trigonometry::Short,
@@ -238,11 +275,25 @@ impl EquationArguments {
             expand: self.expand,
             references: !self.no_references,
             christoffel: self.christoffel,
-            paper: self.style.is_some(),
+            paper: self.has_style(),
+            order: TermOrder::default(),
             letters: self.letters.clone().unwrap_or_default(),
-            digits: self.digits(),
+            digits: Some(self.digits().unwrap_or(DIGITS)),
         })
     }
+}
+
+/// Why JSON has no digits.
+pub(crate) const NO_DIGITS: &str =
+    "--digits has no effect on JSON, whose equations are exact; leave it out";
+
+/// Says that decimals are rounded though nothing asks for it, if so.
+pub(crate) fn tell_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    if is_rounded {
+        let message = "significant digits; --digits 17 prints all";
+        writeln!(terminal.errors, "note: decimals are rounded to {DIGITS} {message}")?;
+    }
+    Ok(())
 }
 
 /// What is said of an option of typeset formulas where none are.

@@ -12,7 +12,7 @@ use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 use crate::error::Error;
 use crate::forms::{Equation, Group, MAX_NODES};
 use crate::latex;
-use crate::layout::{Order, SymbolTable, Trigonometry};
+use crate::layout::{Order, SymbolTable, Trigonometry, has_longer, tidied, tidied_text};
 use crate::math::{Fence, Math};
 
 /// The limits of expansions: more terms than anybody reads.
@@ -122,6 +122,18 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
 }
 
 impl BaseSet {
+    /// The same for readers: decimals have at most so many significant digits; and whether any had more.
+    #[must_use]
+    pub fn readable(&self, digits: usize) -> (BaseSet, bool) {
+        let (mut set, mut is_rounded) = (self.clone(), false);
+        for written in set.list.iter_mut().flat_map(|one| [&mut one.formula, &mut one.value]) {
+            is_rounded |= has_longer(&written.math, digits);
+            written.math = tidied(&written.math, Some(digits));
+            written.text = tidied_text(&written.text, Some(digits));
+        }
+        (set, is_rounded)
+    }
+
     /// The formulas as displayed equations, each with the value behind the formula.
     #[must_use]
     pub fn group(&self) -> Group {

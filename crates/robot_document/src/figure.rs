@@ -77,6 +77,9 @@ pub struct Color(pub [u8; 3]);
 /// Points per unit where there is room.
 const USUAL: f64 = 0.62;
 
+/// The most points from top to bottom: with its caption and a heading a figure is on one page.
+const TALLEST: f64 = 440.0;
+
 impl Figure {
     /// Its width and height in units of the drawing.
     #[must_use]
@@ -88,7 +91,8 @@ impl Figure {
     /// Points per unit on a line of a width in points.
     #[must_use]
     pub fn scale(&self, available: f64) -> f64 {
-        (available / self.size()[0].max(1.0)).min(USUAL)
+        let [width, height] = self.size().map(|side| side.max(1.0));
+        (available / width).min(TALLEST / height).min(USUAL)
     }
 
     /// The colors of its parts, each once, in order.
@@ -118,4 +122,20 @@ pub(crate) fn coordinate(value: f64) -> String {
 /// A number with two decimals at most.
 pub(crate) fn hundredths(value: f64) -> String {
     format!("{}", (value * 100.0).round() / 100.0 + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_fit_a_line_and_a_page() {
+        let scale = |width, height| {
+            let bounds = [[0.0, 0.0], [width, height]];
+            Figure { caption: String::new(), bounds, shapes: vec![] }.scale(300.0)
+        };
+        assert_eq!(scale(100.0, 100.0), USUAL);
+        assert_eq!(scale(1000.0, 100.0) * 1000.0, 300.0);
+        assert!((scale(100.0, 2000.0) * 2000.0 - TALLEST).abs() < 1e-9);
+    }
 }

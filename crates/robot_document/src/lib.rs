@@ -22,8 +22,9 @@ pub mod robot;
 pub use error::{Centimeters, Error};
 pub use forms::{Array, Cell, Room, Written};
 pub use forms::{
-    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, equations,
+    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, TermOrder,
+    equations,
 };
-pub use layout::{Order, Rank, SymbolTable, Trigonometry};
+pub use layout::{DIGITS, Order, Rank, SymbolTable, Trigonometry};
 pub use layout::{breaking, math, meaning, width};
 pub use notation::{html, latex, markdown, math_font, mathml, typst};

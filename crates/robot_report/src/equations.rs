@@ -7,7 +7,7 @@ use robot_document::breaking::terms;
 use robot_document::markup::{Element, Node, element, holding};
 use robot_document::math::Math;
 use robot_document::width::width;
-use robot_document::{Equation, EquationOptions, Equations, Form, Group, Room, equations};
+use robot_document::{DIGITS, Equation, EquationOptions, Equations, Form, Group, Room, equations};
 use robot_document::{latex, mathml, typst};
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, Variable};
@@ -58,7 +58,13 @@ pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
             Ok(found) => details.with_all(Sources::of(robot, *form, found).groups(false)),
         }
     });
-    std::iter::once(holding("p", WORDS)).chain(forms).map(Node::from).collect()
+    let is_rounded =
+        found.iter().any(|(_, _, found)| found.as_ref().is_ok_and(|shown| shown.arranged.rounded));
+    let words = match is_rounded {
+        true => format!("{WORDS} Decimals are rounded to {DIGITS} significant digits."),
+        false => WORDS.to_owned(),
+    };
+    std::iter::once(holding("p", words)).chain(forms).map(Node::from).collect()
 }
 
 /// The form that is open: the shortest, but rather one without names of the computation's own if that is not much
@@ -133,7 +139,8 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     }
     // Expanded under the root of dry friction, the forces in the joints fill pages.
     let friction = robot.has_friction() && !matches!(form, Form::Expanded | Form::Collected);
-    let options = EquationOptions { form, friction, ..EquationOptions::default() };
+    let digits = Some(DIGITS);
+    let options = EquationOptions { form, friction, digits, ..EquationOptions::default() };
     let found =
         equations(robot, &options).map_err(|error| format!("This form is not shown: {error}."))?;
     let length = length(&found);

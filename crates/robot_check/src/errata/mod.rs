@@ -11,6 +11,7 @@ mod entries;
 mod evidence;
 mod latex;
 mod mistake;
+mod order;
 mod printed;
 mod symbols;
 mod term;
@@ -26,6 +27,7 @@ use dimension::Dimensions;
 pub use evidence::Evidence;
 use evidence::PrintedTerms;
 pub use mistake::{Mistake, MistakeKind};
+pub use order::term_order;
 pub use printed::Notation;
 use printed::{PrintedEquation, read_printed};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -114,33 +116,12 @@ pub fn compare(
     let graph = Graph::new();
     let exact = MechanismOptions::EXACT.with_snap(options.snap, robot);
     let mechanism = Mechanism::new(robot, &graph, &exact);
-    let quantities = |wrench: bool| -> Vec<Quantity<'_>> {
-        let effects = Effects { wrench, friction: false };
-        let solution = newton_euler::newton_euler(&mechanism, effects);
-        Kind::ALL.iter().flat_map(|kind| solution.quantities(*kind)).collect()
-    };
-    let notation = options.notation.unwrap_or_else(|| Notation::detect(&source.text));
-    let symbols = {
-        let quantities = quantities(true);
-        let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
-        let used = walk::symbols(&values).into_iter().map(|symbol| graph.symbol_name(symbol));
-        let names: Vec<_> = quantities.iter().map(|quantity| quantity.symbol).collect();
-        Symbols::of(robot, &names, used.collect())
-    };
-    let printed = read_printed(source, notation, &symbols).map_err(failed)?;
+    let printed = read(robot, source, options, &mechanism).map_err(failed)?;
     let wrench = has_wrench(robot, &printed);
-    let quantities: BTreeMap<String, Quantity<'_>> = quantities(wrench)
+    let quantities: BTreeMap<String, Quantity<'_>> = quantities(&mechanism, wrench)
         .into_iter()
         .map(|quantity| (quantity.symbol.to_string(), quantity))
         .collect();
-    let unknown: Vec<Diagnostic> = printed
-        .iter()
-        .filter(|equation| !quantities.contains_key(&equation.quantity))
-        .map(|equation| no_quantity(equation, robot))
-        .collect();
-    if !unknown.is_empty() {
-        return Err(failed(unknown));
-    }
     let compared = expand(&graph, &printed, &quantities).map_err(|error| failed(vec![*error]))?;
     let lines = Lines::of(&source.text);
     let found = find(&compared, &Dimensions::of(robot), &lines);
@@ -152,6 +133,32 @@ pub fn compare(
         wrench,
         differences: found.map_err(failed)?,
     })
+}
+
+/// All quantities by the paper's iterations, without friction.
+fn quantities<'g>(mechanism: &Mechanism<'g>, wrench: bool) -> Vec<Quantity<'g>> {
+    let solution = newton_euler::newton_euler(mechanism, Effects { wrench, friction: false });
+    Kind::ALL.iter().flat_map(|kind| solution.quantities(*kind)).collect()
+}
+
+/// The printed equations, all of quantities that the robot has.
+fn read(
+    robot: &Robot,
+    source: &Source,
+    options: &Options,
+    mechanism: &Mechanism<'_>,
+) -> Result<Vec<PrintedEquation>, Vec<Diagnostic>> {
+    let quantities = quantities(mechanism, true);
+    let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
+    let used = walk::symbols(&values).into_iter();
+    let used = used.map(|symbol| mechanism.graph.symbol_name(symbol)).collect();
+    let names: Vec<_> = quantities.iter().map(|quantity| quantity.symbol).collect();
+    let notation = options.notation.unwrap_or_else(|| Notation::detect(&source.text));
+    let printed = read_printed(source, notation, &Symbols::of(robot, &names, used))?;
+    let known: BTreeSet<String> = names.iter().map(ToString::to_string).collect();
+    let unknown = printed.iter().filter(|equation| !known.contains(&equation.quantity));
+    let unknown: Vec<Diagnostic> = unknown.map(|equation| no_quantity(equation, robot)).collect();
+    if unknown.is_empty() { Ok(printed) } else { Err(unknown) }
 }
 
 /// Whether any equation has a symbol of a tip's wrench.

@@ -2,6 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use robot_build::BaseFrames;
+use robot_document::DIGITS;
 use robot_document::base_parameters::{BaseEntry, BaseSet, base};
 use robot_model::robot::Robot;
 use serde_json::{Map, Value, json};
@@ -9,7 +10,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
-use crate::forms::failed;
+use crate::forms::{NO_DIGITS, failed, tell_rounding};
 use crate::robot::RobotArgument;
 use crate::text;
 
@@ -35,6 +36,9 @@ pub(crate) struct Arguments {
     /// Output format; LaTeX needs amsmath
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Significant digits of decimals [default: 10]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    digits: Option<u8>,
     #[command(flatten)]
     layout: LayoutArguments,
 }
@@ -57,9 +61,16 @@ impl Arguments {
         if matches!(self.format, Format::Markdown) {
             self.layout.check_markdown()?;
         }
+        if self.digits.is_some() && matches!(self.format, Format::Json) {
+            return Err(Failure::Usage(vec![NO_DIGITS.to_owned()]));
+        }
         let robot = self.robot.read(terminal)?.robot;
         let failed = |error| failed(&self.robot, &error);
-        let set = base(&robot, self.robot.snap()).map_err(failed)?;
+        let exact = base(&robot, self.robot.snap()).map_err(failed)?;
+        let (set, is_rounded) = exact.readable(self.digits.map_or(DIGITS, usize::from));
+        if !matches!(self.format, Format::Json) {
+            tell_rounding(is_rounded && self.digits.is_none(), terminal)?;
+        }
         let displayed =
             |notation| self.layout.displayed(&robot.name, &[set.group()], notation).map_err(failed);
         let shown = match self.format {
@@ -68,7 +79,7 @@ impl Arguments {
             Format::Typst => displayed(Notation::Typst)?,
             Format::Markdown => displayed(Notation::Markdown)?,
             Format::Mathml => displayed(Notation::page(terminal)?)?,
-            Format::Json => json(&robot, &set),
+            Format::Json => json(&robot, &exact),
         };
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }

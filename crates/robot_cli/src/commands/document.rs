@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgAction, Args, ValueEnum};
 use robot_build::MARKER;
 use robot_document::Form;
+use robot_document::document::{Block, Document};
 use robot_document::robot::{Extras, document};
 use robot_document::{latex, latex::Page, markdown, typst};
 
@@ -81,13 +82,14 @@ impl Arguments {
     }
 
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let writer =
-            self.force.writer(self.robot.inputs(), file_of(self.output.as_deref()).is_some())?;
+        let inputs = self.robot.inputs().into_iter().chain(self.equations.inputs());
+        let writer = self.force.writer(inputs, file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
-        let options = self.equations.options(&self.robot, Form::default())?;
+        let mut options = self.equations.options(&self.robot, Form::default())?;
         let (robot, snaps) = self.robot.printed_with_snaps(terminal)?;
+        options.order = self.equations.order(&self.robot, &robot)?;
         self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
@@ -103,6 +105,7 @@ impl Arguments {
             snaps: &snaps,
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
+        tell_length(&document, &forms, terminal)?;
         let shown = match self.format() {
             Format::Latex => commented("% ", "", latex::document(&document, page)),
             Format::Typst => commented("// ", "", typst::document(&document, page)),
@@ -126,6 +129,27 @@ impl Arguments {
         writeln!(terminal.errors, "{message} {file} -o NAME.svg` draws it")?;
         Ok(())
     }
+}
+
+/// Documents of more equations are for nobody to read from the first page to the last.
+const LONG: usize = 300;
+
+/// Says that other forms are shorter, if the document is long.
+fn tell_length(
+    document: &Document,
+    forms: &[Form],
+    terminal: &mut Terminal<'_>,
+) -> Result<(), Failure> {
+    let equations = document.blocks.iter().map(|block| match block {
+        Block::Equations(list) => list.len(),
+        _ => 0,
+    });
+    let count: usize = equations.sum();
+    if count > LONG && forms.contains(&Form::Grouped) {
+        let message = "equations; --form compact or recursive has fewer";
+        writeln!(terminal.errors, "note: the document has {count} {message}")?;
+    }
+    Ok(())
 }
 
 /// The document behind a comment that says who wrote it.

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
-use crate::forms::{EquationArguments, FormName, failed};
+use crate::forms::{EquationArguments, FormName, NO_DIGITS, failed};
 use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
@@ -18,6 +18,7 @@ use crate::text;
   robot-symbolic equations robots/trttr1.toml --quantity Q,F_l --format json
   robot-symbolic equations robots/trttr1.toml --form grouped --format latex --trig short
   robot-symbolic equations robots/trttr1.toml --style paper --format latex
+  robot-symbolic equations robots/trttr1.toml --like docs/trttr1.printed --format latex
   robot-symbolic equations robots/panda.toml --form compact --format latex --width 8.5cm
 
 Quantities: a_c accelerations of the centers of mass, F and M_c inertia forces and moments of the links,
@@ -63,18 +64,21 @@ impl Arguments {
             self.layout.check_markdown()?;
         }
         if self.equations.digits().is_some() && matches!(self.format, Format::Json) {
-            let message = "--digits has no effect on JSON, whose equations are exact; leave it out";
-            return Err(Failure::Usage(vec![message.to_owned()]));
+            return Err(Failure::Usage(vec![NO_DIGITS.to_owned()]));
         }
         let form = forms.first().copied().unwrap_or_default();
-        let options = self.equations.options(&self.robot, form)?;
+        let mut options = self.equations.options(&self.robot, form)?;
         let robot = self.robot.printed(terminal)?;
+        options.order = self.equations.order(&self.robot, &robot)?;
         self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| failed(&self.robot, &error);
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
         self.equations.check_layout(&equations)?;
+        if !matches!(self.format, Format::Json) {
+            self.equations.tell_rounding(&equations, terminal)?;
+        }
         let has_arrays = self.equations.has_arrays(&forms, typeset);
         let displayed = |notation| {
             let room = Room::Points(self.layout.line());

@@ -4,8 +4,9 @@ use std::time::SystemTime;
 
 use clap::Args;
 use robot_build::{Output, Ownership, pin_path, pin_text, shown, snapping};
+use robot_dynamics::economical::Plan;
+use robot_dynamics::economical::plan::{Entry, LinkPlan, Origin, Turn};
 use robot_dynamics::economical::search::{Measure, search};
-use robot_dynamics::economical::{Plan, plan::LinkPlan};
 use robot_dynamics::mechanism::MechanismOptions;
 
 use crate::Terminal;
@@ -23,6 +24,10 @@ Tries the options of the economical recursion for inverse dynamics, link by link
 each. All forms give the same torques. The best plan is pinned beside the robot file, as ur5.plan, and used by
 builds, which do not search themselves. After a change of the robot's mechanics the plan is stale: builds
 refuse it and other commands warn, until you search again. Remarks, names and values of parameters may change.
+
+For each link the table has the position of its frame's origin on the joint axis (at the foot of the common normal
+to the next or previous axis, say), the direction of its x axis, further options, and the first and second moments S
+of the parent that parts of the link make vanish (residual).
 
 The modification time of the robot file is set to now, so that builds that ran before there was a plan run
 again; its text does not change.")]
@@ -141,13 +146,13 @@ fn row(plan: &LinkPlan, name: &str) -> Vec<String> {
     let yes = |flag: bool| if flag { "yes" } else { "-" };
     let moment: Vec<&str> = plan.moment.into_iter().map(yes).collect();
     let residual = plan.residual.map(|entry| match entry {
-        Some(entry) => format!("{entry:?}"),
-        None => "-".to_owned(),
+        Some(entry) => moment_of(entry),
+        None => "-",
     });
     vec![
         name.to_owned(),
-        format!("{:?}", plan.origin),
-        format!("{:?}", plan.turn),
+        origin(plan.origin).to_owned(),
+        turn(plan.turn).to_owned(),
         yes(plan.angle_sum).to_owned(),
         yes(plan.column).to_owned(),
         yes(plan.doubled).to_owned(),
@@ -155,4 +160,40 @@ fn row(plan: &LinkPlan, name: &str) -> Vec<String> {
         moment.join(" "),
         residual.join(" "),
     ]
+}
+
+/// Where a frame's origin is on its joint axis.
+const fn origin(origin: Origin) -> &'static str {
+    match origin {
+        Origin::File => "as in the file",
+        Origin::NextNormal => "normal to next",
+        Origin::PreviousNormal => "normal to previous",
+        Origin::ZeroXz => "where Sxz = 0",
+        Origin::ZeroYz => "where Syz = 0",
+        Origin::CenterOfMass => "center of mass",
+        Origin::Parent => "as the parent's",
+    }
+}
+
+/// The direction of a frame's x axis.
+const fn turn(turn: Turn) -> &'static str {
+    match turn {
+        Turn::File => "as in the file",
+        Turn::NextNormal => "normal to next",
+        Turn::FirstMoment => "first moment",
+    }
+}
+
+/// The moment of the parent that a part of the link makes vanish.
+const fn moment_of(entry: Entry) -> &'static str {
+    match entry {
+        Entry::X => "Sx",
+        Entry::Y => "Sy",
+        Entry::Xx => "Sxx",
+        Entry::Yy => "Syy",
+        Entry::Xy => "Sxy",
+        Entry::Xz => "Sxz",
+        Entry::Yz => "Syz",
+        Entry::XxYy => "Sxx-Syy",
+    }
 }

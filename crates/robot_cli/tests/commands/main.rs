@@ -100,6 +100,18 @@ fn output(arguments: &[&str], input: &str) -> String {
     output
 }
 
+/// What a command prints that rounds decimals, says so, and complains of nothing else.
+#[track_caller]
+fn rounded_output(arguments: &[&str]) -> String {
+    let Outcome { code, output, errors } = run(arguments);
+    assert_eq!((code, errors.as_str()), (0, ROUNDED), "{arguments:?}");
+    output
+}
+
+/// What is said of decimals.
+const ROUNDED: &str =
+    "note: decimals are rounded to 10 significant digits; --digits 17 prints all\n";
+
 /// What a command prints that writes files and complains of nothing.
 #[track_caller]
 fn output_beside_files(arguments: &[&str]) -> String {

@@ -19,6 +19,7 @@ impl Inputs {
         fs::write(inputs.path("arm.urdf"), URDF).unwrap();
         fs::write(inputs.path("motion.csv"), TRAJECTORY).unwrap();
         fs::write(inputs.path("motion.png"), TRAJECTORY).unwrap();
+        fs::write(inputs.path("arm.printed"), "Q2 = I2*qdd2 + Mz\n").unwrap();
         inputs
     }
 
@@ -44,6 +45,7 @@ const READERS: &[(&str, &[&str])] = &[
     ("generate @arm.toml -o", &["arm.toml", "arm.plan"]),
     ("document @arm.toml -o", &["arm.toml", "arm.plan"]),
     ("document @arm.toml --format typst -o", &["arm.toml", "arm.plan"]),
+    ("document @arm.toml --like @arm.printed -o", &["arm.toml", "arm.printed"]),
     ("report @arm.toml --without-compiler -o", &["arm.toml", "arm.plan"]),
     ("import @arm.urdf -o", &["arm.urdf"]),
     ("crate @arm.toml -o", &["arm.toml", "arm.plan"]),

@@ -1,9 +1,9 @@
 //! What is printed for people: angles, letters, numbers.
 
-use crate::{complaint, folder, output, robot, run};
+use crate::{ROUNDED, complaint, folder, output, robot, rounded_output, run};
 
 /// An arm whose angles are rounded as exported files round them.
-const ROUNDED: &str = r#"<robot name="rounded">
+const ROUNDED_ANGLES: &str = r#"<robot name="rounded">
   <link name="base"/>
   <link name="upper">
     <inertial>
@@ -36,7 +36,7 @@ const ROUNDED: &str = r#"<robot name="rounded">
 
 fn rounded(test: &str) -> String {
     let path = folder(test).join("rounded.urdf");
-    std::fs::write(&path, ROUNDED).unwrap();
+    std::fs::write(&path, ROUNDED_ANGLES).unwrap();
     path.to_str().unwrap().to_owned()
 }
 
@@ -152,7 +152,7 @@ fn letters_are_those_of_matrices_and_columns() {
 fn entries_of_matrices_have_fractions_and_rounded_numbers() {
     let of = |name: &str, arguments: &[&str]| {
         let file = robot(name);
-        output(&[&["equations", &file, "--layout", "vectors"], arguments].concat(), "")
+        run(&[&["equations", &file, "--layout", "vectors"], arguments].concat()).output
     };
     let christoffel = ["--form", "grouped", "--christoffel", "--format", "latex", "--expand"];
     let shown = of("stanford", &[&christoffel[..], &["--digits", "3"]].concat());
@@ -204,7 +204,7 @@ fn vectors_have_right_angles_where_the_file_has_rounded_ones() {
 
 #[test]
 fn the_mass_matrix_is_m_unless_masses_are() {
-    let grouped = |name| output(&["equations", &robot(name), "--form", "grouped"], "");
+    let grouped = |name| run(&["equations", &robot(name), "--form", "grouped"]).output;
     // The wrench of a tip has M_x, which is no M_11.
     for name in ["planar_2r", "puma560", "panda"] {
         assert!(grouped(name).contains("\nM_1_1 = "), "{name}");
@@ -242,8 +242,62 @@ fn digits_are_rounded_for_people_alone() {
     let found = complaint(2, &[&grouped[..], &["--format", "json"]].concat(), "");
     assert!(found.contains("--digits has no effect on JSON"), "{found}");
     let document = output(&["document", &file, "--digits", "3"], "");
-    assert!(document.contains("Decimals in the equations are rounded to 3 significant digits."));
-    assert!(!output(&["document", &file], "").contains("significant digits"));
+    assert!(
+        document.contains("Decimals of equations and poses are rounded to 3 significant digits.")
+    );
+    assert!(!output(&["document", &robot("planar_2r")], "").contains("significant digits"));
+}
+
+/// Doubles that a program wrote into a robot file have their noise in the equations of nobody but machines, and that is said.
+#[test]
+fn the_noise_of_doubles_is_not_printed() {
+    let folder = folder("noise");
+    let path = folder.join("noisy.urdf");
+    let noisy = crate::URDF
+        .replace("xyz=\"0.5 0 0\"", "xyz=\"0.17500000000000002 0 0\"")
+        .replace("<axis", "<origin xyz=\"0 0 0.41700000000000004\"/><axis");
+    std::fs::write(&path, noisy).unwrap();
+    let file = path.to_str().unwrap();
+    for arguments in [
+        &["equations", file][..],
+        &["equations", file, "--form", "compact"],
+        &["equations", file, "--form", "grouped", "--format", "latex"],
+        &["base", file],
+        &["base", file, "--format", "typst"],
+    ] {
+        let done = run(arguments);
+        assert_eq!((done.code, done.errors.as_str()), (0, ROUNDED), "{arguments:?}");
+        assert!(!done.output.contains("00000"), "{}", done.output);
+        let all = run(&[arguments, &["--digits", "17"]].concat());
+        assert_eq!((all.code, all.errors.as_str()), (0, ""), "{arguments:?}");
+        assert!(all.output.contains("00000000"), "{}", all.output);
+    }
+    for command in ["equations", "base"] {
+        let exact = run(&[command, file, "--format", "json"]);
+        assert_eq!((exact.code, exact.errors.as_str()), (0, ""), "{command}");
+        assert!(exact.output.contains("00000000"), "{}", exact.output);
+        let found = complaint(2, &[command, file, "--format", "json", "--digits", "4"], "");
+        assert!(found.contains("--digits has no effect on JSON"), "{found}");
+    }
+    let document = output(&["document", file], "");
+    let said = "Decimals of equations and poses are rounded to 10 significant digits.";
+    assert!(document.contains(said) && !document.contains("00000"), "{document}");
+    assert!(document.contains("0.417"), "{document}");
+    let page = output(&["report", file, "--without-compiler"], "");
+    assert!(page.contains("Decimals are rounded to 10 significant digits."));
+    assert!(
+        !output(&["report", &robot("planar_2r"), "--without-compiler"], "")
+            .contains("rounded to 10")
+    );
+}
+
+#[test]
+fn a_long_document_names_shorter_forms() {
+    let done = run(&["document", &robot("iiwa")]);
+    let note = done.errors.lines().find(|line| line.starts_with("note: the document has "));
+    assert!(note.unwrap().ends_with(" equations; --form compact or recursive has fewer"));
+    let short = run(&["document", &robot("iiwa"), "--form", "compact"]);
+    assert!(!short.errors.contains("the document has"), "{}", short.errors);
 }
 
 #[test]
@@ -255,7 +309,7 @@ fn no_number_is_a_quotient_of_long_ones_and_constants_are_a_table() {
     assert!(!shown.contains("k_{1} &=") && !shown.contains("k_1 &="), "{shown}");
     let recursive = output(&["document", &robot("trttr1"), "--form", "recursive"], "");
     assert!(!recursive.contains("Constants."), "zeros of vectors are no constants");
-    let shown = output(&["equations", &robot("panda"), "--form", "compact"], "");
+    let shown = rounded_output(&["equations", &robot("panda"), "--form", "compact"]);
     let quotient = |line: &str| line.contains('/');
     assert!(!shown.lines().any(quotient), "{shown}");
 }
@@ -396,7 +450,7 @@ fn compact_equations_are_those_of_mechanics() {
     assert!(!shown.contains("Q4 = x_") && shown.contains("sin(q2)*Q4"), "{shown}");
     // Roots of numbers belong to the coefficient.
     let arguments = ["equations", &robot("panda"), "--form", "recursive", "--format", "latex"];
-    let shown = output(&arguments, "");
+    let shown = rounded_output(&arguments);
     assert!(
         shown.contains(r"\frac{\sqrt{2}}{2} F_x") && !shown.contains(r"F_x \sqrt{2}"),
         "{shown}"

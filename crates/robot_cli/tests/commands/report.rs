@@ -21,6 +21,20 @@ fn without_a_compiler_the_page_says_so() {
 }
 
 #[test]
+fn base_parameters_of_a_page_are_in_the_frames_that_are_asked_for() {
+    let file = robot("planar_2r");
+    let page = |frames: &str| {
+        output(&["report", &file, "--without-compiler", "--base-frames", frames], "")
+    };
+    let [own, other] = ["file", "denavit_hartenberg"].map(page);
+    // The moment of inertia about the first joint axis: ZZ in the file's frames, a second moment in the others.
+    let has = |page: &str, name: &str| page.contains(&format!("id=\"regrouped-{name}\""));
+    assert!(has(&own, "ZZR-1") && !has(&own, "SYYR-1"));
+    assert!(has(&other, "SYYR-1") && !has(&other, "ZZR-1"));
+    assert_eq!(own, output(&["report", &file, "--without-compiler"], ""));
+}
+
+#[test]
 fn there_is_no_page_about_a_file_that_is_wrong() {
     assert!(complaint(1, &["report", "none.toml"], "").contains("there is no such file"));
 }

@@ -68,6 +68,74 @@ pub(super) fn operations(terms: &[ArrangedTerm<'_>]) -> usize {
     terms.len().saturating_sub(1) + terms.iter().map(term).sum::<usize>()
 }
 
+/// Sums of more terms are left as they are.
+const MAX_FACTORED: usize = 200;
+
+/// A sum in which two terms that differ in one factor alone are one term, `l_4 x_2 + x_2 q_4` is `(l_4 + q_4) x_2`: one product
+/// less, and no symbol more.
+pub(super) fn factored<'h>(terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
+    let inside = |(factor, exponent): Power<'h>| match factor {
+        ArrangedFactor::Sum(terms) => (ArrangedFactor::Sum(factored(terms, order)), exponent),
+        atom => (atom, exponent),
+    };
+    let one = |term: ArrangedTerm<'h>| ArrangedTerm {
+        factors: term.factors.into_iter().map(inside).collect(),
+        ..term
+    };
+    let mut terms: Terms<'h> = terms.into_iter().map(one).collect();
+    if terms.len() > MAX_FACTORED {
+        return terms;
+    }
+    while let Some((first, second)) = alike(&terms) {
+        let other = terms.remove(second);
+        let Some(term) = terms.get_mut(first) else { break };
+        *term = joined(term, &other, order);
+    }
+    sorted(terms, order)
+}
+
+/// The two terms that differ in one factor alone and have most factors in common.
+fn alike(terms: &[ArrangedTerm<'_>]) -> Option<(usize, usize)> {
+    let mut best: Option<(usize, usize, usize)> = None;
+    for (first, one) in terms.iter().enumerate() {
+        for (second, other) in terms.iter().enumerate().skip(first + 1) {
+            let count = one.factors.len();
+            let common = one.factors.iter().filter(|factor| other.factors.contains(factor)).count();
+            let differ_in_one = count == other.factors.len() && common + 1 == count && common > 0;
+            if differ_in_one
+                && one.coefficient == other.coefficient
+                && best.is_none_or(|(most, ..)| common > most)
+            {
+                best = Some((common, first, second));
+            }
+        }
+    }
+    best.map(|(_, first, second)| (first, second))
+}
+
+/// The sum of two terms that differ in one factor alone.
+fn joined<'h>(
+    one: &ArrangedTerm<'h>,
+    other: &ArrangedTerm<'h>,
+    order: &Order<'_>,
+) -> ArrangedTerm<'h> {
+    let own = |term: &ArrangedTerm<'h>, than: &ArrangedTerm<'h>| {
+        let rest = term.factors.iter().filter(|factor| !than.factors.contains(factor));
+        let terms = rest.flat_map(|(factor, exponent)| match factor {
+            ArrangedFactor::Sum(terms) if *exponent == 1 => terms.clone(),
+            _ => vec![of_factors(vec![(factor.clone(), *exponent)])],
+        });
+        let terms: Terms<'h> = terms.collect();
+        if term.negative { negated(terms) } else { terms }
+    };
+    let sum = sorted(merged(own(one, other), own(other, one)), order);
+    let common = one.factors.iter().filter(|factor| other.factors.contains(factor));
+    let mut term = ArrangedTerm::product(&sum, common.cloned().collect());
+    term.coefficient = &term.coefficient * &one.coefficient;
+    term.factors.sort_by_key(|(factor, _)| rank(factor, order));
+    term
+}
+
 fn of_factors(factors: Vec<Power<'_>>) -> ArrangedTerm<'_> {
     ArrangedTerm { negative: false, coefficient: Number::integer(1), factors }
 }
@@ -192,7 +260,7 @@ mod tests {
                 let graph = Graph::new();
                 let formula = robot_symbolic::Formula::parse_with_dots(&equation.text).unwrap();
                 let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
-                let terms = terms(expr, &order);
+                let terms = factored(terms(expr, &order), &order);
                 let place = format!("{name}: {} = {}", equation.name, equation.text);
                 assert!(operations(&terms) <= operations_of(expr), "{place}");
                 let value = |symbol| 0.3 + f64::from(graph.symbol_name(symbol).len() as u32) / 7.0;
@@ -200,6 +268,34 @@ mod tests {
                 let (before, after) = (expr.evaluate(value), arranged.evaluate(value));
                 assert!((before - after).abs() <= 1e-12 * before.abs().max(1.0), "{place}");
             }
+        }
+    }
+
+    #[test]
+    fn terms_that_differ_in_one_factor_are_one() {
+        let robot = robot();
+        let order = Order::new(&robot);
+        for (given, expected) in [
+            ("l1*qd1 + qd1*q2", "(l1 + q2)*qd1"),
+            ("m1*qdd1 + m1*qdd2 - m1*qd1", "-m1*(qd1 - qdd1 - qdd2)"),
+            ("2*l1*qd1*qd2 - 2*r1*qd1*qd2 + l1*r1", "l1*r1 + 2*(l1 - r1)*qd1*qd2"),
+            ("-l1*qd1 - r1*qd1", "-(l1 + r1)*qd1"),
+            ("r1*qd1 + (l1 + q2)*qd1 + 1", "(l1 + r1 + q2)*qd1 + 1"),
+            ("2*l1*qd1 + r1*qd1", "2*l1*qd1 + r1*qd1"),
+            ("l1*qd1 + r1*qd2 + qd1", "l1*qd1 + r1*qd2 + qd1"),
+            ("(l1 + r1)*qd1 - l1*qd1", "r1*qd1"),
+            ("qd2*(l1*qd1 + q2*qd1 + 1)", "((l1 + q2)*qd1 + 1)*qd2"),
+        ] {
+            let graph = Graph::new();
+            let expr = graph.parse(given).unwrap();
+            let terms = factored(terms(expr, &order), &order);
+            assert_eq!(arranged_text(&terms).unwrap(), expected, "{given}");
+            let value = robot_symbolic::print::arranged_value(&terms, &graph);
+            let zero = robot_symbolic::Polynomial::of(
+                value - expr,
+                &robot_symbolic::PolynomialOptions::default(),
+            );
+            assert!(zero.unwrap().is_zero(), "{given}");
         }
     }
 

@@ -28,21 +28,21 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         quantity.value = *value;
     }
     let target = Graph::new();
-    let mut list = Definitions::new(&target, &values);
+    let mut list = Definitions::new(&target, &values, writer.options.digits);
     list.is_economical = true;
     list.own_names(writer, &quantities);
     let mut groups = list.define(writer)?;
     let mut equations: Vec<Equation> = vec![];
     for quantity in &quantities {
         let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
-        equations.push(match list.own_equation(quantity.symbol, &left) {
+        equations.push(match list.own_equation(quantity.symbol) {
             Some(equation) => equation,
             None => tidy(writer, name, left, list.named.rewritten(quantity.value))?,
         });
     }
     let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
     let symbols: Vec<Symbol> = quantities.iter().map(|quantity| quantity.symbol).collect();
-    list.first_what_is_used(&symbols, &mut equations);
+    let equations = list.remaining(&symbols, equations);
     let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
     groups.push(Group { arrays, ..group });
     Ok(groups)
@@ -54,7 +54,7 @@ pub(super) fn definitions<'h>(
     roots: &[Expr<'_>],
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
-    let mut list = Definitions::new(target, roots);
+    let mut list = Definitions::new(target, roots, writer.options.digits);
     let groups = list.define(writer)?;
     Ok((groups, list.named))
 }
@@ -77,7 +77,7 @@ pub(super) fn tidy(
 
 /// The terms of an expression as it is built, or collected if that is shorter and takes no more operations.
 pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<ArrangedTerm<'h>> {
-    let built = arranged::terms(value, &writer.order);
+    let built = arranged::factored(arranged::terms(value, &writer.order), &writer.order);
     let limits =
         PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
     // Sums of angles stay as they are.

@@ -2,7 +2,7 @@
 
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
-use robot_symbolic::{Expr, Graph, Id, walk};
+use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::compact::{moving, short_terms, tidy};
@@ -14,6 +14,9 @@ use crate::math::{Math, Script};
 /// Letters for combinations of parameters, and for expressions of the state.
 const PARAMETER_LETTERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
 const STATE_LETTERS: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
+
+/// The title of joint torques before definitions that use them.
+const TORQUES: &str = "Joint torques in these expressions";
 
 /// What several equations have in common, with names.
 pub(super) struct Definitions<'g, 'h> {
@@ -29,49 +32,75 @@ pub(super) struct Definitions<'g, 'h> {
     pending: Vec<Expr<'g>>,
     /// The quantities that are parts of others.
     own: Vec<Own<'g>>,
+    /// The places of those that are defined, in order.
+    defined: Vec<usize>,
 }
 
 /// A quantity that is known by its own name.
 struct Own<'g> {
     value: Expr<'g>,
+    /// The value, but for its sign.
+    part: Expr<'g>,
     symbol: Symbol,
     name: String,
     look: Math,
     /// Its equation, once it is defined.
-    right: Option<Equation>,
+    equation: Option<Equation>,
+    /// Whether the equation stands before definitions that use it.
+    is_placed: bool,
 }
 
 /// The definitions with one letter.
 struct Section {
     letter: &'static str,
+    title: &'static str,
+    /// How many there are.
+    count: usize,
+    /// The last ones.
     equations: Vec<Equation>,
+    /// Those before, and joint torques that the last ones use.
+    groups: Vec<Group>,
+}
+
+impl Section {
+    fn close(&mut self) {
+        let equations = std::mem::take(&mut self.equations);
+        if !equations.is_empty() {
+            self.groups.push(Group::of_definitions(self.title, equations));
+        }
+    }
 }
 
 impl<'g, 'h> Definitions<'g, 'h> {
-    /// What the roots have in common, with names in another graph.
-    pub(super) fn new(target: &'h Graph, roots: &[Expr<'g>]) -> Definitions<'g, 'h> {
+    /// What the roots have in common, with names in another graph; numbers are printed with so many digits.
+    pub(super) fn new(
+        target: &'h Graph,
+        roots: &[Expr<'g>],
+        digits: Option<usize>,
+    ) -> Definitions<'g, 'h> {
         Definitions {
             named: Named::new(target),
             is_economical: false,
             roots: roots.to_vec(),
-            worthy: worth_naming(roots),
+            worthy: worth_naming(roots, digits),
             moving: moving(roots),
             pending: vec![],
             own: vec![],
+            defined: vec![],
         }
     }
 
-    /// Joint torques that other quantities contain, but no other definition, are known by their own names: `Q2`, not
-    /// `x_1` with `Q2 = x_1`.
+    /// Joint torques that other quantities or definitions contain are known by their own names: `Q2`, not `x_1` with
+    /// `Q2 = x_1`.
     pub(super) fn own_names(&mut self, writer: &Writer<'_, '_>, quantities: &[Quantity<'g>]) {
         for quantity in quantities {
             let (value, symbol) = (quantity.value, quantity.symbol);
-            let has = |other: &Worthy<'g>| {
-                other.expr != value && walk::reachable(&[other.expr]).contains(&value)
-            };
-            let is_worthy = self.worthy.iter().any(|one| one.expr == value);
-            let is_torque = symbol.kind == Kind::GeneralizedForce;
-            if !is_torque || !is_worthy || self.worthy.iter().any(has) {
+            let mut part = value;
+            while let View::Neg(inside) = part.view() {
+                part = inside;
+            }
+            let is_worthy = self.worthy.iter().any(|one| one.expr == part);
+            if symbol.kind != Kind::GeneralizedForce || !is_worthy {
                 continue;
             }
             let name = format!("{}{}", writer.options.letters.torque(), symbol.number);
@@ -82,29 +111,41 @@ impl<'g, 'h> Definitions<'g, 'h> {
                 }
                 other => other,
             };
-            let is_new = self.own.iter().all(|own| own.value != value);
+            let is_new = self.own.iter().all(|own| own.part != part);
             if is_new && writer.symbols.is_free(&name, &look) {
-                self.own.push(Own { value, symbol, name, look, right: None });
+                let (equation, is_placed) = (None, false);
+                self.own.push(Own { value, part, symbol, name, look, equation, is_placed });
             }
         }
     }
 
     /// The equation of a quantity that is known by its own name.
-    pub(super) fn own_equation(&self, symbol: Symbol, left: &Math) -> Option<Equation> {
-        let own = self.own.iter().find(|own| own.symbol == symbol)?;
-        let Equation { text, right, .. } = own.right.clone()?;
-        Some(Equation { name: symbol.to_string(), text, left: left.clone(), right })
+    pub(super) fn own_equation(&self, symbol: Symbol) -> Option<Equation> {
+        self.own.iter().find(|own| own.symbol == symbol)?.equation.clone()
     }
 
-    /// Puts joint torques that others contain before these.
-    pub(super) fn first_what_is_used(&self, symbols: &[Symbol], equations: &mut [Equation]) {
-        let is_torque = |symbol: &&Symbol| symbol.kind == Kind::GeneralizedForce;
-        let Some(start) = symbols.iter().position(|symbol| is_torque(&symbol)) else { return };
-        let count = symbols.iter().skip(start).take_while(is_torque).count();
-        let names: Vec<String> = self.own.iter().map(|own| own.symbol.to_string()).collect();
-        if let Some(torques) = equations.get_mut(start..start + count) {
-            torques.sort_by_key(|equation| !names.contains(&equation.name));
+    /// The equations of quantities without those that stand before definitions, and with joint torques before those that
+    /// contain them.
+    pub(super) fn remaining(&self, symbols: &[Symbol], equations: Vec<Equation>) -> Vec<Equation> {
+        let own = |symbol: Symbol| self.own.iter().position(|own| own.symbol == symbol);
+        let all = symbols.iter().copied().zip(equations);
+        let is_placed = |symbol| own(symbol).and_then(|place| self.own.get(place));
+        let (torques, others): (Vec<_>, Vec<_>) = all
+            .filter(|(symbol, _)| !is_placed(*symbol).is_some_and(|own| own.is_placed))
+            .partition(|(symbol, _)| symbol.kind == Kind::GeneralizedForce);
+        let order = |symbol| {
+            let place =
+                own(symbol).and_then(|place| self.defined.iter().position(|one| *one == place));
+            place.unwrap_or(usize::MAX)
+        };
+        let mut torques = torques;
+        torques.sort_by_key(|(symbol, _)| order(*symbol));
+        let is_torque = |symbol: &Symbol| symbol.kind == Kind::GeneralizedForce;
+        let (mut first, mut last) = (torques, others);
+        if !symbols.first().is_some_and(is_torque) {
+            std::mem::swap(&mut first, &mut last);
         }
+        first.into_iter().chain(last).map(|(_, equation)| equation).collect()
     }
 
     /// The groups of definitions.
@@ -115,7 +156,8 @@ impl<'g, 'h> Definitions<'g, 'h> {
             (STATE_LETTERS, true, "Expressions of the state"),
         ] {
             let letter = writer.symbols.free_letter(&letters);
-            let mut section = Section { letter, equations: vec![] };
+            let mut section =
+                Section { letter, title, count: 0, equations: vec![], groups: vec![] };
             for one in self.worthy.clone() {
                 if self.moving.contains(&one.expr.id()) == of_state {
                     self.add(one, writer, &mut section)?;
@@ -129,7 +171,8 @@ impl<'g, 'h> Definitions<'g, 'h> {
             for rest in std::mem::take(&mut self.pending) {
                 self.emit(rest, writer, &mut section)?;
             }
-            groups.push(Group::of_definitions(title, section.equations));
+            section.close();
+            groups.extend(section.groups);
         }
         Ok(groups)
     }
@@ -186,21 +229,54 @@ impl<'g, 'h> Definitions<'g, 'h> {
         writer: &mut Writer<'_, '_>,
         section: &mut Section,
     ) -> Result<(), Error> {
-        let value = self.named.rewritten(expr);
-        if let Some(place) = self.own.iter().position(|own| own.value == expr) {
-            let (name, look) = (self.own[place].name.clone(), self.own[place].look.clone());
-            self.own[place].right = Some(tidy(writer, name.clone(), look.clone(), value)?);
-            writer.define(&name, look)?;
-            self.named.name(expr, &name);
-            return Ok(());
+        if let Some(place) = self.own.iter().position(|own| own.part == expr) {
+            return self.emit_own(place, writer);
         }
-        let number = section.equations.len() + 1;
-        let name = shapes::indexed_name(section.letter, &[number]);
+        let value = self.named.rewritten(expr);
+        if self.uses_own(value) {
+            section.close();
+            section.groups.push(Group::of_quantities(TORQUES, String::new(), self.placed()));
+        }
+        section.count += 1;
+        let name = shapes::indexed_name(section.letter, &[section.count]);
         let letter = section.letter.chars().next().unwrap_or('x');
-        writer.define(&name, shapes::indexed(letter, &[number]))?;
+        writer.define(&name, shapes::indexed(letter, &[section.count]))?;
         let left = writer.symbols.look(&name);
         section.equations.push(tidy(writer, name.clone(), left, value)?);
         self.named.name(expr, &name);
         Ok(())
+    }
+
+    /// Defines a joint torque under its own name.
+    fn emit_own(&mut self, place: usize, writer: &mut Writer<'_, '_>) -> Result<(), Error> {
+        let Some(own) = self.own.get_mut(place) else { return Ok(()) };
+        let value = self.named.rewritten(own.value);
+        let left = writer.look(own.symbol);
+        own.equation = Some(tidy(writer, own.symbol.to_string(), left, value)?);
+        writer.define(&own.name, own.look.clone())?;
+        self.named.name(own.value, &own.name);
+        self.defined.push(place);
+        Ok(())
+    }
+
+    /// Whether an expression has the name of a joint torque that has no place yet.
+    fn uses_own(&self, value: Expr<'_>) -> bool {
+        let names = walk::symbols(&[value]);
+        let names: Vec<String> =
+            names.into_iter().map(|symbol| value.graph().symbol_name(symbol)).collect();
+        let defined = self.defined.iter().filter_map(|place| self.own.get(*place));
+        defined.filter(|own| !own.is_placed).any(|own| names.contains(&own.name))
+    }
+
+    /// The equations of the joint torques that are defined and have no place yet.
+    fn placed(&mut self) -> Vec<Equation> {
+        let mut equations = vec![];
+        for place in &self.defined {
+            if let Some(own) = self.own.get_mut(*place).filter(|own| !own.is_placed) {
+                own.is_placed = true;
+                equations.extend(own.equation.clone());
+            }
+        }
+        equations
     }
 }

@@ -40,10 +40,13 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     };
     for ((quantity, polynomial), in_paper) in quantities.iter().zip(of_quantities).zip(in_paper) {
         let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
-        equations.push(match in_paper {
-            Some(terms) => writer.of_terms(name, left, &terms)?,
-            None => writer.of_collected(name, left, polynomial)?,
-        });
+        let terms = in_paper.unwrap_or_else(|| writer.collected(polynomial));
+        let ordered = match writer.options.form {
+            Form::Expanded => writer.options.order.arranged(&name, &terms, writer.graph),
+            _ => None,
+        };
+        let terms = ordered.filter(|terms| writer.is_value(terms, polynomial)).unwrap_or(terms);
+        equations.push(writer.of_terms(name, left, &terms)?);
     }
     for (force, polynomial) in joints.into_iter().zip(of_joints) {
         forces.push(writer.of_collected(force.name, force.shape, polynomial)?);
@@ -52,6 +55,11 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         Form::Collected => (
             "Equations of motion, collected",
             "Common factors stand in front of brackets. Each equation is equal to its expanded form, term by term.",
+        ),
+        _ if !writer.options.order.is_empty() => (
+            "Equations of motion, expanded",
+            "Before each vector is the relation that it follows from. Terms are in the order of the published equations; even \
+             powers of sines are replaced by cosines, and like terms are merged.",
         ),
         _ if writer.options.paper => (
             "Equations of motion, expanded",

@@ -12,8 +12,10 @@ mod letters;
 mod loads;
 mod matrices;
 mod naming;
+mod options;
 pub(crate) mod paper;
 mod parts;
+mod published;
 mod recursive;
 mod references;
 mod regrouped;
@@ -33,111 +35,14 @@ use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
 use crate::error::Error;
-use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry, tidied, tidied_text};
+use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_text};
 use crate::math::Math;
 pub use letters::{InvalidLetters, Letters};
+pub use options::{EquationOptions, Form};
+pub use published::TermOrder;
 
 pub use arrays::{Array, Cell, Room, Written};
 pub use paper::Relation;
-
-/// The form of the equations.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Form {
-    /// Sums of products, like terms merged: the paper's.
-    #[default]
-    Expanded,
-    /// As people write: common factors in front of brackets, complete squares, sums of angles.
-    Collected,
-    /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Joint torques only.
-    Grouped,
-    /// The iterations link by link, each quantity by those before it. Joint torques only.
-    Recursive,
-    /// As the economical recursion has them, expressions that are used again under names.
-    Compact,
-    /// By base parameters, in which the joint torques are linear. Joint torques only.
-    Regrouped,
-}
-
-impl Form {
-    /// All forms.
-    pub const ALL: [Form; 6] = [
-        Form::Expanded,
-        Form::Collected,
-        Form::Grouped,
-        Form::Recursive,
-        Form::Compact,
-        Form::Regrouped,
-    ];
-
-    /// The name, as the command has it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Form::Expanded => "expanded",
-            Form::Collected => "collected",
-            Form::Grouped => "grouped",
-            Form::Recursive => "recursive",
-            Form::Compact => "compact",
-            Form::Regrouped => "regrouped",
-        }
-    }
-}
-
-/// Which equations, and how they are put.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EquationOptions {
-    /// The form.
-    pub form: Form,
-    /// The quantities, in the order in which they are wanted. The forms [`Form::Grouped`],
-    /// [`Form::Recursive`] and [`Form::Regrouped`] are about the joint torques whatever is chosen.
-    pub kinds: Vec<Kind>,
-    /// Whether the joint torques include friction, equations (4)-(5).
-    pub friction: bool,
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
-    /// for what the robot file says, or 10⁻⁹.
-    pub snap: Option<f64>,
-    /// The notation of sines and cosines.
-    pub trigonometry: Trigonometry,
-    /// Whether sines and cosines of sums of angles of parallel joints are written, in all forms but
-    /// [`Form::Recursive`]; `None` for all but [`Form::Expanded`].
-    pub angle_sums: Option<AngleSums>,
-    /// Whether the coefficients of the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out rather
-    /// than collected.
-    pub expand: bool,
-    /// Whether a coefficient of the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a rest, if
-    /// that is at most two thirds as long.
-    pub references: bool,
-    /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
-    pub christoffel: bool,
-    /// Whether quantities are in the order, the shape and under the signs of the paper: forces and moments in the joints
-    /// from the last link to the first, vectors with the number of their link below as well, Q with the index m, terms and
-    /// factors as the paper's relations yield them, masses in front of brackets, relations before what they yield.
-    pub paper: bool,
-    /// The letters of joint torques and of what the grouped form defines.
-    pub letters: Letters,
-    /// The most significant digits of decimals, but in [`Equation::text`], which is exact.
-    pub digits: Option<usize>,
-}
-
-/// The joint torques, expanded, without friction.
-impl Default for EquationOptions {
-    fn default() -> EquationOptions {
-        EquationOptions {
-            form: Form::Expanded,
-            kinds: vec![Kind::GeneralizedForce],
-            friction: false,
-            snap: None,
-            trigonometry: Trigonometry::Named,
-            angle_sums: None,
-            expand: false,
-            references: true,
-            christoffel: false,
-            paper: false,
-            letters: Letters::default(),
-            digits: None,
-        }
-    }
-}
 
 /// The equations of a robot in some form.
 #[derive(Clone, Debug)]
@@ -146,6 +51,8 @@ pub struct Equations {
     pub groups: Vec<Group>,
     /// The look of all symbols.
     pub symbols: SymbolTable,
+    /// Whether decimals were rounded to [`EquationOptions::digits`].
+    pub rounded: bool,
 }
 
 /// Equations that belong together.
@@ -182,15 +89,18 @@ pub struct Equation {
 }
 
 impl Group {
-    /// Writes the numbers of right sides as people do.
-    fn tidy(&mut self, digits: Option<usize>) {
+    /// Writes the numbers of right sides as people do; says whether any was rounded.
+    fn tidy(&mut self, digits: Option<usize>) -> bool {
+        let mut is_rounded = false;
         let cells = self.arrays.iter_mut().flatten().flat_map(Array::cells_mut);
         let written = cells.flat_map(|cell| [&mut cell.whole, &mut cell.parts]).flatten();
         let entries = written.map(|written| &mut written.math);
         let equations = self.equations.iter_mut().chain(&mut self.vector);
         for math in equations.map(|equation| &mut equation.right).chain(entries) {
+            is_rounded |= digits.is_some_and(|digits| has_longer(math, digits));
             *math = tidied(math, digits);
         }
+        is_rounded
     }
 
     /// Definitions of symbols that other equations use.
@@ -299,12 +209,13 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     }
     let mut groups: Vec<Group> =
         groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    let mut rounded = false;
     for group in &mut groups {
-        group.tidy(options.digits);
+        rounded |= group.tidy(options.digits);
         let own = group.equations.iter_mut().filter(|_| !group.definitions);
         own.chain(&mut group.vector).for_each(|equation| writer.name_torque(equation));
     }
-    Ok(Equations { groups, symbols: writer.symbols })
+    Ok(Equations { groups, symbols: writer.symbols, rounded })
 }
 
 /// The state that the forms have in common.

@@ -3,6 +3,8 @@
 use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::layout::tidied_text;
+
 /// Expressions of one graph that have names in another one.
 #[derive(Clone)]
 pub(super) struct Named<'h> {
@@ -50,10 +52,10 @@ pub(super) fn is_leaf(expr: Expr<'_>) -> bool {
     }
 }
 
-/// Whether a constant is long enough for a name.
-pub(super) fn is_long_constant(expr: Expr<'_>) -> bool {
-    matches!(expr.view(), View::Number(_))
-        && robot_symbolic::print::to_text(expr).is_ok_and(|text| text.len() > LONG_CONSTANT)
+/// Whether a constant is long enough for a name if it is printed with so many significant digits.
+pub(super) fn is_long_constant(expr: Expr<'_>, digits: Option<usize>) -> bool {
+    let shown = || robot_symbolic::print::to_text(expr).map(|text| tidied_text(&text, digits));
+    matches!(expr.view(), View::Number(_)) && shown().is_ok_and(|text| text.len() > LONG_CONSTANT)
 }
 
 /// An expression that deserves a name.
@@ -65,8 +67,9 @@ pub(super) struct Worthy<'g> {
 }
 
 /// The parts of `roots` that deserve a name, operands before results: those used in several
-/// places and long, and parts of what would be too long to print. Sines and cosines never are.
-pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Worthy<'g>> {
+/// places and long, and parts of what would be too long to print. Sines and cosines never are. Constants are long if they are
+/// so with that many significant digits.
+pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec<Worthy<'g>> {
     let all = walk::reachable(roots);
     let angles = angles(&all);
     let mut users: FxHashMap<Id, usize> = FxHashMap::default();
@@ -94,9 +97,10 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>]) -> Vec<Worthy<'g>> {
         // What is a quantity, and no part of another, has a name.
         let is_quantity = used == 1 && is_root(&expr);
         let is_negative = matches!(expr.view(), View::Neg(_));
-        let named = (long && !is_negative && !is_quantity) || is_long_constant(expr);
+        let is_constant = is_long_constant(expr, digits);
+        let named = (long && !is_negative && !is_quantity) || is_constant;
         if named {
-            let is_cut = used == 1 && !is_long_constant(expr);
+            let is_cut = used == 1 && !is_constant;
             worthy.push(Worthy { expr, is_cut });
         }
         sizes.insert(expr.id(), if named { 0 } else { size });

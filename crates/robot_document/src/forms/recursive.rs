@@ -71,7 +71,8 @@ fn link_values<'h>(
             link_values.push((format!("J{number}.{axes}"), shape, link.inertia.0[row][column]));
         }
     }
-    link_values.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value));
+    let digits = writer.options.digits;
+    link_values.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value, digits));
     let values: Vec<Expr<'_>> = link_values.iter().map(|(_, _, value)| *value).collect();
     let (mut groups, mut named) = definitions(writer, &values, target)?;
     let mut group = Group::of_definitions("Parameters of the links", vec![]);

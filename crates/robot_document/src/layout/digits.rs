@@ -5,6 +5,10 @@ use robot_symbolic::print::exact_text;
 
 use super::math::{Math, Script};
 
+/// The significant digits of decimals for readers: many more than any parameter is known to, and none of the noise of
+/// doubles such as 1.1550000000000002.
+pub const DIGITS: usize = 10;
+
 /// Quotients of more digits, above and below together, are printed as decimals.
 const MOST_DIGITS: usize = 8;
 /// Exact decimals of more digits are printed with those of the nearest double.
@@ -21,6 +25,21 @@ pub(crate) fn tidied(math: &Math, digits: Option<usize>) -> Math {
     // A rounded number is not a fraction.
     let simple = is_simple(math) && (digits.is_none() || tidy == *math);
     mapped(tidy, &|piece| fractions(piece, simple))
+}
+
+/// Whether a formula has decimals of more significant digits.
+pub(crate) fn has_longer(math: &Math, digits: usize) -> bool {
+    let longer = std::cell::Cell::new(false);
+    mapped(tidied(math, None), &|piece| {
+        if let Math::Number(text) = &piece
+            && text.contains('.')
+            && significant(text) > digits
+        {
+            longer.set(true);
+        }
+        piece
+    });
+    longer.get()
 }
 
 /// Text with its decimals and long quotients rounded to so many significant digits, or as they are but for quotients
@@ -92,7 +111,7 @@ fn plain(value: f64) -> String {
 /// A number to so many significant digits, or to those of a double if it has more; integers are as they are.
 fn short(number: &str, digits: Option<usize>) -> String {
     let (mantissa, exponent) = number.split_once('e').map_or((number, ""), |(m, e)| (m, e));
-    let significant = mantissa.trim_start_matches(['0', '.']).replace('.', "").len();
+    let significant = significant(mantissa);
     let Some((_, value)) = mantissa.split_once('.').zip(mantissa.parse::<f64>().ok()) else {
         return number.to_owned();
     };
@@ -102,6 +121,11 @@ fn short(number: &str, digits: Option<usize>) -> String {
         _ => mantissa.to_owned(),
     };
     if exponent.is_empty() { text } else { format!("{text}e{exponent}") }
+}
+
+/// The digits of a decimal without zeros before them.
+fn significant(mantissa: &str) -> usize {
+    mantissa.trim_start_matches(['0', '.']).replace('.', "").len()
 }
 
 /// A value to so many significant digits.
@@ -280,5 +304,11 @@ mod tests {
         let long = "745523852833173678489/559146513121000000000000*q1 + 2/3*q2";
         assert_eq!(tidied_text(long, None), "0.0013333246927927124*q1 + 2/3*q2");
         assert_eq!(tidied_text("F_l5.x = 1.23456e-7*a", Some(3)), "F_l5.x = 1.23e-7*a");
+        let noisy = read("1.1550000000000002 q").unwrap();
+        assert_eq!(formula(&tidied(&noisy, Some(10))).replace(' ', ""), "1.155q");
+        assert_eq!(formula(&tidied(&noisy, None)).replace(' ', ""), "1.1550000000000002q");
+        let longer = |text: &str| has_longer(&read(text).unwrap(), 4);
+        assert!(longer("0.00012345 q") && longer(r"\left(a + 12.345\right) q"));
+        assert!(!longer("0.0001234 q_{12345}") && !longer("123456 q + 1.234"));
     }
 }

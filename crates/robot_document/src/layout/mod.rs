@@ -15,7 +15,8 @@ mod tests;
 mod trigonometry;
 pub mod width;
 
-pub(crate) use digits::{tidied, tidied_text};
+pub use digits::DIGITS;
+pub(crate) use digits::{has_longer, tidied, tidied_text};
 pub(crate) use order::BRACKETS;
 pub use order::{Order, Rank};
 pub(crate) use order::{is_motion, is_rate};

@@ -72,8 +72,12 @@ pub fn document(
     let Some((_, first)) = parts.first() else {
         return Ok(Document { title, blocks });
     };
-    blocks.extend(tables::blocks(robot, &first.symbols, extras.figure)?);
-    blocks.extend(conventions(options, extras.snaps)?);
+    let (tables, has_rounded_poses) =
+        tables::blocks(robot, &first.symbols, options.digits, extras.figure)?;
+    blocks.extend(tables);
+    let is_rounded = has_rounded_poses || parts.iter().any(|(_, part)| part.rounded);
+    let rounded = options.digits.filter(|_| is_rounded);
+    blocks.extend(conventions(options, rounded, extras.snaps)?);
     for (form, part) in &parts {
         blocks.extend(sections::blocks(*form, part, options));
     }
@@ -94,16 +98,22 @@ fn heading(text: &str) -> Block {
 }
 
 /// The frame and sign conventions.
-fn conventions(options: &EquationOptions, snaps: &[Snap]) -> Result<Vec<Block>, Error> {
+fn conventions(
+    options: &EquationOptions,
+    rounded: Option<usize>,
+    snaps: &[Snap],
+) -> Result<Vec<Block>, Error> {
     let indexed = |letter: char| Math::Letter(letter).with_lower(Math::Letter('i'));
     let friction = match options.friction {
         true => "Joint friction is included.",
         false => "Joint friction is not included.",
     };
-    let rounded = match options.digits {
-        Some(1) => " Decimals in the equations are rounded to 1 significant digit.".to_owned(),
+    let rounded = match rounded {
+        Some(1) => {
+            " Decimals of equations and poses are rounded to 1 significant digit.".to_owned()
+        }
         Some(digits) => {
-            format!(" Decimals in the equations are rounded to {digits} significant digits.")
+            format!(" Decimals of equations and poses are rounded to {digits} significant digits.")
         }
         None => String::new(),
     };

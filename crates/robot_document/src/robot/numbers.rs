@@ -1,5 +1,7 @@
 //! Numbers in tables: short.
 
+use robot_symbolic::Rational;
+
 use crate::math::{Fence, Math};
 
 /// Constants of more bytes of text are rounded in tables.
@@ -10,15 +12,23 @@ pub(super) const fn is_long(text: &str) -> bool {
     text.len() > LONG
 }
 
+/// Whether a table has another value for a constant with that text, a rounded one.
+pub(super) fn is_cut(value: &Rational, text: &str) -> bool {
+    is_long(text) && Rational::from_decimal(&six(value.to_f64())).as_ref() != Some(value)
+}
+
 /// A number to six digits.
 pub(super) fn rounded(number: f64) -> Math {
+    signed(&six(number))
+}
+
+fn six(number: f64) -> String {
     let places = (5.0 - number.abs().log10().floor()).clamp(0.0, 12.0) as usize;
     let digits = format!("{number:.places$}");
-    let digits = match digits.contains('.') {
-        true => digits.trim_end_matches('0').trim_end_matches('.'),
-        false => &digits,
-    };
-    signed(digits)
+    match digits.contains('.') {
+        true => digits.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => digits,
+    }
 }
 
 /// The text of a number, a minus as the sign.
@@ -51,5 +61,7 @@ mod tests {
         let shown = [1.0 / 3.0, -1_234.567_891, 0.000_123_456_78, 1200.0, 2e7].map(rounded);
         let shown = shown.map(|math| formula(&math));
         assert_eq!(shown, ["0.333333", "-1234.57", "0.000123457", "1200", "20000000"]);
+        let cut = |text: &str| is_cut(&Rational::from_decimal(text).unwrap(), text);
+        assert!(cut("1.1550000000000002") && cut("-0.12345678") && !cut("0.00000123456"));
     }
 }

@@ -38,7 +38,15 @@ pub(super) fn blocks(
         head.truncate(2);
         rows.iter_mut().for_each(|row| row.truncate(2));
     }
-    let table = Table { caption: "Symbols, SI units.".to_owned(), head, rows, keys: 1 };
+    let is_rounded = rows::parameters(robot).any(|row| {
+        let value = row.parameter.value.as_ref().filter(|_| occurring.has(&row.parameter.name));
+        value.zip(row.value.as_ref()).is_some_and(|(value, text)| numbers::is_cut(value, text))
+    });
+    let caption = match is_rounded {
+        true => "Symbols, SI units; long values are rounded.",
+        false => "Symbols, SI units.",
+    };
+    let table = Table { caption: caption.to_owned(), head, rows, keys: 1 };
     vec![heading("Symbols"), Block::Table(table)]
 }
 

@@ -8,18 +8,21 @@ use super::{heading, numbers, paragraph};
 use crate::document::{Block, Cell, Inline, Table};
 use crate::error::Error;
 use crate::figure::Figure;
-use crate::layout::{SymbolTable, tidied};
+use crate::layout::{SymbolTable, has_longer, tidied};
 use crate::math::Math;
 use crate::robot::rows::{self, FrameRow, LinkRow};
 use crate::robot::words;
 
-/// The figure, and tables of the links, of their masses, and of the named frames.
+/// The figure, and tables of the links, of their masses, and of the named frames; and whether decimals of poses are rounded
+/// to `digits`.
 pub(super) fn blocks(
     robot: &Robot,
     symbols: &SymbolTable,
+    digits: Option<usize>,
     figure: Option<Figure>,
-) -> Result<Vec<Block>, Error> {
-    let formulas = Formulas { graph: Graph::new(), symbols };
+) -> Result<(Vec<Block>, bool), Error> {
+    let formulas =
+        Formulas { graph: Graph::new(), symbols, digits, rounded: std::cell::Cell::new(false) };
     let mut blocks = vec![heading("The robot")];
     blocks.extend(figure.map(Block::Figure));
     blocks.push(gravity(robot, &formulas)?);
@@ -31,18 +34,26 @@ pub(super) fn blocks(
     if !robot.frames.is_empty() {
         blocks.push(Block::Table(frames(robot, &formulas)?));
     }
-    Ok(blocks)
+    Ok((blocks, formulas.rounded.get()))
 }
 
 struct Formulas<'n> {
     graph: Graph,
     symbols: &'n SymbolTable,
+    /// The most significant digits of decimals.
+    digits: Option<usize>,
+    /// Whether one was rounded.
+    rounded: std::cell::Cell<bool>,
 }
 
 impl Formulas<'_> {
     fn math(&self, formula: &Formula) -> Result<Math, Error> {
         let value = formula.lower(&self.graph, &mut |name| self.graph.symbol(name));
-        Ok(tidied(&self.symbols.expression(value)?, None))
+        let math = self.symbols.expression(value)?;
+        if self.digits.is_some_and(|digits| has_longer(&math, digits)) {
+            self.rounded.set(true);
+        }
+        Ok(tidied(&math, self.digits))
     }
 
     fn vector(&self, formulas: &[Formula; 3]) -> Result<Cell, Error> {

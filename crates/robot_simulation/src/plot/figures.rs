@@ -21,12 +21,12 @@ pub fn motion_figure(
     let mut panels = by_unit(robot, "position", JointVariable::Position, &q);
     panels.extend(by_unit(robot, "velocity", JointVariable::Velocity, &qd));
     if motion.tau.iter().flatten().any(|tau| *tau != 0.0) {
-        panels.extend(by_unit(robot, "drive", JointVariable::Torque, &motion.tau));
+        panels.extend(by_unit(robot, "torque", JointVariable::Torque, &motion.tau));
     }
     let curve = |name: &str, values: &[f64]| Curve {
         name: name.to_owned(),
         values: values.to_vec(),
-        is_sum: name == "sum",
+        is_sum: name == "total",
     };
     panels.push(Panel {
         quantity: "energy".to_owned(),
@@ -34,7 +34,7 @@ pub fn motion_figure(
         curves: vec![
             curve("kinetic", &energies.kinetic),
             curve("potential", &energies.potential),
-            curve("sum", &energies.total),
+            curve("total", &energies.total),
         ],
     });
     if conserved {
@@ -57,7 +57,7 @@ pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) 
             is_sum: name == "total",
         };
         Panel {
-            quantity: JointVariable::Torque.symbol(index),
+            quantity: look(JointVariable::Torque, Some(index)),
             unit: JointVariable::Torque.unit(kind).to_owned(),
             curves: contributions.named().into_iter().map(curve).collect(),
         }
@@ -78,19 +78,46 @@ fn by_unit(
         let numbers = robot.coordinates.iter().enumerate();
         let numbers = numbers.filter(|(_, coordinate)| coordinate.kind == kind);
         let curve = |(index, _)| Curve {
-            name: variable.symbol(index),
+            name: look(variable, Some(index)),
             values: entries(samples, index),
             is_sum: false,
         };
         let curves: Vec<Curve> = numbers.map(curve).collect();
-        let quantity = format!("{quantity} {}", variable.name());
+        let quantity = format!("{quantity} {}", look(variable, None));
         let unit = variable.unit(kind).to_owned();
         (!curves.is_empty()).then_some(Panel { quantity, unit, curves })
     };
     [JointKind::Revolute, JointKind::Prismatic].into_iter().filter_map(panel).collect()
 }
 
+/// A variable as it is written, with the number of its coordinate below: `q̇₁`.
+fn look(variable: JointVariable, index: Option<usize>) -> String {
+    let letters = match variable {
+        JointVariable::Velocity => "q\u{307}",
+        JointVariable::Acceleration => "q\u{308}",
+        JointVariable::Torque => "τ",
+        other => other.name(),
+    };
+    let digits = index.map(|index| (index + 1).to_string()).unwrap_or_default();
+    let lowered = digits
+        .bytes()
+        .filter_map(|digit| char::from_u32(u32::from('₀') + u32::from(digit.saturating_sub(b'0'))));
+    letters.chars().chain(lowered).collect()
+}
+
 /// An entry of every sample.
 fn entries(samples: &[impl AsRef<[f64]>], index: usize) -> Vec<f64> {
     samples.iter().filter_map(|sample| sample.as_ref().get(index).copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn variables_have_their_signs() {
+        let all = [JointVariable::Position, JointVariable::Velocity, JointVariable::Torque];
+        assert_eq!(all.map(|variable| look(variable, Some(10))), ["q₁₁", "q\u{307}₁₁", "τ₁₁"]);
+        assert_eq!(look(JointVariable::Position, None), "q");
+    }
 }

@@ -181,6 +181,30 @@ impl Formula {
         Formula::sorted(self.products.iter().map(signed).collect(), is_late)
     }
 
+    /// The sum without a minus sign at its beginning, if brackets can take it: `(b - a) c` for `-(a - b) c`.
+    fn without_leading_minus(&self, early: usize) -> Option<Formula> {
+        if !self.products.first()?.coefficient.is_negative() {
+            return None;
+        }
+        let has_minus = |sum: &Formula| sum.products.iter().any(|it| it.coefficient.is_negative());
+        let place_in = |product: &Product| {
+            product.sums.iter().position(|(sum, exponent)| *exponent == 1 && has_minus(sum))
+        };
+        let (place, within) = self
+            .products
+            .iter()
+            .enumerate()
+            .find_map(|(place, product)| Some((place, place_in(product)?)))?;
+        let minus = Rational::integer(-1);
+        let mut formula = self.clone();
+        let product = formula.products.get_mut(place)?;
+        let (sum, _) = product.sums.get_mut(within)?;
+        *sum = Rc::new(sum.in_brackets(&minus, early));
+        product.coefficient = &product.coefficient * &minus;
+        formula.products[..=place].rotate_right(1);
+        Some(formula)
+    }
+
     /// Whether the sum reads better with its signs changed: most of them are minus.
     fn is_rather_negative(&self) -> bool {
         let is_negative = |product: &&Product| product.coefficient.is_negative();
@@ -221,7 +245,8 @@ impl Factoring {
 
     /// The shortest form that is found.
     pub(super) fn formula(&mut self, terms: &Terms) -> Formula {
-        (*self.best(terms, Place { depth: 0, brackets: MAX_BRACKETS })).clone()
+        let best = self.best(terms, Place { depth: 0, brackets: MAX_BRACKETS });
+        best.without_leading_minus(self.early).unwrap_or_else(|| (*best).clone())
     }
 
     fn best(&mut self, terms: &Terms, place: Place) -> Rc<Formula> {

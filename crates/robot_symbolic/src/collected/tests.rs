@@ -29,6 +29,8 @@ fn common_factors_leave_brackets() {
         ("a - b", "a - b"),
         ("-a*x - b*x", "-x*(a + b)"),
         ("2*a*b + 2*a*c", "2*a*(b + c)"),
+        ("k*c*d - k*a*b", "k*(c*d - a*b)"),
+        ("-k*a*b + k*c*d - a*x", "k*(c*d - a*b) - x*a"),
         ("0", "0"),
     ] {
         assert_eq!(collected(source, 0), expected, "{source}");

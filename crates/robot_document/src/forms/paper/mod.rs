@@ -28,12 +28,17 @@ impl<'g> Writer<'_, 'g> {
     ) -> Vec<Option<Vec<ArrangedTerm<'g>>>> {
         let found = self.paper_sums(quantities).unwrap_or_default();
         let proved = |(terms, polynomial): (Vec<ArrangedTerm<'g>>, &Polynomial<'g>)| {
-            let value = Polynomial::of(arranged_value(&terms, self.graph), &LIMITS).ok()?;
-            (value == *polynomial).then_some(terms)
+            self.is_value(&terms, polynomial).then_some(terms)
         };
         let mut all: Vec<_> = found.into_iter().zip(polynomials).map(proved).collect();
         all.resize(quantities.len(), None);
         all
+    }
+
+    /// Whether terms add up to a polynomial.
+    pub(super) fn is_value(&self, terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> bool {
+        let value = Polynomial::of(arranged_value(terms, self.graph), &LIMITS);
+        value.is_ok_and(|value| value == *polynomial)
     }
 
     fn paper_sums(

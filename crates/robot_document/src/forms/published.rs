@@ -1,0 +1,213 @@
+//! Terms in the order of a published text.
+
+use std::collections::BTreeMap;
+
+use robot_symbolic::formula::Step;
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
+use robot_symbolic::{Expr, Formula, Graph, Id};
+use rustc_hash::FxHashMap;
+
+/// The terms that a published text has for quantities, in its order, each with its factors in the text's order.
+///
+/// Derived terms that the text does not have, for it has a mistake, stand where it has the term that they resemble most.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TermOrder(BTreeMap<String, Vec<Formula>>);
+
+/// Atoms with their exponents, in the order of writing.
+type Product<'g> = Vec<(Expr<'g>, i32)>;
+
+/// Of one quantity no more pairs of terms are compared: that takes less than a second.
+const MAX_PAIRS: usize = 1_000_000;
+
+impl TermOrder {
+    /// Sets the terms of a quantity, such as `F_l5.x`.
+    pub fn insert(&mut self, quantity: &str, terms: Vec<Formula>) {
+        self.0.insert(quantity.to_owned(), terms);
+    }
+
+    /// Whether it has no quantity.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The terms of a quantity in the order of the text; `None` if the text does not have the quantity, or either has
+    /// brackets.
+    pub(super) fn arranged<'g>(
+        &self,
+        quantity: &str,
+        terms: &[ArrangedTerm<'g>],
+        graph: &'g Graph,
+    ) -> Option<Vec<ArrangedTerm<'g>>> {
+        let printed = self.0.get(quantity)?.iter().map(|term| product(term, graph));
+        let printed: Vec<Product<'g>> = printed.collect::<Option<_>>()?;
+        let of_atoms = |term: &ArrangedTerm<'g>| {
+            let factors = term.factors.iter();
+            factors.map(|(factor, exponent)| Some((factor.as_atom()?, *exponent))).collect()
+        };
+        let own: Vec<Product<'g>> = terms.iter().map(of_atoms).collect::<Option<_>>()?;
+        let places = places(&own, &printed);
+        let mut order: Vec<usize> = (0..own.len()).collect();
+        // The sort is stable: terms without a place follow in their own order.
+        order.sort_by_key(|index| places.get(*index).copied().flatten().unwrap_or(usize::MAX));
+        let one = |index: usize| {
+            let (term, factors) = (terms.get(index)?, own.get(index)?);
+            let like = places.get(index).copied().flatten().and_then(|place| printed.get(place));
+            let factors = match like {
+                Some(like) => ordered(factors, like),
+                None => factors.clone(),
+            };
+            let atom = |(atom, exponent)| (ArrangedFactor::Atom(atom), exponent);
+            Some(ArrangedTerm { factors: factors.into_iter().map(atom).collect(), ..term.clone() })
+        };
+        order.into_iter().map(one).collect()
+    }
+}
+
+/// The factors of a term without brackets, numbers left out.
+fn product<'g>(term: &Formula, graph: &'g Graph) -> Option<Product<'g>> {
+    let of = |atom: Expr<'g>| (Some(vec![(atom, 1)]), atom);
+    let (factors, _) = term.fold(|step: Step<'_, (Option<Product<'g>>, Expr<'g>)>| {
+        Some(match step {
+            Step::Number(value) => (Some(vec![]), graph.number(value.clone())),
+            Step::Pi => of(graph.pi()),
+            Step::Symbol(name, _) => of(graph.symbol(name)),
+            Step::Add((_, a), (_, b)) => (None, a + b),
+            Step::Sub((_, a), (_, b)) => (None, a - b),
+            Step::Mul((one, a), (other, b)) => (joined(one, other, 1), a * b),
+            Step::Div((one, a), (other, b)) => (joined(one, other, -1), a / b),
+            Step::Neg((factors, a)) => (factors, -a),
+            Step::Power((factors, a), exponent) => {
+                (joined(Some(vec![]), factors, exponent), a.powi(exponent))
+            }
+            Step::Call(function, (_, a)) => of(a.apply(function)),
+            Step::Tan((_, a)) => (Some(vec![(a.sin(), 1), (a.cos(), -1)]), a.sin() / a.cos()),
+        })
+    })?;
+    factors
+}
+
+/// The factors of a product with a power; equal ones at the place of the first.
+fn joined<'g>(
+    one: Option<Product<'g>>,
+    other: Option<Product<'g>>,
+    exponent: i32,
+) -> Option<Product<'g>> {
+    let (mut all, other) = (one?, other?);
+    for (atom, own) in other {
+        let own = own.checked_mul(exponent)?;
+        match all.iter_mut().find(|(known, _)| *known == atom) {
+            Some((_, known)) => *known = known.checked_add(own)?,
+            None => all.push((atom, own)),
+        }
+    }
+    Some(all)
+}
+
+/// For each term, the place of the printed term with the same factors, or else of the one that it resembles most of those that
+/// have no counterpart.
+fn places(own: &[Product<'_>], printed: &[Product<'_>]) -> Vec<Option<usize>> {
+    let mut free: FxHashMap<Vec<(Id, i32)>, Vec<usize>> = FxHashMap::default();
+    for (place, term) in printed.iter().enumerate().rev() {
+        free.entry(key(term)).or_default().push(place);
+    }
+    let mut places: Vec<Option<usize>> =
+        own.iter().map(|term| free.get_mut(&key(term)).and_then(Vec::pop)).collect();
+    let mut taken = vec![false; printed.len()];
+    for place in places.iter().flatten() {
+        if let Some(taken) = taken.get_mut(*place) {
+            *taken = true;
+        }
+    }
+    let wanting: Vec<usize> =
+        (0..own.len()).filter(|index| places.get(*index) == Some(&None)).collect();
+    let left: Vec<usize> =
+        (0..printed.len()).filter(|place| taken.get(*place) == Some(&false)).collect();
+    if wanting.len().saturating_mul(left.len()) > MAX_PAIRS {
+        return places;
+    }
+    let pairs = wanting.iter().flat_map(|index| left.iter().map(move |place| (*index, *place)));
+    let mut near: Vec<(u32, usize, usize)> = pairs
+        .filter_map(|(index, place)| {
+            Some((distance(own.get(index)?, printed.get(place)?), index, place))
+        })
+        .collect();
+    near.sort_unstable();
+    for (_, index, place) in near {
+        if let (Some(own @ None), Some(taken @ false)) =
+            (places.get_mut(index), taken.get_mut(place))
+        {
+            (*own, *taken) = (Some(place), true);
+        }
+    }
+    places
+}
+
+fn key(term: &Product<'_>) -> Vec<(Id, i32)> {
+    let mut key: Vec<(Id, i32)> =
+        term.iter().map(|(atom, exponent)| (atom.id(), *exponent)).collect();
+    key.sort_unstable();
+    key
+}
+
+fn exponent(term: &Product<'_>, atom: Expr<'_>) -> i32 {
+    term.iter().find(|(known, _)| known.id() == atom.id()).map_or(0, |(_, exponent)| *exponent)
+}
+
+/// The number of factors that differ, powers counted as often as they say.
+fn distance(one: &Product<'_>, other: &Product<'_>) -> u32 {
+    let beyond = |(atom, own): &(Expr<'_>, i32)| own.abs_diff(exponent(other, *atom));
+    let missing = other.iter().filter(|(atom, _)| exponent(one, *atom) == 0);
+    one.iter().map(beyond).chain(missing.map(|(_, own)| own.unsigned_abs())).sum()
+}
+
+/// The factors of a term in the order of another; those that the other does not have in the places of those that it has alone.
+fn ordered<'g>(term: &Product<'g>, like: &Product<'g>) -> Product<'g> {
+    let mut others = term.iter().filter(|(atom, _)| exponent(like, *atom) == 0);
+    let mut all: Product<'g> = vec![];
+    for (atom, _) in like {
+        match term.iter().find(|(known, _)| known == atom) {
+            Some(own) => all.push(*own),
+            None => all.extend(others.next()),
+        }
+    }
+    all.extend(others);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_symbolic::print::arranged_text;
+    use robot_symbolic::{Polynomial, PolynomialOptions};
+
+    use super::*;
+
+    /// The sum in the order of the terms.
+    fn shown(sum: &str, published: &[&str]) -> Option<String> {
+        let graph = Graph::new();
+        let sum = graph.parse(sum).unwrap();
+        let terms = Polynomial::of(sum, &PolynomialOptions::default()).unwrap();
+        let mut order = TermOrder::default();
+        order.insert("Q1", published.iter().map(|term| Formula::parse(term).unwrap()).collect());
+        let arranged = order.arranged("Q1", &terms.arranged(|atom| atom.id()), &graph)?;
+        Some(arranged_text(&arranged).unwrap())
+    }
+
+    #[test]
+    fn terms_and_factors_have_the_order_of_the_text() {
+        let of = |published: &[&str]| shown("m*g*cos(q) + 2*m*l^2*v - f", published);
+        assert_eq!(of(&["-f", "l^2*2*v*m", "cos(q)*m*g"]).unwrap(), "-f + 2*l^2*v*m + cos(q)*m*g");
+        // A sum that is printed apart is merged at the place of its first part.
+        assert_eq!(of(&["l*v*l*m", "-f", "m*l^2*v"]).unwrap(), "2*l^2*v*m - f + m*g*cos(q)");
+        assert_eq!(of(&["f*(m + g)"]), None);
+        assert_eq!(TermOrder::default().arranged("Q1", &[], &Graph::new()), None);
+    }
+
+    #[test]
+    fn what_the_text_has_wrong_stands_where_it_has_it() {
+        let of = |published: &[&str]| shown("m*g*cos(q) + 2*m*l^2*v - f", published);
+        // A wrong index and a wrong sign; a missing term is at the end.
+        assert_eq!(of(&["v*l^2*k", "f"]).unwrap(), "2*v*l^2*m - f + m*g*cos(q)");
+        assert_eq!(of(&["cos(p)*m*g", "f", "l*v"]).unwrap(), "cos(q)*m*g - f + 2*l^2*v*m");
+    }
+}
