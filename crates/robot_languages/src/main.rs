@@ -72,8 +72,8 @@ fn chosen(names: &[String]) -> Vec<Box<dyn Runner>> {
     chosen
 }
 
-/// The farthest that sines of a library put a result from the interpreter's, in units in the last place of the largest
-/// output.
+/// The farthest that sines of a library put a result from the interpreter's, in units in the last place of the function's
+/// largest output over all states.
 const STANDARD: f64 = 4.0;
 
 /// Compares with the interpreter: bits in double precision, or units in the last place. In single precision, which the
@@ -85,8 +85,8 @@ struct Comparison {
     reference: BTreeMap<String, String>,
     compared: usize,
     different: usize,
-    /// The farthest seen, in units in the last place, and the function.
-    farthest: (f64, String),
+    /// The farthest seen, and the functions.
+    farthest: [(f64, String); 2],
 }
 
 impl Comparison {
@@ -95,7 +95,7 @@ impl Comparison {
             Scalar::F64 => committed()?,
             Scalar::F32 => BTreeMap::new(),
         };
-        let farthest = (0.0, String::new());
+        let farthest = Default::default();
         Ok(Comparison { scalar, trigonometry, reference, compared: 0, different: 0, farthest })
     }
 
@@ -108,7 +108,7 @@ impl Comparison {
     /// Runs a runner on all robots; the number of functions that differ.
     fn run(&mut self, runner: &dyn Runner, works: &[Work]) -> Result<usize, String> {
         let start = Instant::now();
-        (self.compared, self.different, self.farthest) = (0, 0, (0.0, String::new()));
+        (self.compared, self.different, self.farthest) = Default::default();
         let bound = match self.trigonometry {
             Trigonometry::Standard => Some(STANDARD),
             Trigonometry::Polynomial => runner.bound(),
@@ -121,8 +121,9 @@ impl Comparison {
         }
         let how = match (bound, &self.farthest) {
             (None, _) => "with other bits".to_owned(),
-            (Some(bound), (far, name)) => format!(
-                "farther than {bound} units in the last place of the largest output, {far:.1} at most ({name})"
+            (Some(bound), [(far, name), (of_state, other)]) => format!(
+                "farther than {bound} ulp of the function's largest output; at most {far:.1} ({name}), and {of_state:.1} of the \
+                 state's largest ({other})"
             ),
         };
         println!(
@@ -148,11 +149,13 @@ impl Comparison {
                 }
                 Some(bound) => {
                     let any = runner.bound().is_some();
-                    let far = ulps::largest(calls, &results, self.scalar, any);
-                    if far > self.farthest.0 {
-                        self.farthest = (far, name.clone());
+                    let far = ulps::distances(calls, &results, self.scalar, any);
+                    for (known, far) in self.farthest.iter_mut().zip([far.of_function, far.of_state]) {
+                        if far > known.0 {
+                            *known = (far, name.clone());
+                        }
                     }
-                    far > bound
+                    far.of_function > bound
                 }
             };
             if differs {

@@ -15,26 +15,41 @@ pub fn unit(size: f64, scalar: Scalar) -> f64 {
     f64::from_bits(exponent << 52) / f64::from(2.0_f32).powi(bits)
 }
 
-/// The largest distance of results from those of the interpreter, over all states: each in units of the state's largest
-/// output. Where the interpreter gives no finite number, the result must be none; if `any`, it may be any.
+/// The largest distances of results from those of the interpreter.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Distances {
+    /// In units of the function's largest output over all states.
+    pub of_function: f64,
+    /// In units of the largest output of the state at which it is.
+    pub of_state: f64,
+}
+
+/// The distances of a function's results. Where the interpreter gives no finite number, the result must be none; if `any`,
+/// it may be any.
 #[must_use]
-pub fn largest(calls: &Calls, results: &[f64], scalar: Scalar, any: bool) -> f64 {
+pub fn distances(calls: &Calls, results: &[f64], scalar: Scalar, any: bool) -> Distances {
     let width = calls.given.max(1);
-    let states = calls.expected.chunks(width).zip(results.chunks(width));
-    let distances = states.map(|(expected, found)| {
-        let sizes = expected.iter().map(|value| value.abs()).filter(|size| size.is_finite());
-        let unit = unit(sizes.fold(0.0, f64::max), scalar);
-        let distances = expected.iter().zip(found).map(|(expected, found)| {
-            match (expected.is_finite(), found.is_finite()) {
-                (true, true) => (expected - found).abs() / unit,
-                (false, _) if any => 0.0,
-                (false, false) => 0.0,
+    let largest = unit(size(&calls.expected), scalar);
+    let mut found = Distances::default();
+    for (expected, results) in calls.expected.chunks(width).zip(results.chunks(width)) {
+        let unit = unit(size(expected), scalar);
+        for (expected, result) in expected.iter().zip(results) {
+            let distance = match (expected.is_finite(), result.is_finite()) {
+                (true, true) => (expected - result).abs(),
+                (false, finite) if any || !finite => 0.0,
                 _ => f64::INFINITY,
-            }
-        });
-        distances.fold(0.0, f64::max)
-    });
-    distances.fold(0.0, f64::max)
+            };
+            found.of_state = found.of_state.max(distance / unit);
+            found.of_function = found.of_function.max(distance / largest);
+        }
+    }
+    found
+}
+
+/// The largest finite size.
+fn size(values: &[f64]) -> f64 {
+    let sizes = values.iter().map(|value| value.abs()).filter(|size| size.is_finite());
+    sizes.fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -52,10 +67,13 @@ mod tests {
             inputs: vec![],
             expected: vec![1.5, 0.25, 8.0, f64::NAN],
         };
-        let far = [1.5, 0.25 + 3.0 * f64::EPSILON, 8.0, f64::NAN];
-        assert_eq!(largest(&calls, &far, Scalar::F64, false), 3.0);
+        let far = [1.5, 0.25 + 4.0 * f64::EPSILON, 8.0, f64::NAN];
+        let found = distances(&calls, &far, Scalar::F64, false);
+        assert_eq!(found, Distances { of_function: 0.5, of_state: 4.0 });
         let number = [1.5, 0.25, 8.0, 1.0];
-        assert_eq!(largest(&calls, &number, Scalar::F64, false), f64::INFINITY);
-        assert_eq!(largest(&calls, &number, Scalar::F64, true), 0.0);
+        let found = distances(&calls, &number, Scalar::F64, false);
+        assert_eq!(found.of_function, f64::INFINITY);
+        let found = distances(&calls, &number, Scalar::F64, true);
+        assert_eq!(found, Distances::default());
     }
 }
