@@ -182,6 +182,12 @@ pub enum Error {
         /// The language.
         language: &'static str,
     },
+    /// Double precision, which a language does not have.
+    #[error("{language} computes in f32 alone; give the option `scalar` the value `f32`")]
+    Single {
+        /// The language.
+        language: &'static str,
+    },
     /// Sines that a language does not have.
     #[error("{language} has no sines of a standard library; leave out the option `trigonometry`")]
     Trigonometry {

@@ -1,6 +1,7 @@
-//! `cargo run --release -p robot_languages [-- [--write] [--robot=NAME]… [RUNNER…]]`: runs every language whose tools
-//! are installed on all robots and says which are not; `--write` writes the digests anew, from the interpreter. Names of
-//! robots and runners run those alone.
+//! `cargo run --release -p robot_languages [-- [--write | --standard] [--robot=NAME]… [RUNNER…]]`: runs every language
+//! whose tools are installed on all robots and says which are not; `--standard` takes sines and cosines of the languages'
+//! libraries, in double precision. `--write` writes the digests anew, from the interpreter. Names of robots and runners run
+//! those alone.
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -9,10 +10,11 @@ use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::time::Instant;
 
-use robot_codegen::Scalar;
+use robot_codegen::{Scalar, Trigonometry};
 use robot_languages::digests::{self, committed, digest};
 use robot_languages::files;
 use robot_languages::runners::{self, Found, Runner};
+use robot_languages::ulps;
 use robot_languages::work::{Work, robots};
 
 fn main() -> ExitCode {
@@ -35,60 +37,135 @@ fn run() -> Result<usize, String> {
         return write();
     }
     let only: Vec<&str> = flags.iter().filter_map(|flag| flag.strip_prefix("--robot=")).collect();
-    let mut runners = vec![];
-    for runner in runners::all() {
-        let is_chosen = names.is_empty() || names.iter().any(|name| name == runner.name());
-        match runner.missing().filter(|_| is_chosen) {
-            Some(why) => println!("{}: not run, {why}", runner.name()),
-            None if is_chosen => runners.push(runner),
-            None => {}
-        }
-    }
+    let trigonometry = match flags.iter().any(|flag| flag == "--standard") {
+        true => Trigonometry::Standard,
+        false => Trigonometry::Polynomial,
+    };
+    let runners = chosen(&names);
     let mut different = 0;
     for scalar in [Scalar::F64, Scalar::F32] {
+        if trigonometry == Trigonometry::Standard && scalar == Scalar::F32 {
+            continue;
+        }
         let mut chosen = robots()?;
         chosen.retain(|robot| only.is_empty() || only.contains(&robot.as_str()));
-        let works =
-            chosen.iter().map(|robot| Work::new(robot, scalar)).collect::<Result<Vec<_>, _>>()?;
-        different += compare(&runners, &works, scalar)?;
+        let works = chosen.iter().map(|robot| Work::with(robot, scalar, trigonometry));
+        let works = works.collect::<Result<Vec<_>, _>>()?;
+        let mut comparison = Comparison::new(scalar, trigonometry)?;
+        for runner in &runners {
+            if comparison.takes(runner.as_ref()) {
+                different += comparison.run(runner.as_ref(), &works)?;
+            }
+        }
     }
     Ok(different)
 }
 
-/// Runs all of them on the robots, and compares: in double precision with the interpreter, in single precision, which it
-/// does not have, with the first.
-fn compare(runners: &[Box<dyn Runner>], works: &[Work], scalar: Scalar) -> Result<usize, String> {
-    let mut different = 0;
-    let mut reference: BTreeMap<String, String> = match scalar {
-        Scalar::F64 => committed()?,
-        Scalar::F32 => BTreeMap::new(),
-    };
-    for runner in runners.iter().filter(|runner| runner.has(scalar)) {
-        let (mut compared, before, start) = (0, different, Instant::now());
-        for (work, ways) in works.iter().zip(run_all(runner.as_ref(), works)) {
+/// The runners of these names, or all, whose tools are installed.
+fn chosen(names: &[String]) -> Vec<Box<dyn Runner>> {
+    let mut chosen = vec![];
+    for runner in runners::all() {
+        let is_chosen = names.is_empty() || names.iter().any(|name| name == runner.name());
+        match runner.missing().filter(|_| is_chosen) {
+            Some(why) => println!("{}: not run, {why}", runner.name()),
+            None if is_chosen => chosen.push(runner),
+            None => {}
+        }
+    }
+    chosen
+}
+
+/// The farthest that sines of a library put a result from the interpreter's, in units in the last place of the function's
+/// largest output over all states.
+const STANDARD: f64 = 4.0;
+
+/// Compares with the interpreter: bits in double precision, or units in the last place. In single precision, which the
+/// interpreter does not have, it compares bits with the first runner.
+struct Comparison {
+    scalar: Scalar,
+    trigonometry: Trigonometry,
+    /// The digests, by name.
+    reference: BTreeMap<String, String>,
+    compared: usize,
+    different: usize,
+    /// The farthest seen, and the functions.
+    farthest: [(f64, String); 2],
+}
+
+impl Comparison {
+    fn new(scalar: Scalar, trigonometry: Trigonometry) -> Result<Comparison, String> {
+        let reference = match scalar {
+            Scalar::F64 => committed()?,
+            Scalar::F32 => BTreeMap::new(),
+        };
+        let farthest = Default::default();
+        Ok(Comparison { scalar, trigonometry, reference, compared: 0, different: 0, farthest })
+    }
+
+    fn takes(&self, runner: &dyn Runner) -> bool {
+        let has_sines =
+            self.trigonometry == Trigonometry::Polynomial || runner.has_standard_sines();
+        runner.has(self.scalar) && has_sines
+    }
+
+    /// Runs a runner on all robots; the number of functions that differ.
+    fn run(&mut self, runner: &dyn Runner, works: &[Work]) -> Result<usize, String> {
+        let start = Instant::now();
+        (self.compared, self.different, self.farthest) = Default::default();
+        let bound = match self.trigonometry {
+            Trigonometry::Standard => Some(STANDARD),
+            Trigonometry::Polynomial => runner.bound(),
+        };
+        for (work, ways) in works.iter().zip(run_all(runner, works)) {
             for found in ways? {
-                for (calls, results) in work.functions.iter().zip(found.results) {
-                    let Some(results) = results else { continue };
-                    let name = digests::name(work, &calls.name);
-                    let digest = digest(&results);
-                    let stated = reference.entry(name.clone()).or_insert_with(|| digest.clone());
-                    compared += 1;
-                    if *stated != digest {
-                        different += 1;
-                        println!("{}, {}: {name} has other bits", runner.name(), found.way);
-                    }
-                }
+                self.compare(runner, work, found, bound);
             }
         }
+        let how = match (bound, &self.farthest) {
+            (None, _) => "with other bits".to_owned(),
+            (Some(bound), [(far, name), (of_state, other)]) => format!(
+                "farther than {bound} ulp of the function's largest output; at most {far:.1} ({name}), and {of_state:.1} of the \
+                 state's largest ({other})"
+            ),
+        };
         println!(
-            "{} {}: {compared} functions, {} with other bits ({} s)",
+            "{} {}: {} functions, {} {how} ({} s)",
             runner.name(),
-            digests::type_name(scalar),
-            different - before,
+            digests::type_name(self.scalar),
+            self.compared,
+            self.different,
             start.elapsed().as_secs()
         );
+        Ok(self.different)
     }
-    Ok(different)
+
+    fn compare(&mut self, runner: &dyn Runner, work: &Work, found: Found, bound: Option<f64>) {
+        for (calls, results) in work.functions.iter().zip(found.results) {
+            let Some(results) = results else { continue };
+            let name = digests::name(work, &calls.name);
+            self.compared += 1;
+            let differs = match bound {
+                None => {
+                    let digest = digest(&results);
+                    *self.reference.entry(name.clone()).or_insert_with(|| digest.clone()) != digest
+                }
+                Some(bound) => {
+                    let any = runner.bound().is_some();
+                    let far = ulps::distances(calls, &results, self.scalar, any);
+                    for (known, far) in self.farthest.iter_mut().zip([far.of_function, far.of_state]) {
+                        if far > known.0 {
+                            *known = (far, name.clone());
+                        }
+                    }
+                    far.of_function > bound
+                }
+            };
+            if differs {
+                self.different += 1;
+                println!("{}, {}: {name} differs", runner.name(), found.way);
+            }
+        }
+    }
 }
 
 /// Runs one of them on all robots, as many at a time as there are cores; the results in the order of the robots.

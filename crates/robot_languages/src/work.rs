@@ -1,7 +1,7 @@
 //! The functions of a robot with the states at which they are called.
 
 use robot_build::{Functions, Options, Programs, Source, check};
-use robot_codegen::{Interpreter, Scalar};
+use robot_codegen::{Interpreter, Scalar, Trigonometry};
 use robot_symbolic::Random;
 
 use crate::files;
@@ -58,18 +58,32 @@ pub fn robots() -> Result<Vec<String>, String> {
 }
 
 impl Work {
-    /// All functions of a robot of the repository.
+    /// All functions of a robot of the repository, with the runtime's sines.
     ///
     /// # Errors
     ///
     /// What is wrong with its file.
     pub fn new(robot: &str, scalar: Scalar) -> Result<Work, String> {
+        Work::with(robot, scalar, Trigonometry::Polynomial)
+    }
+
+    /// [`Work::new`] with sines of either source.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with its file.
+    pub fn with(
+        robot: &str,
+        scalar: Scalar,
+        trigonometry: Trigonometry,
+    ) -> Result<Work, String> {
         let name = format!("{robot}.toml");
         let folder = if robot == HOSTILE { "crates/robot_languages" } else { "robots" };
         let path = files::root().join(folder).join(&name);
         let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
         let source = Source { name, text };
-        let mut options = Options { functions: Functions::All, scalar, ..Options::default() };
+        let mut options =
+            Options { functions: Functions::All, scalar, trigonometry, ..Options::default() };
         let described = robot_build::read(&source).map_err(|error| error.to_string())?;
         options.bundles = described.code.bundles;
         let programs =
@@ -81,6 +95,7 @@ impl Work {
         let given: Vec<(&str, f64)> =
             stated.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let interpreter = Interpreter::new(module, &given).map_err(|error| error.to_string())?;
+        let interpreter = interpreter.with_trigonometry(trigonometry);
         let parameters = module.parameters.iter().map(|parameter| {
             let stated = given.iter().find(|(name, _)| *name == parameter.name);
             parameter.nominal.or(stated.map(|(_, value)| *value)).unwrap_or(1.0)

@@ -17,5 +17,7 @@ pub mod rust;
 mod target;
 #[cfg(feature = "wasm")]
 pub mod wasm;
+#[cfg(feature = "wgsl")]
+pub mod wgsl;
 
 pub use target::{Contents, Language, SourceFile, Target};

@@ -2,11 +2,12 @@
 //! `robot_languages`, which runs them.
 
 use robot_codegen::backend::Target;
-use robot_codegen::backend::c::{C, Cpp, casadi};
+use robot_codegen::backend::c::{C, Cpp, Cuda, casadi};
 use robot_codegen::backend::flat::FlatOptions;
 use robot_codegen::backend::javascript::JavaScript;
 use robot_codegen::backend::matlab::Matlab;
 use robot_codegen::backend::python::Python;
+use robot_codegen::backend::wgsl::Wgsl;
 use robot_codegen::{Scalar, Trigonometry};
 
 use crate::coverage::module;
@@ -24,9 +25,18 @@ fn every_operation_is_printed_as_committed_in_every_language() {
     let options = options();
     let single = FlatOptions { scalar: Scalar::F32, ..options.clone() };
     let standard = FlatOptions { trigonometry: Trigonometry::Standard, ..options.clone() };
-    let printers: [(&str, Box<dyn Target>); 8] = [
+    let printers: [(&str, Box<dyn Target>); 12] = [
         ("double", Box::new(Cpp { options: options.clone() })),
-        ("single", Box::new(C { options: single })),
+        ("single", Box::new(C { options: single.clone() })),
+        ("cuda", Box::new(Cuda { options: options.clone() })),
+        ("cuda_single", Box::new(Cuda { options: single.clone() })),
+        ("wgsl", Box::new(Wgsl { options: single.clone() })),
+        (
+            "wgsl_standard",
+            Box::new(Wgsl {
+                options: FlatOptions { trigonometry: Trigonometry::Standard, ..single },
+            }),
+        ),
         ("standard", Box::new(C { options: standard.clone() })),
         ("python", Box::new(Python { options: options.clone() })),
         ("python_standard", Box::new(Python { options: standard.clone() })),
@@ -79,4 +89,10 @@ fn languages_of_double_precision_refuse_single() {
         let errors = printer.files(&module("single")).unwrap_err().to_string();
         assert!(errors.contains("computes in f64 alone"), "{errors}");
     }
+}
+
+#[test]
+fn wgsl_refuses_double_precision() {
+    let errors = Wgsl { options: options() }.files(&module("double")).unwrap_err().to_string();
+    assert!(errors.contains("computes in f32 alone"), "{errors}");
 }

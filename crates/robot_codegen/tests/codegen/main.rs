@@ -8,7 +8,13 @@ mod compiled;
 mod coverage;
 mod errors;
 mod golden;
-#[cfg(all(feature = "c", feature = "javascript", feature = "matlab", feature = "python"))]
+#[cfg(all(
+    feature = "c",
+    feature = "javascript",
+    feature = "matlab",
+    feature = "python",
+    feature = "wgsl"
+))]
 mod languages;
 mod reserved;
 #[path = "../support/mod.rs"]

@@ -61,7 +61,7 @@ impl Runner for C {
         write_package(work, Language::C, folder)?;
         let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
         let tree = c::tree(&work.programs.module, &options);
-        files::write(folder, self.source, program(work, &tree).as_bytes())?;
+        files::write(folder, self.source, program(work, &tree, &C_CALLS).as_bytes())?;
         let mut arguments = vec!["-O2", "-ffp-contract=off"];
         arguments.extend(self.options);
         arguments.extend(WARNINGS);
@@ -79,15 +79,33 @@ impl Runner for C {
     }
 }
 
+/// How a program calls functions with the interface of C.
+pub(super) struct Calls {
+    /// The ending of the header.
+    pub(super) ending: &'static str,
+    /// Lines at the top.
+    pub(super) top: &'static str,
+    /// The model as an argument of the form over states.
+    pub(super) model: &'static str,
+    /// What stands before the call of the form over states.
+    pub(super) before: &'static str,
+    /// Whether a function has that form.
+    pub(super) has_batch: fn(&Function<'_>) -> bool,
+}
+
+/// Calls of C itself.
+pub(super) const C_CALLS: Calls =
+    Calls { ending: "h", top: "", model: "&model, ", before: "", has_batch: c::has_batch };
+
 /// A program that reads states, calls every function in both ways and writes the results.
-pub(super) fn program(work: &Work, tree: &Tree<'_>) -> String {
+pub(super) fn program(work: &Work, tree: &Tree<'_>, way: &Calls) -> String {
     let names = Names::new(&tree.name);
     let real = if work.options.scalar == Scalar::F64 { "double" } else { "float" };
     let mut text = format!(
-        "#include \"{}.h\"\n#include <stdio.h>\n#include <stdlib.h>\n\nint main(void)\n{{\n    FILE *in = \
+        "{}#include \"{}.{}\"\n#include <stdio.h>\n#include <stdlib.h>\n\nint main(void)\n{{\n    FILE *in = \
          fopen(\"states.bin\", \"rb\");\n    FILE *single = fopen(\"single.bin\", \"wb\");\n    FILE *batch = \
          fopen(\"batch.bin\", \"wb\");\n    if (!in || !single || !batch) {{\n        return 2;\n    }}\n",
-        tree.name
+        way.top, tree.name, way.ending
     );
     if tree.has_parameters() {
         text.push_str(&format!(
@@ -102,7 +120,7 @@ pub(super) fn program(work: &Work, tree: &Tree<'_>) -> String {
     }
     for (function, calls) in tree.functions.iter().zip(&work.functions) {
         let states = calls.expected.len() / calls.given;
-        text.push_str(&block(tree, function, &names, real, states));
+        text.push_str(&block(tree, function, &names, way, [real, &states.to_string()]));
     }
     text.push_str("    return fclose(in) | fclose(single) | fclose(batch);\n}\n");
     text
@@ -113,9 +131,10 @@ fn block(
     tree: &Tree<'_>,
     function: &Function<'_>,
     names: &Names,
-    real: &str,
-    states: usize,
+    way: &Calls,
+    [real, states]: [&str; 2],
 ) -> String {
+    let has_batch = (way.has_batch)(function);
     let name = names.item(&function.name);
     let batch = names.item(function.form(c::BATCH));
     let arrays: Vec<(&str, usize)> = function
@@ -132,7 +151,7 @@ fn block(
     let mut text = "    {\n        size_t i, j;\n".to_owned();
     for (array, length) in &arrays {
         text.push_str(&format!("        static {real} {array}[{length}];\n"));
-        if c::has_batch(function) {
+        if has_batch {
             text.push_str(&format!(
                 "        static {real} columns_{array}[{length} * {states}];\n"
             ));
@@ -145,7 +164,7 @@ fn block(
             "            if (fread({array}, sizeof {array}[0], {length}, in) != {length}) {{\n                \
              return 3;\n            }}\n"
         ));
-        if c::has_batch(function) {
+        if has_batch {
             text.push_str(&format!(
                 "            for (j = 0; j < {length}; j++) {{\n                \
                  columns_{array}[j * {states} + i] = {array}[j];\n            }}\n"
@@ -160,9 +179,11 @@ fn block(
         ));
     }
     text.push_str("        }\n");
-    if c::has_batch(function) {
+    let model = if tree.has_parameters() { way.model } else { "" };
+    if has_batch {
         text.push_str(&format!(
-            "        {batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
+            "        {}{batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
+            way.before,
             listed("columns_")
         ));
         for array in &function.outputs {

@@ -32,6 +32,10 @@ impl Runner for Cppcheck {
         true
     }
 
+    fn has_standard_sines(&self) -> bool {
+        false
+    }
+
     /// Three functions stand for all, for cppcheck takes minutes over long ones.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         let functions = vec![

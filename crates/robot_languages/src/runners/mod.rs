@@ -3,10 +3,12 @@
 mod c;
 mod casadi;
 mod cppcheck;
+mod cuda;
 mod rust;
 mod scripts;
 mod thumb;
 mod wasm;
+mod wgsl;
 
 use std::path::Path;
 
@@ -25,6 +27,17 @@ pub trait Runner: Sync {
 
     /// Whether the language has the number type.
     fn has(&self, scalar: Scalar) -> bool;
+
+    /// Whether the language has sines of a library of its own, and they are compared.
+    fn has_standard_sines(&self) -> bool {
+        true
+    }
+
+    /// How far results may be from the interpreter's, in units in the last place of the largest output, if the language
+    /// promises no bits.
+    fn bound(&self) -> Option<f64> {
+        None
+    }
 
     /// Makes a package in an empty folder and runs it.
     ///
@@ -47,8 +60,12 @@ pub struct Found {
 pub fn all() -> Vec<Box<dyn Runner>> {
     let mut runners: Vec<Box<dyn Runner>> = vec![Box::new(rust::Rust)];
     runners.extend(c::all());
+    runners.push(Box::new(cuda::Cuda));
+    runners.push(Box::new(cuda::Nvrtc));
     runners.extend(scripts::all());
     runners.push(Box::new(wasm::Wasm));
+    runners.push(Box::new(wgsl::Naga));
+    runners.push(Box::new(wgsl::Wgsl));
     runners.push(Box::new(casadi::Casadi));
     runners.push(Box::new(thumb::Thumb));
     runners.push(Box::new(cppcheck::Cppcheck));

@@ -7,7 +7,7 @@ use robot_codegen::Scalar;
 use robot_codegen::backend::c::{self, Names};
 use robot_codegen::backend::flat::{FlatOptions, Function, Tree};
 
-use super::c::{WARNINGS, program};
+use super::c::{C_CALLS, WARNINGS, program};
 use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
@@ -93,7 +93,7 @@ impl Runner for Thumb {
         let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
         let tree = c::tree(&work.programs.module, &options);
         straight(&tree, folder)?;
-        files::write(folder, "main.c", program(work, &tree).as_bytes())?;
+        files::write(folder, "main.c", program(work, &tree, &C_CALLS).as_bytes())?;
         files::write(folder, "startup.c", STARTUP.as_bytes())?;
         files::write(folder, "memory.ld", MEMORY.as_bytes())?;
         let mut arguments = vec!["-O2", "-ffp-contract=off", "--specs=rdimon.specs"];

@@ -28,6 +28,10 @@ impl Runner for Wasm {
         true
     }
 
+    fn has_standard_sines(&self) -> bool {
+        false
+    }
+
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         write_package(work, Language::Wasm, folder)?;
         files::write(folder, "calls.mjs", program(work).as_bytes())?;

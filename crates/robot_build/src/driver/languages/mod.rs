@@ -23,6 +23,8 @@ pub enum Language {
     C,
     /// C++17: a header over that of C.
     Cpp,
+    /// CUDA C++: a header of functions for host and device, and kernels.
+    Cuda,
     /// MATLAB and Octave: a folder of functions over columns of states.
     Matlab,
     /// Python: a module of numbers, or of NumPy arrays.
@@ -31,6 +33,8 @@ pub enum Language {
     JavaScript,
     /// WebAssembly: a module with an ES module that loads it.
     Wasm,
+    /// WGSL: compute kernels of WebGPU in single precision.
+    Wgsl,
 }
 
 impl Language {
@@ -39,10 +43,12 @@ impl Language {
         Language::Rust,
         Language::C,
         Language::Cpp,
+        Language::Cuda,
         Language::Matlab,
         Language::Python,
         Language::JavaScript,
         Language::Wasm,
+        Language::Wgsl,
     ];
 
     /// The name on the command line.
@@ -52,10 +58,12 @@ impl Language {
             Language::Rust => "rust",
             Language::C => "c",
             Language::Cpp => "cpp",
+            Language::Cuda => "cuda",
             Language::Matlab => "matlab",
             Language::Python => "python",
             Language::JavaScript => "javascript",
             Language::Wasm => "wasm",
+            Language::Wgsl => "wgsl",
         }
     }
 
@@ -66,10 +74,12 @@ impl Language {
             Language::Rust => "Rust, without the standard library if need be",
             Language::C => "C99, one header",
             Language::Cpp => "C++17, a header with a namespace over that of C",
+            Language::Cuda => "CUDA C++, a header with a kernel for each function",
             Language::Matlab => "MATLAB and Octave, a function a file",
             Language::Python => "Python, for numbers and for NumPy arrays",
             Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
             Language::Wasm => "WebAssembly, with an ES module that loads it",
+            Language::Wgsl => "WGSL, compute kernels of WebGPU, in single precision alone",
         }
     }
 
@@ -113,10 +123,12 @@ pub fn sources_of(
         Language::Rust => Box::new(printing::rust_options(programs, source, options)),
         Language::C => Box::new(backend::c::C { options: flat() }),
         Language::Cpp => Box::new(backend::c::Cpp { options: flat() }),
+        Language::Cuda => Box::new(backend::c::Cuda { options: flat() }),
         Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),
         Language::Python => Box::new(backend::python::Python { options: flat() }),
         Language::JavaScript => Box::new(backend::javascript::JavaScript { options: flat() }),
         Language::Wasm => Box::new(backend::wasm::Wasm { options: flat(), batch: true }),
+        Language::Wgsl => Box::new(backend::wgsl::Wgsl { options: flat() }),
     };
     let module = match language {
         Language::Rust => programs.module.clone(),

@@ -1,6 +1,8 @@
 //! The builder that a `build.rs` calls.
 
 mod output;
+#[cfg(feature = "languages")]
+mod package;
 
 use std::path::{Path, PathBuf};
 
@@ -10,6 +12,8 @@ use robot_model::functions::Bundle;
 use robot_model::robot::BaseFrames;
 
 use crate::driver::generate::{Generated, generate};
+#[cfg(feature = "languages")]
+use crate::driver::languages::Language;
 use crate::driver::options::{Limbs, Options, functions_named, kinds_named};
 use crate::driver::programs::read_with;
 use crate::entry::cargo::{self, Directives};
@@ -57,6 +61,8 @@ pub struct Builder {
     package_dir: Option<PathBuf>,
     allow_outside: bool,
     silent: bool,
+    #[cfg(feature = "languages")]
+    language: Language,
 }
 
 impl Builder {
@@ -180,6 +186,15 @@ impl Builder {
         self
     }
 
+    /// The language of the code; Rust without this. For another, with the feature `languages`, each robot becomes a folder
+    /// `<module>` in `OUT_DIR` with the files that `robot-symbolic crate --language` writes, from which a build script
+    /// goes on: the header `OUT_DIR/trttr1/trttr1.h` is for the crate `cc`. Options of Rust alone are errors there.
+    #[cfg(feature = "languages")]
+    pub fn language(mut self, language: Language) -> Builder {
+        self.language = language;
+        self
+    }
+
     /// The folder for the code; `OUT_DIR` without this. For those who commit generated code.
     ///
     /// A file that is there under the name of a module and was not generated is an error, not replaced.
@@ -278,6 +293,10 @@ impl Builder {
             // A relative folder is the package's, as the robot files are.
             Ok(package.join(folder))
         })?;
+        #[cfg(feature = "languages")]
+        if self.language != Language::Rust {
+            return self.packages(paths, &package, &out_dir, directives);
+        }
         let (mut modules, mut errors) = (vec![], vec![]);
         for path in paths {
             match self.module(path, &package, directives) {
@@ -287,7 +306,9 @@ impl Builder {
                 Err(found) => Errors::extend(&mut errors, found),
             }
         }
-        output::check_names(&modules, &mut errors);
+        let names = modules.iter().map(Module::names);
+        let index = (modules.len() > 1).then_some(output::INDEX);
+        output::check_names(names, index, &mut errors);
         Errors::check(errors, ())?;
         modules.iter().filter_map(Module::unportable).for_each(|text| directives.warning(&text));
         let inputs = paths.iter().flat_map(|path| robot_inputs(&package.join(path)));
@@ -301,6 +322,19 @@ impl Builder {
         package: &Path,
         directives: &mut Directives,
     ) -> Result<Generated, Errors> {
+        let (file, options) = self.read(path, package, directives)?;
+        let generated = generate(&file.source, &options)?;
+        directives.warnings(&generated.warnings);
+        Ok(generated)
+    }
+
+    /// A robot file, and the options with the plan that is pinned beside it. Cargo is told to watch both.
+    fn read(
+        &self,
+        path: &Path,
+        package: &Path,
+        directives: &mut Directives,
+    ) -> Result<(RobotFile, Options), Errors> {
         let file = RobotFile::in_package(path, package, self.allow_outside)?;
         directives.rerun_if_changed(path)?;
         // Cargo takes a path that is not there for changed, at every build. That a first plan is seen is up to
@@ -310,9 +344,8 @@ impl Builder {
             directives.rerun_if_changed(&pin)?;
         }
         let options = self.options_for(&file)?;
-        let generated = generate(&file.source, &file.with_pin(&options)?)?;
-        directives.warnings(&generated.warnings);
-        Ok(generated)
+        let options = file.with_pin(&options)?;
+        Ok((file, options))
     }
 
     /// The options, their functions those of the robot.

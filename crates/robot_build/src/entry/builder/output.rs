@@ -9,7 +9,7 @@ use crate::entry::files::{Output, Ownership, Writer};
 use crate::error::{Error, Errors};
 
 /// The name of the index of several robots.
-const INDEX: &str = "robots";
+pub(super) const INDEX: &str = "robots";
 
 /// Names that Windows keeps for devices: there no file has one of them before its first dot.
 const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
@@ -24,6 +24,11 @@ pub(super) struct Module {
 impl Module {
     fn name(&self) -> &str {
         &self.generated.module_name
+    }
+
+    /// Its name and the path of the robot file.
+    pub(super) fn names(&self) -> (&str, &str) {
+        (self.name(), &self.path)
     }
 
     /// The name of the robot file without its ending, where a file of Rust can have it.
@@ -52,24 +57,24 @@ fn is_device(name: &str) -> bool {
     DEVICES.contains(&name) || numbered("com") || numbered("lpt")
 }
 
-/// Each two files that would have one name.
-pub(super) fn check_names(modules: &[Module], errors: &mut Vec<Error>) {
+/// Each two robots, of names and paths, that would have one name; if there is an index, it has one too.
+pub(super) fn check_names<'n>(
+    names: impl IntoIterator<Item = (&'n str, &'n str)>,
+    index: Option<&'n str>,
+    errors: &mut Vec<Error>,
+) {
     let mut known: BTreeMap<&str, &str> = BTreeMap::new();
-    if modules.len() > 1 {
-        known.insert(INDEX, "the index of all robots");
-    }
-    for module in modules {
-        if let Some(first) = known.insert(module.name(), &module.path) {
-            if first == module.path {
-                errors.push(Error::SameFile { path: first.to_owned() });
-                continue;
-            }
-            errors.push(Error::SameModule {
-                module: module.name().to_owned(),
+    known.extend(index.map(|index| (index, "the index of all robots")));
+    for (name, path) in names {
+        let Some(first) = known.insert(name, path) else { continue };
+        errors.push(match first == path {
+            true => Error::SameFile { path: first.to_owned() },
+            false => Error::SameModule {
+                module: name.to_owned(),
                 first: first.to_owned(),
-                second: module.path.clone(),
-            });
-        }
+                second: path.to_owned(),
+            },
+        });
     }
 }
 

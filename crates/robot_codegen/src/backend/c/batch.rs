@@ -49,11 +49,11 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
 }
 
 /// The name of the array that holds the entries of one state.
-fn one(array: &Array) -> String {
+pub(super) fn one(array: &Array) -> String {
     format!("{}_", array.name)
 }
 
-fn place(entry: usize) -> String {
+pub(super) fn place(entry: usize) -> String {
     match entry {
         0 => "i".to_owned(),
         1 => "stride + i".to_owned(),
@@ -62,7 +62,7 @@ fn place(entry: usize) -> String {
 }
 
 /// One state.
-fn iteration(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
+pub(super) fn iteration(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let real = header.real();
     let has_angles = !function.sines.is_empty();
     let in_core = used_by(function, &function.core);

@@ -2,9 +2,9 @@
 
 use crate::backend::common::{comment_line, comment_lines};
 
-/// Text inside of a comment: no sequence that ends it, or begins another.
+/// Text inside of a comment: no sequence that ends it, begins another, or is a trigraph.
 fn inside(text: &str) -> String {
-    text.replace("*/", "* /").replace("/*", "/ *")
+    text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
 }
 
 /// A comment of one line.
@@ -29,6 +29,7 @@ mod tests {
     fn no_text_ends_a_comment() {
         assert_eq!(of_line("a */ b /* c\n d"), "/* a * / b / * c  d */");
         assert_eq!(of_line("**//"), "/* ** // */");
+        assert_eq!(of_line("a???/"), "/* a? ??/ */");
         for text in ["*/", "**//", "*\u{200b}/", "/*/", "*/*/*/"] {
             let comment = of_paragraphs(&[text.to_owned()]).join("\n");
             assert_eq!(comment.matches("*/").count(), 1, "{comment}");

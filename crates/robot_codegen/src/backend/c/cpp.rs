@@ -2,7 +2,7 @@
 
 use super::comment;
 use super::function::real;
-use super::{C, Header, Names, tree};
+use super::{C, Dialect, Header, tree};
 use crate::backend::common::{self, Scalar, check_range};
 use crate::backend::flat::{Array, FlatOptions, Function};
 use crate::backend::{Language, SourceFile, Target};
@@ -29,8 +29,7 @@ impl Target for Cpp {
         check_range(module, self.options.scalar)?;
         let mut files = C { options: self.options.clone() }.files(module)?;
         let tree = tree(module, &self.options);
-        let names = Names::new(&tree.name);
-        let header = Header { tree: &tree, names, options: &self.options };
+        let header = Header::new(&tree, &self.options, Dialect::C);
         let name = format!("{}.{}", tree.name, LANGUAGE.extension);
         files.push(SourceFile::text(name, text(&header)));
         Ok(files)

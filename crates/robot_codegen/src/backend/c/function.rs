@@ -2,8 +2,9 @@
 
 use super::batch;
 use super::comment;
+use super::cuda;
 use super::spelling::{helper, library};
-use super::{Header, SC};
+use super::{Dialect, Header, SC};
 use crate::backend::common::{self, Scalar};
 use crate::backend::flat::{Array, Body, Function, Part, Statement};
 use crate::trigonometry::Trigonometry;
@@ -27,7 +28,10 @@ pub(super) fn function(header: &Header<'_>, function: &Function<'_>) -> Vec<Stri
         lines.extend(doc(header, function));
         lines.extend(whole(header, function, &sc));
     }
-    lines.extend(batch::batch(header, function));
+    lines.extend(match header.dialect {
+        Dialect::C => batch::batch(header, function),
+        Dialect::Cuda => cuda::kernel(header, function),
+    });
     lines
 }
 

@@ -1,7 +1,7 @@
 //! The functions that printed C calls: those of the runtime, with the same bits where it does not fuse products and
 //! sums.
 
-use super::Header;
+use super::{Dialect, Header, cuda};
 use super::spelling::{literal, number};
 use crate::backend::common::Scalar;
 use crate::backend::flat::Helpers;
@@ -42,9 +42,10 @@ pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
 
 fn macros(header: &Header<'_>) -> Vec<String> {
     let name = |name: &str| header.names.private_upper(name);
-    let (inline, part, restrict) = (name("inline"), name("part"), name("restrict"));
-    let text = format!(
-        "#if defined(__GNUC__)
+    let [inline, part, restrict] = ["inline", "part", "restrict"].map(name);
+    let text = match header.dialect {
+        Dialect::C => format!(
+            "#if defined(__GNUC__)
 #define {inline} static inline __attribute__((always_inline, unused))
 #define {part} static __attribute__((noinline, unused))
 #define {restrict} __restrict__
@@ -57,8 +58,10 @@ fn macros(header: &Header<'_>) -> Vec<String> {
 #pragma STDC FP_CONTRACT OFF
 #endif
 "
-    );
-    text.lines().map(str::to_owned).chain([String::new()]).collect()
+        ),
+        Dialect::Cuda => cuda::macros([&inline, &part, &restrict], &name("kernel")),
+    };
+    Writer::lines(&text)
 }
 
 /// Writes the helpers of a number type.
@@ -139,7 +142,11 @@ impl Writer<'_> {
     /// The condition under which fused multiply-adds are fast; clang does not define the macro of C.
     fn fast(&self) -> String {
         let macro_of_c = if self.scalar == Scalar::F64 { "FP_FAST_FMA" } else { "FP_FAST_FMAF" };
-        format!("#if defined({macro_of_c}) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)")
+        let of_cuda = match self.header.dialect {
+            Dialect::C => "",
+            Dialect::Cuda => " || defined(__CUDA_ARCH__)",
+        };
+        format!("#if defined({macro_of_c}) || defined(__FMA__) || defined(__ARM_FEATURE_FMA){of_cuda}")
     }
 
     fn lines(text: &str) -> Vec<String> {

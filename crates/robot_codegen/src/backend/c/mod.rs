@@ -8,6 +8,7 @@ mod batch;
 mod casadi;
 mod comment;
 mod cpp;
+mod cuda;
 mod function;
 mod helpers;
 mod items;
@@ -18,6 +19,7 @@ mod spelling;
 pub use self::batch::has_batch;
 pub use self::casadi::{Casadi, casadi};
 pub use self::cpp::Cpp;
+pub use self::cuda::{Cuda, cuda_tree};
 pub use self::names::Names;
 use self::spelling::Expressions;
 use super::common::{Scalar, check_range};
@@ -53,8 +55,7 @@ impl Target for C {
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         check_range(module, self.options.scalar)?;
         let tree = tree(module, &self.options);
-        let text =
-            Header { tree: &tree, names: Names::new(&tree.name), options: &self.options }.text();
+        let text = Header::new(&tree, &self.options, Dialect::C).text();
         Ok(vec![SourceFile::text(format!("{}.{}", tree.name, LANGUAGE.extension), text)])
     }
 }
@@ -70,11 +71,27 @@ pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     Tree::new(module, &LANGUAGE, names::TAKEN, &["sc", "batch"], &options.setters)
 }
 
+/// A language whose functions are those of C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Dialect {
+    /// C, and C++ over it.
+    C,
+    /// CUDA C++.
+    Cuda,
+}
+
 /// What the parts of the header are made from.
 struct Header<'a> {
     tree: &'a Tree<'a>,
     names: Names,
     options: &'a FlatOptions,
+    dialect: Dialect,
+}
+
+impl<'a> Header<'a> {
+    fn new(tree: &'a Tree<'a>, options: &'a FlatOptions, dialect: Dialect) -> Header<'a> {
+        Header { tree, names: Names::new(&tree.name), options, dialect }
+    }
 }
 
 impl Header<'_> {
@@ -104,36 +121,38 @@ impl Header<'_> {
 
     /// The documentation of the module and the beginning of the header.
     fn guard(&self) -> Vec<String> {
-        let guard = self.names.upper("H");
         let mut lines = vec![String::new()];
         let mut doc = super::common::paragraphs(&self.tree.module.doc, &self.tree.module.name);
         doc.push(format!("- {}", self.options.trigonometry.range_of_angles()));
-        doc.push(
-            "- Compiled without contraction of products and sums (-ffp-contract=off) and without -ffast-math, results have \
-             the same bits on every machine."
-                .to_owned(),
-        );
+        let flags = match self.dialect {
+            Dialect::C => "(-ffp-contract=off) and without -ffast-math",
+            Dialect::Cuda => "(-fmad=false) and without --use_fast_math",
+        };
+        doc.push(format!(
+            "- Compiled without contraction of products and sums {flags}, results have the same bits on every machine."
+        ));
         lines.extend(comment::of_paragraphs(&doc));
-        lines.extend([
-            format!("#ifndef {guard}"),
-            format!("#define {guard}"),
-            String::new(),
-            "#include <math.h>".to_owned(),
-            "#include <stddef.h>".to_owned(),
-            "#include <stdint.h>".to_owned(),
-            "#include <string.h>".to_owned(),
-            String::new(),
-            "#ifdef __cplusplus".to_owned(),
-            "extern \"C\" {".to_owned(),
-            "#endif".to_owned(),
-            String::new(),
-        ]);
+        let guard = match self.dialect {
+            Dialect::C => self.names.upper("H"),
+            Dialect::Cuda => self.names.upper("CUH"),
+        };
+        lines.extend([format!("#ifndef {guard}"), format!("#define {guard}"), String::new()]);
+        lines.extend(match self.dialect {
+            Dialect::C => lines_of(
+                "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <string.h>\n\n\
+                 #ifdef __cplusplus\nextern \"C\" {\n#endif\n",
+            ),
+            Dialect::Cuda => lines_of(cuda::INCLUDES),
+        });
+        lines.push(String::new());
         lines
     }
 
     fn end(&self) -> Vec<String> {
-        let lines = ["#ifdef __cplusplus", "}", "#endif", "", "#endif"];
-        lines.map(str::to_owned).to_vec()
+        match self.dialect {
+            Dialect::C => lines_of("#ifdef __cplusplus\n}\n#endif\n\n#endif"),
+            Dialect::Cuda => lines_of("#endif"),
+        }
     }
 
     /// The macro of functions that are inlined.
@@ -150,4 +169,9 @@ impl Header<'_> {
             trigonometry: self.options.trigonometry,
         }
     }
+}
+
+/// The lines of a text.
+fn lines_of(text: &str) -> Vec<String> {
+    text.lines().map(str::to_owned).collect()
 }

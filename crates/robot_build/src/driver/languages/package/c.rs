@@ -27,16 +27,17 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     files
 }
 
-struct Printer<'a> {
-    parts: &'a Parts<'a>,
-    tree: &'a Tree<'a>,
-    names: Names,
+/// Calls of functions with the interface of C.
+pub(super) struct Printer<'a> {
+    pub(super) parts: &'a Parts<'a>,
+    pub(super) tree: &'a Tree<'a>,
+    pub(super) names: Names,
     /// In double precision.
-    casadi: Option<&'a Casadi>,
+    pub(super) casadi: Option<&'a Casadi>,
 }
 
 impl Printer<'_> {
-    fn real(&self) -> &'static str {
+    pub(super) fn real(&self) -> &'static str {
         match self.parts.options.scalar {
             Scalar::F64 => "double",
             Scalar::F32 => "float",
@@ -104,7 +105,7 @@ add_test(NAME {name} COMMAND {name}_test)
     }
 
     /// The statements that make `model` at the stated parameters, if there are parameters.
-    fn model(&self) -> Vec<String> {
+    pub(super) fn model(&self) -> Vec<String> {
         if !self.tree.has_parameters() {
             return vec![];
         }
@@ -123,11 +124,11 @@ add_test(NAME {name} COMMAND {name}_test)
         lines
     }
 
-    fn function(&self, name: &str) -> Option<&Function<'_>> {
+    pub(super) fn function(&self, name: &str) -> Option<&Function<'_>> {
         self.tree.functions.iter().find(|function| function.source.name == name)
     }
 
-    fn numbers(&self, values: &[f64]) -> String {
+    pub(super) fn numbers(&self, values: &[f64]) -> String {
         let suffix = if self.parts.options.scalar == Scalar::F32 { "F" } else { "" };
         let values = values.iter().map(|value| format!("{value:?}{suffix}"));
         values.collect::<Vec<_>>().join(", ")
@@ -156,16 +157,32 @@ add_test(NAME {name} COMMAND {name}_test)
     }
 
     fn test(&self) -> String {
-        let (name, real) = (&self.tree.name, self.real());
+        let name = &self.tree.name;
         let mut text = format!(
-            "/* {} */
-/* The check values of the README. */
+            "/* {} */\n/* The check values of the README. */\n\n#include \"{name}.h\"\n\n#include <stdio.h>\n\n",
+            unnamed_header()
+        );
+        text.push_str(&self.comparison());
+        text.push_str(&self.flags());
+        text.push_str("int main(void)\n{\n");
+        for line in self.model() {
+            text.push_str(&format!("    {line}\n"));
+        }
+        if self.has_bits() {
+            text.push_str("    name_flags();\n");
+        }
+        for check in self.parts.checks {
+            text.push_str(&self.test_of(check));
+        }
+        text.push_str("    printf(failures ? \"FAILED\\n\" : \"all check values are met\\n\");\n    return failures != 0;\n}\n");
+        text
+    }
 
-#include \"{name}.h\"
-
-#include <stdio.h>
-
-static int failures = 0;
+    /// The function that compares results with stated values.
+    pub(super) fn comparison(&self) -> String {
+        let real = self.real();
+        let mut text = format!(
+            "static int failures = 0;
 
 /* Compares to a fraction of the largest entry, and, where the code promises them, all bits. */
 static void check(const char *what, const {real} *found, const {real} *stated, int count)
@@ -185,28 +202,15 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
         differs |= memcmp(&found[i], &stated[i], sizeof found[i]);
     }}
 ",
-            unnamed_header(),
             self.tolerance(),
         );
         text.push_str(&self.bits());
         text.push_str("}\n\n");
-        text.push_str(&self.flags());
-        text.push_str("int main(void)\n{\n");
-        for line in self.model() {
-            text.push_str(&format!("    {line}\n"));
-        }
-        if self.has_bits() {
-            text.push_str("    name_flags();\n");
-        }
-        for check in self.parts.checks {
-            text.push_str(&self.test_of(check));
-        }
-        text.push_str("    printf(failures ? \"FAILED\\n\" : \"all check values are met\\n\");\n    return failures != 0;\n}\n");
         text
     }
 
     /// Whether the check values are known to the bit: those of the interpreter in double precision.
-    fn has_bits(&self) -> bool {
+    pub(super) fn has_bits(&self) -> bool {
         self.parts.options.scalar == Scalar::F64
             && self.parts.options.trigonometry == Trigonometry::Polynomial
             && !self.parts.options.fused

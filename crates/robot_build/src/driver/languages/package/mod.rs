@@ -4,11 +4,13 @@ mod c;
 mod call;
 mod casadi;
 mod cpp;
+mod cuda;
 mod description;
 mod javascript;
 mod matlab;
 mod python;
 mod wasm;
+mod wgsl;
 
 use robot_codegen::Module;
 use robot_codegen::backend::SourceFile;
@@ -69,10 +71,12 @@ pub fn package_of(
         Language::Rust => vec![],
         Language::C => c::files(&parts, files),
         Language::Cpp => cpp::files(&parts, files),
+        Language::Cuda => cuda::files(&parts, files),
         Language::Matlab => matlab::files(&parts, files),
         Language::Python => python::files(&parts, files),
         Language::JavaScript => javascript::files(&parts, files),
         Language::Wasm => wasm::files(&parts, files),
+        Language::Wgsl => wgsl::files(&parts, files)?,
     })
 }
 

@@ -1,7 +1,7 @@
 //! External functions of CasADi: a source file beside the header that gives each function CasADi's interface of C, with the
 //! Jacobian where the module computes it exactly.
 
-use super::{Header, Names, comment, tree};
+use super::{Dialect, Header, comment, tree};
 use crate::backend::SourceFile;
 use crate::backend::common::{Namer, Scalar};
 use crate::backend::flat::{FlatOptions, Function};
@@ -60,7 +60,7 @@ pub fn casadi(module: &Module, options: &FlatOptions) -> Option<Casadi> {
         return None;
     }
     let tree = tree(module, options);
-    let header = Header { tree: &tree, names: Names::new(&tree.name), options };
+    let header = Header::new(&tree, options, Dialect::C);
     let mut namer = Namer::new(RESERVED, &[]);
     let mut symbol = |name: &str| {
         // `gravity_work` is what CasADi looks up beside `gravity`.

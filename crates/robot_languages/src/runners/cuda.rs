@@ -1,0 +1,183 @@
+//! CUDA C++, without a device: run on the processor as C++, and compiled for a device by NVRTC.
+
+use std::path::Path;
+
+use robot_build::Functions;
+use robot_build::languages::{Language, package};
+use robot_codegen::Scalar;
+use robot_codegen::backend::c;
+use robot_codegen::backend::flat::FlatOptions;
+use robot_model::functions::{Effects, FunctionKind};
+
+use super::c::{Calls, program};
+use super::{Found, Runner, read, results, write_package};
+use crate::files;
+use crate::work::Work;
+
+/// The header as C++: words of CUDA are defined away, and a kernel is called for each thread of a grid.
+pub(super) struct Cuda;
+
+/// Words of CUDA and of its library, for g++.
+const SHIMS: &str = "#pragma once
+#include <cstdlib>
+#define __host__
+#define __device__
+#define __global__
+#define __noinline__ __attribute__((noinline))
+#define __forceinline__ inline __attribute__((always_inline))
+struct Index {
+    unsigned x;
+};
+[[maybe_unused]] static Index gridDim = {1}, blockDim = {1}, blockIdx = {0}, threadIdx = {0};
+enum cudaError_t { cudaSuccess };
+template <class T> cudaError_t cudaMallocManaged(T **memory, std::size_t size)
+{
+    *memory = static_cast<T *>(std::malloc(size));
+    return cudaSuccess;
+}
+inline cudaError_t cudaFree(void *memory)
+{
+    std::free(memory);
+    return cudaSuccess;
+}
+inline cudaError_t cudaGetLastError() { return cudaSuccess; }
+inline cudaError_t cudaDeviceSynchronize() { return cudaSuccess; }
+inline const char *cudaGetErrorString(cudaError_t) { return \"\"; }
+";
+
+/// Fewer threads than states, so that threads take several, and blocks of different ones.
+const GRID: &str = "for (unsigned thread = 0; gridDim.x = 3, blockDim.x = 7, thread < 21; thread++) \
+                    blockIdx.x = thread / 7, threadIdx.x = thread % 7, ";
+
+const CALLS: Calls = Calls {
+    ending: "cuh",
+    top: "#include \"shims.h\"\n",
+    model: "model, ",
+    before: GRID,
+    has_batch: |function| !function.inputs.is_empty(),
+};
+
+impl Runner for Cuda {
+    fn name(&self) -> &'static str {
+        "cuda as C++"
+    }
+
+    fn missing(&self) -> Option<String> {
+        (!files::is_there("g++", &["--version"])).then(|| "g++ is not installed".to_owned())
+    }
+
+    fn has(&self, _: Scalar) -> bool {
+        true
+    }
+
+    /// Without optimization, which takes a fifth of the time; g++ by itself has optimized the same functions.
+    fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
+        write_package(work, Language::Cuda, folder)?;
+        let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
+        let tree = c::cuda_tree(&work.programs.module, &options);
+        files::write(folder, "shims.h", SHIMS.as_bytes())?;
+        files::write(folder, "main.cpp", program(work, &tree, &CALLS).as_bytes())?;
+        let example = String::from_utf8_lossy(&read(folder, "example.cu")?).into_owned();
+        // A grid of one thread computes all states.
+        let example = example.replace("<<<1, 32>>>", "").replace("<<<1, 1>>>", "");
+        let example = format!("#include \"shims.h\"\n{example}");
+        files::write(folder, "example.cpp", example.as_bytes())?;
+        for source in ["main", "example"] {
+            let file = format!("{source}.cpp");
+            let mut arguments = vec!["-std=c++17", "-O0", "-ffp-contract=off", "-Wall", "-Wextra"];
+            arguments.extend(["-Werror", &file, "-o", source]);
+            files::run(folder, "g++", &arguments)?;
+            files::run(folder, &format!("./{source}"), &[])?;
+        }
+        let has_batch = |index: usize| (CALLS.has_batch)(&tree.functions[index]);
+        Ok(vec![
+            Found {
+                way: "single",
+                results: results(work, &read(folder, "single.bin")?, |_| true)?,
+            },
+            Found {
+                way: "kernel",
+                results: results(work, &read(folder, "batch.bin")?, has_batch)?,
+            },
+        ])
+    }
+}
+
+/// The header compiled to PTX by NVRTC of its Python package. It compares no bits: a kernel that is missing or a product
+/// that is fused is an error.
+pub(super) struct Nvrtc;
+
+/// Says where the library of the Python package lies.
+const LIBRARY: &str = "import importlib.util, pathlib
+folder = importlib.util.find_spec('nvidia.cuda_nvrtc').submodule_search_locations[0]
+library = next((pathlib.Path(folder) / 'lib').glob('libnvrtc.so*'))
+";
+
+/// Compiles `robot.cuh` to `robot.ptx`.
+const COMPILE: &str = "import ctypes
+
+nvrtc = ctypes.CDLL(str(library))
+program = ctypes.c_void_p()
+text = open('robot.cuh', 'rb').read()
+assert nvrtc.nvrtcCreateProgram(ctypes.byref(program), text, b'robot.cuh', 0, None, None) == 0
+options = (ctypes.c_char_p * 2)(b'--std=c++17', b'-fmad=false')
+failed = nvrtc.nvrtcCompileProgram(program, 2, options)
+
+
+def said(what):
+    size = ctypes.c_size_t()
+    assert getattr(nvrtc, f'nvrtcGet{what}Size')(program, ctypes.byref(size)) == 0
+    text = ctypes.create_string_buffer(size.value)
+    assert getattr(nvrtc, f'nvrtcGet{what}')(program, text) == 0
+    return text.value.decode()
+
+
+log = said('ProgramLog')
+assert not failed and not log, log
+open('robot.ptx', 'w').write(said('PTX'))
+";
+
+impl Runner for Nvrtc {
+    fn name(&self) -> &'static str {
+        "nvrtc"
+    }
+
+    fn missing(&self) -> Option<String> {
+        let is_there = files::is_there("python3", &["-c", LIBRARY]);
+        (!is_there).then(|| "the Python package nvidia-cuda-nvrtc-cu12 is not installed".to_owned())
+    }
+
+    fn has(&self, _: Scalar) -> bool {
+        true
+    }
+
+    fn has_standard_sines(&self) -> bool {
+        false
+    }
+
+    /// Three functions stand for all, for the compiler takes minutes over long ones.
+    fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
+        let functions = vec![
+            FunctionKind::InverseDynamics(Effects::default()),
+            FunctionKind::ForwardDynamics(Effects::default()),
+            FunctionKind::Gravity,
+        ];
+        let mut options = work.options.clone();
+        options.functions = Functions::Chosen(functions);
+        options.bundles = vec![];
+        let found = package(&work.source, &options, Language::Cuda);
+        let found = found.map_err(|error| error.to_string())?;
+        let header = found.iter().find(|file| file.path.ends_with(".cuh"));
+        let header = header.ok_or("the package has no header")?.contents.text().unwrap_or_default();
+        files::write(folder, "robot.cuh", header.as_bytes())?;
+        files::write(folder, "compile.py", format!("{LIBRARY}{COMPILE}").as_bytes())?;
+        files::run(folder, "python3", &["compile.py"])?;
+        let ptx = String::from_utf8_lossy(&read(folder, "robot.ptx")?).into_owned();
+        let kernels = header.matches("_KERNEL_ void ").count();
+        let (entries, fused) = (ptx.matches(".entry ").count(), ptx.matches("fma.rn").count());
+        match (entries == kernels, fused) {
+            (true, 0) => Ok(vec![]),
+            _ => Err(format!("PTX has {entries} of {kernels} kernels, and {fused} fused products")),
+        }
+    }
+}
