@@ -46,7 +46,12 @@ impl Engine {
 
     /// Names and numbers of entries of the inputs.
     fn inputs(&self) -> PyResult<Vec<(String, usize)>> {
-        Ok(self.handle()?.inputs().iter().map(|input| (input.name.clone(), input.symbols.len())).collect())
+        Ok(self
+            .handle()?
+            .inputs()
+            .iter()
+            .map(|input| (input.name.clone(), input.symbols.len()))
+            .collect())
     }
 
     /// Names and shapes of the outputs.
@@ -58,11 +63,7 @@ impl Engine {
 
     /// Computes one state, from an array of one dimension for each input into contiguous arrays. False, and nothing is
     /// written, if that is not what is given: then Python looks closer.
-    fn state(
-        &self,
-        inputs: Vec<Bound<'_, PyAny>>,
-        outputs: Vec<PyBuffer<f64>>,
-    ) -> PyResult<bool> {
+    fn state(&self, inputs: Vec<Bound<'_, PyAny>>, outputs: Vec<PyBuffer<f64>>) -> PyResult<bool> {
         let handle = self.handle()?;
         let found: Option<Vec<Table>> = outputs.iter().map(Table::flat).collect();
         let buffers: Vec<PyBuffer<f64>> =
