@@ -189,7 +189,7 @@ mod tests {
         let terms = Polynomial::of(sum, &PolynomialOptions::default()).unwrap();
         let mut order = TermOrder::default();
         order.insert("Q1", published.iter().map(|term| Formula::parse(term).unwrap()).collect());
-        let arranged = order.arranged("Q1", &terms.arranged(|atom| atom.id()), &graph)?;
+        let arranged = order.arranged("Q1", &terms.arranged(Expr::id), &graph)?;
         Some(arranged_text(&arranged).unwrap())
     }
 

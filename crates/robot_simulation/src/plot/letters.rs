@@ -64,6 +64,30 @@ impl<B: DrawingBackend> DrawingBackend for Lowered<B> {
             FontTransform::Rotate180 => (x, y - down),
             FontTransform::Rotate270 => (x + down, y),
         };
-        self.0.draw_text(text, style, place)
+        self.0.draw_text(&without_accents(text), style, place)
+    }
+}
+
+/// A text with dots over letters as fractions, `dq₁/dt`: plotters draws an accent beside its letter.
+fn without_accents(text: &str) -> String {
+    let mut parts = text.split("q\u{307}");
+    let mut shown = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let rest = part.trim_start_matches(|c| ('₀'..='₉').contains(&c));
+        let (number, rest) = part.split_at(part.len() - rest.len());
+        shown.push_str(&format!("dq{number}/dt{rest}"));
+    }
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dots_are_fractions() {
+        assert_eq!(without_accents("velocity q\u{307} (rad/s)"), "velocity dq/dt (rad/s)");
+        assert_eq!(without_accents("q\u{307}₁₂"), "dq₁₂/dt");
+        assert_eq!(without_accents("q₁"), "q₁");
     }
 }
