@@ -164,7 +164,9 @@ impl Comparison {
                     let bound = if has_quotients { solved } else { usual };
                     let any = runner.bound().is_some();
                     let far = ulps::distances(calls, &results, self.scalar, any);
-                    for (known, far) in self.farthest.iter_mut().zip([far.of_function, far.of_state]) {
+                    for (known, far) in
+                        self.farthest.iter_mut().zip([far.of_function, far.of_state])
+                    {
                         if far > known.0 {
                             *known = (far, name.clone());
                         }

@@ -72,11 +72,7 @@ impl Work {
     /// # Errors
     ///
     /// What is wrong with its file.
-    pub fn with(
-        robot: &str,
-        scalar: Scalar,
-        trigonometry: Trigonometry,
-    ) -> Result<Work, String> {
+    pub fn with(robot: &str, scalar: Scalar, trigonometry: Trigonometry) -> Result<Work, String> {
         let name = format!("{robot}.toml");
         let folder = if robot == HOSTILE { "crates/robot_languages" } else { "robots" };
         let path = files::root().join(folder).join(&name);

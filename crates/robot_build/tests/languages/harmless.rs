@@ -6,20 +6,47 @@ use robot_build::languages::{Language, package_of};
 use robot_build::{Options, Scalar, Source, programs};
 
 /// What free texts of the robot files contain, and code outside of comments and strings must not.
-pub const MARK: &str = "qZ7mark";
+pub(crate) const MARK: &str = "qZ7mark";
+
+/// Names that any robot can have.
+pub(crate) const PLAIN: [&str; 8] =
+    ["robot1", "mass1", "length1", "first1", "second1", "joint1", "joint2", "both1"];
 
 /// The parts of a robot file that its author chooses freely.
 #[derive(Debug, Default)]
-pub struct Chosen {
+pub(crate) struct Chosen {
     /// Names: of the robot, two parameters, two links, two joints and a bundle.
-    pub names: [String; 8],
+    pub(crate) names: [String; 8],
     /// Texts: the description and the meanings of the parameters. [`MARK`] is put into them.
-    pub texts: [String; 3],
+    pub(crate) texts: [String; 3],
 }
 
 impl Chosen {
+    /// The same with plain names, and empty texts, in the places of those that a robot file cannot have.
+    pub(crate) fn accepted(self) -> Chosen {
+        let mut accepted = Chosen { names: PLAIN.map(str::to_owned), ..Chosen::default() };
+        for (place, text) in self.texts.into_iter().enumerate() {
+            accepted.texts[place] = text;
+            if !accepted.is_robot() {
+                accepted.texts[place].clear();
+            }
+        }
+        for (place, name) in self.names.into_iter().enumerate() {
+            let plain = std::mem::replace(&mut accepted.names[place], name);
+            if !accepted.is_robot() {
+                accepted.names[place] = plain;
+            }
+        }
+        accepted
+    }
+
+    fn is_robot(&self) -> bool {
+        let source = Source { name: "hostile.toml".to_owned(), text: self.file() };
+        programs(&source, &Options::default()).is_ok()
+    }
+
     /// The robot file.
-    pub fn file(&self) -> String {
+    pub(crate) fn file(&self) -> String {
         let names = self.names.each_ref().map(|name| quoted(name));
         let [robot, mass, length, first, second, joint, other, bundle] = names;
         let texts = self.texts.each_ref();
@@ -78,7 +105,7 @@ fn quoted(text: &str) -> String {
 /// # Panics
 ///
 /// Where a text of the file is code, or a description is not JSON.
-pub fn in_every_language(chosen: &Chosen) -> bool {
+pub(crate) fn in_every_language(chosen: &Chosen) -> bool {
     let source = Source { name: "hostile.toml".to_owned(), text: chosen.file() };
     let Ok(found) = programs(&source, &Options::default()) else { return false };
     for language in Language::ALL {

@@ -31,7 +31,8 @@ impl Runner for Arduino {
     }
 
     fn missing(&self) -> Option<String> {
-        let is_there = ["g++", "arm-none-eabi-g++"].map(|tool| files::is_there(tool, &["--version"]));
+        let is_there =
+            ["g++", "arm-none-eabi-g++"].map(|tool| files::is_there(tool, &["--version"]));
         (is_there != [true; 2]).then(|| "g++ or arm-none-eabi-g++ is not installed".to_owned())
     }
 

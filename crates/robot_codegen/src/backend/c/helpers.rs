@@ -1,8 +1,8 @@
 //! The functions that printed C calls: those of the runtime, with the same bits where it does not fuse products and
 //! sums.
 
-use super::{Dialect, Header, cuda};
 use super::spelling::{literal, number};
+use super::{Dialect, Header, cuda};
 use crate::backend::common::Scalar;
 use crate::backend::flat::Helpers;
 use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
@@ -146,7 +146,9 @@ impl Writer<'_> {
             Dialect::C => "",
             Dialect::Cuda => " || defined(__CUDA_ARCH__)",
         };
-        format!("#if defined({macro_of_c}) || defined(__FMA__) || defined(__ARM_FEATURE_FMA){of_cuda}")
+        format!(
+            "#if defined({macro_of_c}) || defined(__FMA__) || defined(__ARM_FEATURE_FMA){of_cuda}"
+        )
     }
 
     fn lines(text: &str) -> Vec<String> {

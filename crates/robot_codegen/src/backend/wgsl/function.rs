@@ -10,7 +10,8 @@ pub(super) fn function(printer: &Printer<'_>, function: &Function<'_>) -> Vec<St
     let body = function.whole();
     let mut lines = parts(printer, &body);
     lines.extend(documentation(printer, function));
-    let inputs = function.inputs.iter().map(|array| format!("{}: {}", array.name, of(array.length)));
+    let inputs =
+        function.inputs.iter().map(|array| format!("{}: {}", array.name, of(array.length)));
     let (name, length) = (function_name(printer.tree, function), body.results.len());
     let inputs = inputs.collect::<Vec<_>>().join(", ");
     lines.push(format!("fn {name}({inputs}) -> {} {{", of(length)));
@@ -54,7 +55,9 @@ fn statements(
             vec![format!("let {name} = {}[{entry}];", inputs[*input].name)]
         }
         Statement::Let { name, value } => vec![format!("let {name} = {};", text(value))],
-        Statement::Circular { sine, cosine, angle } => circular(printer, sine, cosine, &text(angle)),
+        Statement::Circular { sine, cosine, angle } => {
+            circular(printer, sine, cosine, &text(angle))
+        }
         Statement::Part(index) => {
             let part = &body.parts[*index];
             let given = format!("given{}_", index + 1);
