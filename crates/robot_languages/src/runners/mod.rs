@@ -1,5 +1,6 @@
 //! One runner for each language and tool.
 
+mod arduino;
 mod c;
 mod casadi;
 mod cppcheck;
@@ -68,6 +69,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     runners.push(Box::new(wgsl::Wgsl));
     runners.push(Box::new(casadi::Casadi));
     runners.push(Box::new(thumb::Thumb));
+    runners.push(Box::new(arduino::Arduino));
     runners.push(Box::new(cppcheck::Cppcheck));
     runners
 }

@@ -3,6 +3,7 @@
 mod package;
 mod printing;
 
+use robot_codegen::Scalar;
 use robot_codegen::backend::{self, Target};
 pub use robot_codegen::backend::{Contents, SourceFile};
 use robot_model::diagnostic::Source;
@@ -23,6 +24,8 @@ pub enum Language {
     C,
     /// C++17: a header over that of C.
     Cpp,
+    /// The header of C as a library of Arduino, in single precision.
+    Arduino,
     /// CUDA C++: a header of functions for host and device, and kernels.
     Cuda,
     /// MATLAB and Octave: a folder of functions over columns of states.
@@ -43,6 +46,7 @@ impl Language {
         Language::Rust,
         Language::C,
         Language::Cpp,
+        Language::Arduino,
         Language::Cuda,
         Language::Matlab,
         Language::Python,
@@ -58,6 +62,7 @@ impl Language {
             Language::Rust => "rust",
             Language::C => "c",
             Language::Cpp => "cpp",
+            Language::Arduino => "arduino",
             Language::Cuda => "cuda",
             Language::Matlab => "matlab",
             Language::Python => "python",
@@ -74,6 +79,7 @@ impl Language {
             Language::Rust => "Rust, without the standard library if need be",
             Language::C => "C99, one header",
             Language::Cpp => "C++17, a header with a namespace over that of C",
+            Language::Arduino => "C99 as a library of Arduino, in single precision alone",
             Language::Cuda => "CUDA C++, a header with a kernel for each function",
             Language::Matlab => "MATLAB and Octave, a function a file",
             Language::Python => "Python, for numbers and for NumPy arrays",
@@ -122,6 +128,11 @@ pub fn sources_of(
     let target: Box<dyn Target> = match language {
         Language::Rust => Box::new(printing::rust_options(programs, source, options)),
         Language::C => Box::new(backend::c::C { options: flat() }),
+        Language::Arduino if options.scalar != Scalar::F32 => {
+            let errors = robot_codegen::Error::Single { language: "The library of Arduino" };
+            return Err(Errors::of_code(&source.name, &errors.into()));
+        }
+        Language::Arduino => Box::new(backend::c::C { options: flat() }),
         Language::Cpp => Box::new(backend::c::Cpp { options: flat() }),
         Language::Cuda => Box::new(backend::c::Cuda { options: flat() }),
         Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),

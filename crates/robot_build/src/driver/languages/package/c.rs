@@ -135,7 +135,7 @@ add_test(NAME {name} COMMAND {name}_test)
     }
 
     /// The call of a function at its check state, with the declarations before it.
-    fn block(&self, check: &CheckValue) -> Option<Vec<String>> {
+    pub(super) fn block(&self, check: &CheckValue) -> Option<Vec<String>> {
         let (function, real) = (self.function(&check.function)?, self.real());
         let mut lines = vec![];
         let mut arguments = vec![];
@@ -252,14 +252,14 @@ static void name_flags(void)
         .to_owned()
     }
 
-    fn tolerance(&self) -> &'static str {
+    pub(super) fn tolerance(&self) -> &'static str {
         match self.parts.options.scalar {
             Scalar::F64 => "1e-12",
             Scalar::F32 => "1e-4",
         }
     }
 
-    fn test_of(&self, check: &CheckValue) -> String {
+    pub(super) fn test_of(&self, check: &CheckValue) -> String {
         let (Some(lines), Some(function)) = (self.block(check), self.function(&check.function))
         else {
             return String::new();

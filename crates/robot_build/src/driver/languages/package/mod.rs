@@ -1,5 +1,6 @@
 //! Whole packages: the module, what builds it, a test and a README.
 
+mod arduino;
 mod c;
 mod call;
 mod casadi;
@@ -70,6 +71,7 @@ pub fn package_of(
     Ok(match language {
         Language::Rust => vec![],
         Language::C => c::files(&parts, files),
+        Language::Arduino => arduino::files(&parts, files),
         Language::Cpp => cpp::files(&parts, files),
         Language::Cuda => cuda::files(&parts, files),
         Language::Matlab => matlab::files(&parts, files),

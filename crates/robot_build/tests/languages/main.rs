@@ -1,0 +1,212 @@
+//! Packages in all languages: the doors to them agree, and no text of a robot file becomes code.
+
+// Helpers of tests fail as tests do.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod harmless;
+
+use harmless::{Chosen, PLAIN, in_every_language};
+use robot_build::languages::{Language, package};
+use robot_build::{Builder, Options, Scalar, Source};
+use robot_symbolic::Random;
+
+const ARM: &str = r#"format = 1
+[robot]
+name = "Pendulum"
+gravity = [0, 0, "-g"]
+[parameters]
+g = { value = 9.81, unit = "m/s^2" }
+m = { value = 2.0, unit = "kg" }
+l = { value = 0.5, unit = "m" }
+[[link]]
+name = "1"
+joint = { type = "revolute", axis = "y" }
+mass = "m"
+center_of_mass = ["l", 0, 0]
+inertia = { xx = 0, yy = 0, zz = 0 }
+"#;
+
+/// The command writes what `package` gives.
+#[test]
+fn the_builder_writes_the_packages_of_the_command() {
+    let folder = std::env::temp_dir().join(format!("robot_build-{}-doors", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("a.toml"), ARM).unwrap();
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    for language in Language::ALL.iter().filter(|language| **language != Language::Rust) {
+        let options = Options { scalar: Scalar::F32, ..Options::default() };
+        let builder = Builder::new()
+            .language(*language)
+            .scalar(Scalar::F32)
+            .package_dir(&folder)
+            .out_dir(language.name())
+            .emit_directives(false);
+        match (package(&source, &options, *language), builder.compile(&["a.toml"])) {
+            (Ok(expected), Ok(())) => {
+                assert!(expected.len() > 2, "{}", language.name());
+                for file in expected {
+                    let path = folder.join(language.name()).join("pendulum").join(&file.path);
+                    let found = std::fs::read(&path).unwrap();
+                    assert!(found == file.contents.bytes(), "{}", path.display());
+                }
+            }
+            (Err(expected), Err(found)) => assert_eq!(found.to_string(), expected.to_string()),
+            (expected, found) => panic!("{}: {expected:?}, {found:?}", language.name()),
+        }
+    }
+    let _ = std::fs::remove_dir_all(&folder);
+}
+
+#[test]
+fn plain_names_and_texts_are_those_of_a_robot() {
+    let chosen = Chosen { names: PLAIN.map(str::to_owned), ..Chosen::default() };
+    let source = Source { name: "plain.toml".to_owned(), text: chosen.file() };
+    if let Err(errors) = robot_build::programs(&source, &Options::default()) {
+        panic!("{errors}");
+    }
+}
+
+/// What names are made of: words of languages, names that printers have for themselves, and signs.
+const NAMES: &[&str] = &[
+    "a",
+    "m",
+    "l",
+    "class",
+    "function",
+    "end",
+    "lambda",
+    "model",
+    "parameters",
+    "static",
+    "fn",
+    "double",
+    "blockIdx",
+    "threadIdx",
+    "step",
+    "i",
+    "n",
+    "stride",
+    "s",
+    "c",
+    "t1",
+    "k1",
+    "angles",
+    "struct",
+    "let",
+    "var",
+    "nominal",
+    "create_model",
+    "sin_cos",
+    "robot",
+    "test",
+    "main",
+    "q1",
+    "array",
+    "f32",
+    "not_a_number",
+    "_",
+    "__",
+    "-",
+    ".",
+    "0",
+    "2",
+    "kernel",
+    "_kernel",
+    "printf",
+    "EOF",
+    "INLINE",
+    "half",
+    "global",
+    "gravity",
+    "energies",
+    "id",
+    "é",
+    " ",
+    "\"",
+    "'",
+    ";",
+    "}",
+];
+
+/// What texts are made of: the ends of comments and strings, and what hides or continues them.
+const TEXTS: &[&str] = &[
+    "*/",
+    "/*",
+    "//",
+    "#",
+    "%",
+    "%{",
+    "%}",
+    "\"\"\"",
+    "'''",
+    "\"",
+    "'",
+    "`",
+    "${x}",
+    "\\",
+    "??/",
+    "\n",
+    "\r",
+    "\n\n",
+    "\u{85}",
+    "\u{2028}",
+    "\u{2029}",
+    "\u{b}",
+    "\u{c}",
+    "\t",
+    "\u{202e}",
+    "]]",
+    "--",
+    "-->",
+    "<!--",
+    "</script>",
+    "```",
+    "{",
+    "}",
+    "{0}",
+    ";",
+    "\n}\n",
+    "@",
+    "*",
+    "/",
+    "\\u0041",
+    "\\n",
+    "\u{200b}",
+    "\n#include <x>\n",
+    "...",
+    "\n```\n",
+    "$(x)",
+    "\0",
+    "\u{1a}",
+];
+
+fn random(random: &mut Random, parts: &[&str], most: usize) -> String {
+    let index = |random: &mut Random, below: usize| {
+        (random.uniform(0.0, below as f64) as usize).min(below - 1)
+    };
+    let count = index(random, most) + 1;
+    (0..count).map(|_| parts[index(random, parts.len())]).collect()
+}
+
+#[test]
+fn no_text_of_a_robot_file_becomes_code() {
+    let (mut hostile, mut texts) = (0, 0);
+    for seed in 1..=120 {
+        let mut source = Random::new(seed);
+        let chosen = Chosen {
+            names: std::array::from_fn(|_| random(&mut source, NAMES, 2)),
+            texts: std::array::from_fn(|_| random(&mut source, TEXTS, 6)),
+        };
+        let chosen = chosen.accepted();
+        let names = chosen.names.iter().zip(PLAIN);
+        hostile += names.filter(|(name, plain)| name != plain).count();
+        texts += chosen.texts.iter().filter(|text| !text.is_empty()).count();
+        match std::panic::catch_unwind(|| in_every_language(&chosen)) {
+            Ok(is_accepted) => assert!(is_accepted, "seed {seed}: {chosen:?}"),
+            Err(_) => panic!("seed {seed}: {chosen:?}"),
+        }
+    }
+    // Of eight names and three texts of each robot.
+    assert!(hostile > 600 && texts > 150, "{hostile} names and {texts} texts were tried");
+}
