@@ -2,8 +2,8 @@
 
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
-use robot_codegen::{Callable, Errors, Interpreter, Module};
-use robot_jit::{Compiled, Function, compile_owned};
+use robot_codegen::{Errors, Module};
+use robot_jit::Handle;
 
 use crate::strided::Table;
 use crate::wrong;
@@ -14,41 +14,9 @@ const BLOCK: usize = 64;
 /// A function as machine code, or interpreted where there is none for the machine.
 #[pyclass(frozen)]
 pub(crate) struct Engine {
-    code: Code,
+    code: robot_jit::Engine,
     /// The name of the function.
     name: String,
-}
-
-enum Code {
-    Native(Compiled<'static>),
-    Interpreted(Interpreter<'static>),
-}
-
-/// A handle of the function.
-#[derive(Clone, Copy)]
-enum Handle<'e> {
-    Native(Function<'e>),
-    Interpreted(Callable<'e>),
-}
-
-impl Handle<'_> {
-    fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
-        match self {
-            Handle::Native(function) => function.columns(inputs, outputs),
-            Handle::Interpreted(function) => function.columns(inputs, outputs),
-        }
-    }
-
-    fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
-        match self {
-            Handle::Native(function) => function.entries(inputs, outputs),
-            Handle::Interpreted(function) => {
-                let inputs: Vec<&[f64]> = inputs.chunks(1).collect();
-                let mut outputs: Vec<&mut [f64]> = outputs.chunks_mut(1).collect();
-                function.columns(&inputs, &mut outputs)
-            }
-        }
-    }
 }
 
 impl Engine {
@@ -58,26 +26,13 @@ impl Engine {
             given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let function = module.functions.first().ok_or("the robot has no function")?;
         let name = function.name.clone();
-        let text = |error: &dyn std::fmt::Display| error.to_string();
-        // What is wrong with the parameters is wrong with both.
-        let interpreter =
-            Interpreter::owned(module.clone(), &given).map_err(|error| text(&error))?;
-        let code = match compile_owned(module.clone(), &given, &robot_jit::Options::default()) {
-            Ok(compiled) => Code::Native(compiled),
-            Err(_) => Code::Interpreted(interpreter),
-        };
+        let code =
+            robot_jit::Engine::new(module, &given).map_err(|error| error.to_string())?;
         Ok(Engine { code, name })
     }
 
     fn handle(&self) -> PyResult<Handle<'_>> {
-        match &self.code {
-            Code::Native(compiled) => {
-                compiled.function(&self.name).map(Handle::Native).map_err(wrong)
-            }
-            Code::Interpreted(program) => {
-                program.function(&self.name).map(Handle::Interpreted).map_err(wrong)
-            }
-        }
+        self.code.function(&self.name).map_err(wrong)
     }
 }
 
@@ -86,26 +41,19 @@ impl Engine {
     /// Whether the function is machine code.
     #[getter]
     fn is_native(&self) -> bool {
-        matches!(self.code, Code::Native(_))
+        self.code.is_native()
     }
 
     /// Names and numbers of entries of the inputs.
     fn inputs(&self) -> PyResult<Vec<(String, usize)>> {
-        let inputs = match self.handle()? {
-            Handle::Native(function) => function.inputs(),
-            Handle::Interpreted(function) => function.inputs(),
-        };
+        let inputs = self.handle()?.inputs();
         Ok(inputs.iter().map(|input| (input.name.clone(), input.symbols.len())).collect())
     }
 
     /// Names and shapes of the outputs.
     fn outputs(&self) -> PyResult<Vec<(String, Vec<usize>)>> {
-        let handle = self.handle()?;
-        let named = match handle {
-            Handle::Native(function) => function.named(vec![0.0; function.output_size()]),
-            Handle::Interpreted(function) => function.named(vec![0.0; function.output_size()]),
-        };
-        Ok(named.into_iter().map(|output| (output.name, output.shape)).collect())
+        let outputs = self.handle()?.outputs();
+        Ok(outputs.iter().map(|output| (output.name.clone(), output.shape.clone())).collect())
     }
 
     /// Computes all states: tables (states, entries) of every input and output, in their order.
@@ -127,10 +75,7 @@ impl Engine {
         }
         let entries = |tables: &[Table]| tables.iter().map(|table| table.entries()).sum::<usize>();
         let (given, found) = (entries(&inputs), entries(&outputs));
-        let (wanted, made) = match handle {
-            Handle::Native(function) => (function.input_size(), function.output_size()),
-            Handle::Interpreted(function) => (function.input_size(), function.output_size()),
-        };
+        let (wanted, made) = (handle.input_size(), handle.output_size());
         if (given, found) != (wanted, made) {
             return Err(wrong(format!("{given} and {found} entries, not {wanted} and {made}")));
         }

@@ -6,10 +6,11 @@
 //! rounds once, as in code that is compiled for the processor, and a NaN may have other bits.
 //!
 //! For x86-64 with AVX2 and FMA, or AVX-512 F, DQ and VL, chosen when it runs. Elsewhere there is an error, and the
-//! interpreter does the same.
+//! interpreter does the same: [`Engine`] takes whichever of the two there is.
 
 mod compiled;
 mod emit;
+mod engine;
 mod error;
 mod list;
 mod memory;
@@ -20,5 +21,6 @@ mod testing;
 mod tests;
 
 pub use compiled::{Compiled, Function, Options, compile, compile_owned, compile_with};
+pub use engine::{Engine, Handle};
 pub use error::Error;
 pub use processor::Registers;

@@ -1,0 +1,14 @@
+//! Logs: tables in files, checked before they are read.
+
+mod files;
+mod place;
+mod session;
+mod variables;
+mod write;
+
+pub use files::Log;
+pub use session::{Session, Settings};
+pub use variables::Names;
+pub(crate) use place::Place;
+pub(crate) use write::properties;
+pub use write::{Answer, write};
