@@ -69,6 +69,18 @@ impl Columns {
         Err(Error::Columns(format!("{found} entries are given, but {wanted} needs {entries}")))
     }
 
+    /// The columns of arguments, however many.
+    ///
+    /// # Errors
+    ///
+    /// Values that are no numbers.
+    pub(crate) fn of_all(arguments: &[ArrayRef], rows: usize) -> Result<Columns, Error> {
+        let mut columns = Columns { parts: vec![], valid: None, rows, entries: 0 };
+        arguments.iter().try_for_each(|argument| columns.push(argument))?;
+        columns.entries = columns.parts.iter().map(|part| part.entries).sum();
+        Ok(columns)
+    }
+
     /// The rows in which nothing is null; all if `None`.
     pub(crate) fn valid(&self) -> Option<&NullBuffer> {
         self.valid.as_ref()

@@ -4,6 +4,7 @@
 //! its columns; [`identify`] folds them into parameters.
 
 mod columns;
+pub mod convert;
 mod error;
 pub mod functions;
 pub mod identify;

@@ -76,7 +76,7 @@ impl Arguments {
 /// Writes the robot file with the identified values, and says what they cost and what the doctor says.
 fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), Error> {
     let consistent = estimate.consistent(&opened.model)?;
-    let (text, complaints) = estimate.robot_file(&opened.model, &consistent)?;
+    let (text, complaints) = estimate.robot_file(&opened.model, &consistent, &path.to_string_lossy())?;
     if consistent.is_estimate {
         println!("\nbodies can have the estimate; {} has it", path.display());
     } else {

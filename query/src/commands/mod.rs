@@ -1,5 +1,7 @@
 //! The subcommands, one per file.
 
+mod check;
+mod convert;
 mod excite;
 mod generate;
 mod identify;
@@ -33,6 +35,8 @@ enum What {
     Identify(identify::Arguments),
     Generate(generate::Arguments),
     Excite(excite::Arguments),
+    Convert(convert::Arguments),
+    Check(check::Arguments),
 }
 
 /// What all subcommands share.
@@ -82,6 +86,8 @@ pub(crate) fn run() -> Result<(), Error> {
             What::Identify(arguments) => arguments.run(&engine).await,
             What::Generate(arguments) => arguments.run(&engine),
             What::Excite(arguments) => arguments.run(&engine),
+            What::Convert(arguments) => arguments.run(&engine),
+            What::Check(arguments) => arguments.run(&engine),
         }
     })
 }

@@ -56,6 +56,11 @@ impl Episodes {
         })
     }
 
+    /// Whether the log has torques.
+    pub(super) fn has_torques(&self) -> bool {
+        self.torques.is_some()
+    }
+
     /// Adds a sample: positions, and torques if the log has them.
     ///
     /// # Errors

@@ -15,15 +15,18 @@ use super::parameters::Parameters;
 use crate::error::Error;
 use crate::robots::Model;
 
-/// The weight of staying with the robot file, beside that of the measurements in units of their noise. It decides what
-/// measurements leave open, and nothing else.
-const PRIOR: f64 = 1e-6;
+/// The weight of staying with the robot file, beside that of the measurements in units of their noise: as of a value
+/// that is known to 100 times its size. It decides what measurements leave open.
+const PRIOR: f64 = 1e-4;
 
-/// The barrier's weight ends where it moves the sum of squares by this much.
-const GAP: f64 = 1e-6;
+/// The barrier's weight ends where it moves half the sum of squares by this much.
+const GAP: f64 = 1e-4;
+
+/// A weight's steps end where another would lower the function by this much of it.
+const CENTERED: f64 = 1e-3;
 
 /// The most Newton steps.
-const MOST_STEPS: usize = 2000;
+const MOST_STEPS: usize = 500;
 
 /// Standard parameters that bodies can have.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,10 +56,10 @@ impl Estimate {
                 self.robot, model.robot.name
             )));
         }
-        let problem = Problem::new(self, &parameters);
-        let found = problem.minimum()?;
         let estimate = DVector::from_column_slice(&self.values);
-        let moved = problem.with_base(&parameters, &found, &estimate);
+        let problem = Problem::new(self, &parameters, &estimate)?;
+        let found = problem.minimum()?;
+        let moved = with_base(&parameters, &problem.sizes, &found, &estimate);
         let is_estimate = moved.as_ref().is_some_and(|moved| problem.is_inside(moved));
         let values = moved.filter(|_| is_estimate).unwrap_or(found);
         let base = &parameters.regrouping * &values;
@@ -87,31 +90,38 @@ impl Estimate {
     }
 }
 
-/// min ½ ‖R B π − z‖² / s² + ½ ε ‖D (π − π₀)‖² over π with positive definite pseudo-inertias, in x = D π.
+/// min ½ ‖R B (π − π̂)‖² / s² + ½ ε ‖D (π − π₀)‖² over π with positive definite pseudo-inertias, in x = D π, with
+/// B π̂ the estimate: from there, the sum of squares grows by just that.
 struct Problem {
-    /// Curvature and gradient at 0 of the function without barrier, in x.
+    /// R B D⁻¹ / s.
+    map: DMatrix<f64>,
+    /// The curvature of the function without barrier.
     curvature: DMatrix<f64>,
-    slope: DVector<f64>,
+    /// x̂ and x₀.
+    estimate: DVector<f64>,
+    nominal: DVector<f64>,
     /// 1/D.
     sizes: DVector<f64>,
-    start: DVector<f64>,
     links: usize,
     /// The drives' parameters that are not negative.
     positive: Vec<usize>,
 }
 
 impl Problem {
-    fn new(estimate: &Estimate, parameters: &Parameters) -> Problem {
-        let base = parameters.names.len();
+    fn new(
+        estimate: &Estimate,
+        parameters: &Parameters,
+        base: &DVector<f64>,
+    ) -> Result<Problem, Error> {
         let count = parameters.standard.len();
-        let mut triangle = DMatrix::zeros(base, base);
-        let mut torque = DVector::zeros(base);
+        let mut triangle = DMatrix::zeros(base.len(), base.len());
         let mut packed = estimate.triangle.iter();
-        for row in 0..base {
-            for column in row..base {
+        for row in 0..base.len() {
+            for column in row..base.len() {
                 triangle[(row, column)] = packed.next().copied().unwrap_or(0.0);
             }
-            torque[row] = packed.next().copied().unwrap_or(0.0);
+            // The torque's.
+            packed.next();
         }
         let is_link = |place: usize| {
             matches!(parameters.standard[place].quantity, Quantity::Link(_) | Quantity::Moment(_))
@@ -119,24 +129,29 @@ impl Problem {
         let links = (0..count).filter(|place| is_link(*place)).count() / LINK_PARAMETERS;
         let sizes = sizes(&parameters.values, links);
         let scale = if estimate.scale > 0.0 { estimate.scale } else { 1.0 };
-        let mapped = triangle * &parameters.regrouping * DMatrix::from_diagonal(&sizes) / scale;
-        let start = parameters.values.component_div(&sizes);
-        let curvature = mapped.tr_mul(&mapped) + DMatrix::identity(count, count) * PRIOR;
-        let slope = -(mapped.tr_mul(&(torque / scale)) + &start * PRIOR);
+        let map = triangle * &parameters.regrouping * DMatrix::from_diagonal(&sizes) / scale;
+        let failed = || Error::Identification("the base parameters depend on one another".to_owned());
+        let found = with_base(parameters, &sizes, &parameters.values, base).ok_or_else(failed)?;
+        let curvature = map.tr_mul(&map) + DMatrix::identity(count, count) * PRIOR;
         let is_positive = |place: &usize| {
             let quantity = parameters.standard[*place].quantity;
             let is_free = matches!(quantity, Quantity::Offset | Quantity::RotorCoupling);
             !is_link(*place) && !is_free
         };
-        let positive = (0..count).filter(is_positive).collect();
-        let mut problem = Problem { curvature, slope, sizes, start, links, positive };
-        problem.start = problem.interior();
-        problem
+        Ok(Problem {
+            positive: (0..count).filter(is_positive).collect(),
+            estimate: found.component_div(&sizes),
+            nominal: parameters.values.component_div(&sizes),
+            map,
+            curvature,
+            sizes,
+            links,
+        })
     }
 
     /// A point at which the barrier is finite: that of the robot file, with mass in all places if need be.
     fn interior(&self) -> DVector<f64> {
-        let mut point = self.start.clone();
+        let mut point = self.nominal.clone();
         for place in &self.positive {
             point[*place] = point[*place].max(1e-3);
         }
@@ -147,7 +162,7 @@ impl Problem {
                 // A body of points on all axes: m, I_xx, I_yy, I_zz.
                 for (entry, weight) in [(0, 1.0), (4, 2.0), (6, 2.0), (9, 2.0)] {
                     let place = link * LINK_PARAMETERS + entry;
-                    point[place] = self.start[place] + weight * added;
+                    point[place] = self.nominal[place] + weight * added;
                 }
             }
         }
@@ -162,7 +177,7 @@ impl Problem {
 
     /// Newton's steps for a barrier of falling weight.
     fn minimum(&self) -> Result<DVector<f64>, Error> {
-        let mut point = self.start.clone();
+        let mut point = self.interior();
         let conditions = 4 * self.links + self.positive.len();
         let mut weight = 1.0;
         let failed = || Error::Identification("the physically consistent estimate does not converge".to_owned());
@@ -170,7 +185,7 @@ impl Problem {
             let (slope, curvature) = self.derivatives(&point, weight).ok_or_else(failed)?;
             let step = curvature.cholesky().ok_or_else(failed)?.solve(&-&slope);
             let decrement = -slope.dot(&step);
-            if decrement < 1e-8 * weight {
+            if decrement < CENTERED * weight {
                 if weight * conditions as f64 <= GAP {
                     return Ok(point.component_mul(&self.sizes));
                 }
@@ -217,12 +232,15 @@ impl Problem {
             }
             barrier -= values[*place].ln();
         }
-        Some(0.5 * point.dot(&(&self.curvature * point)) + self.slope.dot(point) + weight * barrier)
+        let squares = (&self.map * (point - &self.estimate)).norm_squared();
+        let moved = (point - &self.nominal).norm_squared();
+        Some(0.5 * squares + 0.5 * PRIOR * moved + weight * barrier)
     }
 
     fn derivatives(&self, point: &DVector<f64>, weight: f64) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let values = point.component_mul(&self.sizes);
-        let mut slope = &self.curvature * point + &self.slope;
+        let mut slope = self.map.tr_mul(&(&self.map * (point - &self.estimate)));
+        slope += (point - &self.nominal) * PRIOR;
         let mut curvature = self.curvature.clone();
         for link in 0..self.links {
             let inverse = pseudo_inertia(&values, link).try_inverse()?;
@@ -243,20 +261,20 @@ impl Problem {
         }
         Some((slope, curvature))
     }
+}
 
-    /// The standard parameters with given base parameters that are nearest to others.
-    fn with_base(
-        &self,
-        parameters: &Parameters,
-        near: &DVector<f64>,
-        base: &DVector<f64>,
-    ) -> Option<DVector<f64>> {
-        let weights = DMatrix::from_diagonal(&self.sizes.component_mul(&self.sizes));
-        let across = &weights * parameters.regrouping.transpose();
-        let gram = &parameters.regrouping * &across;
-        let missing = base - &parameters.regrouping * near;
-        Some(near + across * gram.cholesky()?.solve(&missing))
-    }
+/// The standard parameters with given base parameters that are nearest to others, in units of their sizes.
+fn with_base(
+    parameters: &Parameters,
+    sizes: &DVector<f64>,
+    near: &DVector<f64>,
+    base: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let weights = DMatrix::from_diagonal(&sizes.component_mul(sizes));
+    let across = weights * parameters.regrouping.transpose();
+    let gram = &parameters.regrouping * &across;
+    let missing = base - &parameters.regrouping * near;
+    Some(near + across * gram.cholesky()?.solve(&missing))
 }
 
 /// What counts as 1 of each standard parameter: of a link its mass, and the largest of its moments.

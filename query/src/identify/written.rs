@@ -20,7 +20,8 @@ const ROUNDING: f64 = 1e-9;
 impl Estimate {
     /// The robot file, in TOML, with consistent values of this estimate: masses, centers of mass and inertias of all
     /// moving links, and friction and armatures that the file has. The estimates with their deviations are comments. Bodies
-    /// of fixed links are joined with the moving link that carries them. The second text has what the doctor says.
+    /// of fixed links are joined with the moving link that carries them. The second text has what the doctor says about the
+    /// file under its new name.
     ///
     /// # Errors
     ///
@@ -30,6 +31,7 @@ impl Estimate {
         &self,
         model: &Model,
         consistent: &Consistent,
+        new: &str,
     ) -> Result<(String, String), Error> {
         let Source { name, text } = &model.source;
         let failed = |reason: String| Error::Robot { robot: name.clone(), reason };
@@ -57,8 +59,8 @@ impl Estimate {
             self.comment(place, table);
         }
         let text = document.to_string();
-        let found = doctor::check(name, &text, &Options::default()).found;
-        let source = Source { name: name.clone(), text: text.clone() };
+        let found = doctor::check(new, &text, &Options::default()).found;
+        let source = Source { name: new.to_owned(), text: text.clone() };
         let options = robot_build::Options { search: false, ..robot_build::Options::default() };
         let written = Model::new(source, options)?;
         let base = Parameters::of(&written)?.nominal;

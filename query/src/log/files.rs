@@ -116,7 +116,7 @@ fn unreadable(path: &Path, group: usize) -> Option<String> {
 /// # Errors
 ///
 /// A file that cannot be opened, or is not whole.
-pub(super) fn reader(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
+pub(crate) fn reader(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
     let file = File::open(path).map_err(|error| Error::file(path, error))?;
     ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| {
         let reason = "it is no whole Parquet file, perhaps truncated";

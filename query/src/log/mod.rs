@@ -1,11 +1,14 @@
 //! Logs: tables in files, checked before they are read.
 
+mod check;
 mod files;
 mod place;
 mod session;
 mod variables;
 mod write;
 
+pub use check::{Finding, check};
+pub(crate) use files::reader;
 pub use files::Log;
 pub use session::{Session, Settings};
 pub use variables::Names;

@@ -30,28 +30,39 @@ impl Names {
     ) -> Result<Vec<Expr>, Error> {
         let mut found = vec![];
         for variable in variables {
-            let place = JointVariable::ALL.iter().position(|other| other == variable);
-            let given = place.and_then(|place| self.variables[place].as_deref());
-            let name = given.unwrap_or(variable.name());
-            found.extend(columns(schema, name, model.joints()).ok_or_else(|| {
-                missing(schema, *variable, name, model)
-            })?);
+            let columns = self.of(schema, *variable, model);
+            let missing = || missing(schema, *variable, self.name(*variable), model);
+            found.extend(columns.ok_or_else(missing)?.into_iter().map(ident));
         }
         Ok(found)
     }
-}
 
-fn columns(schema: &Schema, name: &str, joints: usize) -> Option<Vec<Expr>> {
-    let is_nested = |kind: &DataType| kind.is_nested() || joints == 1;
-    if schema.column_with_name(name).is_some_and(|(_, field)| is_nested(field.data_type())) {
-        return Some(vec![ident(name)]);
+    /// The names of the columns of a variable; `None` if they are missing.
+    pub(super) fn of(
+        &self,
+        schema: &Schema,
+        variable: JointVariable,
+        model: &Model,
+    ) -> Option<Vec<String>> {
+        let (name, joints) = (self.name(variable), model.joints());
+        let is_nested = |kind: &DataType| kind.is_nested() || joints == 1;
+        if schema.column_with_name(name).is_some_and(|(_, field)| is_nested(field.data_type())) {
+            return Some(vec![name.to_owned()]);
+        }
+        ["", "_"].iter().find_map(|between| {
+            let names = (1..=joints).map(|joint| format!("{name}{between}{joint}"));
+            let names: Vec<String> = names.collect();
+            let are_there = names.iter().all(|name| schema.column_with_name(name).is_some());
+            are_there.then_some(names)
+        })
     }
-    ["", "_"].iter().find_map(|between| {
-        let names = (1..=joints).map(|joint| format!("{name}{between}{joint}"));
-        let names: Vec<String> = names.collect();
-        let are_there = names.iter().all(|name| schema.column_with_name(name).is_some());
-        are_there.then(|| names.into_iter().map(ident).collect())
-    })
+
+    /// The name of a variable's column, or the beginning of the names of several.
+    fn name(&self, variable: JointVariable) -> &str {
+        let place = JointVariable::ALL.iter().position(|other| *other == variable);
+        let given = place.and_then(|place| self.variables[place].as_deref());
+        given.unwrap_or(variable.name())
+    }
 }
 
 fn missing(schema: &Schema, variable: JointVariable, name: &str, model: &Model) -> Error {
