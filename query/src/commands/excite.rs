@@ -8,7 +8,7 @@ use robot_query::Error;
 use robot_query::motion::{Excitation, excite, limits};
 
 use super::generate::positive;
-use super::{Engine, noise};
+use super::{Engine, noise, written};
 
 /// A periodic trajectory within the limits of the joints along which the base parameters are told apart best
 ///
@@ -69,11 +69,7 @@ impl Arguments {
             row.iter().for_each(|value| text.push_str(&format!(",{value}")));
             text.push('\n');
         }
-        std::fs::write(&self.output, text).map_err(|error| Error::File {
-            path: self.output.clone(),
-            row_group: None,
-            reason: error.to_string(),
-        })?;
+        written(&self.output, &text)?;
         eprintln!("condition {condition:.3}");
         Ok(())
     }

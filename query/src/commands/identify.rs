@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use datafusion::execution::FunctionRegistry;
-use datafusion::logical_expr::lit;
 use datafusion::functions_nested::expr_fn::make_array;
+use datafusion::logical_expr::lit;
 use robot_model::variable::JointVariable;
 use robot_query::Error;
 use robot_query::identify::Estimate;
 
 use super::Engine;
 use super::inputs::{Inputs, Opened};
-use super::noise;
+use super::{noise, written};
 
 /// The base parameters that explain the measured torques best, with their standard deviations
 ///
@@ -76,7 +76,8 @@ impl Arguments {
 /// Writes the robot file with the identified values, and says what they cost and what the doctor says.
 fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), Error> {
     let consistent = estimate.consistent(&opened.model)?;
-    let (text, complaints) = estimate.robot_file(&opened.model, &consistent, &path.to_string_lossy())?;
+    let (text, complaints) =
+        estimate.robot_file(&opened.model, &consistent, &path.to_string_lossy())?;
     if consistent.is_estimate {
         println!("\nbodies can have the estimate; {} has it", path.display());
     } else {
@@ -89,17 +90,6 @@ fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), E
     }
     eprint!("{complaints}");
     written(path, &text)
-}
-
-/// Writes a file that is not there yet.
-fn written(path: &Path, text: &str) -> Result<(), Error> {
-    let failed = |error: std::io::Error| Error::File {
-        path: path.to_owned(),
-        row_group: None,
-        reason: error.to_string(),
-    };
-    let mut file = std::fs::File::create_new(path).map_err(failed)?;
-    std::io::Write::write_all(&mut file, text.as_bytes()).map_err(failed)
 }
 
 /// The estimate for readers.
@@ -116,7 +106,8 @@ fn print(estimate: &Estimate) {
     println!("{:10}{:>16}{:>16}{:>16}", "", "estimated", "deviation", "robot file");
     for (place, name) in estimate.names.iter().enumerate() {
         let (value, nominal) = (estimate.values[place], estimate.nominal[place]);
-        let deviation = estimate.deviations[place].map_or("-".to_owned(), |one| format!("{one:.6}"));
+        let deviation =
+            estimate.deviations[place].map_or("-".to_owned(), |one| format!("{one:.6}"));
         println!("{name:10}{value:>16.6}{deviation:>16}{nominal:>16.6}");
     }
     for parameter in &estimate.unidentifiable {

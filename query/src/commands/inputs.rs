@@ -70,7 +70,8 @@ impl Opened {
 
     /// The columns of the log that are kept beside an answer: those named, else all.
     pub(super) fn kept(&self, columns: Option<&[String]>) -> Vec<Expr> {
-        let all = || self.table.schema().fields().iter().map(|field| field.name().clone()).collect();
+        let all =
+            || self.table.schema().fields().iter().map(|field| field.name().clone()).collect();
         let names: Vec<String> = columns.map_or_else(all, <[String]>::to_vec);
         names.into_iter().map(ident).collect()
     }

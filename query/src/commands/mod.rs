@@ -10,7 +10,7 @@ mod residual;
 mod sql;
 mod torques;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 use robot_query::Error;
@@ -102,4 +102,15 @@ fn noise(given: &[f64], joints: usize) -> Result<Vec<f64>, Error> {
             other.len()
         ))),
     }
+}
+
+/// Writes a file that is not there yet.
+fn written(path: &Path, text: &str) -> Result<(), Error> {
+    let failed = |error: std::io::Error| Error::File {
+        path: path.to_owned(),
+        row_group: None,
+        reason: error.to_string(),
+    };
+    let mut file = std::fs::File::create_new(path).map_err(failed)?;
+    std::io::Write::write_all(&mut file, text.as_bytes()).map_err(failed)
 }

@@ -64,7 +64,8 @@ impl Reader<'_> {
 
     fn numbers(&mut self) -> Option<Vec<f64>> {
         let count = self.count(8)?;
-        let number = |bytes| if self.little { f64::from_le_bytes(bytes) } else { f64::from_be_bytes(bytes) };
+        let number =
+            |bytes| if self.little { f64::from_le_bytes(bytes) } else { f64::from_be_bytes(bytes) };
         let mut found = Vec::with_capacity(count);
         for _ in 0..count {
             let start = self.place.next_multiple_of(8);

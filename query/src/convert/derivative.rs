@@ -55,7 +55,8 @@ mod tests {
 
     #[test]
     fn cubics_are_exact_at_uneven_times_and_at_the_ends() {
-        let times: Vec<f64> = (0..40).map(|i| 0.01 * f64::from(i) + 0.002 * f64::from(i % 3)).collect();
+        let times: Vec<f64> =
+            (0..40).map(|i| 0.01 * f64::from(i) + 0.002 * f64::from(i % 3)).collect();
         let cubic = |t: f64| 1.0 - 2.0 * t + 3.0 * t * t - 4.0 * t * t * t;
         let positions = vec![times.iter().map(|t| cubic(*t)).collect()];
         let [first, second] = derivatives(&Samples { times: times.clone(), positions }, 11);

@@ -4,7 +4,9 @@ use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
-use datafusion::arrow::array::{ArrayRef, FixedSizeListArray, Float64Array, Int64Array, RecordBatch};
+use datafusion::arrow::array::{
+    ArrayRef, FixedSizeListArray, Float64Array, Int64Array, RecordBatch,
+};
 use datafusion::arrow::datatypes::{DataType, Field, Schema};
 use datafusion::parquet::arrow::ArrowWriter;
 
@@ -32,7 +34,12 @@ pub(super) struct Episodes {
 }
 
 impl Episodes {
-    pub(super) fn new(path: &Path, joints: usize, torques: bool, window: usize) -> Result<Episodes, Error> {
+    pub(super) fn new(
+        path: &Path,
+        joints: usize,
+        torques: bool,
+        window: usize,
+    ) -> Result<Episodes, Error> {
         let kind = DataType::FixedSizeList(doubles(), i32::try_from(joints).unwrap_or(i32::MAX));
         let mut fields = vec![
             Field::new("episode", DataType::Int64, false),
@@ -128,7 +135,8 @@ impl Episodes {
         ];
         let tables = [&self.samples.positions, &velocities, &accelerations];
         for columns in tables.into_iter().chain(&self.torques) {
-            let entries = rows.clone().flat_map(|row| columns.iter().map(move |column| column[row]));
+            let entries =
+                rows.clone().flat_map(|row| columns.iter().map(move |column| column[row]));
             let values = Arc::new(Float64Array::from(entries.collect::<Vec<f64>>()));
             let size = i32::try_from(columns.len()).unwrap_or(i32::MAX);
             let lists = FixedSizeListArray::try_new(doubles(), size, values, None);

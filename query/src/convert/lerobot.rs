@@ -113,7 +113,9 @@ fn names(folder: &Path) -> Result<(Vec<String>, PathBuf), Error> {
     let info: Value = serde_json::from_str(&text).map_err(|error| failed(error.to_string()))?;
     let version = info["codebase_version"].as_str().unwrap_or("unknown");
     if !version.starts_with("v3") {
-        return Err(failed(format!("the data set has version {version}; convert it to v3.0 with LeRobot")));
+        return Err(failed(format!(
+            "the data set has version {version}; convert it to v3.0 with LeRobot"
+        )));
     }
     let mut found = vec![];
     collect(&info["features"][STATE]["names"], &mut found);

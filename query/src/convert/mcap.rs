@@ -51,7 +51,8 @@ pub(super) fn convert(
     while let Some(event) = reader.next_event() {
         match event.map_err(failed)? {
             LinearReadEvent::ReadRequest(need) => {
-                let read = file.read(reader.insert(need)).map_err(|error| Error::file(input, error))?;
+                let read =
+                    file.read(reader.insert(need)).map_err(|error| Error::file(input, error))?;
                 reader.notify_read(read);
             }
             LinearReadEvent::Record { data, opcode } => {
@@ -107,13 +108,15 @@ impl Recording<'_> {
             Some(topic) if *topic != channel.topic => return Ok(()),
             None if self.channel.is_some() => {
                 let topics = self.topics.join(", ");
-                let reason = format!("several topics have joint states, {topics}; choose one with --topic");
+                let reason =
+                    format!("several topics have joint states, {topics}; choose one with --topic");
                 return Err(Error::file(self.input, reason));
             }
             _ => {}
         }
         if channel.message_encoding != "cdr" {
-            let reason = format!("{} is encoded as {}, not as cdr", channel.topic, channel.message_encoding);
+            let reason =
+                format!("{} is encoded as {}, not as cdr", channel.topic, channel.message_encoding);
             return Err(Error::file(self.input, reason));
         }
         self.channel = Some(channel.id);
@@ -165,7 +168,10 @@ impl Recording<'_> {
                 [] => format!("no topic has messages of {TYPE}"),
                 topics => format!("topics with joint states are {}", topics.join(", ")),
             };
-            return Err(Error::file(self.input, format!("it has no joint states to convert: {topics}")));
+            return Err(Error::file(
+                self.input,
+                format!("it has no joint states to convert: {topics}"),
+            ));
         };
         log.end()?;
         log.finish()

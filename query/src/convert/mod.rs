@@ -53,7 +53,10 @@ pub fn convert(
     }
     match input.extension().and_then(|ending| ending.to_str()) {
         Some("mcap") => mcap::convert(model, input, how, output),
-        _ => Err(Error::file(input, "it is neither an .mcap file nor the folder of a LeRobot data set")),
+        _ => Err(Error::file(
+            input,
+            "it is neither an .mcap file nor the folder of a LeRobot data set",
+        )),
     }
 }
 
@@ -62,13 +65,24 @@ pub fn convert(
 /// # Errors
 ///
 /// A joint that is not among them.
-fn places(model: &Model, how: &Conversion, names: &[String], path: &Path) -> Result<Vec<usize>, Error> {
-    let own = || model.robot.coordinates.iter().map(|coordinate| coordinate.joint.clone()).collect();
+fn places(
+    model: &Model,
+    how: &Conversion,
+    names: &[String],
+    path: &Path,
+) -> Result<Vec<usize>, Error> {
+    let own =
+        || model.robot.coordinates.iter().map(|coordinate| coordinate.joint.clone()).collect();
     let wanted: Vec<String> = how.joints.clone().unwrap_or_else(own);
     if wanted.len() != model.joints() {
         return Err(Error::file(
             path,
-            format!("{} joints are named, but {} has {}", wanted.len(), model.robot.name, model.joints()),
+            format!(
+                "{} joints are named, but {} has {}",
+                wanted.len(),
+                model.robot.name,
+                model.joints()
+            ),
         ));
     }
     let place = |wanted: &String| {

@@ -70,39 +70,49 @@ impl ScalarUDFImpl for Dynamics {
     }
 
     fn invoke_with_args(&self, arguments: ScalarFunctionArgs) -> Result<ColumnarValue> {
-        let (model, columns) = inputs(self.name(), arguments, &self.robots)?;
-        let compiled = model.compiled(self.kind)?;
+        let call = Call::new(self.name(), arguments, &self.robots)?;
+        let compiled = call.model.compiled(self.kind)?;
         let handle = function(&compiled.engine, self.kind)?;
-        let columns = columns(&model, handle.input_size())?;
+        let columns = call.columns(handle.input_size())?;
         let array = computed(handle, &columns)?;
         Ok(ColumnarValue::Array(array))
     }
 }
 
 /// The function of an engine that has one.
-pub(crate) fn function(engine: &robot_jit::Engine, kind: FunctionKind) -> Result<Handle<'_>, Error> {
+pub(crate) fn function(
+    engine: &robot_jit::Engine,
+    kind: FunctionKind,
+) -> Result<Handle<'_>, Error> {
     engine.function(kind.name()).map_err(|error| Error::Query(error.to_string()))
 }
 
-/// The robot, and what makes columns of the other arguments if told how many entries there must be.
-pub(super) fn inputs(
-    name: &str,
-    arguments: ScalarFunctionArgs,
-    robots: &Robots,
-) -> Result<(Arc<Model>, impl FnOnce(&Model, usize) -> Result<Columns>)> {
-    let rows = arguments.number_rows;
-    let mut arguments = arguments.args.into_iter();
-    let model = match arguments.next() {
-        Some(ColumnarValue::Scalar(literal)) => robot_of(name, Some(&literal), robots)?,
-        _ => robot_of(name, None, robots)?,
-    };
-    let name = name.to_owned();
-    let columns = move |model: &Model, entries: usize| {
+/// A call: the robot and the other arguments.
+pub(super) struct Call {
+    pub(super) model: Arc<Model>,
+    arrays: Vec<ArrayRef>,
+    rows: usize,
+    name: String,
+}
+
+impl Call {
+    pub(super) fn new(name: &str, arguments: ScalarFunctionArgs, robots: &Robots) -> Result<Call> {
+        let rows = arguments.number_rows;
+        let mut arguments = arguments.args.into_iter();
+        let model = match arguments.next() {
+            Some(ColumnarValue::Scalar(literal)) => robot_of(name, Some(&literal), robots)?,
+            _ => robot_of(name, None, robots)?,
+        };
         let arrays: Result<Vec<ArrayRef>> = arguments.map(|one| one.into_array(rows)).collect();
-        let wanted = format!("{name} of {}, with {} joints,", model.robot.name, model.joints());
-        Ok(Columns::new(&arrays?, rows, &[entries], &wanted)?)
-    };
-    Ok((model, columns))
+        Ok(Call { model, arrays: arrays?, rows, name: name.to_owned() })
+    }
+
+    /// The columns of the arguments, which must have so many entries.
+    pub(super) fn columns(&self, entries: usize) -> Result<Columns, Error> {
+        let (robot, joints) = (&self.model.robot.name, self.model.joints());
+        let wanted = format!("{} of {robot}, with {joints} joints,", self.name);
+        Columns::new(&self.arrays, self.rows, &[entries], &wanted)
+    }
 }
 
 /// Computes all rows, a block at a time.
@@ -148,11 +158,8 @@ pub(crate) fn compute(
     found: &mut [f64],
     rows: usize,
 ) -> Result<(), Error> {
-    let inputs: Vec<&[f64]> = given
-        .chunks_exact(BLOCK)
-        .take(handle.input_size())
-        .map(|column| &column[..rows])
-        .collect();
+    let inputs: Vec<&[f64]> =
+        given.chunks_exact(BLOCK).take(handle.input_size()).map(|column| &column[..rows]).collect();
     let mut outputs: Vec<&mut [f64]> =
         found.chunks_exact_mut(BLOCK).map(|column| &mut column[..rows]).collect();
     handle.columns(&inputs, &mut outputs).map_err(|error| Error::Query(error.to_string()))

@@ -27,7 +27,9 @@ pub(super) fn array_of(
     let arrays: Result<Vec<ArrayRef>> =
         arrays.map(|(output, values)| array(&output.shape, values, valid, rows)).collect();
     let mut arrays = arrays?;
-    if outputs.len() == 1 && let Some(array) = arrays.pop() {
+    if outputs.len() == 1
+        && let Some(array) = arrays.pop()
+    {
         return Ok(array);
     }
     let structs = StructArray::try_new_with_length(fields(outputs), arrays, valid.cloned(), rows)?;

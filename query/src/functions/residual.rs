@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use datafusion::arrow::array::FixedSizeListArray;
 use datafusion::arrow::array::Float64Array;
-use datafusion::arrow::datatypes::{DataType, FieldRef, Field};
+use datafusion::arrow::datatypes::{DataType, Field, FieldRef};
 use datafusion::common::internal_err;
 use datafusion::error::Result;
 use datafusion::logical_expr::{
@@ -13,7 +13,7 @@ use datafusion::logical_expr::{
 };
 use robot_build::{Effects, FunctionKind};
 
-use super::dynamics::{compute, function, inputs};
+use super::dynamics::{Call, compute, function};
 use super::literal::robot_of;
 use crate::columns::{BLOCK, doubles};
 use crate::robots::{Model, Robots};
@@ -74,10 +74,11 @@ impl ScalarUDFImpl for Residual {
     }
 
     fn invoke_with_args(&self, arguments: ScalarFunctionArgs) -> Result<ColumnarValue> {
-        let (model, columns) = inputs(self.name(), arguments, &self.robots)?;
+        let call = Call::new(self.name(), arguments, &self.robots)?;
+        let model = &call.model;
         let joints = model.joints();
-        let columns = columns(&model, 4 * joints)?;
-        let kind = torques_of(&model);
+        let columns = call.columns(4 * joints)?;
+        let kind = torques_of(model);
         let compiled = model.compiled(kind)?;
         let handle = function(&compiled.engine, kind)?;
         let mut values = vec![0.0; columns.rows() * joints];

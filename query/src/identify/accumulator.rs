@@ -10,9 +10,7 @@ use datafusion::arrow::datatypes::{DataType, Field, FieldRef, Float64Type};
 use datafusion::common::ScalarValue;
 use datafusion::error::Result;
 use datafusion::logical_expr::function::{AccumulatorArgs, StateFieldsArgs};
-use datafusion::logical_expr::{
-    Accumulator, AggregateUDFImpl, Signature, Volatility,
-};
+use datafusion::logical_expr::{Accumulator, AggregateUDFImpl, Signature, Volatility};
 
 use super::answer::{answer_type, null_answer};
 use super::measurements::{Measurements, Scratch};
@@ -161,7 +159,9 @@ impl Accumulator for Identification {
             return Err(no_robot().into());
         };
         let literals = cast(literals, &DataType::Utf8)?;
-        for (literal, numbers) in literals.as_string::<i32>().iter().zip(numbers.as_list::<i32>().iter()) {
+        for (literal, numbers) in
+            literals.as_string::<i32>().iter().zip(numbers.as_list::<i32>().iter())
+        {
             if let (Some(literal), Some(numbers)) = (literal, numbers) {
                 self.of(literal)?.merge(numbers.as_primitive::<Float64Type>().values())?;
             }
@@ -171,5 +171,7 @@ impl Accumulator for Identification {
 }
 
 fn no_robot() -> Error {
-    Error::Query("the first argument of identify is the robot: its name, its path or its text".to_owned())
+    Error::Query(
+        "the first argument of identify is the robot: its name, its path or its text".to_owned(),
+    )
 }

@@ -130,7 +130,8 @@ impl Problem {
         let sizes = sizes(&parameters.values, links);
         let scale = if estimate.scale > 0.0 { estimate.scale } else { 1.0 };
         let map = triangle * &parameters.regrouping * DMatrix::from_diagonal(&sizes) / scale;
-        let failed = || Error::Identification("the base parameters depend on one another".to_owned());
+        let failed =
+            || Error::Identification("the base parameters depend on one another".to_owned());
         let found = with_base(parameters, &sizes, &parameters.values, base).ok_or_else(failed)?;
         let curvature = map.tr_mul(&map) + DMatrix::identity(count, count) * PRIOR;
         let is_positive = |place: &usize| {
@@ -180,7 +181,9 @@ impl Problem {
         let mut point = self.interior();
         let conditions = 4 * self.links + self.positive.len();
         let mut weight = 1.0;
-        let failed = || Error::Identification("the physically consistent estimate does not converge".to_owned());
+        let failed = || {
+            Error::Identification("the physically consistent estimate does not converge".to_owned())
+        };
         for _ in 0..MOST_STEPS {
             let (slope, curvature) = self.derivatives(&point, weight).ok_or_else(failed)?;
             let step = curvature.cholesky().ok_or_else(failed)?.solve(&-&slope);
@@ -237,7 +240,11 @@ impl Problem {
         Some(0.5 * squares + 0.5 * PRIOR * moved + weight * barrier)
     }
 
-    fn derivatives(&self, point: &DVector<f64>, weight: f64) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    fn derivatives(
+        &self,
+        point: &DVector<f64>,
+        weight: f64,
+    ) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let values = point.component_mul(&self.sizes);
         let mut slope = self.map.tr_mul(&(&self.map * (point - &self.estimate)));
         slope += (point - &self.nominal) * PRIOR;

@@ -161,7 +161,8 @@ impl Measurements {
         });
         let (kept, left) = independent(scaled);
         if kept.is_empty() {
-            let reason = "no parameter acts on any torque of the log: all columns of the regressor are 0";
+            let reason =
+                "no parameter acts on any torque of the log: all columns of the regressor are 0";
             return Err(Error::Identification(reason.to_owned()));
         }
         let rank = kept.len();
@@ -172,7 +173,8 @@ impl Measurements {
             let column = order.get(place).copied().unwrap_or(count);
             if row > column { 0.0 } else { all.get(row, column) * scale(place) }
         });
-        let entry = |row: usize, column: usize| if row > column { 0.0 } else { sorted.get(row, column) };
+        let entry =
+            |row: usize, column: usize| if row > column { 0.0 } else { sorted.get(row, column) };
         let top = DMatrix::from_fn(rank, rank, entry);
         let right = DMatrix::from_fn(rank, left.len(), |row, place| entry(row, rank + place));
         // What is not identifiable stays at the value of the robot file.
@@ -229,7 +231,10 @@ impl Measurements {
         let unidentifiable = left.iter().enumerate().map(|(place, column)| {
             let acting = together.column(place);
             let with = kept.iter().zip(acting.iter()).filter(|(_, share)| share.abs() > NAMED);
-            Unidentifiable { name: name(*column), with: with.map(|(kept, _)| name(*kept)).collect() }
+            Unidentifiable {
+                name: name(*column),
+                with: with.map(|(kept, _)| name(*kept)).collect(),
+            }
         });
         let coordinates = &self.model.robot.coordinates;
         let residuals = self.joints.iter().zip(noise).zip(coordinates);
@@ -295,7 +300,8 @@ impl Joint {
         let last = self.columns.len();
         let row = |row: usize| {
             let columns = self.columns.iter().enumerate().skip(row);
-            let explained = columns.map(|(place, column)| self.triangle.get(row, place) * values[*column]);
+            let explained =
+                columns.map(|(place, column)| self.triangle.get(row, place) * values[*column]);
             (self.triangle.get(row, last) - explained.sum::<f64>()).powi(2)
         };
         (0..=last).map(row).sum()

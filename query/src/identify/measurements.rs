@@ -114,7 +114,9 @@ impl Measurements {
     /// Folds the first rows of a block into the triangle of a joint.
     fn fold(&mut self, joint: usize, rows: usize, scratch: &mut Scratch) {
         let count = self.joints.len();
-        let column = |values: &'_ [f64], place: usize| place * BLOCK..place * BLOCK + values.len().min(BLOCK);
+        let column = |values: &'_ [f64], place: usize| {
+            place * BLOCK..place * BLOCK + values.len().min(BLOCK)
+        };
         let Scratch { given, regressor, block } = scratch;
         let noise = match given.len() / BLOCK - 4 * count {
             0 => None,
@@ -169,7 +171,8 @@ impl Measurements {
         let mut merged = self.joints.clone();
         for joint in &mut merged {
             let size = joint.triangle.size();
-            let (own, rest) = numbers.split_at_checked(1 + size * (size + 1) / 2).ok_or_else(other)?;
+            let (own, rest) =
+                numbers.split_at_checked(1 + size * (size + 1) / 2).ok_or_else(other)?;
             let triangle = Triangle::unpacked(size, &own[1..]).ok_or_else(other)?;
             joint.triangle.merge(&triangle);
             joint.weight += own[0];
@@ -200,10 +203,8 @@ fn usable(columns: &Columns, start: usize, rows: usize, first: usize, given: &mu
     let count = wanted[..rows].iter().filter(|wanted| **wanted).count();
     if count < rows {
         for column in given.chunks_exact_mut(BLOCK) {
-            let mut front = 0;
-            for row in (0..rows).filter(|row| wanted[*row]) {
+            for (front, row) in (0..rows).filter(|row| wanted[*row]).enumerate() {
                 column[front] = column[row];
-                front += 1;
             }
         }
     }

@@ -41,7 +41,9 @@ impl Estimate {
             import.toml.parse().map_err(|error: toml_edit::TomlError| failed(error.to_string()))?;
         let parameters = Parameters::of(model)?;
         if standard_rows(document.as_table()) {
-            return Err(failed("values in standard Denavit-Hartenberg frames are not written back".to_owned()));
+            return Err(failed(
+                "values in standard Denavit-Hartenberg frames are not written back".to_owned(),
+            ));
         }
         let links = document.get_mut("link").and_then(Item::as_array_of_tables_mut);
         let links = links.ok_or_else(|| failed("the robot file has no [[link]]".to_owned()))?;
@@ -49,13 +51,17 @@ impl Estimate {
             let merged = link.bodies.iter().filter(|body| body.name != link.name);
             for body in merged {
                 if let Some(table) = links.iter_mut().find(|table| named(table, &body.name)) {
-                    ["mass", "center_of_mass", "inertia"].iter().for_each(|key| drop(table.remove(key)));
+                    ["mass", "center_of_mass", "inertia"]
+                        .iter()
+                        .for_each(|key| drop(table.remove(key)));
                 }
             }
             let table = links.iter_mut().find(|table| named(table, &link.name));
-            let table = table.ok_or_else(|| failed(format!("link `{}` is not in the file", link.name)))?;
+            let table =
+                table.ok_or_else(|| failed(format!("link `{}` is not in the file", link.name)))?;
             let own = Written { parameters: &parameters, values: &consistent.values, place };
-            own.link(link, table).map_err(|reason| failed(format!("link `{}`: {reason}", link.name)))?;
+            own.link(link, table)
+                .map_err(|reason| failed(format!("link `{}`: {reason}", link.name)))?;
             self.comment(place, table);
         }
         let text = document.to_string();
@@ -67,7 +73,8 @@ impl Estimate {
         let largest = consistent.base.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let same = |(found, wanted): (&f64, &f64)| (found - wanted).abs() <= ROUNDING * largest;
         if base.len() != consistent.base.len() || !base.iter().zip(&consistent.base).all(same) {
-            let reason = "the file with the identified values has other base parameters; please report this";
+            let reason =
+                "the file with the identified values has other base parameters; please report this";
             return Err(failed(reason.to_owned()));
         }
         Ok((text, found.to_string()))
@@ -76,8 +83,11 @@ impl Estimate {
     /// Writes the estimates of a link's base parameters above its table.
     fn comment(&self, link: usize, table: &mut Table) {
         let ending = format!("_{}", link + 1);
-        let mut text = table.decor().prefix().and_then(|prefix| prefix.as_str()).unwrap_or("\n").to_owned();
-        for (place, name) in self.names.iter().enumerate().filter(|(_, name)| name.ends_with(&ending)) {
+        let mut text =
+            table.decor().prefix().and_then(|prefix| prefix.as_str()).unwrap_or("\n").to_owned();
+        for (place, name) in
+            self.names.iter().enumerate().filter(|(_, name)| name.ends_with(&ending))
+        {
             let (value, nominal) = (self.values[place], self.nominal[place]);
             let deviation = match self.deviations[place] {
                 Some(deviation) => format!("{value:.6} +- {deviation:.6}"),
@@ -110,7 +120,9 @@ impl Written<'_> {
     /// Replaces the values in the link's table.
     fn link(&self, link: &Link, table: &mut Table) -> Result<(), String> {
         if standard_rows(table) {
-            return Err("values in standard Denavit-Hartenberg frames are not written back".to_owned());
+            return Err(
+                "values in standard Denavit-Hartenberg frames are not written back".to_owned()
+            );
         }
         let own = &self.values[self.place * LINK_PARAMETERS..][..LINK_PARAMETERS];
         let &[mass, x, y, z, xx, xy, yy, xz, yz, zz] = own else {
@@ -123,7 +135,8 @@ impl Written<'_> {
         table.insert("mass", value(mass));
         table.insert("center_of_mass", value(center.iter().copied().collect::<Array>()));
         let mut entries = InlineTable::new();
-        let places = [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2)];
+        let places =
+            [("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2)];
         for (name, row, column) in places {
             entries.insert(name, inertia[(row, column)].into());
         }

@@ -173,7 +173,9 @@ impl Rows {
                 let mut positions = self.turns.iter().enumerate();
                 let largest = std::f64::consts::TAU * TURNS;
                 if positions.any(|(joint, turns)| {
-                    *turns && before + joint < columns.entries() && value(before + joint).abs() > largest
+                    *turns
+                        && before + joint < columns.entries()
+                        && value(before + joint).abs() > largest
                 }) {
                     self.note(5, row);
                 }

@@ -34,14 +34,18 @@ impl Log {
         for path in paths {
             collect(path, &mut files)?;
         }
-        let (Some(first), formats) = (files.first(), files.iter().map(|path| format_of(path))) else {
-            return Err(Error::Columns("the log has no file; name a .parquet or .csv file".to_owned()));
+        let (Some(first), formats) = (files.first(), files.iter().map(|path| format_of(path)))
+        else {
+            return Err(Error::Columns(
+                "the log has no file; name a .parquet or .csv file".to_owned(),
+            ));
         };
         let formats: Result<Vec<Format>, Error> = formats.collect();
         let formats = formats?;
         let format = formats[0];
         if let Some(place) = formats.iter().position(|other| *other != format) {
-            let reason = format!("it has another format than {}; read them by themselves", first.display());
+            let reason =
+                format!("it has another format than {}; read them by themselves", first.display());
             return Err(Error::file(&files[place], reason));
         }
         let log = Log { files, format };
@@ -70,7 +74,8 @@ impl Log {
                 None => known = Some((path, schema)),
                 Some((first, wanted)) if wanted.fields() != schema.fields() => {
                     let mut fields = schema.fields().iter();
-                    let column = fields.find(|field| wanted.fields().iter().all(|other| other != *field));
+                    let column =
+                        fields.find(|field| wanted.fields().iter().all(|other| other != *field));
                     let column = column.map_or("a column is missing".to_owned(), |field| {
                         format!("column `{}` is {}", field.name(), field.data_type())
                     });

@@ -8,10 +8,10 @@ mod variables;
 mod write;
 
 pub use check::{Finding, check};
-pub(crate) use files::reader;
 pub use files::Log;
+pub(crate) use files::reader;
+pub(crate) use place::Place;
 pub use session::{Session, Settings};
 pub use variables::Names;
-pub(crate) use place::Place;
 pub(crate) use write::properties;
 pub use write::{Answer, write};

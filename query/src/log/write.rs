@@ -5,10 +5,10 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use datafusion::arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
-use datafusion::arrow::csv;
-use datafusion::arrow::compute::take;
 use datafusion::arrow::array::UInt64Array;
+use datafusion::arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
+use datafusion::arrow::compute::take;
+use datafusion::arrow::csv;
 use datafusion::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use datafusion::execution::SendableRecordBatchStream;
 use datafusion::parquet::arrow::ArrowWriter;
@@ -43,7 +43,8 @@ impl Answer {
             Some("csv") => Ok(Answer::Csv(path.to_owned())),
             None => Ok(Answer::Folder(path.to_owned())),
             Some(_) => {
-                let reason = "an answer is a .parquet or .csv file, or a folder, whose name has no ending";
+                let reason =
+                    "an answer is a .parquet or .csv file, or a folder, whose name has no ending";
                 Err(Error::file(path, reason))
             }
         }
@@ -69,7 +70,8 @@ pub async fn write(table: DataFrame, answer: &Answer) -> Result<u64, Error> {
             std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
             let schema = table.schema().inner().clone();
             let mut parts = vec![];
-            for (place, stream) in table.execute_stream_partitioned().await?.into_iter().enumerate() {
+            for (place, stream) in table.execute_stream_partitioned().await?.into_iter().enumerate()
+            {
                 let path = folder.join(format!("part-{place:04}.parquet"));
                 let sink = Sink::new(&path, schema.clone(), Kind::Parquet)?;
                 parts.push(tokio::spawn(drain(stream, sink)));
@@ -177,13 +179,18 @@ fn flat(batch: &RecordBatch) -> Result<RecordBatch, Error> {
     for (field, column) in batch.schema().fields().iter().zip(batch.columns()) {
         flatten(field.name(), column, &mut columns)?;
     }
-    let fields = columns.iter().map(|(name, column)| Field::new(name, column.data_type().clone(), true));
+    let fields =
+        columns.iter().map(|(name, column)| Field::new(name, column.data_type().clone(), true));
     let schema = Schema::new(fields.collect::<Vec<_>>());
     let columns = columns.into_iter().map(|(_, column)| column).collect();
     RecordBatch::try_new(Arc::new(schema), columns).map_err(|error| Error::Query(error.to_string()))
 }
 
-fn flatten(name: &str, column: &ArrayRef, found: &mut Vec<(String, ArrayRef)>) -> Result<(), Error> {
+fn flatten(
+    name: &str,
+    column: &ArrayRef,
+    found: &mut Vec<(String, ArrayRef)>,
+) -> Result<(), Error> {
     match column.data_type() {
         DataType::FixedSizeList(_, size) => {
             let lists = column.as_fixed_size_list();

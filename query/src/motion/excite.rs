@@ -40,7 +40,9 @@ pub fn excite(model: &Arc<Model>, how: &Excitation) -> Result<(Trajectory, f64),
     let mut best: Option<(Trajectory, f64)> = None;
     for place in 0..how.tries.max(1) {
         let next = match &best {
-            Some((trajectory, _)) if place > how.tries / 3 => trajectory.near(&how.limits, &mut random),
+            Some((trajectory, _)) if place > how.tries / 3 => {
+                trajectory.near(&how.limits, &mut random)
+            }
             _ => Trajectory::random(&how.limits, frequency, &mut random),
         };
         let condition = condition(model, &next, &how.noise)?;
@@ -49,7 +51,10 @@ pub fn excite(model: &Arc<Model>, how: &Excitation) -> Result<(Trajectory, f64),
         }
     }
     best.filter(|(_, condition)| condition.is_finite()).ok_or_else(|| {
-        Error::Identification("no trajectory that was tried moves all parameters; try more, or faster ones".to_owned())
+        Error::Identification(
+            "no trajectory that was tried moves all parameters; try more, or faster ones"
+                .to_owned(),
+        )
     })
 }
 

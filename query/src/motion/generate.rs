@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use datafusion::arrow::array::{ArrayRef, FixedSizeListArray, Float64Array, Int64Array, RecordBatch};
+use datafusion::arrow::array::{
+    ArrayRef, FixedSizeListArray, Float64Array, Int64Array, RecordBatch,
+};
 use datafusion::arrow::datatypes::{DataType, Field, Schema};
 use datafusion::parquet::arrow::ArrowWriter;
 use robot_model::variable::JointVariable;
@@ -63,20 +65,26 @@ pub fn generate(model: &Model, how: &Generation, folder: &Path) -> Result<Vec<Pa
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
     let each = |first: u64| {
         let own = (first..files).step_by(threads as usize);
-        own.map(|file| part(model, how, ends(file), &path(file))).collect::<Result<Vec<()>, Error>>()
+        own.map(|file| part(model, how, ends(file), &path(file)))
+            .collect::<Result<Vec<()>, Error>>()
     };
     std::thread::scope(|scope| {
         let each = &each;
         let running: Vec<_> = (0..threads).map(|first| scope.spawn(move || each(first))).collect();
-        let ended = running.into_iter().map(|thread| {
-            thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        });
+        let ended = running
+            .into_iter()
+            .map(|thread| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
         ended.collect::<Result<Vec<_>, Error>>()
     })?;
     Ok((0..files).map(path).collect())
 }
 
-fn part(model: &Model, how: &Generation, rows: std::ops::Range<u64>, path: &Path) -> Result<(), Error> {
+fn part(
+    model: &Model,
+    how: &Generation,
+    rows: std::ops::Range<u64>,
+    path: &Path,
+) -> Result<(), Error> {
     let failed = |error: &dyn std::fmt::Display| Error::file(path, error);
     let schema = Arc::new(schema(model, how.layout));
     let (place, file) = Place::create(path)?;
@@ -108,10 +116,8 @@ fn schema(model: &Model, layout: Layout) -> Schema {
             (1..=joints).map(|joint| Field::new(name(joint), DataType::Float64, false)).collect()
         }
     });
-    let first = [
-        Field::new("episode", DataType::Int64, false),
-        Field::new("t", DataType::Float64, false),
-    ];
+    let first =
+        [Field::new("episode", DataType::Int64, false), Field::new("t", DataType::Float64, false)];
     Schema::new(first.into_iter().chain(variables).collect::<Vec<_>>())
 }
 

@@ -33,7 +33,8 @@ pub fn limits(model: &Model, speed: f64) -> Vec<Limits> {
             JointKind::Prismatic => 0.5,
         };
         let given = coordinate.limits.as_ref();
-        let position = given.map_or([-usual, usual], |limits| limits.each_ref().map(Rational::to_f64));
+        let position =
+            given.map_or([-usual, usual], |limits| limits.each_ref().map(Rational::to_f64));
         Limits { position, speed }
     });
     limits.collect()
@@ -67,10 +68,13 @@ impl Trajectory {
         for (joint, limits) in limits.iter().enumerate() {
             let sizes = self.coefficients[joint].map(|[a, b]| a.hypot(b));
             let reach: f64 = sizes.iter().sum();
-            let rates = sizes.iter().zip(1..).map(|(size, h)| size * TAU * self.frequency * f64::from(h));
+            let rates =
+                sizes.iter().zip(1..).map(|(size, h)| size * TAU * self.frequency * f64::from(h));
             let [lower, upper] = limits.position;
-            let scale = (RANGE * (upper - lower) / 2.0 / reach).min(limits.speed / rates.sum::<f64>());
-            self.coefficients[joint] = self.coefficients[joint].map(|pair| pair.map(|one| one * scale));
+            let scale =
+                (RANGE * (upper - lower) / 2.0 / reach).min(limits.speed / rates.sum::<f64>());
+            self.coefficients[joint] =
+                self.coefficients[joint].map(|pair| pair.map(|one| one * scale));
             self.centers[joint] = (lower + upper) / 2.0;
         }
         self
@@ -81,7 +85,8 @@ impl Trajectory {
     pub(super) fn near(&self, limits: &[Limits], random: &mut Random) -> Trajectory {
         let mut next = self.clone();
         let joint = random.index(limits.len());
-        let size: f64 = next.coefficients[joint].iter().map(|[a, b]| a.hypot(*b)).fold(0.0, f64::max);
+        let size: f64 =
+            next.coefficients[joint].iter().map(|[a, b]| a.hypot(*b)).fold(0.0, f64::max);
         for pair in next.coefficients[joint].iter_mut().flatten() {
             *pair += 0.3 * size * random.uniform(-1.0, 1.0);
         }
@@ -103,7 +108,9 @@ impl Trajectory {
             let (s, c, rate) = waves[h - 1];
             waves[h] = (s * cosine + c * sine, c * cosine - s * sine, rate + waves[0].2);
         }
-        for (joint, (center, coefficients)) in self.centers.iter().zip(&self.coefficients).enumerate() {
+        for (joint, (center, coefficients)) in
+            self.centers.iter().zip(&self.coefficients).enumerate()
+        {
             let [mut q, mut qd, mut qdd] = [*center, 0.0, 0.0];
             for ([a, b], (s, c, rate)) in coefficients.iter().zip(&waves) {
                 let value = a * s + b * c;

@@ -71,9 +71,7 @@ impl Model {
 /// Which results of a program are the constant 0.
 fn zeros(program: &Program) -> Vec<bool> {
     let operations = program.operations();
-    let is_zero = |operation: Operation| {
-        matches!(operation, Operation::Constant(constant) if constant.get() == 0.0)
-    };
+    let is_zero = |operation: Operation| matches!(operation, Operation::Constant(constant) if constant.get() == 0.0);
     program.results().iter().map(|result| is_zero(operations[result.index()])).collect()
 }
 

@@ -35,7 +35,8 @@ fn a_damaged_row_group_is_named() {
     let mut bytes = fs::read(&path).unwrap();
     // Of four row groups, the headers of pages of the third.
     let place = bytes.len() / 2 + 100;
-    bytes[place..place + bytes.len() / 8].fill(0xff);
+    let end = place + bytes.len() / 8;
+    bytes[place..end].fill(0xff);
     fs::write(&path, bytes).unwrap();
     let log = Log::open(std::slice::from_ref(&path)).unwrap();
     assert!(identified(1, log.files(), &robot("planar_2r"), "").is_err());
@@ -51,7 +52,8 @@ fn write(path: &Path, rows: usize, value: impl Fn(&str, usize) -> f64) {
         let values = Arc::new(Float64Array::from(values));
         Arc::new(FixedSizeListArray::try_new(field.clone(), 2, values, None).unwrap())
     };
-    let time: ArrayRef = Arc::new(Float64Array::from_iter_values((0..rows).map(|row| value("t", row))));
+    let time: ArrayRef =
+        Arc::new(Float64Array::from_iter_values((0..rows).map(|row| value("t", row))));
     let columns = JointVariable::ALL.map(|variable| (variable.name(), list(variable.name())));
     let columns = std::iter::once(("t", time)).chain(columns);
     let batch = RecordBatch::try_from_iter(columns).unwrap();
@@ -98,10 +100,8 @@ fn likely_mistakes_are_found_with_their_rows() {
 fn files_of_other_columns_are_refused() {
     let folder = tempfile::TempDir::new().unwrap();
     write(&folder.path().join("a.parquet"), 10, |_, _| 0.5);
-    let batch = RecordBatch::try_from_iter([(
-        "t",
-        Arc::new(Float64Array::from(vec![0.0])) as ArrayRef,
-    )]);
+    let batch =
+        RecordBatch::try_from_iter([("t", Arc::new(Float64Array::from(vec![0.0])) as ArrayRef)]);
     let batch = batch.unwrap();
     let file = fs::File::create(folder.path().join("b.parquet")).unwrap();
     let mut writer = ArrowWriter::try_new(file, batch.schema(), None).unwrap();

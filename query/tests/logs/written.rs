@@ -91,7 +91,8 @@ fn grown(estimate: &Estimate, base: &[f64]) -> f64 {
 #[test]
 fn friction_and_armature_are_identified_and_written() {
     let folder = tempfile::TempDir::new().unwrap();
-    let drive = "friction = { viscous = 0.8, coulomb_torque = 1.5 }\ndrive = { armature = 0.3 }\n[tip]";
+    let drive =
+        "friction = { viscous = 0.8, coulomb_torque = 1.5 }\ndrive = { armature = 0.3 }\n[tip]";
     let truth = changed("ur5", "[tip]", "[tip]", folder.path());
     let text = fs::read_to_string(&truth).unwrap();
     let end = text.find("[[frame]]").unwrap();
