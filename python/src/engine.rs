@@ -46,19 +46,14 @@ impl Engine {
 
     /// Names and numbers of entries of the inputs.
     fn inputs(&self) -> PyResult<Vec<(String, usize)>> {
-        Ok(self
-            .handle()?
-            .inputs()
-            .iter()
-            .map(|input| (input.name.clone(), input.symbols.len()))
-            .collect())
+        let inputs = self.handle()?.inputs();
+        Ok(inputs.iter().map(|input| (input.name.clone(), input.symbols.len())).collect())
     }
 
     /// Names and shapes of the outputs.
     fn outputs(&self) -> PyResult<Vec<(String, Vec<usize>)>> {
-        let handle = self.handle()?;
-        let named = handle.named(vec![0.0; handle.output_size()]);
-        Ok(named.into_iter().map(|output| (output.name, output.shape)).collect())
+        let outputs = self.handle()?.outputs();
+        Ok(outputs.iter().map(|output| (output.name.clone(), output.shape.clone())).collect())
     }
 
     /// Computes one state, from an array of one dimension for each input into contiguous arrays. False, and nothing is

@@ -1,0 +1,219 @@
+//! Columns of a log as columns of doubles, one for each entry of a function's inputs.
+
+use datafusion::arrow::array::{Array, ArrayRef, AsArray, StructArray};
+use datafusion::arrow::buffer::{NullBuffer, ScalarBuffer};
+use datafusion::arrow::compute::cast;
+use datafusion::arrow::datatypes::{DataType, Field, Float64Type};
+use std::sync::Arc;
+
+use crate::error::Error;
+
+/// The rows that are put into columns at once: they stay in the nearest cache.
+pub(crate) const BLOCK: usize = 128;
+
+/// The inputs of a function over a batch of rows. A list gives as many columns as it has entries, a struct those of
+/// its fields, a number one.
+#[derive(Debug)]
+pub(crate) struct Columns {
+    parts: Vec<Part>,
+    /// The rows in which nothing is null.
+    valid: Option<NullBuffer>,
+    rows: usize,
+    entries: usize,
+}
+
+/// Columns that lie in one buffer.
+#[derive(Debug)]
+struct Part {
+    values: ScalarBuffer<f64>,
+    starts: Starts,
+    entries: usize,
+}
+
+/// Where the entries of a row begin.
+#[derive(Debug)]
+enum Starts {
+    /// At equal distances.
+    Every(usize),
+    /// Where offsets say.
+    At(ScalarBuffer<i32>),
+}
+
+impl Columns {
+    /// The columns of arguments, of which there must be one of these numbers; `wanted` says what they are in messages.
+    ///
+    /// # Errors
+    ///
+    /// Another number of entries; values that are no numbers.
+    pub(crate) fn new(
+        arguments: &[ArrayRef],
+        rows: usize,
+        entries: &[usize],
+        wanted: &str,
+    ) -> Result<Columns, Error> {
+        let least = entries.first().copied().unwrap_or(0);
+        let mut columns = Columns { parts: vec![], valid: None, rows, entries: least };
+        for argument in arguments {
+            columns.push(argument)?;
+        }
+        let found: usize = columns.parts.iter().map(|part| part.entries).sum();
+        if entries.contains(&found) {
+            return Ok(Columns { entries: found, ..columns });
+        }
+        // Lists of rows that are all null have no length.
+        if rows == 0 || columns.valid.as_ref().is_some_and(|valid| valid.null_count() == rows) {
+            return Ok(columns);
+        }
+        let entries: Vec<String> = entries.iter().map(usize::to_string).collect();
+        let entries = entries.join(" or ");
+        Err(Error::Columns(format!("{found} entries are given, but {wanted} needs {entries}")))
+    }
+
+    /// The columns of arguments, however many.
+    ///
+    /// # Errors
+    ///
+    /// Values that are no numbers.
+    pub(crate) fn of_all(arguments: &[ArrayRef], rows: usize) -> Result<Columns, Error> {
+        let mut columns = Columns { parts: vec![], valid: None, rows, entries: 0 };
+        arguments.iter().try_for_each(|argument| columns.push(argument))?;
+        columns.entries = columns.parts.iter().map(|part| part.entries).sum();
+        Ok(columns)
+    }
+
+    /// The rows in which nothing is null; all if `None`.
+    pub(crate) fn valid(&self) -> Option<&NullBuffer> {
+        self.valid.as_ref()
+    }
+
+    fn push(&mut self, argument: &ArrayRef) -> Result<(), Error> {
+        match argument.data_type() {
+            DataType::Struct(_) => self.push_fields(argument.as_struct()),
+            DataType::FixedSizeList(_, size) => self.push_fixed(argument, *size),
+            DataType::List(_) | DataType::LargeList(_) | DataType::ListView(_) => {
+                self.push_list(argument)
+            }
+            other if other.is_numeric() || other.is_null() => {
+                let numbers = converted(argument, &DataType::Float64)?;
+                let numbers = numbers.as_primitive::<Float64Type>();
+                self.restrict(numbers.nulls());
+                let values = numbers.values().clone();
+                self.parts.push(Part { values, starts: Starts::Every(1), entries: 1 });
+                Ok(())
+            }
+            other => Err(Error::Columns(format!(
+                "a column of type {other} is no number, list of numbers or struct of numbers"
+            ))),
+        }
+    }
+
+    fn push_fields(&mut self, fields: &StructArray) -> Result<(), Error> {
+        self.restrict(fields.nulls());
+        fields.columns().iter().try_for_each(|field| self.push(field))
+    }
+
+    fn push_fixed(&mut self, argument: &ArrayRef, size: i32) -> Result<(), Error> {
+        let lists = converted(argument, &DataType::FixedSizeList(doubles(), size))?;
+        let lists = lists.as_fixed_size_list();
+        let size = size.unsigned_abs() as usize;
+        self.restrict(lists.nulls());
+        let numbers = lists.values().as_primitive::<Float64Type>();
+        if let Some(nulls) = numbers.nulls() {
+            let whole = |row: usize| (0..size).all(|entry| nulls.is_valid(row * size + entry));
+            self.restrict(Some(&(0..self.rows).map(whole).collect()));
+        }
+        let values = numbers.values().clone();
+        self.parts.push(Part { values, starts: Starts::Every(size), entries: size });
+        Ok(())
+    }
+
+    fn push_list(&mut self, argument: &ArrayRef) -> Result<(), Error> {
+        let lists = converted(argument, &DataType::List(doubles()))?;
+        let lists = lists.as_list::<i32>();
+        self.restrict(lists.nulls());
+        let numbers = lists.values().as_primitive::<Float64Type>();
+        let offsets = lists.offsets();
+        if let Some(nulls) = numbers.nulls() {
+            let whole = |row: &[i32]| (row[0]..row[1]).all(|place| nulls.is_valid(place as usize));
+            self.restrict(Some(&offsets.windows(2).map(whole).collect()));
+        }
+        let mut lengths = offsets.windows(2).enumerate();
+        let mut entries = None;
+        let is_valid = |row| self.valid.as_ref().is_none_or(|valid| valid.is_valid(row));
+        let other = lengths.find_map(|(row, ends)| {
+            let length = (ends[1] - ends[0]).unsigned_abs() as usize;
+            let differs = is_valid(row) && *entries.get_or_insert(length) != length;
+            differs.then_some((row, length))
+        });
+        if let (Some((row, length)), Some(first)) = (other, entries) {
+            return Err(Error::Columns(format!(
+                "lists of one column have {first} entries and, at row {row} of a batch, {length}"
+            )));
+        }
+        let starts = Starts::At(offsets.inner().clone());
+        let values = numbers.values().clone();
+        self.parts.push(Part { values, starts, entries: entries.unwrap_or(0) });
+        Ok(())
+    }
+
+    /// Only rows that are valid there, too, stay valid.
+    fn restrict(&mut self, valid: Option<&NullBuffer>) {
+        self.valid = NullBuffer::union(self.valid.as_ref(), valid);
+    }
+
+    /// Copies rows from `start` on into columns of [`BLOCK`] rows each, one after the other, and gives how many
+    /// there were. What it copies of rows with nulls means nothing.
+    pub(crate) fn read(&self, start: usize, columns: &mut [f64]) -> usize {
+        let rows = BLOCK.min(self.rows - start);
+        let mut columns = columns.chunks_exact_mut(BLOCK);
+        for part in &self.parts {
+            for (entry, column) in (0..part.entries).zip(&mut columns) {
+                part.read(start, entry, &mut column[..rows]);
+            }
+        }
+        rows
+    }
+
+    /// The number of columns.
+    pub(crate) fn entries(&self) -> usize {
+        self.entries
+    }
+
+    /// The number of rows.
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+}
+
+impl Part {
+    /// An entry of rows from `start` on. A row that is null may have no entries: it reads as 0.
+    fn read(&self, start: usize, entry: usize, column: &mut [f64]) {
+        match &self.starts {
+            Starts::Every(1) => column.copy_from_slice(&self.values[start..start + column.len()]),
+            Starts::Every(size) => {
+                let values = self.values[start * size..].chunks_exact(*size);
+                column.iter_mut().zip(values).for_each(|(value, row)| *value = row[entry]);
+            }
+            Starts::At(starts) => {
+                let starts = starts[start..].windows(2);
+                for (value, ends) in column.iter_mut().zip(starts) {
+                    let place = ends[0].unsigned_abs() as usize + entry;
+                    let is_there = place < ends[1].unsigned_abs() as usize;
+                    *value = if is_there { self.values[place] } else { 0.0 };
+                }
+            }
+        }
+    }
+}
+
+/// The entries of lists.
+pub(crate) fn doubles() -> Arc<Field> {
+    Arc::new(Field::new_list_field(DataType::Float64, true))
+}
+
+fn converted(array: &ArrayRef, wanted: &DataType) -> Result<ArrayRef, Error> {
+    if array.data_type() == wanted {
+        return Ok(array.clone());
+    }
+    cast(array, wanted).map_err(|error| Error::Columns(error.to_string()))
+}

@@ -1,0 +1,43 @@
+//! `check`: what is likely wrong with a log.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_query::Error;
+use robot_query::log::{Log, Names, check};
+
+use super::Engine;
+
+/// What is likely wrong with a log: rows with nulls or NaN, times that repeat or go back, units, files that cannot be read
+///
+/// Fails if there is anything. Findings name the file, the row group and the row.
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-query check robots/ur5.toml logs --time t --episode episode")]
+pub(super) struct Arguments {
+    /// The robot: a path, or a name in a folder of --robots
+    robot: String,
+    /// The log: Parquet files, or folders of them
+    #[arg(required = true)]
+    log: Vec<PathBuf>,
+    /// The column of times, s
+    #[arg(long, value_name = "COLUMN")]
+    time: Option<String>,
+    /// The column of episodes, in which times begin anew
+    #[arg(long, value_name = "COLUMN", requires = "time")]
+    episode: Option<String>,
+}
+
+impl Arguments {
+    pub(super) fn run(&self, engine: &Engine) -> Result<(), Error> {
+        let model = engine.robots()?.model(&self.robot)?;
+        let log = Log::open(&self.log)?;
+        let (time, episode) = (self.time.as_deref(), self.episode.as_deref());
+        let found = check(&log, &model, &Names::default(), time, episode)?;
+        found.iter().for_each(|finding| println!("{finding}"));
+        match found.len() {
+            0 => Ok(()),
+            count => Err(Error::Columns(format!("{count} findings"))),
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! `identify`: base parameters from a log.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use datafusion::execution::FunctionRegistry;
+use datafusion::functions_nested::expr_fn::make_array;
+use datafusion::logical_expr::lit;
+use robot_model::variable::JointVariable;
+use robot_query::Error;
+use robot_query::identify::Estimate;
+
+use super::Engine;
+use super::inputs::{Inputs, Opened};
+use super::{noise, written};
+
+/// The base parameters that explain the measured torques best, with their standard deviations
+///
+/// Weighted least squares by QR decomposition; the log is read once, in any order, and never held in memory. Friction
+/// and drives are identified with the rest if the robot file has them, with any values. Rows with a null, NaN or
+/// infinity are left out and counted. Parameters that the log does not determine keep the value of the robot file.
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-query identify robots/ur5.toml logs
+  robot-query identify robots/ur5.toml logs --noise 1
+  robot-query identify robots/ur5.toml logs --write-back identified.toml")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    inputs: Inputs,
+    /// The standard deviations of the torques' noise, N m or N: one, or one for each joint [default: estimated]
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS")]
+    noise: Option<Vec<f64>>,
+    /// A .csv file with the parameters to write
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// A robot file with the identified values to write: of all that bodies can have, those that explain the log best
+    #[arg(long, value_name = "FILE")]
+    write_back: Option<PathBuf>,
+}
+
+impl Arguments {
+    pub(super) async fn run(&self, engine: &Engine) -> Result<(), Error> {
+        let session = engine.session(engine.threads())?;
+        let opened = self.inputs.open(&session).await?;
+        let estimate = self.estimate(&session, &opened).await?;
+        print(&estimate);
+        if let Some(path) = &self.output {
+            written(path, &csv(&estimate))?;
+        }
+        match &self.write_back {
+            Some(path) => write_back(&estimate, &opened, path),
+            None => Ok(()),
+        }
+    }
+
+    async fn estimate(
+        &self,
+        session: &robot_query::log::Session,
+        opened: &Opened,
+    ) -> Result<Estimate, Error> {
+        let mut arguments = opened.arguments(&JointVariable::ALL)?;
+        if let Some(given) = &self.noise {
+            let noise = noise(given, opened.model.joints())?;
+            arguments.push(make_array(noise.into_iter().map(lit).collect()));
+        }
+        let identify = session.context.udaf("identify")?.call(arguments).alias("answer");
+        let table = opened.table.clone().aggregate(vec![], vec![identify])?;
+        let batches = table.collect().await.map_err(|error| opened.located(error.into()))?;
+        let answers = batches.iter().find(|batch| batch.num_rows() > 0);
+        let answer = answers.map(|batch| Estimate::from_array(batch.column(0), 0)).transpose()?;
+        let no_rows = || Error::Identification("the log has no rows".to_owned());
+        answer.flatten().ok_or_else(no_rows)
+    }
+}
+
+/// Writes the robot file with the identified values, and says what they cost and what the doctor says.
+fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), Error> {
+    let consistent = estimate.consistent(&opened.model)?;
+    let (text, complaints) =
+        estimate.robot_file(&opened.model, &consistent, &path.to_string_lossy())?;
+    if consistent.is_estimate {
+        println!("\nbodies can have the estimate; {} has it", path.display());
+    } else {
+        let percent = 100.0 * (consistent.growth - 1.0);
+        println!(
+            "\nno bodies have the estimate; {} has what they can have and explains the log best, and the residual is \
+             {percent:.3e} % larger",
+            path.display()
+        );
+    }
+    eprint!("{complaints}");
+    written(path, &text)
+}
+
+/// The estimate for readers.
+fn print(estimate: &Estimate) {
+    println!(
+        "{}: {} rows, {} left out; {} of {} parameters identified, condition {:.3}",
+        estimate.robot,
+        estimate.rows,
+        estimate.excluded,
+        estimate.rank,
+        estimate.names.len(),
+        estimate.condition
+    );
+    println!("{:10}{:>16}{:>16}{:>16}", "", "estimated", "deviation", "robot file");
+    for (place, name) in estimate.names.iter().enumerate() {
+        let (value, nominal) = (estimate.values[place], estimate.nominal[place]);
+        let deviation =
+            estimate.deviations[place].map_or("-".to_owned(), |one| format!("{one:.6}"));
+        println!("{name:10}{value:>16.6}{deviation:>16}{nominal:>16.6}");
+    }
+    for parameter in &estimate.unidentifiable {
+        match parameter.with.as_slice() {
+            [] => println!("{} has no effect in this log", parameter.name),
+            with => println!("{} acts only together with {}", parameter.name, with.join(", ")),
+        }
+    }
+    println!("\n{:24}{:>16}{:>16}", "joint", "residual (rms)", "noise");
+    for joint in &estimate.joints {
+        let noise = joint.noise.map_or("given".to_owned(), |noise| format!("{noise:.6}"));
+        println!("{:24}{:>16.6}{noise:>16}", joint.name, joint.rms);
+    }
+}
+
+/// The estimate as a table.
+fn csv(estimate: &Estimate) -> String {
+    let mut text = "name,value,deviation,robot_file\n".to_owned();
+    for (place, name) in estimate.names.iter().enumerate() {
+        let deviation = estimate.deviations[place].map_or(String::new(), |one| one.to_string());
+        let (value, nominal) = (estimate.values[place], estimate.nominal[place]);
+        text.push_str(&format!("{name},{value},{deviation},{nominal}\n"));
+    }
+    text
+}

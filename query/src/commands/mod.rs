@@ -1,0 +1,116 @@
+//! The subcommands, one per file.
+
+mod check;
+mod convert;
+mod excite;
+mod generate;
+mod identify;
+mod inputs;
+mod residual;
+mod sql;
+mod torques;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Parser, Subcommand};
+use robot_query::Error;
+use robot_query::Robots;
+use robot_query::log::{Session, Settings};
+
+/// Torques, residuals and identification over logs of robots.
+#[derive(Parser)]
+#[command(name = "robot-query", version, max_term_width = 100)]
+struct Command {
+    #[command(flatten)]
+    engine: Engine,
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand)]
+enum What {
+    Sql(sql::Arguments),
+    Torques(torques::Arguments),
+    Residual(residual::Arguments),
+    Identify(identify::Arguments),
+    Generate(generate::Arguments),
+    Excite(excite::Arguments),
+    Convert(convert::Arguments),
+    Check(check::Arguments),
+}
+
+/// What all subcommands share.
+#[derive(Args)]
+struct Engine {
+    /// A folder whose robot files can be named without path and ending; may be repeated
+    #[arg(long, global = true, value_name = "FOLDER")]
+    robots: Vec<PathBuf>,
+    /// Threads; with 1, the rows of one file stay in their order [default: one for each core]
+    #[arg(long, global = true, value_name = "N")]
+    threads: Option<usize>,
+    /// The most memory that a query may keep, MiB
+    #[arg(long, global = true, value_name = "MIB", default_value_t = 1024)]
+    memory: usize,
+}
+
+impl Engine {
+    fn robots(&self) -> Result<Robots, Error> {
+        let mut robots = Robots::new();
+        self.robots.iter().try_for_each(|folder| robots.register_folder(folder))?;
+        Ok(robots)
+    }
+
+    fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+        self.threads.unwrap_or_else(cores).max(1)
+    }
+
+    /// A session with so many threads.
+    fn session(&self, threads: usize) -> Result<Session, Error> {
+        Session::new(self.robots()?, Settings { threads, memory: self.memory << 20 })
+    }
+}
+
+/// Runs the command that the process was called as.
+pub(crate) fn run() -> Result<(), Error> {
+    let Command { engine, what } = Command::parse();
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(engine.threads())
+        .build()
+        .map_err(|error| Error::Query(error.to_string()))?;
+    runtime.block_on(async {
+        match what {
+            What::Sql(arguments) => arguments.run(&engine).await,
+            What::Torques(arguments) => arguments.run(&engine).await,
+            What::Residual(arguments) => arguments.run(&engine).await,
+            What::Identify(arguments) => arguments.run(&engine).await,
+            What::Generate(arguments) => arguments.run(&engine),
+            What::Excite(arguments) => arguments.run(&engine),
+            What::Convert(arguments) => arguments.run(&engine),
+            What::Check(arguments) => arguments.run(&engine),
+        }
+    })
+}
+
+/// The noise of every joint from one number, or from one for each.
+fn noise(given: &[f64], joints: usize) -> Result<Vec<f64>, Error> {
+    match given {
+        [one] => Ok(vec![*one; joints]),
+        all if all.len() == joints => Ok(all.to_vec()),
+        other => Err(Error::Identification(format!(
+            "--noise has {} numbers; give one, or one for each of {joints} joints",
+            other.len()
+        ))),
+    }
+}
+
+/// Writes a file that is not there yet.
+fn written(path: &Path, text: &str) -> Result<(), Error> {
+    let failed = |error: std::io::Error| Error::File {
+        path: path.to_owned(),
+        row_group: None,
+        reason: error.to_string(),
+    };
+    let mut file = std::fs::File::create_new(path).map_err(failed)?;
+    std::io::Write::write_all(&mut file, text.as_bytes()).map_err(failed)
+}

@@ -1,0 +1,51 @@
+//! `sql`: any query.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_query::Error;
+use robot_query::log::{Answer, Log, write};
+
+use super::Engine;
+
+/// Answers a query, in which the dynamics are functions and files are tables
+///
+/// `inverse_dynamics('ur5', q, qd, qdd)` and the other functions of a robot take the robot, then for each input a list,
+/// a struct or numbers; `residual('ur5', q, qd, qdd, tau)` is what the model leaves of torques; `identify('ur5', q, qd,
+/// qdd, tau)` is an aggregate. Tables are paths in quotes, or the log that --log names, as `log`.
+#[derive(Args)]
+#[command(after_help = "Example:
+  robot-query --robots robots sql \"SELECT t, gravity('ur5', q) FROM 'logs/*.parquet' LIMIT 3\"
+  robot-query --robots robots sql --log logs \\
+    \"SELECT episode, identify('ur5', q, qd, qdd, tau)['condition'] FROM log GROUP BY episode\"")]
+pub(super) struct Arguments {
+    /// The query
+    query: String,
+    /// Files and folders of the table `log`
+    #[arg(long, value_name = "PATH")]
+    log: Vec<PathBuf>,
+    /// The .parquet or .csv file, or the folder, to write [default: a table on standard output]
+    #[arg(short, long, value_name = "PATH")]
+    output: Option<PathBuf>,
+}
+
+impl Arguments {
+    pub(super) async fn run(&self, engine: &Engine) -> Result<(), Error> {
+        let session = engine.session(engine.threads())?;
+        let log = if self.log.is_empty() { None } else { Some(Log::open(&self.log)?) };
+        if let Some(log) = &log {
+            let table = session.table(log).await?;
+            session.context.register_table("log", table.into_view())?;
+        }
+        let located = |error: Error| log.as_ref().and_then(Log::fault).unwrap_or(error);
+        let table = session.context.sql(&self.query).await?;
+        match &self.output {
+            Some(path) => {
+                let rows = write(table, &Answer::at(path)?).await.map_err(located)?;
+                eprintln!("{rows} rows");
+                Ok(())
+            }
+            None => table.show().await.map_err(|error| located(error.into())),
+        }
+    }
+}

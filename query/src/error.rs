@@ -1,0 +1,66 @@
+//! What may go wrong, with its place and a remedy.
+
+use std::path::{Path, PathBuf};
+
+use datafusion::error::DataFusionError;
+
+/// Why there is no answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A robot that cannot be read or has not what is asked for.
+    #[error("robot `{robot}`: {reason}")]
+    Robot {
+        /// The robot as the query names it.
+        robot: String,
+        /// The reason and the remedy.
+        reason: String,
+    },
+    /// Columns of a log that are missing or of another size than the robot needs.
+    #[error("{0}")]
+    Columns(String),
+    /// A file that cannot be read or written.
+    #[error("{}: {reason}", shown(path, *row_group))]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The row group of a Parquet file, from 0.
+        row_group: Option<usize>,
+        /// The reason and the remedy.
+        reason: String,
+    },
+    /// Measurements that determine nothing.
+    #[error("{0}")]
+    Identification(String),
+    /// A query that the engine refuses, or that failed while it ran.
+    #[error("{0}")]
+    Query(String),
+}
+
+/// A path with its row group.
+fn shown(path: &Path, row_group: Option<usize>) -> String {
+    let path = path.display();
+    row_group.map_or_else(|| path.to_string(), |group| format!("{path}, row group {group}"))
+}
+
+impl Error {
+    /// A file with the reason.
+    pub(crate) fn file(path: &Path, reason: impl std::fmt::Display) -> Error {
+        Error::File { path: path.to_owned(), row_group: None, reason: reason.to_string() }
+    }
+}
+
+impl From<Error> for DataFusionError {
+    fn from(error: Error) -> DataFusionError {
+        DataFusionError::External(Box::new(error))
+    }
+}
+
+impl From<DataFusionError> for Error {
+    fn from(error: DataFusionError) -> Error {
+        match error.find_root() {
+            DataFusionError::External(inner) => Error::Query(inner.to_string()),
+            _ => Error::Query(error.strip_backtrace()),
+        }
+    }
+}

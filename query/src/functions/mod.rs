@@ -1,0 +1,41 @@
+//! The dynamics of robots as functions of SQL.
+
+mod dynamics;
+mod literal;
+mod output;
+mod residual;
+
+use std::sync::Arc;
+
+use datafusion::execution::FunctionRegistry;
+use datafusion::logical_expr::{ScalarUDF, ScalarUDFImpl};
+use robot_build::FunctionKind;
+
+use crate::error::Error;
+use crate::robots::Robots;
+use dynamics::Dynamics;
+pub(crate) use dynamics::{compute, function};
+use residual::Residual;
+pub use residual::torques_of;
+
+/// Registers every function that is one array over the joints' variables, under its name, and `residual`.
+///
+/// # Errors
+///
+/// A registry that takes no functions.
+pub fn register(registry: &mut dyn FunctionRegistry, robots: &Arc<Robots>) -> Result<(), Error> {
+    for kind in FunctionKind::ALL.iter().copied().filter(|kind| is_one(*kind)) {
+        registry.register_udf(udf(Dynamics::new(kind, robots.clone())))?;
+    }
+    registry.register_udf(udf(Residual::new(robots.clone())))?;
+    Ok(())
+}
+
+fn udf(function: impl ScalarUDFImpl + 'static) -> Arc<ScalarUDF> {
+    Arc::new(ScalarUDF::new_from_impl(function))
+}
+
+/// Whether a kind is one function: those of frames are one for each.
+fn is_one(kind: FunctionKind) -> bool {
+    !matches!(kind, FunctionKind::Jacobian | FunctionKind::JacobianDotQd)
+}

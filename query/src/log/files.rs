@@ -1,0 +1,166 @@
+//! The files of a log.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use datafusion::arrow::datatypes::SchemaRef;
+use datafusion::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+
+use crate::error::Error;
+
+/// Files of one table, Parquet or CSV.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    files: Vec<PathBuf>,
+    format: Format,
+}
+
+/// The format of a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Format {
+    Parquet,
+    Csv,
+}
+
+impl Log {
+    /// The log of files and folders; of a folder all `.parquet` files in it and below, in the order of their names.
+    /// The footer of each Parquet file is read.
+    ///
+    /// # Errors
+    ///
+    /// Paths that do not exist; files of different formats or with different columns; Parquet files that are not whole.
+    pub fn open(paths: &[PathBuf]) -> Result<Log, Error> {
+        let mut files = vec![];
+        for path in paths {
+            collect(path, &mut files)?;
+        }
+        let (Some(first), formats) = (files.first(), files.iter().map(|path| format_of(path)))
+        else {
+            return Err(Error::Columns(
+                "the log has no file; name a .parquet or .csv file".to_owned(),
+            ));
+        };
+        let formats: Result<Vec<Format>, Error> = formats.collect();
+        let formats = formats?;
+        let format = formats[0];
+        if let Some(place) = formats.iter().position(|other| *other != format) {
+            let reason =
+                format!("it has another format than {}; read them by themselves", first.display());
+            return Err(Error::file(&files[place], reason));
+        }
+        let log = Log { files, format };
+        if format == Format::Parquet {
+            log.check_columns()?;
+        }
+        Ok(log)
+    }
+
+    /// The files.
+    #[must_use]
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    pub(super) fn format(&self) -> Format {
+        self.format
+    }
+
+    /// That all files have the same columns.
+    fn check_columns(&self) -> Result<(), Error> {
+        let mut known: Option<(&Path, SchemaRef)> = None;
+        for path in &self.files {
+            let schema = reader(path)?.schema().clone();
+            match &known {
+                None => known = Some((path, schema)),
+                Some((first, wanted)) if wanted.fields() != schema.fields() => {
+                    let mut fields = schema.fields().iter();
+                    let column =
+                        fields.find(|field| wanted.fields().iter().all(|other| other != *field));
+                    let column = column.map_or("a column is missing".to_owned(), |field| {
+                        format!("column `{}` is {}", field.name(), field.data_type())
+                    });
+                    let first = first.display();
+                    let reason = format!("its columns are not those of {first} ({column})");
+                    return Err(Error::file(path, reason));
+                }
+                Some(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The first place at which the files cannot be read: why a query over them failed.
+    #[must_use]
+    pub fn fault(&self) -> Option<Error> {
+        if self.format == Format::Csv {
+            return None;
+        }
+        self.files.iter().find_map(|path| match reader(path) {
+            Err(error) => Some(error),
+            Ok(found) => (0..found.metadata().num_row_groups()).find_map(|group| {
+                let reason = unreadable(path, group)?;
+                Some(Error::File { path: path.clone(), row_group: Some(group), reason })
+            }),
+        })
+    }
+}
+
+/// Why a row group cannot be read; `None` if it can.
+fn unreadable(path: &Path, group: usize) -> Option<String> {
+    let batches = match reader(path).map(|reader| reader.with_row_groups(vec![group]).build()) {
+        Err(error) => return Some(error.to_string()),
+        Ok(Err(error)) => return Some(error.to_string()),
+        Ok(Ok(batches)) => batches,
+    };
+    let error = batches.into_iter().find_map(Result::err)?;
+    Some(format!("it cannot be read ({error}); copy or write the file again"))
+}
+
+/// A reader of a Parquet file.
+///
+/// # Errors
+///
+/// A file that cannot be opened, or is not whole.
+pub(crate) fn reader(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
+    let file = File::open(path).map_err(|error| Error::file(path, error))?;
+    ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| {
+        let reason = "it is no whole Parquet file, perhaps truncated";
+        Error::file(path, format!("{reason} ({error}); copy or write it again"))
+    })
+}
+
+fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
+    let failed = |error: std::io::Error| Error::file(path, error);
+    let found = std::fs::metadata(path).map_err(failed)?;
+    if !found.is_dir() {
+        files.push(path.to_owned());
+        return Ok(());
+    }
+    let mut entries = vec![];
+    for entry in std::fs::read_dir(path).map_err(failed)? {
+        entries.push(entry.map_err(failed)?.path());
+    }
+    entries.sort();
+    let before = files.len();
+    for entry in entries {
+        if entry.is_dir() || entry.extension().is_some_and(|ending| ending == "parquet") {
+            collect(&entry, files)?;
+        }
+    }
+    if files.len() == before {
+        return Err(Error::file(path, "the folder has no .parquet file"));
+    }
+    Ok(())
+}
+
+fn format_of(path: &Path) -> Result<Format, Error> {
+    match path.extension().and_then(|ending| ending.to_str()) {
+        Some("parquet") => Ok(Format::Parquet),
+        Some("csv") => Ok(Format::Csv),
+        Some("mcap") => {
+            let reason = "an MCAP file is no table; `robot-query convert` makes one";
+            Err(Error::file(path, reason))
+        }
+        _ => Err(Error::file(path, "its name ends neither with .parquet nor with .csv")),
+    }
+}

@@ -1,0 +1,17 @@
+//! Logs: tables in files, checked before they are read.
+
+mod check;
+mod files;
+mod place;
+mod session;
+mod variables;
+mod write;
+
+pub use check::{Finding, check};
+pub use files::Log;
+pub(crate) use files::reader;
+pub(crate) use place::Place;
+pub use session::{Session, Settings};
+pub use variables::Names;
+pub(crate) use write::properties;
+pub use write::{Answer, write};

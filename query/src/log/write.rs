@@ -1,0 +1,225 @@
+//! Answers as files: Parquet or CSV, whole or not at all.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use datafusion::arrow::array::UInt64Array;
+use datafusion::arrow::array::{Array, ArrayRef, AsArray, RecordBatch};
+use datafusion::arrow::compute::take;
+use datafusion::arrow::csv;
+use datafusion::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
+use datafusion::execution::SendableRecordBatchStream;
+use datafusion::parquet::arrow::ArrowWriter;
+use datafusion::parquet::basic::{Compression, ZstdLevel};
+use datafusion::parquet::file::properties::WriterProperties;
+use datafusion::prelude::DataFrame;
+use futures::StreamExt;
+
+use super::place::Place;
+use crate::error::Error;
+
+/// Where an answer goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// A Parquet file; rows in the order of the log if the session has one thread.
+    Parquet(PathBuf),
+    /// A CSV file; lists become a column for each entry.
+    Csv(PathBuf),
+    /// A folder with a Parquet file for each thread, `part-0000.parquet` and so on.
+    Folder(PathBuf),
+}
+
+impl Answer {
+    /// By the ending of the path: `.parquet`, `.csv`, or none for a folder.
+    ///
+    /// # Errors
+    ///
+    /// Other endings.
+    pub fn at(path: &Path) -> Result<Answer, Error> {
+        match path.extension().and_then(|ending| ending.to_str()) {
+            Some("parquet") => Ok(Answer::Parquet(path.to_owned())),
+            Some("csv") => Ok(Answer::Csv(path.to_owned())),
+            None => Ok(Answer::Folder(path.to_owned())),
+            Some(_) => {
+                let reason =
+                    "an answer is a .parquet or .csv file, or a folder, whose name has no ending";
+                Err(Error::file(path, reason))
+            }
+        }
+    }
+}
+
+/// Computes a table and writes it. The result is the number of rows.
+///
+/// # Errors
+///
+/// What fails while it is computed or written; there is no file then.
+pub async fn write(table: DataFrame, answer: &Answer) -> Result<u64, Error> {
+    match answer {
+        Answer::Parquet(path) => {
+            let sink = Sink::new(path, table.schema().inner().clone(), Kind::Parquet)?;
+            drain(table.execute_stream().await?, sink).await
+        }
+        Answer::Csv(path) => {
+            let sink = Sink::new(path, table.schema().inner().clone(), Kind::Csv)?;
+            drain(table.execute_stream().await?, sink).await
+        }
+        Answer::Folder(folder) => {
+            std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+            let schema = table.schema().inner().clone();
+            let mut parts = vec![];
+            for (place, stream) in table.execute_stream_partitioned().await?.into_iter().enumerate()
+            {
+                let path = folder.join(format!("part-{place:04}.parquet"));
+                let sink = Sink::new(&path, schema.clone(), Kind::Parquet)?;
+                parts.push(tokio::spawn(drain(stream, sink)));
+            }
+            let mut rows = 0;
+            for part in parts {
+                rows += part.await.map_err(|error| Error::Query(error.to_string()))??;
+            }
+            Ok(rows)
+        }
+    }
+}
+
+async fn drain(mut stream: SendableRecordBatchStream, mut sink: Sink) -> Result<u64, Error> {
+    let mut rows = 0;
+    while let Some(batch) = stream.next().await {
+        let batch = batch?;
+        rows += batch.num_rows() as u64;
+        sink.push(&batch)?;
+    }
+    sink.finish()?;
+    Ok(rows)
+}
+
+enum Kind {
+    Parquet,
+    Csv,
+}
+
+/// A file that is being written.
+struct Sink {
+    place: Place,
+    schema: SchemaRef,
+    writer: Writer,
+}
+
+enum Writer {
+    Parquet(Box<ArrowWriter<File>>),
+    Csv(Box<csv::Writer<BufWriter<File>>>),
+}
+
+/// How tables of numbers are best written: doubles have few repeated values, and hardly shrink.
+pub(crate) fn properties(compressed: bool) -> WriterProperties {
+    let compression = if compressed {
+        Compression::ZSTD(ZstdLevel::default())
+    } else {
+        Compression::UNCOMPRESSED
+    };
+    WriterProperties::builder()
+        .set_dictionary_enabled(false)
+        .set_compression(compression)
+        .set_max_row_group_row_count(Some(1 << 17))
+        .build()
+}
+
+impl Sink {
+    fn new(path: &Path, schema: SchemaRef, kind: Kind) -> Result<Sink, Error> {
+        let (place, file) = Place::create(path)?;
+        let writer = match kind {
+            Kind::Parquet => {
+                let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(false)));
+                Writer::Parquet(Box::new(writer.map_err(|error| Error::file(path, error))?))
+            }
+            Kind::Csv => Writer::Csv(Box::new(csv::Writer::new(BufWriter::new(file)))),
+        };
+        Ok(Sink { place, schema, writer })
+    }
+
+    fn push(&mut self, batch: &RecordBatch) -> Result<(), Error> {
+        let path = self.place.path();
+        match &mut self.writer {
+            Writer::Parquet(writer) => {
+                writer.write(batch).map_err(|error| Error::file(path, error))
+            }
+            Writer::Csv(writer) => {
+                writer.write(&flat(batch)?).map_err(|error| Error::file(path, error))
+            }
+        }
+    }
+
+    fn finish(self) -> Result<(), Error> {
+        let path = self.place.path();
+        match self.writer {
+            Writer::Parquet(writer) => {
+                writer.close().map_err(|error| Error::file(path, error))?;
+            }
+            Writer::Csv(mut writer) => {
+                // An answer without rows has its header all the same.
+                let empty = flat(&RecordBatch::new_empty(self.schema))?;
+                writer.write(&empty).map_err(|error| Error::file(path, error))?;
+                writer.into_inner().flush().map_err(|error| Error::file(path, error))?;
+            }
+        }
+        self.place.keep()
+    }
+}
+
+/// A batch whose lists of fixed length and structs are columns of their own: `tau` becomes `tau_1`, `tau_2` …
+///
+/// # Errors
+///
+/// Columns of other lists.
+fn flat(batch: &RecordBatch) -> Result<RecordBatch, Error> {
+    let mut columns: Vec<(String, ArrayRef)> = vec![];
+    for (field, column) in batch.schema().fields().iter().zip(batch.columns()) {
+        flatten(field.name(), column, &mut columns)?;
+    }
+    let fields =
+        columns.iter().map(|(name, column)| Field::new(name, column.data_type().clone(), true));
+    let schema = Schema::new(fields.collect::<Vec<_>>());
+    let columns = columns.into_iter().map(|(_, column)| column).collect();
+    RecordBatch::try_new(Arc::new(schema), columns).map_err(|error| Error::Query(error.to_string()))
+}
+
+fn flatten(
+    name: &str,
+    column: &ArrayRef,
+    found: &mut Vec<(String, ArrayRef)>,
+) -> Result<(), Error> {
+    match column.data_type() {
+        DataType::FixedSizeList(_, size) => {
+            let lists = column.as_fixed_size_list();
+            let size = size.unsigned_abs() as usize;
+            for entry in 0..size {
+                let place = |row: usize| lists.is_valid(row).then_some((row * size + entry) as u64);
+                let places: UInt64Array = (0..lists.len()).map(place).collect();
+                let values = take(lists.values(), &places, None);
+                let values = values.map_err(|error| Error::Query(error.to_string()))?;
+                flatten(&format!("{name}_{}", entry + 1), &values, found)?;
+            }
+            Ok(())
+        }
+        DataType::Struct(fields) => {
+            let values = column.as_struct();
+            let parts = fields.iter().zip(values.columns());
+            parts.into_iter().try_for_each(|(field, part)| {
+                flatten(&format!("{name}_{}", field.name()), part, found)
+            })
+        }
+        DataType::List(_) | DataType::LargeList(_) | DataType::ListView(_) => {
+            Err(Error::Columns(format!(
+                "column `{name}` has lists of any length, which CSV has no place for; write Parquet, or leave it out \
+                 with --columns"
+            )))
+        }
+        _ => {
+            found.push((name.to_owned(), column.clone()));
+            Ok(())
+        }
+    }
+}

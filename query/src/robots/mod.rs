@@ -1,0 +1,109 @@
+//! Robots as queries name them: by a registered name, a path, or the text of a robot file.
+
+mod model;
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use robot_build::{Options, RobotFile, Source};
+
+use crate::error::Error;
+pub use model::{Compiled, Model};
+
+/// The robots of a process: each is read and compiled once, whoever asks for it, and under whichever name.
+#[derive(Debug, Default)]
+pub struct Robots {
+    names: BTreeMap<String, PathBuf>,
+    models: Mutex<Models>,
+}
+
+/// The robots that have been asked for.
+#[derive(Debug, Default)]
+struct Models {
+    by_literal: HashMap<String, Arc<Model>>,
+    /// By the text of the robot file and its pinned plan.
+    by_text: HashMap<(String, String), Arc<Model>>,
+}
+
+impl Robots {
+    /// No names: robots are paths or texts.
+    #[must_use]
+    pub fn new() -> Robots {
+        Robots::default()
+    }
+
+    /// Gives a robot file a name.
+    pub fn register(&mut self, name: &str, path: &Path) {
+        self.names.insert(name.to_owned(), path.to_owned());
+    }
+
+    /// Registers the robot files of a folder, `.toml` and `.urdf`, under their names without the ending.
+    ///
+    /// # Errors
+    ///
+    /// A folder that cannot be read.
+    pub fn register_folder(&mut self, folder: &Path) -> Result<(), Error> {
+        let failed = |error: std::io::Error| Error::file(folder, error);
+        for entry in std::fs::read_dir(folder).map_err(failed)? {
+            let path = entry.map_err(failed)?.path();
+            let name = path.file_stem().and_then(|stem| stem.to_str());
+            let ending = path.extension().and_then(|ending| ending.to_str());
+            if let (Some(name), Some("toml" | "urdf")) = (name, ending) {
+                self.register(name, &path);
+            }
+        }
+        Ok(())
+    }
+
+    /// The robot of a literal: a registered name, a path that ends with `.toml` or `.urdf`, or the text of a robot
+    /// file. A file is read once per process.
+    ///
+    /// # Errors
+    ///
+    /// A name that is not registered; everything that is wrong with the file.
+    pub fn model(&self, literal: &str) -> Result<Arc<Model>, Error> {
+        let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(model) = models.by_literal.get(literal) {
+            return Ok(model.clone());
+        }
+        let (source, options) = self.source(literal)?;
+        let key = (source.text.clone(), format!("{:?}", options.plan));
+        let model = match models.by_text.get(&key) {
+            Some(model) => model.clone(),
+            None => Arc::new(Model::new(source, options)?),
+        };
+        models.by_text.insert(key, model.clone());
+        models.by_literal.insert(literal.to_owned(), model.clone());
+        Ok(model)
+    }
+
+    /// The text of a robot and the options with its pinned plan.
+    fn source(&self, literal: &str) -> Result<(Source, Options), Error> {
+        let options = Options { search: false, ..Options::default() };
+        if literal.contains('\n') {
+            return Ok((Source { name: "robot".to_owned(), text: literal.to_owned() }, options));
+        }
+        let failed = |reason: String| Error::Robot { robot: literal.to_owned(), reason };
+        let path = match self.names.get(literal) {
+            Some(path) => path.clone(),
+            None if literal.ends_with(".toml") || literal.ends_with(".urdf") => literal.into(),
+            None => return Err(failed(self.unknown())),
+        };
+        let file = RobotFile::read(&path).map_err(|errors| failed(errors.to_string()))?;
+        let options = file.with_pin(&options).map_err(|errors| failed(errors.to_string()))?;
+        Ok((file.source, options))
+    }
+
+    /// Why a name is not a robot's.
+    fn unknown(&self) -> String {
+        let names: Vec<&str> = self.names.keys().map(String::as_str).collect();
+        let known = match names.as_slice() {
+            [] => "no robot is registered".to_owned(),
+            names => format!("registered are {}", names.join(", ")),
+        };
+        format!(
+            "this is not a name that is registered, nor a path to a .toml or .urdf file ({known})"
+        )
+    }
+}
