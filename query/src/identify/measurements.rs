@@ -94,7 +94,7 @@ impl Measurements {
         scratch.given.resize(columns.entries() * BLOCK, 0.0);
         scratch.regressor.resize(count * self.parameters * BLOCK, 0.0);
         let regressor = self.regressor.clone();
-        let handle = function(&regressor.engine, FunctionKind::RegressorBase)?;
+        let handle = function(&regressor.executable, FunctionKind::RegressorBase)?;
         for start in (0..columns.rows()).step_by(BLOCK) {
             let read = columns.read(start, &mut scratch.given);
             let rows = usable(columns, start, read, 4 * count, &mut scratch.given);
