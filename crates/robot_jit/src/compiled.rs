@@ -65,7 +65,8 @@ pub fn compile_with<'m>(
     options: &Options,
 ) -> Result<Compiled<'m>, Error> {
     let interpreter = Interpreter::new(module, given)?;
-    compile_interpreted(interpreter, options).map_err(|(_, error)| error)
+    let code = code_of(&interpreter, options)?;
+    Ok(Compiled::new(interpreter, code))
 }
 
 /// [`compile_with`] with ownership of the module, for callers that cannot borrow it.
@@ -79,28 +80,18 @@ pub fn compile_owned(
     options: &Options,
 ) -> Result<Compiled<'static>, Error> {
     let interpreter = Interpreter::owned(module, given)?;
-    compile_interpreted(interpreter, options).map_err(|(_, error)| error)
-}
-
-/// The code of what an interpreter runs; the interpreter, unchanged, with the reason if there is none.
-pub(crate) fn compile_interpreted<'m>(
-    interpreter: Interpreter<'m>,
-    options: &Options,
-) -> Result<Compiled<'m>, (Interpreter<'m>, Error)> {
-    match functions_of(&interpreter, options) {
-        Ok((registers, functions)) => Ok(Compiled { interpreter, registers, functions }),
-        Err(error) => Err((interpreter, error)),
-    }
+    let code = code_of(&interpreter, options)?;
+    Ok(Compiled::new(interpreter, code))
 }
 
 /// The code of a function for one state and for several, under its name.
 type Placed = (String, SingleCode, LanesCode);
 
-/// The registers, and the code of the functions that the options name.
-fn functions_of(
-    interpreter: &Interpreter<'_>,
-    options: &Options,
-) -> Result<(Registers, Vec<Placed>), Error> {
+/// The registers, and the code of functions for them.
+pub(crate) type Code = (Registers, Vec<Placed>);
+
+/// The code of the functions that the options name.
+pub(crate) fn code_of(interpreter: &Interpreter<'_>, options: &Options) -> Result<Code, Error> {
     let module = interpreter.module();
     let registers = match options.registers {
         Some(registers) => registers.check()?,
@@ -151,6 +142,12 @@ fn emit(
 }
 
 impl<'m> Compiled<'m> {
+    /// `code` is that of the functions of `interpreter`.
+    pub(crate) fn new(interpreter: Interpreter<'m>, code: Code) -> Compiled<'m> {
+        let (registers, functions) = code;
+        Compiled { interpreter, registers, functions }
+    }
+
     /// A function by its name.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use robot_codegen::{
     Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry,
 };
 
-use crate::compiled::{Compiled, Function, Options, compile_interpreted};
+use crate::compiled::{Compiled, Function, Options, code_of};
 
 /// A module with its parameters given. Functions are machine code if there is some for the machine and the source of sines;
 /// else they are interpreted, as are functions with multiply-adds, which machine code rounds once and the interpreter
@@ -64,9 +64,9 @@ impl<'m> Executable<'m> {
         let functions = Some(plain.map(|function| function.name.clone()).collect());
         let options = Options { trigonometry, functions, ..Options::default() };
         // Whatever machine code lacks, the interpreter has.
-        Executable(match compile_interpreted(interpreter, &options) {
-            Ok(compiled) => Code::Native(compiled),
-            Err((interpreter, _)) => Code::Interpreted(interpreter),
+        Executable(match code_of(&interpreter, &options) {
+            Ok(code) => Code::Native(Compiled::new(interpreter, code)),
+            Err(_) => Code::Interpreted(interpreter),
         })
     }
 
