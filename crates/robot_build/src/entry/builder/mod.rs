@@ -186,9 +186,9 @@ impl Builder {
         self
     }
 
-    /// The language of the code; Rust without this. For another, with the feature `languages`, each robot becomes a folder
-    /// `<module>` in `OUT_DIR` with the files that `robot-symbolic crate --language` writes, from which a build script
-    /// goes on: the header `OUT_DIR/trttr1/trttr1.h` is for the crate `cc`. Options of Rust alone are errors there.
+    /// The language of the code; Rust without this. In another, each robot becomes a folder `<module>` in `OUT_DIR`: the
+    /// package that `robot-symbolic crate --language` writes, of the same plan. A build script goes on from there: the
+    /// header `OUT_DIR/trttr1/trttr1.h` is for the crate `cc`. Options of Rust alone are errors in other languages.
     #[cfg(feature = "languages")]
     pub fn language(mut self, language: Language) -> Builder {
         self.language = language;
