@@ -90,9 +90,9 @@ fn read_back<'g>(
 ) -> Result<BTreeMap<String, Expr<'g>>, robot_document::Error> {
     let looks = Looks::new(&printed.symbols).unwrap();
     let mut values: BTreeMap<String, Expr<'g>> = BTreeMap::new();
-    // Definitions are in order; the quantities by them may stand before.
+    // Definitions are in order, with the quantities that they use; the quantities by them may stand before.
     let (definitions, quantities): (Vec<_>, Vec<_>) =
-        printed.groups.iter().partition(|group| group.definitions);
+        printed.groups.iter().partition(|group| group.definitions || group.used);
     for group in definitions.into_iter().chain(quantities) {
         let list: Vec<NumberedEquation> = group
             .equations

@@ -134,7 +134,7 @@ fn arrays(equations: &Equations) -> Map<String, Value> {
 }
 
 /// `{"robot": …, "definitions": {…}, "quantities": {"Q1": …, …}}`; the definitions, each before it is
-/// used by another, are left out where there are none.
+/// used by another, are left out where there are none. A joint torque that a definition uses is in both.
 fn json(robot: &str, equations: &Equations, arrays: Option<Map<String, Value>>) -> String {
     let all = |list: &mut dyn Iterator<Item = &Equation>| -> Map<String, Value> {
         list.map(|equation| (equation.name.clone(), Value::String(equation.text.clone()))).collect()

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::{output, robot};
+use crate::{complaint, folder, output, robot};
 
 const PAGE: &str = "docs/trttr1-equations.md";
 
@@ -289,6 +289,23 @@ fn terms_are_in_the_order_of_the_text() {
         };
         assert_eq!(sorted(&derived[&name]), sorted(&alike[&name]), "{number} {name}");
     }
+}
+
+/// Published LaTeX has an order as well; equations that are not in it keep the style's.
+#[test]
+fn the_order_of_latex_is_kept() {
+    let expanded = |format: &str| output(&["equations", &robot("trttr1"), "--format", format], "");
+    let path = folder("like").join("published.tex");
+    std::fs::write(&path, expanded("latex")).unwrap();
+    let alike = printed(&["--like", path.to_str().unwrap()]);
+    let usual: serde_json::Value = serde_json::from_str(&expanded("json")).unwrap();
+    for (name, text) in usual["quantities"].as_object().unwrap() {
+        assert_eq!(alike[name], text.as_str().unwrap(), "{name}");
+    }
+    assert_eq!(alike["M_l2.z"], derived()["M_l2.z"]);
+    let found =
+        complaint(1, &["equations", &robot("planar_2r"), "--like", path.to_str().unwrap()], "");
+    assert!(found.contains("does not have the quantity"), "{found}");
 }
 
 #[test]

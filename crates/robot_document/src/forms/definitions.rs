@@ -235,7 +235,8 @@ impl<'g, 'h> Definitions<'g, 'h> {
         let value = self.named.rewritten(expr);
         if self.uses_own(value) {
             section.close();
-            section.groups.push(Group::of_quantities(TORQUES, String::new(), self.placed()));
+            let torques = Group::of_quantities(TORQUES, String::new(), self.placed());
+            section.groups.push(Group { used: true, ..torques });
         }
         section.count += 1;
         let name = shapes::indexed_name(section.letter, &[section.count]);

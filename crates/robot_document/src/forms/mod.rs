@@ -64,6 +64,8 @@ pub struct Group {
     pub introduction: String,
     /// Whether they define symbols that other equations use.
     pub definitions: bool,
+    /// Whether definitions after it use the quantities that its equations are about.
+    pub used: bool,
     /// The equations.
     pub equations: Vec<Equation>,
     /// The equations as one of vectors.
@@ -110,6 +112,7 @@ impl Group {
             title,
             introduction,
             definitions: true,
+            used: false,
             equations,
             vector: None,
             arrays: None,
@@ -165,9 +168,11 @@ impl Equations {
         self.groups.iter().filter_map(|group| group.arrays.as_ref()).flatten()
     }
 
-    /// The definitions that the other equations use, each before it is used by another one.
+    /// The definitions that the other equations use, each before it is used by another one, and among them the quantities
+    /// that definitions use.
     pub fn definitions(&self) -> impl Iterator<Item = &Equation> {
-        self.groups.iter().filter(|group| group.definitions).flat_map(|group| &group.equations)
+        let groups = self.groups.iter().filter(|group| group.definitions || group.used);
+        groups.flat_map(|group| &group.equations)
     }
 }
 

@@ -214,15 +214,17 @@ fn figures_are_the_same_bytes_each_time() {
     let expected = [
         "position q rad",
         "position q m",
-        "velocity qd rad/s",
-        "velocity qd m/s",
+        "velocity q\u{307} rad/s",
+        "velocity q\u{307} m/s",
         "energy J",
         "energy − start J",
     ];
     assert_eq!(labels, expected);
     let svg = figure.svg().unwrap();
     assert_eq!(svg, figure.svg().unwrap());
-    for part in ["Motion of stanford", "velocity qd (m/s)", "potential", "t (s)", "width=\"900\""] {
+    for part in
+        ["Motion of stanford", "velocity q\u{307} (m/s)", "potential", "t (s)", "width=\"900\""]
+    {
         assert!(svg.contains(part), "{part}");
     }
     assert!(svg.len() < 150_000, "{}", svg.len());
