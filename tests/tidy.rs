@@ -301,7 +301,7 @@ const SYSTEM: [(&[&str], &[&str]); 3] = [
         &["process::{", "process::Command", "std::net"],
         &["robot_evidence/src/compile.rs", "robot_languages/"],
     ),
-    (&["std::time"], &["robot_cli/"]),
+    (&["std::time"], &["robot_cli/", "robot_languages/"]),
 ];
 
 #[test]
