@@ -126,7 +126,7 @@ impl Header<'_> {
         doc.push(format!("- {}", self.options.trigonometry.range_of_angles()));
         let flags = match self.dialect {
             Dialect::C => "(-ffp-contract=off) and without -ffast-math",
-            Dialect::Cuda => "(-fmad=false) and without --use_fast_math",
+            Dialect::Cuda => "(-fmad=false) and without -use_fast_math",
         };
         doc.push(format!(
             "- Compiled without contraction of products and sums {flags}, results have the same bits on every machine."

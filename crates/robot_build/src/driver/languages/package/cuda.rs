@@ -93,7 +93,7 @@ fn readme(printer: &Printer<'_>) -> String {
          the memory of the device, so that neighboring threads read neighboring numbers. Arrays are of numbers of type `{real}`; a matrix is \
          an array, row by row.{} To test it:\n\n```sh\nnvcc -std=c++17 -O3 -fmad=false example.cu -o example && ./example\n```\n\nor with \
          CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. Without `-fmad=false` the compiler fuses products and \
-         sums: that is faster, and last bits differ, which the test says. `--use_fast_math` does more: divisions and roots are \
+         sums: that is faster, and last bits differ, which the test says. `-use_fast_math` does more: divisions and roots are \
          approximate. The text compiles at run time too (NVRTC, CuPy's `RawModule`): there kernels have their plain names.\n",
         if printer.tree.has_parameters() {
             " A kernel takes the model by value: it is computed on the host, once."
