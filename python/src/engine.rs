@@ -26,8 +26,7 @@ impl Engine {
             given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let function = module.functions.first().ok_or("the robot has no function")?;
         let name = function.name.clone();
-        let code =
-            robot_jit::Engine::new(module, &given).map_err(|error| error.to_string())?;
+        let code = robot_jit::Engine::new(module, &given).map_err(|error| error.to_string())?;
         Ok(Engine { code, name })
     }
 
