@@ -32,9 +32,12 @@ pub enum Error {
     /// Measurements that determine nothing.
     #[error("{0}")]
     Identification(String),
-    /// A query that the engine refuses, or that failed while it ran.
+    /// A query that cannot be answered.
     #[error("{0}")]
     Query(String),
+    /// What the engine says of a query that it refuses, or that failed while it ran.
+    #[error("{0}")]
+    Engine(String),
 }
 
 /// A path with its row group.
@@ -60,7 +63,7 @@ impl From<DataFusionError> for Error {
     fn from(error: DataFusionError) -> Error {
         match error.find_root() {
             DataFusionError::External(inner) => Error::Query(inner.to_string()),
-            _ => Error::Query(error.strip_backtrace()),
+            _ => Error::Engine(error.strip_backtrace()),
         }
     }
 }

@@ -55,7 +55,7 @@ pub async fn statistics(table: DataFrame) -> Result<Residuals, Error> {
         let lists = batch.column(0).as_fixed_size_list_opt().ok_or_else(other)?;
         let size = lists.value_length().unsigned_abs() as usize;
         found.sums.resize(size, [0.0; 3]);
-        let values = lists.values().as_primitive::<Float64Type>().values();
+        let values = lists.values().as_primitive_opt::<Float64Type>().ok_or_else(other)?.values();
         for (row, values) in values.chunks_exact(size.max(1)).enumerate() {
             if lists.is_null(row) || values.iter().any(|value| !value.is_finite()) {
                 found.excluded += 1;

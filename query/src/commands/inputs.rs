@@ -78,6 +78,9 @@ impl Opened {
 
     /// An error with the place in the log, if the log is the reason.
     pub(super) fn located(&self, error: Error) -> Error {
-        self.log.fault().unwrap_or(error)
+        match error {
+            Error::Engine(_) => self.log.fault().unwrap_or(error),
+            error => error,
+        }
     }
 }

@@ -37,7 +37,10 @@ impl Arguments {
             let table = session.table(log).await?;
             session.context.register_table("log", table.into_view())?;
         }
-        let located = |error: Error| log.as_ref().and_then(Log::fault).unwrap_or(error);
+        let located = |error: Error| match &log {
+            Some(log) if matches!(error, Error::Engine(_)) => log.fault().unwrap_or(error),
+            _ => error,
+        };
         let table = session.context.sql(&self.query).await?;
         match &self.output {
             Some(path) => {

@@ -45,7 +45,12 @@ pub(super) fn convert(
     let mut file = File::open(input).map_err(|error| Error::file(input, error))?;
     let mut reader = LinearReader::new();
     let failed = |error: mcap::McapError| {
-        let reason = format!("it cannot be read ({error}); `mcap recover` may mend it");
+        let reason = match error {
+            mcap::McapError::UnsupportedCompression(name) => {
+                format!("its chunks are compressed by {name}; `mcap decompress` removes it")
+            }
+            error => format!("it cannot be read ({error}); `mcap recover` may mend it"),
+        };
         Error::file(input, reason)
     };
     while let Some(event) = reader.next_event() {

@@ -86,7 +86,8 @@ impl Estimate {
             }
             sum
         };
-        (square(base.as_slice()) / square(&self.values)).sqrt()
+        let (there, here) = (square(base.as_slice()), square(&self.values));
+        if there > here { (there / here).sqrt() } else { 1.0 }
     }
 }
 

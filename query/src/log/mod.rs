@@ -10,7 +10,7 @@ mod write;
 pub use check::{Finding, check};
 pub use files::Log;
 pub(crate) use files::reader;
-pub(crate) use place::Place;
+pub(crate) use place::{Place, empty_folder};
 pub use session::{Session, Settings};
 pub use variables::Names;
 pub(crate) use write::properties;

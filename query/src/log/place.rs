@@ -12,6 +12,20 @@ pub(crate) struct Place {
     beside: PathBuf,
 }
 
+/// A new folder, or one that has nothing in it.
+///
+/// # Errors
+///
+/// A folder with files; one that cannot be made.
+pub(crate) fn empty_folder(folder: &Path) -> Result<(), Error> {
+    let failed = |error: std::io::Error| Error::file(folder, error);
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    match std::fs::read_dir(folder).map_err(failed)?.next() {
+        None => Ok(()),
+        Some(_) => Err(Error::file(folder, "the folder is not empty; remove it or choose another")),
+    }
+}
+
 impl Place {
     /// A new file.
     ///

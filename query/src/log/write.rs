@@ -17,7 +17,7 @@ use datafusion::parquet::file::properties::WriterProperties;
 use datafusion::prelude::DataFrame;
 use futures::StreamExt;
 
-use super::place::Place;
+use super::place::{Place, empty_folder};
 use crate::error::Error;
 
 /// Where an answer goes.
@@ -67,7 +67,7 @@ pub async fn write(table: DataFrame, answer: &Answer) -> Result<u64, Error> {
             drain(table.execute_stream().await?, sink).await
         }
         Answer::Folder(folder) => {
-            std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+            empty_folder(folder)?;
             let schema = table.schema().inner().clone();
             let mut parts = vec![];
             for (place, stream) in table.execute_stream_partitioned().await?.into_iter().enumerate()

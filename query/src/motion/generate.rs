@@ -15,7 +15,7 @@ use super::trajectory::{Limits, Trajectory};
 use crate::columns::{BLOCK, doubles};
 use crate::error::Error;
 use crate::functions::{compute, function, torques_of};
-use crate::log::{Place, properties};
+use crate::log::{Place, empty_folder, properties};
 use crate::robots::Model;
 
 /// The rows of a batch.
@@ -58,7 +58,7 @@ pub enum Layout {
 ///
 /// Files that cannot be written.
 pub fn generate(model: &Model, how: &Generation, folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+    empty_folder(folder)?;
     let files = how.files.max(1);
     let path = |file: u64| folder.join(format!("part-{file:04}.parquet"));
     let ends = |file: u64| how.rows * file / files..how.rows * (file + 1) / files;

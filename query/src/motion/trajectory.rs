@@ -73,6 +73,8 @@ impl Trajectory {
             let [lower, upper] = limits.position;
             let scale =
                 (RANGE * (upper - lower) / 2.0 / reach).min(limits.speed / rates.sum::<f64>());
+            // A joint that may not move has no series.
+            let scale = if scale.is_finite() { scale } else { 0.0 };
             self.coefficients[joint] =
                 self.coefficients[joint].map(|pair| pair.map(|one| one * scale));
             self.centers[joint] = (lower + upper) / 2.0;
