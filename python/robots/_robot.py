@@ -110,7 +110,7 @@ class Robot:
             return run(["generate", self._path])
         with tempfile.TemporaryDirectory() as folder:
             run(["crate", self._path, "--language", language, "-o", os.path.join(folder, "code")])
-            ending = {"c": ".h", "cpp": ".hpp", "octave": ".m", "matlab": ".m", "javascript": ".js", "python": ".py"}.get(language, "")
+            ending = {"c": ".h", "cpp": ".hpp", "cuda": ".cuh", "octave": ".m", "matlab": ".m", "javascript": ".js", "python": ".py"}.get(language, "")
             files = sorted(file for file in Path(folder).rglob(f"*{ending}") if file.is_file())
             return "\n".join(file.read_text() for file in files)
 
