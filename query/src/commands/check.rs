@@ -6,7 +6,7 @@ use clap::Args;
 use robot_query::Error;
 use robot_query::log::{Log, Names, check};
 
-use super::Engine;
+use super::{Engine, show};
 
 /// What is likely wrong with a log: rows with nulls or NaN, times that repeat or go back, units, files that cannot be read
 ///
@@ -34,7 +34,7 @@ impl Arguments {
         let log = Log::open(&self.log)?;
         let (time, episode) = (self.time.as_deref(), self.episode.as_deref());
         let found = check(&log, &model, &Names::default(), time, episode)?;
-        found.iter().for_each(|finding| println!("{finding}"));
+        show(&found.iter().map(|finding| format!("{finding}\n")).collect::<String>())?;
         match found.len() {
             0 => Ok(()),
             count => Err(Error::Columns(format!("{count} findings"))),

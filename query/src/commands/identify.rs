@@ -1,5 +1,6 @@
 //! `identify`: base parameters from a log.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -12,7 +13,7 @@ use robot_query::identify::Estimate;
 
 use super::Engine;
 use super::inputs::{Inputs, Opened};
-use super::{noise, written};
+use super::{noise, show, written};
 
 /// The base parameters that explain the measured torques best, with their standard deviations
 ///
@@ -43,7 +44,7 @@ impl Arguments {
         let session = engine.session(engine.threads())?;
         let opened = self.inputs.open(&session).await?;
         let estimate = self.estimate(&session, &opened).await?;
-        print(&estimate);
+        show(&shown(&estimate))?;
         if let Some(path) = &self.output {
             written(path, &csv(&estimate))?;
         }
@@ -78,23 +79,26 @@ fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), E
     let consistent = estimate.consistent(&opened.model)?;
     let (text, complaints) =
         estimate.robot_file(&opened.model, &consistent, &path.to_string_lossy())?;
-    if consistent.is_estimate {
-        println!("\nbodies can have the estimate; {} has it", path.display());
+    let path_shown = path.display();
+    let said = if consistent.is_estimate {
+        format!("\nbodies can have the estimate; {path_shown} has it\n")
     } else {
         let percent = 100.0 * (consistent.growth - 1.0);
-        println!(
-            "\nno bodies have the estimate; {} has what they can have and explains the log best, and the residual is \
-             {percent:.3e} % larger",
-            path.display()
-        );
-    }
+        format!(
+            "\nno bodies have the estimate; {path_shown} has what they can have and explains the log best, and the \
+             residual is {percent:.3e} % larger\n"
+        )
+    };
+    show(&said)?;
     eprint!("{complaints}");
     written(path, &text)
 }
 
 /// The estimate for readers.
-fn print(estimate: &Estimate) {
-    println!(
+fn shown(estimate: &Estimate) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
         "{}: {} rows, {} left out; {} of {} parameters identified, condition {:.3}",
         estimate.robot,
         estimate.rows,
@@ -103,24 +107,27 @@ fn print(estimate: &Estimate) {
         estimate.names.len(),
         estimate.condition
     );
-    println!("{:10}{:>16}{:>16}{:>16}", "", "estimated", "deviation", "robot file");
+    let _ = writeln!(text, "{:10}{:>16}{:>16}{:>16}", "", "estimated", "deviation", "robot file");
     for (place, name) in estimate.names.iter().enumerate() {
         let (value, nominal) = (estimate.values[place], estimate.nominal[place]);
         let deviation =
             estimate.deviations[place].map_or("-".to_owned(), |one| format!("{one:.6}"));
-        println!("{name:10}{value:>16.6}{deviation:>16}{nominal:>16.6}");
+        let _ = writeln!(text, "{name:10}{value:>16.6}{deviation:>16}{nominal:>16.6}");
     }
     for parameter in &estimate.unidentifiable {
-        match parameter.with.as_slice() {
-            [] => println!("{} has no effect in this log", parameter.name),
-            with => println!("{} acts only together with {}", parameter.name, with.join(", ")),
-        }
+        let _ = match parameter.with.as_slice() {
+            [] => writeln!(text, "{} has no effect in this log", parameter.name),
+            with => {
+                writeln!(text, "{} acts only together with {}", parameter.name, with.join(", "))
+            }
+        };
     }
-    println!("\n{:24}{:>16}{:>16}", "joint", "residual (rms)", "noise");
+    let _ = writeln!(text, "\n{:24}{:>16}{:>16}", "joint", "residual (rms)", "noise");
     for joint in &estimate.joints {
         let noise = joint.noise.map_or("given".to_owned(), |noise| format!("{noise:.6}"));
-        println!("{:24}{:>16.6}{noise:>16}", joint.name, joint.rms);
+        let _ = writeln!(text, "{:24}{:>16.6}{noise:>16}", joint.name, joint.rms);
     }
+    text
 }
 
 /// The estimate as a table.

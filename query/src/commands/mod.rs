@@ -10,6 +10,7 @@ mod residual;
 mod sql;
 mod torques;
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
@@ -112,5 +113,15 @@ fn written(path: &Path, text: &str) -> Result<(), Error> {
         reason: error.to_string(),
     };
     let mut file = std::fs::File::create_new(path).map_err(failed)?;
-    std::io::Write::write_all(&mut file, text.as_bytes()).map_err(failed)
+    file.write_all(text.as_bytes()).map_err(failed)
+}
+
+/// Writes to standard output, of which a reader may take only the beginning.
+fn show(text: &str) -> Result<(), Error> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Error::Query(format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
 }

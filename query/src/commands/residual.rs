@@ -1,5 +1,6 @@
 //! `residual`: what the model leaves of measured torques.
 
+use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -9,8 +10,8 @@ use robot_query::Error;
 use robot_query::log::{Answer, write};
 use robot_query::residual::{Statistics, statistics};
 
-use super::Engine;
 use super::inputs::Inputs;
+use super::{Engine, show};
 
 /// What the model leaves of measured torques, joint by joint
 ///
@@ -48,12 +49,13 @@ impl Arguments {
         }
         let table = opened.table.clone().select(vec![residual])?;
         let found = statistics(table).await.map_err(|error| opened.located(error))?;
-        println!("{} rows, {} left out", found.rows, found.excluded);
-        println!("{:24}{:>14}{:>14}{:>14}", "joint", "mean", "rms", "largest");
+        let mut text = format!("{} rows, {} left out\n", found.rows, found.excluded);
+        let _ = writeln!(text, "{:24}{:>14}{:>14}{:>14}", "joint", "mean", "rms", "largest");
         for (coordinate, joint) in opened.model.robot.coordinates.iter().zip(found.joints()) {
             let Statistics { mean, rms, largest } = joint;
-            println!("{:24}{mean:>14.6}{rms:>14.6}{largest:>14.6}", coordinate.joint);
+            let name = &coordinate.joint;
+            let _ = writeln!(text, "{name:24}{mean:>14.6}{rms:>14.6}{largest:>14.6}");
         }
-        Ok(())
+        show(&text)
     }
 }

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use datafusion::arrow::util::pretty::pretty_format_batches;
 use robot_query::Error;
 use robot_query::log::{Answer, Log, write};
 
-use super::Engine;
+use super::{Engine, show};
 
 /// Answers a query, in which the dynamics are functions and files are tables
 ///
@@ -48,7 +49,12 @@ impl Arguments {
                 eprintln!("{rows} rows");
                 Ok(())
             }
-            None => table.show().await.map_err(|error| located(error.into())),
+            None => {
+                let batches = table.collect().await.map_err(|error| located(error.into()))?;
+                let text = pretty_format_batches(&batches);
+                let text = text.map_err(|error| Error::Query(error.to_string()))?;
+                show(&format!("{text}\n"))
+            }
         }
     }
 }
