@@ -44,7 +44,7 @@ impl Columns {
     ///
     /// # Errors
     ///
-    /// Another number of entries; values that are no numbers.
+    /// Another number of entries; values that are not numbers.
     pub(crate) fn new(
         arguments: &[ArrayRef],
         rows: usize,
@@ -73,7 +73,7 @@ impl Columns {
     ///
     /// # Errors
     ///
-    /// Values that are no numbers.
+    /// Values that are not numbers.
     pub(crate) fn of_all(arguments: &[ArrayRef], rows: usize) -> Result<Columns, Error> {
         let mut columns = Columns { parts: vec![], valid: None, rows, entries: 0 };
         arguments.iter().try_for_each(|argument| columns.push(argument))?;
@@ -102,7 +102,7 @@ impl Columns {
                 Ok(())
             }
             other => Err(Error::Columns(format!(
-                "a column of type {other} is no number, list of numbers or struct of numbers"
+                "a column of type {other} is neither a number nor a list or struct of numbers"
             ))),
         }
     }

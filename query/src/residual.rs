@@ -51,7 +51,7 @@ pub async fn statistics(table: DataFrame) -> Result<Residuals, Error> {
     let mut stream = table.execute_stream().await?;
     while let Some(batch) = stream.next().await {
         let batch = batch?;
-        let other = || Error::Query("this is no answer of residual".to_owned());
+        let other = || Error::Query("this is not an answer of residual".to_owned());
         let lists = batch.column(0).as_fixed_size_list_opt().ok_or_else(other)?;
         let size = lists.value_length().unsigned_abs() as usize;
         found.sums.resize(size, [0.0; 3]);

@@ -135,7 +135,7 @@ impl Recording<'_> {
         self.messages += 1;
         let place = format!("{}, message {}", self.input.display(), self.messages);
         let wrong = |reason: &str| Error::Columns(format!("{place}: {reason}"));
-        let message = joint_state(data).ok_or_else(|| wrong("it is no joint state in CDR"))?;
+        let message = joint_state(data).ok_or_else(|| wrong("it is not a joint state in CDR"))?;
         let JointState { stamp, name, position, effort, .. } = &message;
         let is_known = self.places.as_ref().is_some_and(|(known, _)| known == name);
         if !is_known {

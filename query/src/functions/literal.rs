@@ -21,7 +21,7 @@ pub(crate) fn text_of(value: &ScalarValue) -> Option<&str> {
 ///
 /// # Errors
 ///
-/// A first argument that is no literal text; a robot that cannot be read.
+/// A first argument that is not a literal text; a robot that cannot be read.
 pub(crate) fn robot_of(
     function: &str,
     argument: Option<&ScalarValue>,

@@ -26,7 +26,7 @@ impl Estimate {
     /// # Errors
     ///
     /// A file with what cannot be written back: standard Denavit-Hartenberg rows, gyroscopic rotors, drives given by
-    /// rotor inertia; a result that is no robot file.
+    /// rotor inertia; a result that is not a robot file.
     pub fn robot_file(
         &self,
         model: &Model,

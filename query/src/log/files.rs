@@ -124,7 +124,7 @@ fn unreadable(path: &Path, group: usize) -> Option<String> {
 pub(crate) fn reader(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
     let file = File::open(path).map_err(|error| Error::file(path, error))?;
     ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| {
-        let reason = "it is no whole Parquet file, perhaps truncated";
+        let reason = "it is not a whole Parquet file; it may be truncated";
         Error::file(path, format!("{reason} ({error}); copy or write it again"))
     })
 }
@@ -158,7 +158,7 @@ fn format_of(path: &Path) -> Result<Format, Error> {
         Some("parquet") => Ok(Format::Parquet),
         Some("csv") => Ok(Format::Csv),
         Some("mcap") => {
-            let reason = "an MCAP file is no table; `robot-query convert` makes one";
+            let reason = "an MCAP file is not a table; `robot-query convert` makes one";
             Err(Error::file(path, reason))
         }
         _ => Err(Error::file(path, "its name ends neither with .parquet nor with .csv")),

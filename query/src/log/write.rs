@@ -55,7 +55,7 @@ impl Answer {
 ///
 /// # Errors
 ///
-/// What fails while it is computed or written; there is no file then.
+/// What fails while it is computed or written; then no file is left.
 pub async fn write(table: DataFrame, answer: &Answer) -> Result<u64, Error> {
     match answer {
         Answer::Parquet(path) => {
