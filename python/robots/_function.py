@@ -58,7 +58,8 @@ class Function:
         # One state of f64, which is what control loops have, is checked and computed at once.
         if self._nominal is not None and parameters is None and out is None and not named and threads == 1:
             results = [np.empty(shape) for _, shape in self.outputs]
-            if self._nominal.state(given, results):
+            # A number has no shape that a buffer could state.
+            if self._nominal.state(given, [result if result.ndim else result.reshape(1) for result in results]):
                 return self._one_or_all(results, False)
         engine = self._engine(parameters)
         arrays, single, states, dtype = self._arrays(given, named)

@@ -80,10 +80,10 @@ impl ScalarUDFImpl for Dynamics {
 }
 
 /// The function of an executable that has one.
-pub(crate) fn function(
-    executable: &robot_jit::Executable<'static>,
+pub(crate) fn function<'e>(
+    executable: &'e robot_jit::Executable<'static>,
     kind: FunctionKind,
-) -> Result<Handle<'_>, Error> {
+) -> Result<Handle<'e>, Error> {
     executable.function(kind.name()).map_err(|error| Error::Query(error.to_string()))
 }
 

@@ -23,7 +23,7 @@ fn a_truncated_file_is_named() {
     for length in [0, 3, bytes.len() / 2, bytes.len() - 1] {
         fs::write(&file, &bytes[..length]).unwrap();
         let error = Log::open(&[folder.path().to_owned()]).unwrap_err().to_string();
-        assert!(error.contains("part-0002.parquet: it is no whole Parquet file"), "{error}");
+        assert!(error.contains("part-0002.parquet: it is not a whole Parquet file"), "{error}");
     }
 }
 
