@@ -118,7 +118,7 @@ CUDA_SINGLE_INLINE_ double cuda_single_sign_f64_(double x)
     double result;
     memcpy(&unit, &x, 8);
     is_nan = unit & (0 - (uint64_t)(x != x));
-    unit = ((unit & UINT64_C(0x8000000000000000)) | UINT64_C(0x3ff0000000000000)) & (0 - (uint64_t)(x < 0 || x > 0 || x != x));
+    unit = ((unit & UINT64_C(0x8000000000000000)) | UINT64_C(0x3ff0000000000000)) & (0 - (uint64_t)(x != 0));
     unit |= is_nan;
     memcpy(&result, &unit, 8);
     return result;
@@ -257,7 +257,7 @@ CUDA_SINGLE_INLINE_ float cuda_single_sign_f32_(float x)
     float result;
     memcpy(&unit, &x, 4);
     is_nan = unit & (0 - (uint32_t)(x != x));
-    unit = ((unit & UINT32_C(0x80000000)) | UINT32_C(0x3f800000)) & (0 - (uint32_t)(x < 0 || x > 0 || x != x));
+    unit = ((unit & UINT32_C(0x80000000)) | UINT32_C(0x3f800000)) & (0 - (uint32_t)(x != 0));
     unit |= is_nan;
     memcpy(&result, &unit, 4);
     return result;
