@@ -30,7 +30,7 @@ fn common_factors_leave_brackets() {
         ("-a*x - b*x", "-x*(a + b)"),
         ("2*a*b + 2*a*c", "2*a*(b + c)"),
         ("k*c*d - k*a*b", "k*(c*d - a*b)"),
-        ("-k*a*b + k*c*d - a*x", "k*(c*d - a*b) - x*a"),
+        ("-k*a*b + k*c*d - a*x", "k*c*d - a*(k*b + x)"),
         ("0", "0"),
     ] {
         assert_eq!(collected(source, 0), expected, "{source}");
