@@ -13,13 +13,23 @@ pub fn has_batch(function: &Function<'_>) -> bool {
     !is_cut && !function.inputs.is_empty()
 }
 
+/// The parameters of a function over columns: the number of states, the distance of columns, and the arrays.
+pub(super) fn column_parameters(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
+    let (real, restrict) = (header.real(), header.names.private_upper("restrict"));
+    let counts = ["size_t n", "size_t stride"].map(str::to_owned).into_iter();
+    let inputs = function.inputs.iter();
+    let inputs = inputs.map(|array| format!("const {real} *{restrict} {}", array.name));
+    let outputs = function.outputs.iter();
+    let outputs = outputs.map(|array| format!("{real} *{restrict} {}", array.name));
+    counts.chain(inputs).chain(outputs).collect()
+}
+
 /// A loop over states whose entries lie in columns, which compilers turn into vectors.
 pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     if !has_batch(function) {
         return vec![];
     }
     let plain = header.names.item(&function.name);
-    let (real, restrict) = (header.real(), header.names.private_upper("restrict"));
     let mut lines = comment::of_paragraphs(&[
         format!("`{plain}` of `n` states."),
         String::new(),
@@ -28,11 +38,7 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
             .to_owned(),
     ]);
     let mut parameters = model_parameter(header);
-    parameters.extend(["size_t n", "size_t stride"].map(str::to_owned));
-    let inputs = function.inputs.iter();
-    parameters.extend(inputs.map(|array| format!("const {real} *{restrict} {}", array.name)));
-    let outputs = function.outputs.iter();
-    parameters.extend(outputs.map(|array| format!("{real} *{restrict} {}", array.name)));
+    parameters.extend(column_parameters(header, function));
     lines.push(format!(
         "static inline void {}({})",
         header.names.item(function.form(BATCH)),

@@ -1,6 +1,6 @@
 //! CUDA C++: the functions of C for host and device, and a kernel for each over columns of states.
 
-use super::batch::{has_batch, iteration, one, place};
+use super::batch::{column_parameters, has_batch, iteration, one, place};
 use super::comment;
 use super::function::{model_argument, used_by};
 use super::{BATCH, Dialect, Header, LANGUAGE as C, names};
@@ -84,7 +84,6 @@ pub(super) fn kernel(header: &Header<'_>, function: &Function<'_>) -> Vec<String
         return vec![];
     }
     let plain = header.names.item(&function.name);
-    let (real, restrict) = (header.real(), header.names.private_upper("restrict"));
     let mut lines = comment::of_paragraphs(&[
         format!("`{plain}` of `n` states, on a grid of any size of one dimension."),
         String::new(),
@@ -95,11 +94,7 @@ pub(super) fn kernel(header: &Header<'_>, function: &Function<'_>) -> Vec<String
     let has_model = header.tree.has_parameters();
     let model = has_model.then(|| format!("const {} model_", header.names.item("model")));
     let mut parameters: Vec<String> = model.into_iter().collect();
-    parameters.extend(["size_t n", "size_t stride"].map(str::to_owned));
-    let inputs = function.inputs.iter();
-    parameters.extend(inputs.map(|array| format!("const {real} *{restrict} {}", array.name)));
-    let outputs = function.outputs.iter();
-    parameters.extend(outputs.map(|array| format!("{real} *{restrict} {}", array.name)));
+    parameters.extend(column_parameters(header, function));
     lines.push(format!(
         "{} void {}({})",
         header.names.private_upper("kernel"),
