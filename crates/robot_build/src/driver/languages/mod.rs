@@ -129,7 +129,7 @@ pub fn sources_of(
         Language::Rust => Box::new(printing::rust_options(programs, source, options)),
         Language::C => Box::new(backend::c::C { options: flat() }),
         Language::Arduino if options.scalar != Scalar::F32 => {
-            let errors = robot_codegen::Error::Single { language: "The library of Arduino" };
+            let errors = robot_codegen::Error::Single { language: "the library of Arduino" };
             return Err(Errors::of_code(&source.name, &errors.into()));
         }
         Language::Arduino => Box::new(backend::c::C { options: flat() }),
