@@ -83,7 +83,7 @@ pub struct EquationOptions {
     pub order: TermOrder,
     /// The letters of joint torques and of what the grouped form defines.
     pub letters: Letters,
-    /// The most significant digits of decimals, but in [`Equation::text`], which is exact.
+    /// The most significant digits of decimals, but in the text of equations, which is exact.
     pub digits: Option<usize>,
 }
 
