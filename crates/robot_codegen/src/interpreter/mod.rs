@@ -95,6 +95,9 @@ impl<'m> Interpreter<'m> {
     /// Takes sines and cosines, of the constructor as well, from elsewhere.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Interpreter<'m> {
+        if trigonometry == self.trigonometry {
+            return self;
+        }
         let fields = fields(&self.module, &self.parameters, trigonometry);
         Interpreter { fields, rounded: OnceLock::new(), trigonometry, ..self }
     }
