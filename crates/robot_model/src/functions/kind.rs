@@ -33,136 +33,157 @@ impl Effects {
     }
 }
 
-/// The functions that can be derived.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum FunctionKind {
+/// Declares the functions, each in one row, in the order in which they are listed: its variant, what it is, and
+/// its properties.
+///
+/// A kind with [`Effects`] is a function for each combination of them; one of a [`FrameRef`] is the function of one
+/// frame, which is not listed.
+macro_rules! functions {
+    ($($(#[$doc:meta])* $kind:ident $(($with:ident: $type:ident))? = $declaration:expr;)*) => {
+        /// The functions that can be derived.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum FunctionKind {
+            $($(#[$doc])* $kind $(($type))?,)*
+        }
+
+        /// The listed functions, by rows.
+        const LISTED: &[&[FunctionKind]] = &[$(listed!($kind $($type)?)),*];
+
+        impl FunctionKind {
+            /// The declared properties of the function.
+            const fn declaration(self) -> Declaration {
+                match self {
+                    $(FunctionKind::$kind $(($with))? => $declaration,)*
+                }
+            }
+        }
+    };
+}
+
+/// The functions that a row lists.
+macro_rules! listed {
+    ($kind:ident) => {
+        &[FunctionKind::$kind]
+    };
+    ($kind:ident Effects) => {
+        &[
+            FunctionKind::$kind(Effects::ALL[0]),
+            FunctionKind::$kind(Effects::ALL[1]),
+            FunctionKind::$kind(Effects::ALL[2]),
+            FunctionKind::$kind(Effects::ALL[3]),
+        ]
+    };
+    ($kind:ident FrameRef) => {
+        &[]
+    };
+}
+
+functions! {
     /// Q from q, q̇, q̈, with the effects that are asked for.
-    InverseDynamics(Effects),
+    InverseDynamics(effects: Effects) = Declaration {
+        effects,
+        motions: true,
+        ..Declaration::new(
+            effects.choose([
+                "inverse_dynamics",
+                "inverse_dynamics_wrench",
+                "inverse_dynamics_friction",
+                "inverse_dynamics_wrench_friction",
+            ]),
+            MOTION,
+        )
+    };
     /// F_l and M_l of every joint.
-    LinkWrenches,
+    LinkWrenches = Declaration::new("link_wrenches", MOTION);
     /// M from q.
-    MassMatrix,
+    MassMatrix = Declaration::of_composites("mass_matrix", POSITION);
     /// The entries of M's lower triangle that are not 0 by structure, from q.
-    MassMatrixLower,
+    MassMatrixLower = Declaration::of_composites("mass_matrix_lower", POSITION);
     /// C q̇ + g from q, q̇.
-    Bias,
+    Bias = Declaration::of_motions("bias", STATE);
     /// g from q.
-    Gravity,
+    Gravity = Declaration::of_composites("gravity", POSITION);
     /// q̈ from q, q̇, τ, with the effects that are asked for.
-    ForwardDynamics(Effects),
+    ForwardDynamics(effects: Effects) = Declaration {
+        effects,
+        solves: true,
+        ..Declaration::of_both(
+            effects.choose([
+                "forward_dynamics",
+                "forward_dynamics_wrench",
+                "forward_dynamics_friction",
+                "forward_dynamics_wrench_friction",
+            ]),
+            DRIVEN,
+        )
+    };
     /// The poses of the links' frames from q.
-    ForwardKinematics,
+    ForwardKinematics = Declaration::new("forward_kinematics", POSITION);
     /// The poses of the named frames from q.
-    FramePoses,
+    FramePoses = Declaration::of_motions("frame_poses", POSITION);
     /// The Jacobian from q: a function for each named frame, or for the last link of each branch where
     /// the robot has no named frame.
-    Jacobian,
+    Jacobian = Declaration::of_motions("jacobian", POSITION);
     /// The Jacobian of one frame from q.
-    JacobianOf(FrameRef),
+    JacobianOf(_frame: FrameRef) = FunctionKind::Jacobian.declaration();
     /// J̇ q̇ from q, q̇: a function for each frame, as of [`FunctionKind::Jacobian`].
-    JacobianDotQd,
+    JacobianDotQd = Declaration::of_motions("jacobian_dot_qd", STATE);
     /// J̇ q̇ of one frame from q, q̇.
-    JacobianDotQdOf(FrameRef),
+    JacobianDotQdOf(_frame: FrameRef) = FunctionKind::JacobianDotQd.declaration();
     /// Kinetic and potential energy from q, q̇.
-    Energies,
+    Energies = Declaration::of_both("energies", STATE);
     /// C from q, q̇, by Christoffel symbols.
-    CoriolisMatrix,
+    CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE);
     /// ∂Q/∂q and ∂Q/∂q̇ from q, q̇, q̈.
-    InverseDynamicsDerivatives,
+    InverseDynamicsDerivatives = Declaration::of_both("inverse_dynamics_derivatives", MOTION);
     /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ from q, q̇, τ.
-    ForwardDynamicsDerivatives,
+    ForwardDynamicsDerivatives = Declaration {
+        solves: true,
+        ..Declaration::of_both("forward_dynamics_derivatives", DRIVEN)
+    };
     /// Y of Q = Y π from q, q̇, q̈, with the parameters of links and drives π.
-    Regressor,
+    Regressor = Declaration::new("regressor", MOTION);
     /// Y of Q = Y β from q, q̇, q̈, with the base parameters β, the fewest that do.
-    RegressorBase,
+    RegressorBase = Declaration { base: true, ..Declaration::new("regressor_base", MOTION) };
     /// β from the robot's parameters alone.
-    BaseParameters,
+    BaseParameters = Declaration { base: true, ..Declaration::new("base_parameters", &[]) };
+}
+
+const POSITION: &[JointVariable] = &[JointVariable::Position];
+const STATE: &[JointVariable] = &[JointVariable::Position, JointVariable::Velocity];
+const MOTION: &[JointVariable] = &JointVariable::MOTION;
+const DRIVEN: &[JointVariable] =
+    &[JointVariable::Position, JointVariable::Velocity, JointVariable::Torque];
+
+/// The number of listed functions.
+const COUNT: usize = {
+    let (mut count, mut row) = (0, 0);
+    while row < LISTED.len() {
+        count += LISTED[row].len();
+        row += 1;
+    }
+    count
+};
+
+/// The listed functions one after another.
+const fn all() -> [FunctionKind; COUNT] {
+    let mut all = [FunctionKind::Bias; COUNT];
+    let (mut count, mut row) = (0, 0);
+    while row < LISTED.len() {
+        let mut column = 0;
+        while column < LISTED[row].len() {
+            all[count] = LISTED[row][column];
+            count += 1;
+            column += 1;
+        }
+        row += 1;
+    }
+    all
 }
 
 impl FunctionKind {
     /// All functions but those of single frames.
-    pub const ALL: &'static [FunctionKind] = &[
-        FunctionKind::InverseDynamics(Effects::NONE),
-        FunctionKind::InverseDynamics(Effects::WRENCH),
-        FunctionKind::InverseDynamics(Effects::FRICTION),
-        FunctionKind::InverseDynamics(Effects::BOTH),
-        FunctionKind::LinkWrenches,
-        FunctionKind::MassMatrix,
-        FunctionKind::MassMatrixLower,
-        FunctionKind::Bias,
-        FunctionKind::Gravity,
-        FunctionKind::ForwardDynamics(Effects::NONE),
-        FunctionKind::ForwardDynamics(Effects::WRENCH),
-        FunctionKind::ForwardDynamics(Effects::FRICTION),
-        FunctionKind::ForwardDynamics(Effects::BOTH),
-        FunctionKind::ForwardKinematics,
-        FunctionKind::FramePoses,
-        FunctionKind::Jacobian,
-        FunctionKind::JacobianDotQd,
-        FunctionKind::Energies,
-        FunctionKind::CoriolisMatrix,
-        FunctionKind::InverseDynamicsDerivatives,
-        FunctionKind::ForwardDynamicsDerivatives,
-        FunctionKind::Regressor,
-        FunctionKind::RegressorBase,
-        FunctionKind::BaseParameters,
-    ];
-
-    /// The declared properties of the function.
-    const fn declaration(self) -> Declaration {
-        use FunctionKind as F;
-        use JointVariable::{Position, Torque, Velocity};
-        const STATE: &[JointVariable] = &[Position, Velocity];
-        const MOTION: &[JointVariable] = &JointVariable::MOTION;
-        const DRIVEN: &[JointVariable] = &[Position, Velocity, Torque];
-        match self {
-            F::InverseDynamics(effects) => {
-                let name = effects.choose([
-                    "inverse_dynamics",
-                    "inverse_dynamics_wrench",
-                    "inverse_dynamics_friction",
-                    "inverse_dynamics_wrench_friction",
-                ]);
-                Declaration { effects, motions: true, ..Declaration::new(name, MOTION) }
-            }
-            F::LinkWrenches => Declaration::new("link_wrenches", MOTION),
-            F::MassMatrix => Declaration::of_composites("mass_matrix", &[Position]),
-            F::MassMatrixLower => Declaration::of_composites("mass_matrix_lower", &[Position]),
-            F::Bias => Declaration::of_motions("bias", STATE),
-            F::Gravity => Declaration::of_composites("gravity", &[Position]),
-            F::ForwardDynamics(effects) => {
-                let name = effects.choose([
-                    "forward_dynamics",
-                    "forward_dynamics_wrench",
-                    "forward_dynamics_friction",
-                    "forward_dynamics_wrench_friction",
-                ]);
-                Declaration { effects, solves: true, ..Declaration::of_both(name, DRIVEN) }
-            }
-            F::ForwardKinematics => Declaration::new("forward_kinematics", &[Position]),
-            F::FramePoses => Declaration::of_motions("frame_poses", &[Position]),
-            F::Jacobian | F::JacobianOf(_) => Declaration::of_motions("jacobian", &[Position]),
-            F::JacobianDotQd | F::JacobianDotQdOf(_) => {
-                Declaration::of_motions("jacobian_dot_qd", STATE)
-            }
-            F::Energies => Declaration::of_both("energies", STATE),
-            F::CoriolisMatrix => Declaration::of_both("coriolis_matrix", STATE),
-            F::InverseDynamicsDerivatives => {
-                Declaration::of_both("inverse_dynamics_derivatives", MOTION)
-            }
-            F::ForwardDynamicsDerivatives => Declaration {
-                solves: true,
-                ..Declaration::of_both("forward_dynamics_derivatives", DRIVEN)
-            },
-            F::Regressor => Declaration::new("regressor", MOTION),
-            F::RegressorBase => {
-                Declaration { base: true, ..Declaration::new("regressor_base", MOTION) }
-            }
-            F::BaseParameters => {
-                Declaration { base: true, ..Declaration::new("base_parameters", &[]) }
-            }
-        }
-    }
+    pub const ALL: &'static [FunctionKind] = &all();
 
     /// The name in code and on the command line; of a function of one frame that of its kind, behind which
     /// [`FunctionKind::full_name`] puts the frame's.
