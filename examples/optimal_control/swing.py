@@ -1,4 +1,4 @@
-"""A swing of the UR5 between two postures that costs the least torque, by CasADi and IPOPT.
+"""A swing of the UR5 between two configurations that costs the least torque, by CasADi and IPOPT.
 
 The accelerations of 20 steps are the unknowns, with the positions and velocities that they lead to; the cost is the sum
 of the squares of the joint torques, by generated inverse dynamics with its exact Jacobian, and of the accelerations. To run it:

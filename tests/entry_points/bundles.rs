@@ -31,7 +31,7 @@ macro_rules! compare {
         let (mut size, mut worst) = (0.0_f64, 0.0_f64);
         let mut hold = |a: f64, b: f64| {
             size = size.max(b.abs());
-            // Not a number is no small difference.
+            // NaN is not a small difference.
             worst = if (a - b).is_nan() { f64::INFINITY } else { worst.max((a - b).abs()) };
         };
         for state in 0..20 {

@@ -73,7 +73,7 @@ pub enum Error {
     },
     /// A mass matrix that is singular in every configuration, so that there is no forward dynamics.
     #[error(
-        "{name}: the mass matrix is singular in every posture, so forward dynamics has no \
+        "{name}: the mass matrix is singular in every configuration, so forward dynamics has no \
          solution: the joint torques do not determine the accelerations of {}; give mass or \
          inertia to the links that these joints move, or `armature` to their drives (R0611)",
         quoted(joints)

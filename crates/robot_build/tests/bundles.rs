@@ -134,7 +134,7 @@ fn budgets_hold_bundles_by_their_names() {
     let module = programs(&source(code), &Options::default()).unwrap().module;
     let cost = module.counts(&module.functions[0]).call.operations() as u64;
     generate(&budget("bias_and_more", cost), &Options::default()).unwrap();
-    // The bundle is no form of the function with which its name begins.
+    // The bundle is not a form of the function that its name begins with.
     generate(&budget("bias", 0), &Options::default()).unwrap();
     let error = generate(&budget("bias_and_more", cost - 1), &Options::default()).unwrap_err();
     let stated = format!("`bias_and_more` takes {cost} operations; its budget is {}", cost - 1);

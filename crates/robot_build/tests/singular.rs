@@ -148,7 +148,7 @@ fn pivots_name_the_joint_and_the_digits() {
     assert!(near.digits >= 14, "{near:?}");
     let here = at(0.0).unwrap();
     assert!(here.joint == "roll" && here.is_wrong(), "{here:?}");
-    assert!(here.to_string().contains("singular in this posture"), "{here}");
+    assert!(here.to_string().contains("singular in this configuration"), "{here}");
 }
 
 /// Where each coordinate does not move one joint, M is decomposed, and digits go.

@@ -2,7 +2,7 @@
 //!
 //! [`doctor`] looks for likely mistakes in robot files, [`errata`] compares published equations with the
 //! derived ones, [`difference`] compares two robots, [`accuracy`] compares programs with the numeric
-//! solver, and [`check_value`] is a state for whoever copies equations.
+//! solver, and [`check_value`] is a state for readers who copy the equations.
 
 pub mod accuracy;
 mod check_value;

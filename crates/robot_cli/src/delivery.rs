@@ -174,7 +174,7 @@ pub(crate) fn size(bytes: usize) -> String {
     }
 }
 
-/// Prints what an exit code sums up, which stands where whoever reads the print has seen enough.
+/// Prints what an exit code sums up; a reader that closes the stream early does not change that code.
 pub(crate) fn answered(text: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     let output = &mut terminal.output;
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {

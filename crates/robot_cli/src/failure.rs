@@ -82,7 +82,7 @@ impl Failure {
                 failure.report(terminal);
                 return 2;
             }
-            // Whoever reads the output has seen enough.
+            // The reader of the output has closed it.
             Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
             Failure::Stream(error) => {
                 (vec![format!("error: cannot write the results: {error}")], 2)

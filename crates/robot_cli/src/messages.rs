@@ -6,8 +6,8 @@ use std::io::Write;
 use robot_model::diagnostic::is_invisible;
 
 /// Standard error. Control characters and those that show nothing or reorder text are written as escapes, but for ends of lines, tabs, and on a terminal
-/// this program's own commands; text that cannot be written is dropped, because messages that nobody reads are no reason
-/// to leave the work undone.
+/// this program's own commands; text that cannot be written is dropped, because a message that nobody reads must not
+/// stop the work.
 pub(crate) struct Messages<'a> {
     pub(crate) stream: &'a mut dyn Write,
     /// Whether colors and lines of progress are shown.

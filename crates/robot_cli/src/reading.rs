@@ -27,8 +27,8 @@ impl ReadingArguments {
         Options { allow_massless, allow_unphysical, ..Options::default() }
     }
 
-    /// Reads a robot; shows warnings, and in a line what the file says of the dynamics that is no part of
-    /// the robot.
+    /// Reads a robot; shows warnings, and in one line what the file says about dynamics that does not become part
+    /// of the robot.
     pub(crate) fn read(
         self,
         source: &Source,

@@ -237,7 +237,7 @@ impl BundleArguments {
 }
 
 impl CodeArguments {
-    /// The options for code; tells of functions that the robot lacks where all are wanted.
+    /// The options for code; reports functions that the robot lacks if all are wanted.
     pub(crate) fn options(
         &self,
         file: &RobotArgument,

@@ -50,7 +50,7 @@ pub enum NumericError {
     /// an inertia that no body can have, or a number that is not finite), so that torques do not
     /// determine accelerations.
     #[error(
-        "the mass matrix is not positive definite in this posture: check that every coordinate \
+        "the mass matrix is not positive definite in this configuration: check that every coordinate \
          moves mass and that inertias and arguments are finite and physically possible"
     )]
     NotPositiveDefinite,

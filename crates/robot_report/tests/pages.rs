@@ -212,7 +212,7 @@ fn terms_point_at_what_they_come_from() {
     // M3 (g + q̈3) + MR4 (g + q̈3): a base parameter by its definition.
     let regrouped = terms(&page, "regrouped-Q3");
     assert!(regrouped.iter().any(|term| term.starts_with("regrouped-MR-4")), "{regrouped:?}");
-    // The weight in the expanded form, M3 g: gravity is no link's.
+    // The weight in the expanded form, M3 g: gravity does not belong to a link.
     assert!(terms(&page, "expanded-Q3").contains(&"parameter-M3 link-3 parameter-g".to_owned()));
 }
 

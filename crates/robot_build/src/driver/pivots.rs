@@ -117,7 +117,7 @@ impl fmt::Display for Pivot {
                 formatter,
                 "the mass matrix is singular to within rounding: with the joints farther out \
                  free, the inertia of joint `{joint}` is only rounding error, and so are the \
-                 accelerations; check the masses, the moments of inertia and the posture"
+                 accelerations; check the masses, the moments of inertia and the configuration"
             );
         }
         if self.is_wrong() && *part <= -SMALL {
@@ -131,9 +131,9 @@ impl fmt::Display for Pivot {
         if self.is_wrong() {
             return write!(
                 formatter,
-                "the mass matrix is singular in this posture: with the joints farther out free, \
-                 joint `{joint}` has no inertia; the cause is the posture, not the parameters, \
-                 unless this happens in every posture"
+                "the mass matrix is singular in this configuration: with the joints farther out free, \
+                 joint `{joint}` has no inertia; the cause is the configuration, not the parameters, \
+                 unless this happens in every configuration"
             );
         }
         write!(

@@ -27,7 +27,7 @@ impl fmt::Display for Unsolvable {
         let names: Vec<&str> = self.functions.iter().map(|kind| kind.name()).collect();
         write!(
             formatter,
-            "the robot has no {}: the mass matrix is singular in every posture, and the joint \
+            "the robot has no {}: the mass matrix is singular in every configuration, and the joint \
              torques do not determine the accelerations of {}",
             names.join(", "),
             quoted(&self.joints)

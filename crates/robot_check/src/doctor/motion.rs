@@ -11,7 +11,7 @@ use super::facts::{LinkFacts, RobotFacts};
 /// A coordinate with less than this part of the largest inertia has none: rounding is a thousand
 /// times smaller, and the smallest joint of an arm has a millionth.
 const NOTHING: f64 = 1e-12;
-/// Postures that are tried: a joint may move nothing in one of them by chance.
+/// Configurations that are tried: a joint may move nothing in one of them by chance.
 const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 

@@ -138,7 +138,7 @@ fn parameters(robot: &Robot) -> Vec<Vec<String>> {
 }
 
 /// Why there is no forward dynamics.
-const SINGULAR: &str = "the mass matrix is singular in every posture";
+const SINGULAR: &str = "the mass matrix is singular in every configuration";
 
 /// The functions that the robot has, then those that it lacks, each with the reason.
 fn functions(robot: &Robot) -> String {

@@ -29,7 +29,7 @@ fn value(robot: &robot_model::robot::Robot, name: &str) -> f64 {
         "q" => Q[number - 1],
         "qd" => QD[number - 1],
         "qdd" => QDD[number - 1],
-        _ => panic!("{name} is no name of the robot file"),
+        _ => panic!("{name} is not a name of the robot file"),
     }
 }
 

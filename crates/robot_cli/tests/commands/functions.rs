@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::{complaint, folder, output, robot, run, run_with};
 
-/// A planar arm with frames whose names are no identifiers.
+/// A planar arm with frames whose names are not identifiers.
 fn arm(test: &str) -> String {
     let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
     let frame = |name: &str| format!("\n[[frame]]\nname = \"{name}\"\nparent = \"1\"\n");

@@ -131,7 +131,7 @@ fn colors_are_for_terminals() {
     assert!(!colors(true, Some(OsStr::new("1"))) && !colors(false, None));
     let shell = Shell::new();
     shell.write("broken.toml", "format = 1\n[robot]\nnam = \"arm\"\n");
-    // A pipe is no terminal.
+    // A pipe is not a terminal.
     for script in
         ["robot-symbolic check broken.toml", "robot-symbolic stats", "robot-symbolic --help"]
     {

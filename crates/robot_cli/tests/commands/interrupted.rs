@@ -1,4 +1,4 @@
-//! What is left of output files where the command is killed, the disk is full, or the output is no file.
+//! What is left of output files where the command is killed, the disk is full, or the output is not a file.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -43,7 +43,7 @@ struct Outcome {
     errors: String,
 }
 
-/// Runs `robot-symbolic` with arguments between streams that are no terminal: the exit code.
+/// Runs `robot-symbolic` with arguments between streams that are not terminals: the exit code.
 fn run_between(
     arguments: &[&str],
     input: &[u8],

@@ -58,7 +58,7 @@ fn pictures_are_made_from_what_is_printed() {
     );
 }
 
-/// They are shown in a page of any color, by programs that have no fonts, and are no burden.
+/// They show on a page of any color, in programs without fonts, and are small.
 #[test]
 fn pictures_need_nothing() {
     let (mut bytes, mut wrong) = (0, vec![]);

@@ -120,7 +120,7 @@ fn an_edited_plan_is_refused_where_code_is_made() {
         let warned = run(&["stats", &arm]);
         assert!(warned.code == 0 && warned.errors.starts_with("warning: "), "{}", warned.errors);
     }
-    // Remarks and blank lines are no part of the plan.
+    // Remarks and blank lines are not part of the plan.
     std::fs::write(&plan, text.replace("\n", "\n# a remark\n\n")).unwrap();
     output(&["generate", &arm], "");
 }

@@ -308,7 +308,7 @@ fn no_number_is_a_quotient_of_long_ones_and_constants_are_a_table() {
     assert!(shown.contains("Constants."), "{shown}");
     assert!(!shown.contains("k_{1} &=") && !shown.contains("k_1 &="), "{shown}");
     let recursive = output(&["document", &robot("trttr1"), "--form", "recursive"], "");
-    assert!(!recursive.contains("Constants."), "zeros of vectors are no constants");
+    assert!(!recursive.contains("Constants."), "zeros of vectors are not constants");
     let shown = rounded_output(&["equations", &robot("panda"), "--form", "compact"]);
     let quotient = |line: &str| line.contains('/');
     assert!(!shown.lines().any(quotient), "{shown}");

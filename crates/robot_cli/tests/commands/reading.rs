@@ -256,6 +256,6 @@ fn values_that_are_not_finite_are_told_by_their_cause() {
     let file = written("reading-idle", "idle.toml", &text);
     let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];
     let shown = complaint(1, &arguments, states);
-    assert!(shown.contains("the mass matrix is singular in every posture"), "{shown}");
+    assert!(shown.contains("the mass matrix is singular in every configuration"), "{shown}");
     assert!(shown.contains("R0611"), "{shown}");
 }

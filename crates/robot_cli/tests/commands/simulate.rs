@@ -145,7 +145,7 @@ fn a_motion_through_a_singular_configuration_is_reported() {
     assert_eq!(from("0.1,0.5,0.2").errors, "");
 }
 
-/// I2 + m2 r2² is 0 but for rounding: what is found where the second joint shows that is no acceleration.
+/// I2 + m2 r2² is 0 but for rounding: a quotient by it is not an acceleration.
 #[test]
 fn a_mass_matrix_of_rounding_is_reported() {
     let file = robot("planar_2r");

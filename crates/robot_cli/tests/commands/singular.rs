@@ -44,7 +44,7 @@ fn the_other_functions_are_counted() {
     }
     let shown = run(&["show", &arm, "--allow-massless"]);
     let told = shown.output.split("not available: forward_dynamics").nth(1).unwrap();
-    assert!(told.contains("\n    the mass matrix is singular in every posture\n"), "{told}");
+    assert!(told.contains("\n    the mass matrix is singular in every configuration\n"), "{told}");
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn all_functions_are_those_that_there_are() {
     let named =
         complaint(1, &[&["generate", &arm, "--allow-massless"][..], &function].concat(), "");
     assert!(named.contains("forward dynamics has no solution"), "{named}");
-    // The usual ones do not tell of functions that the robot lacks.
+    // The usual functions do not report those that the robot lacks.
     let usual = run(&["generate", &arm, "--allow-massless"]);
     assert!(!usual.output.contains("forward_dynamics"), "{}", usual.output);
 }

@@ -16,7 +16,7 @@ use crate::support;
 /// How many operations [`number`] tells apart.
 const OPERATIONS: usize = 19;
 
-/// The number of an operation. Whoever adds one to the programs adds it here, and then to [`every`].
+/// The number of an operation. A new one is added here, and then to [`every`].
 fn number(operation: Operation) -> usize {
     match operation {
         Operation::Constant(_) => 0,
@@ -58,7 +58,7 @@ fn every(sources: &[Source]) -> Program {
         Operation::Neg(x),
         Operation::MulAdd(x, y, third),
     ];
-    // The reciprocal of what is positive is no function of formulas.
+    // The reciprocal of a positive value is not a function of formulas.
     let functions = Call::ALL.into_iter().chain([Call::RecipPositive]);
     let calls = functions.map(|function| Operation::Call(function, x));
     let mut results: Vec<Value> = loads.iter().map(|load| b.mul(*load, third)).collect();

@@ -110,7 +110,7 @@ impl Group {
         let mut rest = self.equations.iter().peekable();
         let is_entry = |equation: &Equation| arrays.iter().any(|array| array.has(&equation.name));
         for array in arrays {
-            // Quantities that are no entries stay where they are.
+            // Quantities that are not entries stay where they are.
             while let Some(equation) = rest.next_if(|equation| !array.has(&equation.name)) {
                 if !self.definitions && !is_entry(equation) {
                     list.shown.push(equation.clone());

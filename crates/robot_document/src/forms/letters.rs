@@ -67,7 +67,7 @@ impl Letters {
     }
 }
 
-/// What are no letters.
+/// Texts that are not letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "letters are `field`, `paper`, or four different ones, of joint torques, mass matrix, velocity terms and gravity \

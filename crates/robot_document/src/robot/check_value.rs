@@ -1,4 +1,4 @@
-//! A state with its joint torques, for whoever copies the equations.
+//! A state with its joint torques, for readers who copy the equations.
 
 use robot_model::variable::JointVariable;
 

@@ -53,7 +53,7 @@ pub(super) fn forward_dynamics<'g>(
 pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     let solution = if derivation.recursion_for_small_pivots().is_some() {
         "Uses the articulated-body algorithm: at the nominal parameters the mass matrix is \
-         nearly singular in some postures, where its decomposition would lose digits that this \
+         nearly singular in some configurations, where its decomposition would lose digits that this \
          algorithm keeps."
     } else {
         "Digits are lost if a pivot of the mass matrix (the inertia of a joint with the joints \
@@ -63,11 +63,11 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     let wrong = match derivation.pivots_known() {
         Pivots::Checked => {
             "There is no branch: if a pivot is not positive and finite (a coordinate that moves \
-             no mass in that posture, a negative inertia), the accelerations that depend on it \
+             no mass in that configuration, a negative inertia), the accelerations that depend on it \
              are NaN."
         }
         Pivots::Positive => {
-            "No posture with a small pivot was found for this robot, and the code does not check \
+            "No configuration with a small pivot was found for this robot, and the code does not check \
              for one."
         }
     };

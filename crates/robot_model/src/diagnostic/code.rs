@@ -103,5 +103,5 @@ codes! {
 }
 
 /// Numbers that no code may have again: those of codes that were removed, whose meaning users and their scripts may
-/// remember, and those that were skipped. Whoever removes a code adds its number.
+/// remember, and those that were skipped. To remove a code, add its number.
 pub const RETIRED: &[&str] = &["R0616"];

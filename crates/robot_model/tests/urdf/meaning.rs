@@ -202,7 +202,7 @@ fn a_moment_alone_is_enough_about_a_vertical_axis_on_the_base() {
     let described = crate::read(&one_link(&about_z, "<axis xyz=\"0 0 1\"/>"));
     assert_eq!(codes(&described.warnings), [code::MASS]);
     assert_eq!(torques(&described.robot, &[0.0], &[0.0], &[2.0]), [0.7]);
-    // The same where the joint is not vertical, or other moments are given, is no body.
+    // Where the joint is not vertical, or other moments are given, the same is not a body.
     for (attributes, axis) in [
         ("ixx=\"0.35\" iyy=\"0\" izz=\"0\"", "1 0 0"),
         ("ixx=\"0.1\" iyy=\"0\" izz=\"0.35\"", "0 0 1"),

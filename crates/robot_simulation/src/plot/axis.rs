@@ -93,7 +93,7 @@ impl Axis {
 
 /// The multiples of a digit times a power of ten within an axis; `None` if there are more than so many.
 fn multiples(axis: &Axis, digit: f64, power: i32, most: usize) -> Option<Vec<f64>> {
-    // A negative power of ten is no binary number, its inverse is: ticks are as exact as they can be.
+    // A negative power of ten is not a binary number, but its inverse is: ticks are as exact as they can be.
     let value = |index: f64| match power < 0 {
         true => index * digit / 10_f64.powi(-power),
         false => index * digit * 10_f64.powi(power),

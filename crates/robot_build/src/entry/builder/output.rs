@@ -82,7 +82,7 @@ pub(super) fn check_names<'n>(
 /// robot files and their pins.
 ///
 /// With `stems`, a robot file that is not called as its module has a second file of its own name, so that
-/// whoever expects `lift.rs` of `lift.toml` finds it.
+/// a build that includes `lift.rs` for `lift.toml` finds it.
 pub(super) fn write(
     modules: &[Module],
     inputs: impl Iterator<Item = PathBuf>,

@@ -127,7 +127,7 @@ impl Drop for Staged {
     }
 }
 
-/// Files are replaced by new ones, which belong to whoever writes them; if he may, he gives them back.
+/// Files are replaced by new ones, which belong to the user who writes them: gives them back to their owner if permitted.
 #[cfg(unix)]
 fn keep_owner(path: &Path, present: &Metadata) {
     use std::os::unix::fs::{MetadataExt, chown};

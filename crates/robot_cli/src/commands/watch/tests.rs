@@ -96,7 +96,7 @@ fn a_broken_file_keeps_the_last_robot() {
             .count(),
         2
     );
-    // As long as the file is broken all errors are shown; a line that moves is no other error.
+    // As long as the file is broken all errors are shown; an error on a line that moved is the same error.
     assert_eq!(errors.matches("error[R0303]").count(), 2, "{errors}");
     assert!(errors.contains("arm.toml:") && !output.contains("gone"), "{output}");
 
@@ -147,7 +147,7 @@ fn a_stale_plan_is_no_change_of_the_robot() {
     let look = || Files::new(&path, Options::default(), &AtomicBool::new(false)).next().unwrap();
     let pinned = look();
     assert_eq!(pinned.plan.as_ref().unwrap().as_ref(), Some(&found.plan));
-    // A value of a parameter is no change of the mechanics.
+    // A changed value of a parameter does not change the mechanics.
     std::fs::write(&path, heavier()).unwrap();
     assert_eq!(look().plan, pinned.plan);
     std::fs::write(&path, changed("zz = \"I2\"", "xx = 0.01, zz = \"I2\"")).unwrap();
@@ -211,7 +211,7 @@ fn saves_are_seen_however_editors_save() {
         std::fs::remove_file(&watched.path).unwrap();
         let away = files.next().unwrap().source.unwrap_err().to_string();
         assert!(away.contains("there is no such file"), "{away}");
-        // What is no text is no end, either.
+        // Bytes that are not text do not end it either.
         std::fs::write(&watched.path, b"\xff\xfe").unwrap();
         assert!(files.next().unwrap().source.is_err());
         std::fs::write(&watched.path, ARM).unwrap();
@@ -262,7 +262,7 @@ fn the_end_removes_the_own_picture_alone() {
         followed_with(looks, Some(page))
     };
     assert!(end(&|| assert!(picture.exists())).0 && !picture.exists());
-    // Removed by somebody else, as by another watch of the same page, it is no error.
+    // Removed by somebody else, as by another watch of the same page, it is not an error.
     let (is_good, _, errors) = end(&|| std::fs::remove_file(&picture).unwrap());
     assert!(is_good && errors.is_empty(), "{errors}");
     // What somebody has put in its place stays.

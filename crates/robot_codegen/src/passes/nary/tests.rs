@@ -149,7 +149,7 @@ fn signs_multiply() {
     }
 }
 
-/// There and back is no operation more, and sums begin with what is known early.
+/// There and back adds no operation, and sums begin with what is known early.
 #[test]
 fn there_and_back_costs_nothing() {
     let (before, after) = operations_left(|program| Nary::new(program).program());

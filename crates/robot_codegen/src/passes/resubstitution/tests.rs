@@ -316,7 +316,7 @@ fn values_that_round_much_more_are_no_terms() {
     assert!(found(0.25) && !found(1e4));
 }
 
-/// A sum whose both terms are negative is no form: the negative of the sum would be.
+/// A sum whose both terms are negative is not a form: the negative of the sum would be.
 #[test]
 fn one_term_of_a_sum_is_positive() {
     let of_signs = |negative: bool| {
