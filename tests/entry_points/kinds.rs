@@ -279,6 +279,10 @@ fn every_function_of_every_robot() {
         writeln!(text, "mod {module}_case {{\n{}\n}}\n{}", case.code, case.block()).unwrap();
         writeln!(main, "{module}_calls();").unwrap();
     }
+    // A thread has 2 MB of stack, which must do for unoptimized code too.
+    let main = format!(
+        "std::thread::Builder::new().stack_size(1 << 21).spawn(|| {{\n{main}}}).unwrap().join().unwrap();"
+    );
     package.write("src/main.rs", &format!("{text}\nfn main() {{\n{main}}}\n"));
     let printed = package.run(&["run"]);
     let mut lines = printed.lines();

@@ -91,12 +91,16 @@ impl<T: Scalar, const N: usize> From<Lanes<T, N>> for [T; N] {
     }
 }
 
+// Operations are inlined if the program is optimized, and called if it is debugged: unoptimized, the temporaries of inlined
+// operations in registers take kilobytes of stack each, and a long function overflows it.
+
 macro_rules! lane_by_lane {
     ($operator:ident, $method:ident, $operation:ident) => {
         impl<T: Scalar, const N: usize> $operator for Lanes<T, N> {
             type Output = Self;
 
-            #[inline(always)]
+            #[cfg_attr(debug_assertions, inline)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Self) -> Self {
                 let [lanes] = T::lanewise::<$operation, 2, 1, N>([&self.0, &other.0]);
                 Self(lanes)
@@ -113,7 +117,8 @@ lane_by_lane!(Div, div, Quotient);
 impl<T: Scalar, const N: usize> Neg for Lanes<T, N> {
     type Output = Self;
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         self.lanewise::<Negative>()
     }
@@ -123,44 +128,52 @@ impl<T: Scalar, const N: usize> Scalar for Lanes<T, N> {
     const ZERO: Self = Self([T::ZERO; N]);
     const ONE: Self = Self([T::ONE; N]);
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_f64(value: f64) -> Self {
         Self::splat(T::from_f64(value))
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         let arguments = [&self.0, &factor.0, &addend.0];
         let [lanes] = T::lanewise::<MultiplyAdd, 3, 1, N>(arguments);
         Self(lanes)
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sqrt(self) -> Self {
         self.lanewise::<SquareRoot>()
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn abs(self) -> Self {
         self.lanewise::<Magnitude>()
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn signum0(self) -> Self {
         self.lanewise::<Sign>()
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tanh(self) -> Self {
         self.map(T::tanh)
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn recip_positive(self) -> Self {
         self.lanewise::<ReciprocalOfPositive>()
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos(self) -> (Self, Self) {
         let [sines, cosines] = T::lanewise::<SineCosine, 1, 2, N>([&self.0]);
         (Self(sines), Self(cosines))

@@ -61,6 +61,9 @@ impl<A, T: fmt::Debug, const N: usize, const ONCE: bool> fmt::Debug for LanesOn<
     }
 }
 
+// Operations are inlined if the program is optimized, and called if it is debugged: unoptimized, the temporaries of inlined
+// operations in registers take kilobytes of stack each, and a long function overflows it.
+
 macro_rules! lane_by_lane {
     ($operator:ident, $method:ident, $operation:ident) => {
         impl<A: Arithmetic, T: Real, const N: usize, const ONCE: bool> $operator
@@ -68,7 +71,8 @@ macro_rules! lane_by_lane {
         {
             type Output = Self;
 
-            #[inline(always)]
+            #[cfg_attr(debug_assertions, inline)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Self) -> Self {
                 Self::lanewise::<$operation, 2>([&self.0, &other.0])
             }
@@ -84,7 +88,8 @@ lane_by_lane!(Div, div, Quotient);
 impl<A: Arithmetic, T: Real, const N: usize, const ONCE: bool> Neg for LanesOn<A, T, N, ONCE> {
     type Output = Self;
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         Self::lanewise::<Negative, 1>([&self.0])
     }
@@ -94,42 +99,50 @@ impl<A: Arithmetic, T: Real, const N: usize, const ONCE: bool> Scalar for LanesO
     const ZERO: Self = Self::from_array([T::ZERO; N]);
     const ONE: Self = Self::from_array([T::ONE; N]);
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_f64(value: f64) -> Self {
         Self::from_array([T::from_f64(value); N])
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
         Self::lanewise::<MultiplyAdd, 3>([&self.0, &factor.0, &addend.0])
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sqrt(self) -> Self {
         Self::lanewise::<SquareRoot, 1>([&self.0])
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn abs(self) -> Self {
         Self::lanewise::<Magnitude, 1>([&self.0])
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn signum0(self) -> Self {
         Self::lanewise::<Sign, 1>([&self.0])
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tanh(self) -> Self {
         Self::from_array(self.0.map(T::tanh))
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn recip_positive(self) -> Self {
         Self::lanewise::<ReciprocalOfPositive, 1>([&self.0])
     }
 
-    #[inline(always)]
+    #[cfg_attr(debug_assertions, inline)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos(self) -> (Self, Self) {
         let [sines, cosines] = A::lanewise::<T, SineCosine, ONCE, 1, 2, N>([&self.0]);
         (Self::from_array(sines), Self::from_array(cosines))
