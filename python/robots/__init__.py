@@ -4,6 +4,7 @@
 """
 
 from ._native import RobotError
-from ._robot import Robot, load
+from ._payload import Payload
+from ._robot import Identification, Robot, load
 
-__all__ = ["Robot", "RobotError", "load"]
+__all__ = ["Identification", "Payload", "Robot", "RobotError", "load"]

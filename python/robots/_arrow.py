@@ -11,22 +11,28 @@ from ._function import Function
 from ._native import RobotError
 
 
+OUTPUTS = ("fixed_lists", "lists", "columns")
+
+
 class BatchFunction:
     """A function over record batches, or whatever has Arrow's PyCapsule interface.
 
-    A batch has a column for each input, named as it (`q`, `qd`, …): a list of constant length, or columns `q1` … of numbers. The result has a column of
-    lists of fixed length for each output. It can be pickled: another process reads the robot file again.
+    A batch has a column for each input, named as it (`q`, `qd`, …): a list of constant length, or columns `q1` … of numbers. The result has for each output,
+    after the columns of the batch that `keep` names, what `output` says: a column of lists of fixed length ("fixed_lists"), of lists of any length ("lists",
+    which Spark wants), or columns of numbers `tau1` … ("columns"). It can be pickled: another process reads the robot file again.
     """
 
-    def __init__(self, path: str, names: tuple[str, ...]) -> None:
+    def __init__(self, path: str, names: tuple[str, ...], options: dict[str, bool], output: str, keep: tuple[str, ...]) -> None:
         from ._robot import load
 
-        self._path, self._names = path, names
-        self._function: Function = load(path).function(*names)
-        self._function._engine(None)
+        if output not in OUTPUTS:
+            raise RobotError(f"output must be one of {', '.join(OUTPUTS)}, not {output!r}")
+        self._given = (path, names, options, output, keep)
+        self._output, self._keep = output, keep
+        self._function: Function = load(path, **options).function(*names)
 
     def __reduce__(self) -> Any:
-        return (BatchFunction, (self._path, self._names))
+        return (BatchFunction, self._given)
 
     def __call__(self, batch: Any) -> Any:
         """The outputs at the rows of a batch."""
@@ -34,16 +40,35 @@ class BatchFunction:
 
         if not isinstance(batch, (pa.RecordBatch, pa.Table)):
             batch = pa.table(batch) if hasattr(batch, "__arrow_c_stream__") else pa.record_batch(batch)
-        is_table = isinstance(batch, pa.Table)
         inputs = {name: _column(batch, name, size) for name, size in self._function.inputs if not name.startswith("wrench")}
         results = self._function(**inputs)
-        arrays = []
-        for result in results if isinstance(results, tuple) else (results,):
-            flat = pa.array(np.ascontiguousarray(result).reshape(-1))
-            size = int(np.prod(result.shape[1:]))
-            arrays.append(flat if result.ndim == 1 else pa.FixedSizeListArray.from_arrays(flat, size))
-        names = [name for name, _ in self._function.outputs]
-        return pa.table(arrays, names) if is_table else pa.record_batch(arrays, names)
+        columns = {}
+        for name in self._keep:
+            if name not in batch.schema.names:
+                raise RobotError(f"the batch has no column `{name}` to keep; it has {', '.join(batch.schema.names)}")
+            columns[name] = batch.column(name)
+        for (name, _), result in zip(self._function.outputs, results if isinstance(results, tuple) else (results,)):
+            found = self._columns(name, result)
+            if both := sorted(columns.keys() & found.keys()):
+                raise RobotError(f"`{both[0]}` is a column of the result and cannot be kept beside it")
+            columns |= found
+        made = pa.table if isinstance(batch, pa.Table) else pa.record_batch
+        return made(list(columns.values()), list(columns))
+
+    def _columns(self, name: str, result: Any) -> dict[str, Any]:
+        import pyarrow as pa
+
+        if result.ndim == 1:
+            return {name: pa.array(result)}
+        table = result.reshape(len(result), int(np.prod(result.shape[1:])))
+        if self._output == "columns":
+            return {f"{name}{index + 1}": pa.array(np.ascontiguousarray(table[:, index])) for index in range(table.shape[1])}
+        flat, size = pa.array(np.ascontiguousarray(table).reshape(-1)), table.shape[1]
+        if self._output == "fixed_lists":
+            return {name: pa.FixedSizeListArray.from_arrays(flat, size)}
+        if flat.nbytes // 8 > np.iinfo(np.int32).max:
+            raise RobotError(f"`{name}` has too many entries for one column of lists; give smaller batches")
+        return {name: pa.ListArray.from_arrays(np.arange(0, (len(table) + 1) * size, size, dtype=np.int32), flat)}
 
     def batches(self, batches: Iterator[Any]) -> Iterator[Any]:
         """Over an iterator, as Spark's `mapInArrow` calls it."""

@@ -10,13 +10,23 @@ from ._command import run
 
 
 class Equations:
-    """The equations of a robot in one form; each notation is made when it is asked for."""
+    """The equations of a robot in one form; each notation is made when it is first asked for.
+
+    A notebook shows them as formulas.
+
+    >>> equations = robots.load("planar_2r.toml").equations(form="collected")
+    >>> equations.formulas["Q2"]
+    'm2*r2*(g*cos(q1 + q2) + l1*sin(q2)*qd1^2 + l1*cos(q2)*qdd1) + (m2*r2^2 + I2)*(qdd1 + qdd2) + Fy*l2 + Mz'
+    """
 
     def __init__(self, arguments: list[str]) -> None:
         self._arguments = arguments
+        self._made: dict[str, str] = {}
 
     def _as(self, notation: str) -> str:
-        return run([*self._arguments, "--format", notation])
+        if notation not in self._made:
+            self._made[notation] = run([*self._arguments, "--format", notation])
+        return self._made[notation]
 
     @property
     def text(self) -> str:
@@ -34,17 +44,42 @@ class Equations:
         return self._as("typst")
 
     @property
+    def definitions(self) -> dict[str, str]:
+        """What the form has names for, such as the entries of the mass matrix, as infix text, each of those before it."""
+        found: dict[str, str] = json.loads(self._as("json")).get("definitions", {})
+        return found
+
+    @property
     def formulas(self) -> dict[str, str]:
-        """The joint torques as infix text, by name: exact, and readable by other programs."""
+        """The quantities, most often the joint torques Q1, Q2, …, as infix text by name: exact, and readable by other programs."""
         quantities: dict[str, str] = json.loads(self._as("json"))["quantities"]
-        return quantities
+        # A form may define a joint torque by the one behind it; their order here is that of the joints.
+        numbers = {name: re.fullmatch(r"(\D+)(\d+)", name) for name in quantities}
+        order = {name: int(found[2]) for name, found in numbers.items() if found}
+        stems = {found and found[1] for found in numbers.values()}
+        return dict(sorted(quantities.items(), key=lambda item: order[item[0]])) if len(stems) == 1 and order else quantities
+
+    @property
+    def expressions(self) -> dict[str, Any]:
+        """`definitions` and `formulas` as SymPy expressions over symbols of their names, as they are printed."""
+        return {name: _sympy(text, {}) for name, text in {**self.definitions, **self.formulas}.items()}
 
     @property
     def sympy(self) -> Any:
-        """A column of SymPy expressions over symbols of the names in `formulas`."""
+        """A column of SymPy expressions for the entries of `formulas`; what has a name of its own in this form is put in.
+
+        >>> torques = robots.load("planar_2r.toml").equations().sympy
+        >>> torques.shape
+        (2, 1)
+        >>> torques[1].coeff("qdd2")
+        I2 + m2*r2**2
+        """
         import sympy
 
-        return sympy.Matrix([_sympy(text) for text in self.formulas.values()])
+        known: dict[str, Any] = {}
+        for name, text in {**self.definitions, **json.loads(self._as("json"))["quantities"]}.items():
+            known[name] = _sympy(text, known)
+        return sympy.Matrix([known[name] for name in self.formulas])
 
     def __repr__(self) -> str:
         return self.text
@@ -58,11 +93,12 @@ class Equations:
         return page[page.index(">", start) + 1 : end] if start >= 0 else page
 
 
-_NAME = re.compile(r"[^\W\d]\w*")
+# A name, such as `q1`, or an entry of a vector, `F1.x`.
+_NAME = re.compile(r"[^\W\d]\w*(?:\.[^\W\d]\w*)?")
 _FUNCTIONS = {"sin", "cos", "tan", "sqrt", "exp", "tanh", "sign", "abs", "pi"}
 
 
-def _sympy(text: str) -> Any:
+def _sympy(text: str, defined: dict[str, Any]) -> Any:
     """Infix text as an expression; decimals stay exact. Symbols stand under names of our own while the text is read, so that no name has
     another meaning (`I`, `E`, `lambda`)."""
     import sympy
@@ -77,9 +113,9 @@ def _sympy(text: str) -> Any:
         if name in known:
             return name
         stand = stands.setdefault(name, f"symbol_{len(stands)}")
-        known[stand] = sympy.Symbol(name)
+        known[stand] = defined[name] if name in defined else sympy.Symbol(name)
         return stand
 
-    # The exponent of a decimal, 1e-3, is no name: a name begins after what is neither a letter nor a digit.
+    # The exponent of a decimal, 1e-3, is not a name: a name begins after what is neither a letter nor a digit.
     safe_text = re.sub(r"(?<![\w.])" + _NAME.pattern, safe, text).replace("^", "**")
     return parse_expr(safe_text, local_dict=known, transformations=(*standard_transformations, rationalize))

@@ -2,37 +2,54 @@
 
 from __future__ import annotations
 
-import html
 import json
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from . import _pdf, _shown
+from ._arrow import BatchFunction
 from ._command import run
 from ._equations import Equations
 from ._function import Function
 from ._native import RobotError, RobotSource
 
 
-def load(path: str | os.PathLike[str], *, search: bool = False) -> Robot:
+def load(
+    path: str | os.PathLike[str], *, search: bool = False, allow_massless: bool = False, allow_unphysical: bool = False
+) -> Robot:
     """Reads a robot file, TOML or URDF, and the plan that is pinned beside it, if there is one.
 
-    `search` looks for the cheapest form of the recursion, for a second or so, if no plan is pinned. Everything that is wrong with the file is in
-    one RobotError.
+    `search` looks for the cheapest form of the recursion, for a second or so, if no plan is pinned. `allow_massless` accepts moving links without mass,
+    `allow_unphysical` inertias that no body has. Everything that is wrong with the file is in one RobotError; `arm.check()` has the warnings.
+
+    >>> arm = robots.load("planar_2r.toml")
+    >>> arm
+    <robot planar_2r, 2 coordinates, planar_2r.toml>
     """
-    return Robot(os.fspath(path), search=search)
+    return Robot(os.fspath(path), search=search, allow_massless=allow_massless, allow_unphysical=allow_unphysical)
 
 
 class Robot:
-    """A robot. Its functions (`robot.functions`) are methods: ``robot.inverse_dynamics(q, qd, qdd)``."""
+    """A robot. Its functions, `arm.functions`, are methods: ``arm.inverse_dynamics(q, qd, qdd)``.
 
-    def __init__(self, path: str, *, search: bool = False) -> None:
+    >>> arm = robots.load("planar_2r.toml")
+    >>> arm.gravity([0.0, 0.0])
+    array([65.727, 11.772])
+    >>> arm.gravity([[0.0, 0.0], [np.pi / 2, 0.0]], m2=0.0).round(3)
+    array([[24.525,  0.   ],
+           [ 0.   ,  0.   ]])
+    """
+
+    def __init__(self, path: str, *, search: bool = False, allow_massless: bool = False, allow_unphysical: bool = False) -> None:
         self._path = path
-        self._source = RobotSource(path, search)
+        self._options = {"search": search, "allow_massless": allow_massless, "allow_unphysical": allow_unphysical}
+        self._flags = ["--allow-massless"] * allow_massless + ["--allow-unphysical"] * allow_unphysical
+        self._source = RobotSource(path, search, allow_massless, allow_unphysical)
         self._made: dict[tuple[str, ...], Function] = {}
         self.name: str = self._source.robot
         self.degrees_of_freedom: int = self._source.degrees_of_freedom
@@ -69,47 +86,95 @@ class Robot:
         return self._made[names]
 
     def call(self, *names: str, **inputs: Any) -> Any:
-        """Several functions in one call: ``robot.call("mass_matrix", "bias", q=q, qd=qd)``."""
+        """Several functions in one call, which share their work.
+
+        >>> arm = robots.load("planar_2r.toml")
+        >>> M, h = arm.call("mass_matrix", "bias", q=[0.0, 0.0], qd=[1.0, 0.0])
+        >>> M.shape, h.shape
+        ((2, 2), (2,))
+        """
         return self.function(*names)(**inputs)
 
-    def equations(self, *, form: str = "expanded", quantities: str = "Q", friction: bool = False) -> Equations:
-        """The equations of motion in a form: expanded, collected, grouped, compact, recursive or regrouped."""
-        more = ["--friction"] if friction else []
-        found = Equations(["equations", self._path, "--form", form, "--quantity", quantities, *more])
+    def _run(self, name: str, *arguments: str, allowed: tuple[int, ...] = (0,)) -> str:
+        """A command on the robot's file."""
+        return run([name, self._path, *self._flags, *arguments], allowed)
+
+    def equations(self, *, form: str = "expanded", quantities: str = "Q", **options: Any) -> Equations:
+        """The equations of motion in a form: expanded, collected, grouped, compact, recursive or regrouped.
+
+        `options` are those of the command `equations`: `friction=True`, `letters="tau,M,C,g"`, `digits=4`, ….
+
+        >>> arm = robots.load("planar_2r.toml")
+        >>> print(arm.equations(quantities="Q", form="grouped").formulas["Q2"])
+        M_1_2*qdd1 + M_2_2*qdd2 + b_2_1_1*qd1^2 + g_2 + w_2
+        """
+        found = Equations(["equations", self._path, *self._flags, "--form", form, "--quantity", quantities, *_flags(options)])
         _ = found.text  # What is wrong is told now.
         return found
 
     def base_parameters(self) -> dict[str, Any]:
-        """The base parameters: names, formulas over the standard parameters, values."""
-        found: dict[str, Any] = json.loads(run(["base", self._path, "--format", "json"]))
+        """The base parameters: names, formulas over the standard parameters, values.
+
+        >>> arm = robots.load("planar_2r.toml")
+        >>> [entry["name"] for entry in arm.base_parameters()["base"]]
+        ['MXR_1', 'MY_1', 'ZZR_1', 'MX_2', 'MY_2', 'ZZ_2']
+        """
+        found: dict[str, Any] = json.loads(self._run("base", "--format", "json"))
         return found
 
     def check(self) -> dict[str, Any]:
-        """Errors, warnings and notes about the file."""
-        found: dict[str, Any] = json.loads(run(["check", self._path, "--format", "json"], (0, 1)))
+        """Errors, warnings and notes about the file.
+
+        >>> robots.load("planar_2r.toml").check()["errors"]
+        0
+        """
+        found: dict[str, Any] = json.loads(self._run("check", "--format", "json", allowed=(0, 1)))
         return found
 
     def diff(self, other: Robot) -> dict[str, Any]:
         """How another robot differs: parameters, terms, operations, torques."""
-        found: dict[str, Any] = json.loads(run(["diff", self._path, other._path, "--format", "json"], (0, 1)))
+        if not isinstance(other, Robot):
+            raise RobotError(f"diff compares with another robot of robots.load, not with {other!r}")
+        flags = sorted({*self._flags, *other._flags})
+        found: dict[str, Any] = json.loads(run(["diff", self._path, other._path, *flags, "--format", "json"], (0, 1)))
         return found
 
-    def document(self, path: str | os.PathLike[str], *, force: bool = False, **options: str) -> Path:
-        """Writes a document, in the notation that the ending of the path says: .tex, .typ, .md or .html."""
+    def document(self, path: str | os.PathLike[str], *, force: bool = False, by: str | None = None, **options: Any) -> Path:
+        """Writes a document; the ending of the path says what: .pdf, .tex, .typ or .md, or .html for a page in which the robot moves.
+
+        A PDF is typeset by Typst (`pip install typst`, or the program) or else by pdflatex; `by` is "typst" or "latex" to choose. `options` are those of the
+        command `document`, or `report` for a page: `form="grouped,recursive"`, `title="…"`, …. An existing file of another origin is replaced only with `force`.
+        """
         target = Path(path)
-        notation = {".tex": "latex", ".typ": "typst", ".md": "markdown", ".html": "html"}.get(target.suffix)
-        if notation is None:
-            raise RobotError(f"{target}: the ending must be .tex, .typ, .md or .html; a PDF is made of one of the first two by LaTeX or Typst")
-        more = [text for name, value in options.items() for text in (f"--{name.replace('_', '-')}", value)]
-        run(["document", self._path, "--format", notation, "-o", str(target), *more, *(["--force"] if force else [])])
+        notation = {".tex": "latex", ".typ": "typst", ".md": "markdown"}.get(target.suffix)
+        flags = _flags(options)
+        if by is not None and target.suffix != ".pdf":
+            raise RobotError(f"{target}: `by` is for documents of the ending .pdf")
+        if target.suffix == ".html":
+            run(["report", self._path, *self._flags, "--without-compiler", "-o", str(target), *flags, *["--force"] * force])
+        elif target.suffix == ".pdf":
+            if target.exists() and not force:
+                raise RobotError(f"{target} exists; choose another name, or replace it with force=True")
+            _pdf.typeset(lambda kind, file: self._document(kind, file, flags), target, by)
+        elif notation is not None:
+            self._document(notation, target, [*flags, *["--force"] * force])
+        else:
+            raise RobotError(f"{target}: the ending must be .pdf, .tex, .typ, .md or .html")
         return target
 
+    def _document(self, notation: str, target: Path, flags: list[str]) -> None:
+        self._run("document", "--format", notation, "-o", str(target), *flags)
+
     def source(self, language: str = "rust") -> str:
-        """Code of the robot's usual functions: rust, c, cpp, python and the command's other languages of one file."""
+        """Code of the robot's usual functions as one file: rust, c, cpp, cuda, matlab, octave, python, javascript, wgsl.
+
+        >>> "planar_2r_inverse_dynamics(" in robots.load("planar_2r.toml").source("c")
+        True
+        """
         if language == "rust":
-            return run(["generate", self._path])
+            return self._run("generate")
         with tempfile.TemporaryDirectory() as folder:
-            run(["crate", self._path, "--language", language, "-o", os.path.join(folder, "code")])
+            self._run("crate", "--language", language, "-o", os.path.join(folder, "code"))
             ending = {"c": ".h", "cpp": ".hpp", "cuda": ".cuh", "octave": ".m", "matlab": ".m", "javascript": ".js", "python": ".py"}.get(language, "")
             files = sorted(file for file in Path(folder).rglob(f"*{ending}") if file.is_file())
             return "\n".join(file.read_text() for file in files)
@@ -121,15 +186,19 @@ class Robot:
         q0: Any = None,
         qd0: Any = None,
         step: float = 0.01,
-        torques: Mapping[str, str] | None = None,
+        torques: Mapping[str | int, str] | None = None,
         friction: bool = False,
         parameters: Mapping[str, float] | None = None,
     ) -> dict[str, Any]:
         """The motion from a state: arrays `t`, `q`, `qd`, `qdd`, `tau` and energies, a row for each time.
 
         `torques` has an expression over t, q1 …, qd1 … and parameters for each driven joint, by its number or name.
+
+        >>> motion = robots.load("planar_2r.toml").simulate(1.0, q0=[0.5, 0.1], step=0.1)
+        >>> motion["t"].shape, motion["q"].shape
+        ((11,), (11, 2))
         """
-        arguments = ["simulate", self._path, "--time", repr(float(time)), "--step", repr(float(step))]
+        arguments = ["--time", repr(float(time)), "--step", repr(float(step))]
         for option, value in (("--q0", q0), ("--qd0", qd0)):
             if value is not None:
                 arguments.append(f"{option}={','.join(repr(float(entry)) for entry in np.ravel(value))}")
@@ -137,7 +206,7 @@ class Robot:
             arguments += ["--torque", f"{joint}={expression}"]
         for name, number in (parameters or {}).items():
             arguments.append(f"--set={name}={float(number)!r}")
-        lines = run([*arguments, *(["--friction"] if friction else [])]).splitlines()
+        lines = self._run("simulate", *arguments, *["--friction"] * friction).splitlines()
         head = next(index for index, line in enumerate(lines) if not line.startswith("#"))
         table = np.array([[float(entry) for entry in line.split(",")] for line in lines[head + 1 :]])
         found: dict[str, Any] = {}
@@ -161,22 +230,36 @@ class Robot:
         names = [entry["name"] for entry in self.base_parameters()["base"]]
         return Identification(names, values, int(rank), singular, float(np.sqrt(np.mean(residual**2))))
 
-    def arrow(self, *names: str) -> Any:
-        """A function from a record batch to a record batch: see `robots._arrow.BatchFunction`."""
-        from ._arrow import BatchFunction
+    def arrow(self, *names: str, output: str = "fixed_lists", keep: Sequence[str] = ()) -> BatchFunction:
+        """A function from a record batch of pyarrow, or a table of whatever has Arrow's PyCapsule interface, to another.
 
-        return BatchFunction(self._path, names)
+        >>> import pyarrow as pa
+        >>> arm = robots.load("planar_2r.toml")
+        >>> batch = pa.record_batch({"id": [7], "q1": [0.0], "q2": [0.0]})
+        >>> arm.arrow("gravity", output="columns", keep=["id"])(batch).schema.names
+        ['id', 'tau1', 'tau2']
+        """
+        return BatchFunction(self._path, names, self._options, output, tuple(keep))
 
     def __repr__(self) -> str:
         return f"<robot {self.name}, {self.degrees_of_freedom} coordinates, {self._path}>"
 
     def _repr_html_(self) -> str:
-        scheme = run(["scheme", self._path])
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{'' if value is None else f'{value:g}'}</td></tr>" for name, value in self.parameters.items()
-        )
-        head = f"<b>{html.escape(self.name)}</b>, {self.degrees_of_freedom} coordinates"
-        return f"<div>{head}{scheme}<table><tr><th>parameter</th><th>value</th></tr>{rows}</table></div>"
+        scheme = _shown.picture(self._run("scheme"), f"scheme of {self.name}")
+        tables = [_shown.table(self._source.links()), _shown.table(self._source.parameter_rows())]
+        return _shown.block(self.name, self._source.description, [scheme, *tables])
+
+
+def _flags(options: Mapping[str, Any]) -> list[str]:
+    """Options of a command: True is an option without a value, False and None are none."""
+    flags: list[str] = []
+    for name, value in options.items():
+        option = f"--{name.replace('_', '-')}"
+        if value is True:
+            flags.append(option)
+        elif value is not False and value is not None:
+            flags.append(f"{option}={value}")
+    return flags
 
 
 class Identification:

@@ -44,18 +44,6 @@ impl Engine {
         Ok(self.handle()?.is_native())
     }
 
-    /// Names and numbers of entries of the inputs.
-    fn inputs(&self) -> PyResult<Vec<(String, usize)>> {
-        let inputs = self.handle()?.inputs();
-        Ok(inputs.iter().map(|input| (input.name.clone(), input.symbols.len())).collect())
-    }
-
-    /// Names and shapes of the outputs.
-    fn outputs(&self) -> PyResult<Vec<(String, Vec<usize>)>> {
-        let outputs = self.handle()?.outputs();
-        Ok(outputs.iter().map(|output| (output.name.clone(), output.shape.clone())).collect())
-    }
-
     /// Computes one state, from an array of one dimension for each input into contiguous arrays. False, and nothing is
     /// written, if that is not what is given: then Python looks closer.
     fn state(&self, inputs: Vec<Bound<'_, PyAny>>, outputs: Vec<PyBuffer<f64>>) -> PyResult<bool> {

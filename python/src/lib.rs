@@ -11,8 +11,15 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use robot_build::{Bundle, FunctionKind, Functions, Options, Robot, RobotFile, kinds_named};
 use robot_cli::Terminal;
+use robot_codegen::spec::{Input, Output};
+use robot_document::robot::{rows, words};
+use robot_model::diagnostic::significant;
+use robot_model::robot::{JointKind, Payload};
 
 use engine::Engine;
+
+/// Name, number of entries or shape, meaning and unit of an input or output.
+type Described<T> = (String, T, String, String);
 
 create_exception!(
     robots,
@@ -36,16 +43,30 @@ struct RobotSource {
 
 #[pymethods]
 impl RobotSource {
-    /// Reads a robot file and the plan that is pinned beside it.
+    /// Reads a robot file and the plan that is pinned beside it; the last two take with a warning what is an
+    /// error otherwise.
     #[new]
-    fn new(py: Python<'_>, path: PathBuf, search: bool) -> PyResult<RobotSource> {
-        py.detach(|| read(&path, search))
+    fn new(
+        py: Python<'_>,
+        path: PathBuf,
+        search: bool,
+        allow_massless: bool,
+        allow_unphysical: bool,
+    ) -> PyResult<RobotSource> {
+        let options = Options { search, allow_massless, allow_unphysical, ..Options::default() };
+        py.detach(|| read(&path, &options))
     }
 
     /// The robot's name.
     #[getter]
     fn robot(&self) -> &str {
         &self.robot.name
+    }
+
+    /// The remark of the robot file.
+    #[getter]
+    fn description(&self) -> Option<&str> {
+        self.robot.description.as_deref().map(str::trim)
     }
 
     /// The number of coordinates.
@@ -64,10 +85,50 @@ impl RobotSource {
             .collect()
     }
 
-    /// The names of the functions that the robot has.
+    /// The names of the payload's parameters: mass, center of mass, inertia.
+    fn payload(&self) -> Option<Vec<String>> {
+        let Payload { mass, center_of_mass, inertia } = self.robot.payload.as_ref()?;
+        Some([mass].into_iter().chain(center_of_mass).chain(inertia).cloned().collect())
+    }
+
+    /// Rows of a table of the links and their joints, a title first.
+    fn links(&self) -> Vec<[String; 6]> {
+        let title = ["link", "parent", "joint", "type", "coordinate", "limits"];
+        let rows = rows::links(&self.robot).map(|row| {
+            let axis = words::vector(&row.link.joint.axis, |formula| formula.text().to_owned());
+            let (way, unit) = match row.link.joint.kind {
+                JointKind::Revolute => ("about", "rad"),
+                JointKind::Prismatic => ("along", "m"),
+            };
+            let limits = row.limits.map_or_else(String::new, |limits| {
+                let [low, high] = limits.each_ref().map(|limit| significant(limit.to_f64()));
+                format!("{low} to {high} {unit}")
+            });
+            let kind = format!("{} {way} {axis}", row.kind);
+            let [link, joint] = [&row.link.name, &row.link.joint.name].map(String::clone);
+            [link, row.parent.to_owned(), joint, kind, row.coordinate, limits]
+        });
+        std::iter::once(title.map(str::to_owned)).chain(rows).collect()
+    }
+
+    /// Rows of a table of the parameters, a title first.
+    fn parameter_rows(&self) -> Vec<[String; 4]> {
+        let title = ["parameter", "value", "unit", "meaning"].map(str::to_owned);
+        let rows = rows::parameters(&self.robot).map(|row| {
+            let [unit, meaning] =
+                [row.unit, row.meaning].map(|text| text.unwrap_or_default().to_owned());
+            [row.parameter.name.clone(), row.value.unwrap_or_default(), unit, meaning]
+        });
+        std::iter::once(title).chain(rows).collect()
+    }
+
+    /// The names of the functions that the robot has, those of single frames among them.
     fn functions(&self) -> Vec<String> {
-        let kinds = FunctionKind::of_robot(&self.robot);
-        kinds.into_iter().map(|kind| kind.full_name(&self.robot)).collect()
+        let kinds = FunctionKind::of_robot(&self.robot).into_iter().flat_map(|kind| {
+            let parts = kind.parts(&self.robot);
+            std::iter::once(kind).chain(parts)
+        });
+        kinds.map(|kind| kind.full_name(&self.robot)).collect()
     }
 
     /// The programs of functions, as one if there are several.
@@ -89,9 +150,9 @@ impl RobotSource {
 }
 
 /// Reads a robot file, with the plan that is pinned beside it or, if that is wanted, one that is searched.
-fn read(path: &Path, search: bool) -> PyResult<RobotSource> {
+fn read(path: &Path, options: &Options) -> PyResult<RobotSource> {
     let file = RobotFile::read(path).map_err(wrong)?;
-    let options = file.with_pin(&Options { search, ..Options::default() }).map_err(wrong)?;
+    let options = file.with_pin(options).map_err(wrong)?;
     let described = robot_build::read_with(&file.source, &options).map_err(wrong)?;
     let robot = described.robot;
     let options = robot_build::planned(&robot, &options);
@@ -110,6 +171,24 @@ impl Program {
     #[getter]
     fn doc(&self) -> String {
         self.module.functions.first().map(|function| function.doc.join("\n\n")).unwrap_or_default()
+    }
+
+    /// The inputs, with their numbers of entries.
+    fn inputs(&self) -> Vec<Described<usize>> {
+        let inputs = self.module.functions.iter().take(1).flat_map(|function| &function.inputs);
+        let described = inputs.map(|Input { name, doc, unit, symbols }| {
+            (name.clone(), symbols.len(), doc.clone(), unit.clone())
+        });
+        described.collect()
+    }
+
+    /// The outputs, with their shapes.
+    fn outputs(&self) -> Vec<Described<Vec<usize>>> {
+        let outputs = self.module.functions.iter().take(1).flat_map(|function| &function.outputs);
+        let described = outputs.map(|Output { name, doc, unit, shape, .. }| {
+            (name.clone(), shape.clone(), doc.clone(), unit.clone())
+        });
+        described.collect()
     }
 
     /// What can be called, with parameters at other values than the nominal ones.

@@ -2,6 +2,7 @@
 
 import os
 import pickle
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -174,7 +175,8 @@ def test_doors(tmp_path):
     assert robot.check()["errors"] == 0
     assert robot.base_parameters()["base"]
     assert robot.diff(arm("scara"))
-    assert "<svg" in robot._repr_html_()
+    shown = robot._repr_html_()
+    assert "data:image/svg+xml" in shown and "revolute about (0, 0, 1)" in shown and "mass of link 2" in shown
     assert "fn inverse_dynamics" in robot.source() and "double" in robot.source("c")
     assert "documentclass" in robot.document(tmp_path / "arm.tex").read_text()
     assert "inverse_dynamics" in dir(robot) and robot.inverse_dynamics.__doc__
@@ -183,6 +185,96 @@ def test_doors(tmp_path):
     done = subprocess.run([sys.executable, "-m", "robots", "--version"], capture_output=True, text=True, env={"PATH": ""})
     assert done.returncode == 0 and done.stdout
     assert subprocess.run([sys.executable, "-m", "robots", "nothing"], capture_output=True).returncode == 2
+
+
+def test_documents(tmp_path, monkeypatch):
+    robot = arm("planar_2r")
+    for ending, start in ((".tex", "% @generated"), (".typ", "// @generated"), (".md", "<!-- @generated"), (".html", "<!DOCTYPE html>")):
+        assert robot.document(tmp_path / f"arm{ending}").read_text().startswith(start)
+    assert "Planar" in robot.document(tmp_path / "titled.tex", title="Planar", form="grouped,recursive").read_text()
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setitem(sys.modules, "typst", None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    for by, remedy in ((None, "pip install typst"), ("typst", "pip install typst"), ("latex", "pdflatex")):
+        with pytest.raises(robots.RobotError, match=remedy):
+            robot.document(tmp_path / "arm.pdf", by=by)
+    assert not (tmp_path / "arm.pdf").exists()
+
+
+@pytest.mark.parametrize("by", ["typst", "latex"])
+def test_documents_as_pdf(tmp_path, by):
+    if by == "typst":
+        pytest.importorskip("typst")
+    elif shutil.which("pdflatex") is None:
+        pytest.skip("no pdflatex")
+    robot, target = arm("planar_2r"), tmp_path / "arm.pdf"
+    assert robot.document(target, by=by) == target
+    made = target.read_bytes()
+    assert made.startswith(b"%PDF") and len(made) > 20_000
+    with pytest.raises(robots.RobotError, match="force=True"):
+        robot.document(target, by=by)
+    assert robot.document(target, by=by, force=True).read_bytes().startswith(b"%PDF")
+    assert [file.name for file in tmp_path.iterdir()] == ["arm.pdf"]
+
+
+def test_every_form_is_the_same_function():
+    """Joint torques out of each form, with what it defines put in, in the order of the joints."""
+    sympy = pytest.importorskip("sympy")
+    robot = arm("planar_2r")
+    torques = robot.equations().sympy
+    values = {symbol: 0.3 + 0.1 * index for index, symbol in enumerate(sorted(torques.free_symbols, key=str))}
+    expected = np.array(torques.subs(values), float)
+    for form in ("collected", "grouped", "compact", "recursive", "regrouped"):
+        found = np.array(robot.equations(form=form).sympy.subs(values), float)
+        assert np.allclose(found, expected, rtol=1e-12), form
+    both = robot.equations(quantities="a_c,Q").formulas
+    assert list(both)[:2] == ["a_c1.x", "a_c1.y"] and list(both)[-2:] == ["Q1", "Q2"]
+
+
+def test_arrow_for_other_engines():
+    pa = pytest.importorskip("pyarrow")
+    robot = arm("planar_2r")
+    q, qd, _ = states(robot, 5)
+    batch = pa.record_batch({"id": range(5), **{f"q{i + 1}": q[:, i] for i in range(2)}, "qd": qd.tolist()})
+    M, energy = robot.mass_matrix(q), robot.energies(q, qd)
+    columns = robot.arrow("mass_matrix", "energies", output="columns", keep=["id"])(batch)
+    assert columns.schema.names == ["id", *(f"mass_matrix{i + 1}" for i in range(4)), "kinetic", "potential"]
+    assert np.array_equal(np.stack([columns[f"mass_matrix{i + 1}"] for i in range(4)], axis=1), M.reshape(5, 4))
+    assert np.allclose(columns["kinetic"], energy[0], rtol=1e-12)
+    lists = pickle.loads(pickle.dumps(robot.arrow("mass_matrix", output="lists")))(batch.slice(2))
+    assert pa.types.is_list(lists["mass_matrix"].type) and np.array_equal(lists["mass_matrix"].to_pylist(), M[2:].reshape(3, 4))
+    assert robot.arrow("mass_matrix", output="lists")(batch.slice(5)).num_rows == 0
+    for keep, message in ((["name"], "no column `name`"), (["qd", "q1"], None)):
+        if message:
+            with pytest.raises(robots.RobotError, match=message):
+                robot.arrow("mass_matrix", keep=keep)(batch)
+        else:
+            assert robot.arrow("mass_matrix", keep=keep)(batch).schema.names == [*keep, "mass_matrix"]
+
+
+def test_unphysical_files_are_taken_if_that_is_said(tmp_path):
+    file = tmp_path / "light.toml"
+    file.write_text((FILES / "planar_2r.toml").read_text().replace('m2 = { value = 3.0', 'm2 = { value = -3.0'))
+    with pytest.raises(robots.RobotError, match="-3"):
+        robots.load(file)
+    robot = robots.load(file, allow_unphysical=True)
+    assert np.isfinite(robot.gravity([0.0, 0.0])).all() and "m2" in robot.equations().text
+    assert robot.check()["warnings"] > 0
+    pytest.importorskip("pyarrow")
+    pickle.loads(pickle.dumps(robot.arrow("gravity")))
+
+
+def test_what_editors_show():
+    import inspect
+
+    robot = arm("puma560")
+    assert list(inspect.signature(robot.inverse_dynamics).parameters)[:3] == ["q", "qd", "qdd"]
+    doc = robot.inverse_dynamics.__doc__
+    assert "- q (6,): " in doc and "rad/s" in doc and "Outputs:" in doc
+    assert repr(robot.gravity) == "<gravity(q[6]) -> tau[6] of the robot puma560>"
+    for name in robot.functions:
+        if name in ("gravity", "energies", "jacobian", "mass_matrix"):
+            assert inspect.signature(robot.function(name)) and robot.function(name).__doc__
 
 
 def test_arrow():

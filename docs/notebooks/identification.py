@@ -1,0 +1,103 @@
+# %% [markdown]
+# # Notebook: identification from motions and torques
+#
+# The masses and inertias of a data sheet are guesses, or missing. What the joint torques depend on can be measured: move the robot, record motions and torques,
+# solve a linear system. This notebook does it for the SCARA, with noise, and asks how far to trust the result.
+
+# %%
+import matplotlib.pyplot as plt
+import numpy as np
+import robots
+
+arm = robots.load("robots/scara.toml")
+arm
+
+# %% [markdown]
+# ## What can be known
+#
+# A fixed base hides most of the parameters: no motion of this arm turns its first link about a horizontal axis. The joint torques determine the *base
+# parameters* and nothing beyond them; each is a sum of parameters that act together.
+
+# %%
+for entry in arm.base_parameters()["base"]:
+    print(f"{entry['name']:7} = {entry['formula']}")
+
+# %% [markdown]
+# ## A measurement
+#
+# Sums of sines in each joint, 20 seconds at 100 Hz, with the derivatives in closed form. The torques come from the arm with its nominal values, and noise
+# of the size that current sensors have is added.
+
+# %%
+random = np.random.default_rng(7)
+t = np.arange(0, 20, 0.01)
+n = arm.degrees_of_freedom
+
+
+def excitation(amplitude, harmonics=5, base=2 * np.pi * 0.1):
+    """Joint positions, velocities and accelerations of random sums of sines."""
+    a, b = random.uniform(-1, 1, (2, harmonics, n)) * amplitude / harmonics
+    w = base * np.arange(1, harmonics + 1)
+    s, c = np.sin(np.outer(t, w)), np.cos(np.outer(t, w))
+    return s @ a + c @ b, (c * w) @ a - (s * w) @ b, -(s * w**2) @ a - (c * w**2) @ b
+
+
+q, qd, qdd = excitation(np.array([2.0, 2.0, 0.1, 2.0]))
+noise = np.array([0.3, 0.2, 0.5, 0.02])
+tau = arm.inverse_dynamics(q, qd, qdd) + noise * random.standard_normal((len(t), n))
+
+# %% [markdown]
+# Joints differ in their noise, so each row is divided by that of its joint; `identify` weighs all rows alike, and here the weighted system is solved by hand to
+# show that there is nothing behind it but the regressor Y, with τ = Y β.
+
+# %%
+found = arm.identify(q, qd, qdd, tau)
+Y = arm.regressor_base(q, qd, qdd) / noise[:, None]
+values, *_ = np.linalg.lstsq(Y.reshape(-1, Y.shape[2]), (tau / noise).ravel(), rcond=None)
+error = np.sqrt(np.diag(np.linalg.inv(np.einsum("nij,nik->jk", Y, Y))))
+true = [float(entry["value"]) for entry in arm.base_parameters()["base"]]
+print(f"rank {found.rank} of {len(found.names)}, condition {found.condition:.0f}")
+print("parameter      true   all rows alike   weighted ± its standard error")
+for name, *row in zip(found.names, true, found.values, values, error):
+    print(f"{name:9} {row[0]:9.4f} {row[1]:16.4f} {row[2]:10.4f} ± {row[3]:.4f}")
+
+# %% [markdown]
+# The errors are those that the noise explains: the difference from the true value, in standard errors, should be like numbers of a normal distribution.
+
+# %%
+print("differences in standard errors:", ((values - true) / error).round(1))
+
+# %% [markdown]
+# ## A bad motion looks as good
+#
+# The same with a tenth of the amplitude: residuals are as small as before, since they are the noise. The standard errors tell the truth.
+
+# %%
+slow = excitation(np.array([0.2, 0.2, 0.01, 0.2]))
+measured = arm.inverse_dynamics(*slow) + noise * random.standard_normal((len(t), n))
+poor = arm.identify(*slow, measured)
+Y_slow = arm.regressor_base(*slow) / noise[:, None]
+poor_error = np.sqrt(np.diag(np.linalg.inv(np.einsum("nij,nik->jk", Y_slow, Y_slow))))
+print(f"residual {found.residual:.3f} and {poor.residual:.3f} N m, N")
+print("standard errors grow by", (poor_error / error).round(0))
+
+# %% [markdown]
+# ## The test that counts
+#
+# Torques on a motion that was not used, predicted from both results.
+
+# %%
+fresh = excitation(np.array([2.0, 2.0, 0.1, 2.0]))
+expected = arm.inverse_dynamics(*fresh)
+regressor = arm.regressor_base(*fresh)
+figure, axes = plt.subplots(figsize=(7, 4))
+axes.plot(t, expected[:, 0], "k", label="true")
+for name, beta in (("identified", values), ("from the bad motion", poor.values)):
+    predicted = regressor @ beta
+    axes.plot(t, predicted[:, 0], "--", label=name)
+    print(f"{name:20} root mean square error", np.sqrt(np.mean((predicted - expected) ** 2, axis=0)).round(3))
+axes.set(xlabel="t, s", ylabel="torque of joint 1, N m", xlim=(0, 10))
+axes.legend()
+
+# %% [markdown]
+# For logs of millions of rows and robots whose identified values must be those of a body, see [logs](../users/logs.md).
