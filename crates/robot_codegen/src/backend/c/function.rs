@@ -1,12 +1,14 @@
 //! The functions of a module: from the state, and from sines and cosines.
 
+use std::collections::BTreeSet;
+
 use super::batch;
 use super::comment;
 use super::cuda;
 use super::spelling::{helper, library};
-use super::{Dialect, Header, SC};
+use super::{Dialect, Header, SC, vectors};
 use crate::backend::common::{self, Scalar};
-use crate::backend::flat::{Array, Body, Function, Part, Statement};
+use crate::backend::flat::{Array, Body, Expression, Function, Part, Statement};
 use crate::trigonometry::Trigonometry;
 
 /// All functions of one function of the module.
@@ -101,26 +103,28 @@ fn arithmetic(header: &Header<'_>, function: &Function<'_>, name: &str) -> Vec<S
     }
     lines.extend(sink);
     let read = read_by(&function.core);
+    let mut loads = vec![];
     for (names, array) in [(&function.sines, "s"), (&function.cosines, "c")] {
         let read_any = names.iter().any(|name| read.contains(name));
         if has_angles && !read_any {
             lines.push(format!("    (void){array};"));
         }
         for (index, name) in names.iter().enumerate().filter(|(_, name)| read.contains(*name)) {
-            lines.push(format!("    const {} {name} = {array}[{index}];", header.real()));
+            let line = format!("    const {} {name} = {array}[{index}];", header.real());
+            loads.push((name.clone(), line));
         }
     }
-    lines.extend(statements_of(header, function, &function.core));
+    lines.extend(statements_of(header, function, &function.core, loads));
     lines.extend(stores(header, function));
     lines.extend(["}".to_owned(), String::new()]);
     lines
 }
 
 /// The variables that a body reads.
-fn read_by(body: &Body) -> std::collections::BTreeSet<String> {
-    let mut read = std::collections::BTreeSet::new();
+fn read_by(body: &Body) -> BTreeSet<String> {
+    let mut read = BTreeSet::new();
     body.each_expression(&mut |value| {
-        if let crate::backend::flat::Expression::Variable(name) = value {
+        if let Expression::Variable(name) = value {
             read.insert(name.clone());
         }
     });
@@ -155,7 +159,7 @@ fn whole(header: &Header<'_>, function: &Function<'_>, sc: &str) -> Vec<String> 
     for array in function.inputs.iter().filter(|array| !array.is_used) {
         lines.push(format!("    (void){};", array.name));
     }
-    lines.extend(statements_of(header, function, &function.angles));
+    lines.extend(statements_of(header, function, &function.angles, vec![]));
     let expressions = header.expressions(header.options.scalar);
     let angles = function.angles.results.iter().map(|angle| expressions.text(angle));
     let length = function.sines.len();
@@ -164,10 +168,7 @@ fn whole(header: &Header<'_>, function: &Function<'_>, sc: &str) -> Vec<String> 
         angles.collect::<Vec<_>>().join(", ")
     ));
     lines.push(format!("    {real} s[{length}], c[{length}];"));
-    lines.push("    int i;".to_owned());
-    lines.push(format!("    for (i = 0; i < {length}; i++) {{"));
-    lines.extend(circular(header, "angles[i]", "s[i]", "c[i]").map(|line| format!("    {line}")));
-    lines.push("    }".to_owned());
+    lines.extend(circular_of_array(header, length));
     let mut arguments: Vec<String> = model_argument(header);
     arguments.extend(["s", "c"].map(str::to_owned));
     let used = used_by(function, &function.core);
@@ -182,6 +183,19 @@ fn whole(header: &Header<'_>, function: &Function<'_>, sc: &str) -> Vec<String> 
 /// `model`, if the module has parameters.
 pub(super) fn model_argument(header: &Header<'_>) -> Vec<String> {
     header.tree.has_parameters().then(|| "model".to_owned()).into_iter().collect()
+}
+
+/// The statements that give sines and cosines of so many `angles` to `s` and `c`.
+fn circular_of_array(header: &Header<'_>, length: usize) -> Vec<String> {
+    let is_polynomial = header.options.trigonometry == Trigonometry::Polynomial;
+    if is_polynomial && header.dialect == Dialect::C && length > 1 {
+        let several = header.names.private(&helper(&vectors::name(length), header.options.scalar));
+        return vec![format!("    {several}(angles, s, c);")];
+    }
+    let mut lines = vec!["    int i;".to_owned(), format!("    for (i = 0; i < {length}; i++) {{")];
+    lines.extend(circular(header, "angles[i]", "s[i]", "c[i]").map(|line| format!("    {line}")));
+    lines.push("    }".to_owned());
+    lines
 }
 
 /// The statements that give sine and cosine of an angle to two places.
@@ -218,10 +232,49 @@ fn stores(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     lines
 }
 
-fn statements_of(header: &Header<'_>, function: &Function<'_>, body: &Body) -> Vec<String> {
+/// The statements of a body, each load before the first that reads it: compilers that keep the order then hold fewer
+/// numbers at a time. All loads stand before the stores. `loads` are those of sines and cosines.
+fn statements_of(
+    header: &Header<'_>,
+    function: &Function<'_>,
+    body: &Body,
+    mut loads: Vec<(String, String)>,
+) -> Vec<String> {
     let scalar = header.options.scalar;
-    let statements = body.statements.iter();
-    statements.flat_map(|one| statement(header, &function.inputs, body, one, scalar)).collect()
+    let printed = |one| statement(header, &function.inputs, body, one, scalar);
+    for one in &body.statements {
+        if let Statement::Entry { name, .. } = one {
+            loads.extend(printed(one).into_iter().map(|line| (name.clone(), line)));
+        }
+    }
+    let mut lines = vec![];
+    for one in &body.statements {
+        if matches!(one, Statement::Entry { .. }) {
+            continue;
+        }
+        let read = variables(one, body);
+        lines.extend(loads.extract_if(.., |(name, _)| read.contains(name)).map(|(_, line)| line));
+        lines.extend(printed(one));
+    }
+    // What the results alone read.
+    lines.extend(loads.into_iter().map(|(_, line)| line));
+    lines
+}
+
+/// The variables that a statement of a body reads.
+fn variables(statement: &Statement, body: &Body) -> BTreeSet<String> {
+    let mut read = BTreeSet::new();
+    if let Statement::Part(index) = statement {
+        read.extend(body.parts[*index].entering.iter().cloned());
+    }
+    if let Some(value) = statement.expression() {
+        value.each(&mut |value| {
+            if let Expression::Variable(name) = value {
+                read.insert(name.clone());
+            }
+        });
+    }
+    read
 }
 
 /// The statements of the constructor.

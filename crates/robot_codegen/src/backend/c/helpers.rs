@@ -2,7 +2,7 @@
 //! sums.
 
 use super::spelling::{literal, number};
-use super::{Dialect, Header, cuda};
+use super::{Dialect, Header, cuda, vectors};
 use crate::backend::common::Scalar;
 use crate::backend::flat::Helpers;
 use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
@@ -26,6 +26,9 @@ pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
         }
         if needed.circular && polynomials {
             lines.extend(writer.circular(needed.mul_add));
+        }
+        if scalar == header.options.scalar {
+            lines.extend(vectors::several(&writer, needed.mul_add));
         }
         if needed.sign {
             lines.extend(writer.sign());
@@ -65,26 +68,32 @@ fn macros(header: &Header<'_>) -> Vec<String> {
 }
 
 /// Writes the helpers of a number type.
-struct Writer<'h> {
-    header: &'h Header<'h>,
-    scalar: Scalar,
+pub(super) struct Writer<'h> {
+    pub(super) header: &'h Header<'h>,
+    pub(super) scalar: Scalar,
 }
 
 /// Sums of products, or the library's function that rounds once.
 struct MulAdd<'w> {
     writer: &'w Writer<'w>,
     once: bool,
+    lanes: usize,
 }
 
 impl Arithmetic for MulAdd<'_> {
     fn number(&self, value: f64) -> String {
-        self.writer.number(value)
+        let number = self.writer.number(value);
+        match (self.once, self.lanes) {
+            (false, _) | (_, 1) => number,
+            (true, _) => vectors::splat(&number, self.writer.scalar),
+        }
     }
 
     fn mul_add(&self, a: &str, b: &str, c: &str) -> String {
-        match self.once {
-            true => format!("{}({a}, {b}, {c})", self.writer.library("fma")),
-            false => format!("{a} * {b} + {c}"),
+        match (self.once, self.lanes) {
+            (false, _) => format!("{a} * {b} + {c}"),
+            (true, 1) => format!("{}({a}, {b}, {c})", self.writer.library("fma")),
+            (true, _) => format!("{}({a}, {b}, {c})", vectors::mul_add(self.writer.scalar)),
         }
     }
 }
@@ -95,11 +104,11 @@ fn assignments(steps: Vec<Assignment>) -> impl Iterator<Item = String> {
 }
 
 impl Writer<'_> {
-    fn real(&self) -> &'static str {
+    pub(super) fn real(&self) -> &'static str {
         super::function::real(self.scalar)
     }
 
-    fn bits(&self) -> &'static str {
+    pub(super) fn bits(&self) -> &'static str {
         if self.scalar == Scalar::F64 { "uint64_t" } else { "uint32_t" }
     }
 
@@ -107,7 +116,7 @@ impl Writer<'_> {
         if self.scalar == Scalar::F64 { 64 } else { 32 }
     }
 
-    fn name(&self, name: &str) -> String {
+    pub(super) fn name(&self, name: &str) -> String {
         self.header.names.private(&super::spelling::helper(name, self.scalar))
     }
 
@@ -115,7 +124,7 @@ impl Writer<'_> {
         super::spelling::library(name, self.scalar)
     }
 
-    fn number(&self, value: f64) -> String {
+    pub(super) fn number(&self, value: f64) -> String {
         number(value, self.scalar)
     }
 
@@ -140,7 +149,7 @@ impl Writer<'_> {
     }
 
     /// The condition under which fused multiply-adds are fast; clang does not define the macro of C.
-    fn fast(&self) -> String {
+    pub(super) fn fast(&self) -> String {
         let macro_of_c = if self.scalar == Scalar::F64 { "FP_FAST_FMA" } else { "FP_FAST_FMAF" };
         let of_cuda = match self.header.dialect {
             Dialect::C => "",
@@ -151,7 +160,7 @@ impl Writer<'_> {
         )
     }
 
-    fn lines(text: &str) -> Vec<String> {
+    pub(super) fn lines(text: &str) -> Vec<String> {
         text.lines().map(str::to_owned).chain([String::new()]).collect()
     }
 
@@ -185,16 +194,7 @@ impl Writer<'_> {
             self.name("sin_cos")
         ));
         lines.pop();
-        if fused {
-            lines.push(self.fast());
-            lines.extend(self.polynomials(&numbers, true));
-            lines.push("#else".to_owned());
-        }
-        lines.extend(self.polynomials(&numbers, false));
-        if fused {
-            lines.push("#endif".to_owned());
-        }
-        lines.extend(self.turned());
+        lines.extend(self.sine_and_cosine(fused, 1));
         let sin_cos = self.name("sin_cos");
         for (name, value) in [(self.name("sin"), "sine"), (self.name("cos"), "cosine")] {
             lines.extend(Writer::lines(&format!(
@@ -209,10 +209,32 @@ impl Writer<'_> {
         lines
     }
 
+    /// The body of a function that computes `sine` and `cosine` from `angle`, each a number or a vector of `lanes` numbers.
+    pub(super) fn sine_and_cosine(&self, fused: bool, lanes: usize) -> Vec<String> {
+        let numbers = Circular::new(self.scalar);
+        let mut lines = vec![];
+        if fused {
+            lines.push(self.fast());
+            lines.extend(self.polynomials(&numbers, true, lanes));
+            lines.push("#else".to_owned());
+        }
+        lines.extend(self.polynomials(&numbers, false, lanes));
+        if fused {
+            lines.push("#endif".to_owned());
+        }
+        lines.extend(self.turned(lanes));
+        lines
+    }
+
+    /// The number of bytes of numbers side by side.
+    pub(super) fn size(&self, lanes: usize) -> usize {
+        self.scalar.size() * lanes
+    }
+
     /// `s` and `c`, sine and cosine of the angle less `k` right angles.
-    fn polynomials(&self, numbers: &Circular, once: bool) -> Vec<String> {
-        let language = MulAdd { writer: self, once };
-        let size = self.width() / 8;
+    fn polynomials(&self, numbers: &Circular, once: bool, lanes: usize) -> Vec<String> {
+        let language = MulAdd { writer: self, once, lanes };
+        let size = self.size(lanes);
         let mut lines: Vec<String> = assignments(numbers.turns(&language)).collect();
         let nan = format!(
             "    memcpy(&pattern, &angle, {size});
@@ -229,8 +251,8 @@ impl Writer<'_> {
     }
 
     /// Sine and cosine of the angle from `s` and `c`: swapped and signed by the low bits of k.
-    fn turned(&self) -> Vec<String> {
-        let (size, to_sign) = (self.width() / 8, self.width() - 2);
+    fn turned(&self, lanes: usize) -> Vec<String> {
+        let (size, to_sign) = (self.size(lanes), self.width() - 2);
         Writer::lines(&format!(
             "    memcpy(&turns, &shifted, {size});
     memcpy(&s_bits, &s, {size});
@@ -297,7 +319,7 @@ impl Writer<'_> {
         let sign = self.pattern(self.sign_bit());
         let numbers = HyperbolicTangent::new(self.scalar);
         let number = |value: f64| self.number(value);
-        let language = MulAdd { writer: self, once: false };
+        let language = MulAdd { writer: self, once: false, lanes: 1 };
         let steps: Vec<String> = assignments(numbers.rest(&language)).collect();
         let steps = steps.join("\n");
         let mantissa = if self.scalar == Scalar::F64 { 52 } else { 23 };

@@ -15,6 +15,7 @@ mod items;
 mod keywords;
 mod names;
 mod spelling;
+mod vectors;
 
 pub use self::batch::has_batch;
 pub use self::casadi::{Casadi, casadi};
@@ -138,10 +139,11 @@ impl Header<'_> {
         };
         lines.extend([format!("#ifndef {guard}"), format!("#define {guard}"), String::new()]);
         lines.extend(match self.dialect {
-            Dialect::C => lines_of(
-                "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <string.h>\n\n\
-                 #ifdef __cplusplus\nextern \"C\" {\n#endif\n",
-            ),
+            Dialect::C => lines_of(&format!(
+                "#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <string.h>\n{}\n\
+                 #ifdef __cplusplus\nextern \"C\" {{\n#endif\n",
+                vectors::includes(self)
+            )),
             Dialect::Cuda => lines_of(cuda::INCLUDES),
         });
         lines.push(String::new());

@@ -266,14 +266,14 @@ CUDA_INLINE_ void cuda_model_init(cuda_model *model, const cuda_parameters *para
  */
 CUDA_INLINE_ void cuda_plain_sc(const cuda_model *model, const double s[1], const double c[1], const double q[2], double *CUDA_RESTRICT_ values)
 {
-    const double sx = s[0];
-    const double cx = c[0];
-    const double x = q[0];
     const double y = q[1];
     const double t1 = y * 0.3333333333333333;
     const double t2 = model->k1 * 0.3333333333333333;
+    const double sx = s[0];
     const double t3 = sx * 0.3333333333333333;
+    const double cx = c[0];
     const double t4 = cx * 0.3333333333333333;
+    const double x = q[0];
     const double t5 = x * 0.3333333333333333;
     const double t6 = y + model->k1;
     const double t7 = y - model->k1;
@@ -376,12 +376,12 @@ CUDA_KERNEL_ void cuda_plain_kernel(const cuda_model model_, size_t n, size_t st
  */
 CUDA_INLINE_ void cuda_turned_sc(const cuda_model *model, const double s[1], const double c[1], const double q[2], double *CUDA_RESTRICT_ values)
 {
-    const double s1 = s[0];
-    const double c1 = c[0];
     const double y = q[1];
     const double t1 = y * 0.3333333333333333;
     const double t2 = model->k1 * 0.3333333333333333;
+    const double s1 = s[0];
     const double t3 = s1 * 0.3333333333333333;
+    const double c1 = c[0];
     const double t4 = c1 * 0.3333333333333333;
     const double t5 = y + model->k1;
     const double t6 = y - model->k1;

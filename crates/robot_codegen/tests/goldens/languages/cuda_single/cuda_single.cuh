@@ -401,14 +401,14 @@ CUDA_SINGLE_INLINE_ void cuda_single_model_init(cuda_single_model *model, const 
  */
 CUDA_SINGLE_INLINE_ void cuda_single_plain_sc(const cuda_single_model *model, const float s[1], const float c[1], const float q[2], float *CUDA_SINGLE_RESTRICT_ values)
 {
-    const float sx = s[0];
-    const float cx = c[0];
-    const float x = q[0];
     const float y = q[1];
     const float t1 = y * 0.33333334F;
     const float t2 = model->k1 * 0.33333334F;
+    const float sx = s[0];
     const float t3 = sx * 0.33333334F;
+    const float cx = c[0];
     const float t4 = cx * 0.33333334F;
+    const float x = q[0];
     const float t5 = x * 0.33333334F;
     const float t6 = y + model->k1;
     const float t7 = y - model->k1;
@@ -511,12 +511,12 @@ CUDA_SINGLE_KERNEL_ void cuda_single_plain_kernel(const cuda_single_model model_
  */
 CUDA_SINGLE_INLINE_ void cuda_single_turned_sc(const cuda_single_model *model, const float s[1], const float c[1], const float q[2], float *CUDA_SINGLE_RESTRICT_ values)
 {
-    const float s1 = s[0];
-    const float c1 = c[0];
     const float y = q[1];
     const float t1 = y * 0.33333334F;
     const float t2 = model->k1 * 0.33333334F;
+    const float s1 = s[0];
     const float t3 = s1 * 0.33333334F;
+    const float c1 = c[0];
     const float t4 = c1 * 0.33333334F;
     const float t5 = y + model->k1;
     const float t6 = y - model->k1;

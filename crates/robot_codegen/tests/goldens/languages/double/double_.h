@@ -263,14 +263,14 @@ DOUBLE__INLINE_ void double__model_init(double__model *model, const double__para
  */
 DOUBLE__INLINE_ void double__plain_sc(const double__model *model, const double s[1], const double c[1], const double q[2], double *DOUBLE__RESTRICT_ values)
 {
-    const double sx = s[0];
-    const double cx = c[0];
-    const double x = q[0];
     const double y = q[1];
     const double t1 = y * 0.3333333333333333;
     const double t2 = model->k1 * 0.3333333333333333;
+    const double sx = s[0];
     const double t3 = sx * 0.3333333333333333;
+    const double cx = c[0];
     const double t4 = cx * 0.3333333333333333;
+    const double x = q[0];
     const double t5 = x * 0.3333333333333333;
     const double t6 = y + model->k1;
     const double t7 = y - model->k1;
@@ -371,12 +371,12 @@ static inline void double__plain_batch(const double__model *model, size_t n, siz
  */
 DOUBLE__INLINE_ void double__turned_sc(const double__model *model, const double s[1], const double c[1], const double q[2], double *DOUBLE__RESTRICT_ values)
 {
-    const double s1 = s[0];
-    const double c1 = c[0];
     const double y = q[1];
     const double t1 = y * 0.3333333333333333;
     const double t2 = model->k1 * 0.3333333333333333;
+    const double s1 = s[0];
     const double t3 = s1 * 0.3333333333333333;
+    const double c1 = c[0];
     const double t4 = c1 * 0.3333333333333333;
     const double t5 = y + model->k1;
     const double t6 = y - model->k1;

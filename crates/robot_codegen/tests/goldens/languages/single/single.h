@@ -397,14 +397,14 @@ SINGLE_INLINE_ void single_model_init(single_model *model, const single_paramete
  */
 SINGLE_INLINE_ void single_plain_sc(const single_model *model, const float s[1], const float c[1], const float q[2], float *SINGLE_RESTRICT_ values)
 {
-    const float sx = s[0];
-    const float cx = c[0];
-    const float x = q[0];
     const float y = q[1];
     const float t1 = y * 0.33333334F;
     const float t2 = model->k1 * 0.33333334F;
+    const float sx = s[0];
     const float t3 = sx * 0.33333334F;
+    const float cx = c[0];
     const float t4 = cx * 0.33333334F;
+    const float x = q[0];
     const float t5 = x * 0.33333334F;
     const float t6 = y + model->k1;
     const float t7 = y - model->k1;
@@ -505,12 +505,12 @@ static inline void single_plain_batch(const single_model *model, size_t n, size_
  */
 SINGLE_INLINE_ void single_turned_sc(const single_model *model, const float s[1], const float c[1], const float q[2], float *SINGLE_RESTRICT_ values)
 {
-    const float s1 = s[0];
-    const float c1 = c[0];
     const float y = q[1];
     const float t1 = y * 0.33333334F;
     const float t2 = model->k1 * 0.33333334F;
+    const float s1 = s[0];
     const float t3 = s1 * 0.33333334F;
+    const float c1 = c[0];
     const float t4 = c1 * 0.33333334F;
     const float t5 = y + model->k1;
     const float t6 = y - model->k1;
