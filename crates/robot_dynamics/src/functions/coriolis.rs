@@ -9,7 +9,9 @@ use crate::matrix::SquareMatrix;
 
 /// C(q, q̇) by Christoffel symbols.
 pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
-    let composite = derivation.recursion.as_ref().and_then(Recursion::coriolis_matrix);
+    let forms = derivation.recursion.as_ref().map(Recursion::coriolis_matrix).unwrap_or_default();
+    let composite =
+        forms.into_iter().min_by_key(|form| derivation.operations(&form.rows()).flops());
     let matrix = composite.unwrap_or_else(|| half_velocity_slopes(derivation));
     let output = Output::new(
         "coriolis_matrix",

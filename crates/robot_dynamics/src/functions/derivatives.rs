@@ -29,12 +29,12 @@ fn matrix_output<'g>(name: &str, doc: &str, unit: &str, matrix: &SquareMatrix<'g
     Output::new(name, doc, unit, vec![matrix.order(), matrix.order()], matrix.rows())
 }
 
-/// The derivatives by composite quantities, or by forward or reverse differentiation of the
+/// The derivatives by composite quantities, in one of their forms, or by forward or reverse differentiation of the
 /// torques, whichever needs the fewest operations.
 fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
     let (torques, composite) = match &derivation.recursion {
         Some(recursion) => (recursion.inverse_dynamics(false), recursion.torque_derivatives()),
-        None => (derivation.paper_torques(false, &[]), None),
+        None => (derivation.paper_torques(false, &[]), vec![]),
     };
     let symbols: Vec<Expr<'g>> = [JointVariable::Position, JointVariable::Velocity]
         .into_iter()
@@ -49,41 +49,41 @@ fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
         TorqueDerivatives { positions: part(0), velocities: part(order) }
     };
     let by_forward = split(differentiate::forward(&torques, &symbols));
-    let cost = |derivatives: &TorqueDerivatives<'g>| {
-        let roots = [derivatives.positions.rows(), derivatives.velocities.rows()].concat();
-        derivation.operations(&roots).flops()
-    };
-    let mut best = (cost(&by_forward), by_forward);
-    let others = [Some(split(differentiate::reverse(&torques, &symbols))), composite];
-    for other in others.into_iter().flatten() {
-        let operations = cost(&other);
-        if operations <= best.0 {
-            best = (operations, other);
-        }
-    }
-    best.1
+    let others = composite
+        .into_iter()
+        .chain([split(differentiate::reverse(&torques, &symbols)), by_forward.clone()]);
+    fewest(derivation, others.collect()).unwrap_or(by_forward)
+}
+
+/// The form that needs the fewest operations; `None` of none.
+pub(super) fn fewest<'g>(
+    derivation: &Derivation<'_, 'g>,
+    forms: Vec<TorqueDerivatives<'g>>,
+) -> Option<TorqueDerivatives<'g>> {
+    cheapest_form(forms, |derivatives| cost(derivation, derivatives))
+}
+
+fn cost<'g>(derivation: &Derivation<'_, 'g>, derivatives: &TorqueDerivatives<'g>) -> usize {
+    let TorqueDerivatives { positions, velocities } = derivatives;
+    derivation.operations(&[positions.rows(), velocities.rows()].concat()).flops()
+}
+
+/// The form of least cost. The first one, relative to the links, is kept unless another saves a sixty-fourth of it: the
+/// passes over programs save more of the first, which repeats itself more.
+fn cheapest_form<T>(forms: impl IntoIterator<Item = T>, cost: impl Fn(&T) -> usize) -> Option<T> {
+    let forms = forms.into_iter().enumerate().map(|(index, form)| {
+        let cost = cost(&form);
+        (if index == 0 { cost - cost / 64 } else { cost }, form)
+    });
+    forms.min_by_key(|(cost, _)| *cost).map(|(_, form)| form)
 }
 
 /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
 pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
-    let accelerations = forward_dynamics::for_derivatives(derivation);
-    let recursion = derivation.recursion.as_ref();
-    let torques = recursion
-        .and_then(|recursion| recursion.torque_derivatives_at(&accelerations))
-        .unwrap_or_else(|| at(derivation, cheapest(derivation), &accelerations));
-    let graph = derivation.mechanism.graph;
-    let order = accelerations.len();
-    let negative = |matrix: &SquareMatrix<'g>, column| {
-        matrix.column(column).into_iter().map(|entry| -entry).collect()
-    };
-    let unit =
-        |column| (0..order).map(|row| graph.integer(i64::from(row == column))).collect::<Vec<_>>();
-    let sides = (0..order).map(|column| negative(&torques.positions, column));
-    let sides = sides.chain((0..order).map(|column| negative(&torques.velocities, column)));
-    let sides = sides.chain((0..order).map(unit)).collect();
-    let solved = forward_dynamics::solve_all(derivation, sides);
+    let order = derivation.mechanism.degrees_of_freedom;
+    let solved = solutions(derivation);
     let part = |first: usize| {
-        let mut part = SquareMatrix::zero(graph, order);
+        let mut part = SquareMatrix::zero(derivation.mechanism.graph, order);
         for (column, entries) in solved.iter().skip(first).take(order).enumerate() {
             for (row, entry) in entries.iter().enumerate() {
                 part.add(row, column, *entry);
@@ -108,6 +108,35 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
     );
     function.doc.extend(forward_dynamics::method(derivation));
     function
+}
+
+/// The columns of ∂q̈/∂q, of ∂q̈/∂q̇ and of ∂q̈/∂τ, with the derivatives of the torques in the form that needs the fewest
+/// operations.
+fn solutions<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Vec<Expr<'g>>> {
+    let accelerations = forward_dynamics::for_derivatives(derivation);
+    let recursion = derivation.recursion.as_ref();
+    let mut forms = recursion
+        .map(|recursion| recursion.torque_derivatives_at(&accelerations))
+        .unwrap_or_default();
+    if forms.is_empty() {
+        forms.push(at(derivation, cheapest(derivation), &accelerations));
+    }
+    let graph = derivation.mechanism.graph;
+    let order = accelerations.len();
+    let solutions = forms.iter().map(|torques| {
+        let negative = |matrix: &SquareMatrix<'g>, column| {
+            matrix.column(column).into_iter().map(|entry| -entry).collect()
+        };
+        let unit = |column| {
+            (0..order).map(|row| graph.integer(i64::from(row == column))).collect::<Vec<_>>()
+        };
+        let sides = (0..order).map(|column| negative(&torques.positions, column));
+        let sides = sides.chain((0..order).map(|column| negative(&torques.velocities, column)));
+        let sides = sides.chain((0..order).map(unit)).collect();
+        forward_dynamics::solve_all(derivation, sides)
+    });
+    let cost = |solved: &Vec<Vec<Expr<'g>>>| derivation.operations(&solved.concat()).flops();
+    cheapest_form(solutions, cost).unwrap_or_default()
 }
 
 /// The derivatives with the accelerations in place of the symbols q̈.

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use robot_model::robot::Robot;
 use robot_symbolic::Expr;
 
-use super::{Derivation, FunctionKind};
+use super::{Derivation, FunctionKind, derivatives};
 use crate::economical::search::{self, Found, Objective, Scope};
 use crate::economical::{Recursion, TorqueDerivatives};
 use crate::mechanism::MechanismOptions;
@@ -50,7 +50,7 @@ fn objective<'g>(
         if kind == FunctionKind::InverseDynamicsDerivatives
             // Alternatives for the functions are tried once, when the plan is found.
             && let Some(TorqueDerivatives { positions, velocities }) =
-                recursion.torque_derivatives()
+                derivatives::fewest(derivation, recursion.torque_derivatives())
         {
             return [positions.rows(), velocities.rows()].concat();
         }

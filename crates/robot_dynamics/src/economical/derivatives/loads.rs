@@ -2,22 +2,16 @@
 
 use robot_model::robot::JointKind;
 
+use super::composites::Composites;
 use super::motions::{JointMotion, Motions};
+use super::{Form, Reference};
+use crate::economical::composite::inertial_wrench;
 use crate::economical::composite::projection::Propagate;
-use crate::economical::composite::{Accumulate, composites, gather_across, inertial_wrench};
 use crate::economical::frames::Frames;
 use crate::economical::plan::Place;
+use crate::economical::spatial::Wrench;
 use crate::economical::spatial::inertia::PseudoInertia;
-use crate::economical::spatial::momentum::Momentum;
-use crate::economical::spatial::{Twist, Wrench};
 use crate::vector::{Matrix, Vector};
-
-/// P and B of every link and all that it carries, in home axes; B relative to the link and times the factor of the
-/// motions.
-pub(super) struct Composites<'g> {
-    inertias: Vec<PseudoInertia<'g>>,
-    momenta: Vec<Momentum<'g>>,
-}
 
 /// The quantities of an outer joint that are propagated to the inner joints.
 #[derive(Clone, Copy, Debug)]
@@ -43,76 +37,77 @@ impl<'g> Propagate<'g> for Load<'_, 'g> {
     }
 }
 
-impl<'g> Composites<'g> {
-    pub(super) fn new(frames: &Frames<'_, 'g>, motions: &Motions<'g>) -> Composites<'g> {
-        let graph = frames.chain.graph;
-        let inertias = composites(frames);
-        let at_rest = vec![Momentum::zero(graph); frames.chain.links.len()];
-        // Relative to the parent, the link and all that it carries move with the joint.
-        let momenta = gather_across(frames, at_rest, |index, momentum: &Momentum<'g>| {
-            let link = &frames.chain.links[index];
-            let along = Vector::along_z(link.motion.velocity * motions.factor);
-            let zero = Vector::zero(graph);
-            let motion = match link.kind {
-                JointKind::Revolute => Twist { angular: along, linear: zero },
-                JointKind::Prismatic => Twist { angular: zero, linear: along },
-            };
-            momentum.plus(&Momentum::of_body(&motion, &inertias[index]))
-        });
-        Composites { inertias, momenta }
-    }
+/// What loads are made of.
+pub(super) struct Loads<'c, 'g> {
+    pub(super) frames: &'c Frames<'c, 'g>,
+    pub(super) motions: &'c Motions<'g>,
+    pub(super) composites: &'c Composites<'g>,
+    pub(super) form: Form,
+}
 
-    /// ⟨·, Y P + Z B⟩ = ⟨·, V Z P + Z B'⟩ with B' relative to the link.
-    pub(super) fn of_velocity<'m>(
-        &self,
-        frames: &Frames<'_, 'g>,
-        motions: &'m Motions<'g>,
-        index: usize,
-    ) -> Load<'m, 'g> {
-        let (inertia, momentum) = (&self.inertias[index], &self.momenta[index]);
-        let motion = &motions.links[index];
-        let own = match frames.chain.links[index].kind {
-            JointKind::Revolute => {
-                let by_turning = turning_of_turned(inertia, motion.scaled_omega);
-                by_turning.plus(&momentum.wrench_of_unit_rate(motion.unit.angular))
-            }
+impl<'c, 'g> Loads<'c, 'g> {
+    /// 2 V Z P + 2 Z B, with V of the body that B is relative to.
+    pub(super) fn of_velocity(&self, index: usize) -> Load<'c, 'g> {
+        let motion = &self.motions.links[index];
+        let inertia = &self.composites.inertias[index];
+        let own = match self.frames.chain.links[index].kind {
+            JointKind::Revolute => self.of_turning(index),
             JointKind::Prismatic => inertial_wrench(inertia, &motion.rate),
         };
-        Load { own, ..self.common(motions, index) }
+        Load { own, ..self.common(index) }
     }
 
-    /// ⟨·, \[A, Z\] P + 2 Y B'⟩, and the whole wrench turning along with the joint.
-    pub(super) fn of_position<'m>(
-        &self,
-        frames: &Frames<'_, 'g>,
-        motions: &'m Motions<'g>,
-        index: usize,
-        whole: &Wrench<'g>,
-    ) -> Load<'m, 'g> {
-        let (inertia, momentum) = (&self.inertias[index], &self.momenta[index]);
-        let motion = &motions.links[index];
-        let shifted = match frames.chain.links[index].kind {
-            JointKind::Revolute => shifted_about_z(inertia, motion),
-            JointKind::Prismatic => inertial_wrench(inertia, &motion.shift),
+    fn of_turning(&self, index: usize) -> Wrench<'g> {
+        let motion = &self.motions.links[index];
+        let inertia = &self.composites.inertias[index];
+        let to_link = &self.composites.to_links[index];
+        let of_links = to_link.wrench_of_unit_rate(motion.unit.angular);
+        match self.form.velocities {
+            Reference::Carrier if !to_link.is_zero() => {
+                let momentum = &self.composites.to_carriers[index];
+                let mut by_momentum = momentum.wrench_of_unit_rate(motion.unit.angular);
+                // The joint's own velocity has no part in this one.
+                by_momentum.moment.0[2] = of_links.moment.0[2];
+                turning_of_turned(inertia, motion.carrier.omega * self.motions.factor)
+                    .plus(&by_momentum)
+            }
+            _ => turning_of_turned(inertia, motion.omega * self.motions.factor).plus(&of_links),
+        }
+    }
+
+    /// The derivative of the whole wrench by the joint's position.
+    pub(super) fn of_position(&self, index: usize) -> Load<'c, 'g> {
+        let load = self.common(index);
+        let own = match self.form.positions {
+            Reference::Link => self.of_shifted_links(index),
+            Reference::Carrier => {
+                let mut own = self.of_moved_links(index);
+                match self.frames.chain.links[index].kind {
+                    // To the joint's own torque its turn is as if the carrier turned back.
+                    JointKind::Revolute => {
+                        own.moment.0[2] = self.motions.links[index].by_position(&load);
+                    }
+                    JointKind::Prismatic => {}
+                }
+                own
+            }
         };
-        let by_turning = momentum.wrench_of_unit_rate(motion.turning);
-        let along = whole.carried_by(&motion.unit);
-        let own = along.plus(&shifted.plus(&by_turning));
-        Load { own, ..self.common(motions, index) }
+        Load { own, ..load }
     }
 
-    fn common<'m>(&self, motions: &'m Motions<'g>, index: usize) -> Load<'m, 'g> {
-        let (inertia, motion) = (&self.inertias[index], &motions.links[index]);
+    fn common(&self, index: usize) -> Load<'c, 'g> {
+        let (inertia, motion) = (&self.composites.inertias[index], &self.motions.links[index]);
         let unit = inertial_wrench(inertia, &motion.unit);
-        let relative = self.momenta[index].project(&motion.unit);
+        let relative = self.composites.to_links[index].project(&motion.unit);
         // Of the link's own motion: (ω × z) · Σ of a rotation, (ω × h) × z of a translation.
+        let omega = motion.omega * self.motions.factor;
         let carried = inertia.second * motion.rate.angular
-            + motion.scaled_omega.cross(inertia.first).cross(motion.unit.linear);
+            + omega.cross(inertia.first).cross(motion.unit.linear);
         Load {
             unit,
             projected: carried + relative,
             own: Wrench::zero(inertia.mass.graph()),
-            motions: &motions.links,
+            motions: &self.motions.links,
         }
     }
 }
@@ -125,28 +120,4 @@ fn turning_of_turned<'g>(inertia: &PseudoInertia<'g>, omega: Vector<'g>) -> Wren
         force: omega.cross(Vector([-y, x, zero])),
         moment: Vector([Vector(second).dot(omega), -Vector(first).dot(omega), zero]),
     }
-}
-
-/// The wrench of \[A, Z\] P of a rotation, with A of the link.
-fn shifted_about_z<'g>(inertia: &PseudoInertia<'g>, motion: &JointMotion<'g>) -> Wrench<'g> {
-    let Vector([x, y, z]) = motion.omega;
-    let Vector([u, v, _]) = motion.shift.angular;
-    let linear = motion.acceleration.cross(motion.unit.angular);
-    // U \[z\]× − \[z\]× U: with U₁₂ + U₂₁ and U₂₂ − U₁₁ in the plane, U's third column, and its third row, which is
-    // the third column's mirror image but for twice the products of velocities.
-    let (mixed, difference) = ((x * y) * 2, y * y - x * x);
-    let (u31, u32) = ((x * 2) * z - u, (y * 2) * z - v);
-    let Matrix([[xx, xy, xz], [_, yy, yz], [_, _, zz]]) = inertia.second;
-    let Vector([hx, hy, hz]) = inertia.first;
-    let moment = Vector([
-        (u32 * xy - u31 * yy) + (mixed * yz - difference * xz) + u * zz,
-        (u31 * xy - u32 * xx) + (mixed * xz + difference * yz) + v * zz,
-        difference * (xx - yy) - mixed * (xy * 2) - (u * xz + v * yz),
-    ]);
-    let force = Vector([
-        (mixed * hx + difference * hy) + v * hz,
-        (difference * hx - mixed * hy) - u * hz,
-        u32 * hx - u31 * hy,
-    ]);
-    Wrench { force: force + linear * inertia.mass, moment: moment + inertia.first.cross(linear) }
 }

@@ -16,24 +16,54 @@
 //! B is taken relative to the link whose composite it is, B = V P + B': the last link then has none, a parent's is that
 //! of its children and of their joints' motions, and no link's own inertia is multiplied by its motion. Thus
 //! X P + 2 Ẏ B = \[A, Ẑ\] P + 2 Ẏ B' and Ẏ P + Ẑ B = V Ẑ P + Ẑ B'. The velocity of the link's origin drops out.
+//!
+//! Or B, and with it the accelerations, are taken relative to the body that carries the joint, its parent, with V and A: then
+//! the whole wrench is that of A P + 2 V B'' and R, the wrench if the carrier were at rest. R is summed like B'', and no
+//! link's own inertia is multiplied by its acceleration. P, B'' and R turn with the joint while V and A do not, so that
+//! the whole wrench's derivative by qⱼ is the wrench of A P' + 2 V B''', and R', with P' = Ẑ P + P Ẑᵀ and likewise B'''
+//! and R' = Ẑ ×* R. Which form needs fewer operations depends on the robot: the first one if links have few moments.
 
+mod composites;
 mod loads;
 mod motions;
+mod positions;
 
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
 use crate::economical::Recursion;
-use crate::economical::composite::gather;
 use crate::economical::composite::projection::{Propagated, projections};
 use crate::economical::frames::Frames;
 use crate::economical::frames::chain::Chain;
-use crate::economical::recursion::inward::own_wrench;
 use crate::economical::recursion::outward::{self, Accelerations};
-use crate::economical::spatial::Wrench;
 use crate::matrix::SquareMatrix;
-use loads::{Composites, Load};
+use composites::Composites;
+use loads::{Load, Loads};
 use motions::Motions;
+
+/// The body to whose motion others are relative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Reference {
+    /// The joint's own link.
+    Link,
+    /// The link that carries the joint.
+    Carrier,
+}
+
+/// A form of the wrenches that joints' motions cause: they have the same values.
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    velocities: Reference,
+    positions: Reference,
+}
+
+impl Form {
+    const ALL: [Form; 3] = [
+        Form { velocities: Reference::Link, positions: Reference::Link },
+        Form { velocities: Reference::Carrier, positions: Reference::Carrier },
+        Form { velocities: Reference::Link, positions: Reference::Carrier },
+    ];
+}
 
 /// ∂τ/∂q and ∂τ/∂q̇.
 #[derive(Clone, Debug)]
@@ -45,24 +75,17 @@ pub struct TorqueDerivatives<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// The derivatives of the joint torques at the accelerations q̈; `None` if a drive is
+    /// The derivatives of the joint torques at the accelerations q̈, in several forms; none if a drive is
     /// gyroscopic: composites do not include its momentum.
     #[must_use]
-    pub fn torque_derivatives(&self) -> Option<TorqueDerivatives<'g>> {
-        let holds = !self.chain.is_gyroscopic();
-        holds.then(|| self.torque_derivatives_of(&self.chain))
+    pub fn torque_derivatives(&self) -> Vec<TorqueDerivatives<'g>> {
+        self.torque_derivatives_of(&self.chain)
     }
 
-    /// The derivatives at accelerations other than the symbols q̈, one per coordinate; `None` under the condition of
+    /// The derivatives at accelerations other than the symbols q̈, one per coordinate; none under the condition of
     /// [`Recursion::torque_derivatives`].
     #[must_use]
-    pub fn torque_derivatives_at(
-        &self,
-        accelerations: &[Expr<'g>],
-    ) -> Option<TorqueDerivatives<'g>> {
-        if self.chain.is_gyroscopic() {
-            return None;
-        }
+    pub fn torque_derivatives_at(&self, accelerations: &[Expr<'g>]) -> Vec<TorqueDerivatives<'g>> {
         let mut chain = self.chain.clone();
         for link in &mut chain.links {
             let unit = match link.kind {
@@ -71,55 +94,57 @@ impl<'g> Recursion<'g> {
             };
             link.motion.acceleration = accelerations[link.coordinate] * link.ratio / unit;
         }
-        Some(self.torque_derivatives_of(&chain))
+        self.torque_derivatives_of(&chain)
     }
 
-    fn torque_derivatives_of(&self, chain: &Chain<'g>) -> TorqueDerivatives<'g> {
+    fn torque_derivatives_of(&self, chain: &Chain<'g>) -> Vec<TorqueDerivatives<'g>> {
+        let forms = Form::ALL.into_iter().filter(|_| !chain.is_gyroscopic());
         let chain = &chain.without_idle_turns(&[]);
         let states = outward::outward(chain, &self.plans, Accelerations::Given);
-        let frames = Frames::new(chain, |index| self.plans[index].composite_sum);
-        let own = states.iter().enumerate().map(|(index, state)| {
-            let (force, moment) = own_wrench(chain, index, state, &self.plans[index]);
-            Wrench { force, moment }
+        let frames = &Frames::new(chain, |index| self.plans[index].composite_sum);
+        let motions = &Motions::new(frames, &states, chain.graph.integer(2));
+        let derivatives = forms.map(|form| {
+            let composites = &Composites::new(frames, &self.plans, &states, motions, form);
+            let loads = Loads { frames, motions, composites, form };
+            TorqueDerivatives {
+                positions: matrix(
+                    frames,
+                    |index| loads.of_position(index),
+                    |inner, load| motions.links[inner].by_position(load),
+                ),
+                velocities: velocities(&loads),
+            }
         });
-        let wrenches = gather(&frames, own.collect());
-        let motions = Motions::new(&frames, &states, chain.graph.integer(2));
-        let composites = Composites::new(&frames, &motions);
-        let by_velocity = |index| composites.of_velocity(&frames, &motions, index);
-        let velocities = matrix(&frames, by_velocity, |inner, load| {
-            let motion = &motions.links[inner];
-            motion.rate.dot(&load.unit) + motion.unit.angular.dot(load.projected)
-        });
-        let by_position =
-            |index| composites.of_position(&frames, &motions, index, &wrenches[index]);
-        let positions = matrix(&frames, by_position, |inner, load| {
-            let motion = &motions.links[inner];
-            motion.shift.dot(&load.unit) + motion.turning.dot(load.projected)
-        });
-        TorqueDerivatives { positions, velocities }
+        derivatives.collect()
     }
 
-    /// C(q, q̇) by Christoffel symbols: C q̇ are the Coriolis and centrifugal terms, and Ṁ − 2 C is skew-symmetric.
-    /// `None` under the condition of [`Recursion::torque_derivatives`].
+    /// C(q, q̇) by Christoffel symbols, in several forms: C q̇ are the Coriolis and centrifugal terms, and Ṁ − 2 C is
+    /// skew-symmetric. None under the condition of [`Recursion::torque_derivatives`].
     #[must_use]
-    pub fn coriolis_matrix(&self) -> Option<SquareMatrix<'g>> {
-        if self.chain.is_gyroscopic() {
-            return None;
-        }
+    pub fn coriolis_matrix(&self) -> Vec<SquareMatrix<'g>> {
         let mut chain = self.chain.without_idle_turns(&[]);
         for link in &mut chain.links {
             link.motion.acceleration = chain.graph.zero();
         }
+        let forms = Form::ALL.into_iter().filter(|_| !chain.is_gyroscopic()).take(2);
         let states = outward::outward(&chain, &self.plans, Accelerations::Given);
-        let frames = Frames::new(&chain, |index| self.plans[index].composite_sum);
-        let motions = Motions::new(&frames, &states, chain.graph.one());
-        let composites = Composites::new(&frames, &motions);
-        let load = |index| composites.of_velocity(&frames, &motions, index);
-        Some(matrix(&frames, load, |inner, load| {
-            let motion = &motions.links[inner];
-            motion.rate.dot(&load.unit) + motion.unit.angular.dot(load.projected)
-        }))
+        let frames = &Frames::new(&chain, |index| self.plans[index].composite_sum);
+        let motions = &Motions::new(frames, &states, chain.graph.one());
+        let matrices = forms.map(|form| {
+            let composites = &Composites::new(frames, &self.plans, &states, motions, form);
+            velocities(&Loads { frames, motions, composites, form })
+        });
+        matrices.collect()
     }
+}
+
+/// ∂τ/∂q̇, or half of it if the factor of the motions is 1.
+fn velocities<'g>(loads: &Loads<'_, 'g>) -> SquareMatrix<'g> {
+    matrix(
+        loads.frames,
+        |index| loads.of_velocity(index),
+        |inner, load| loads.motions.links[inner].by_velocity(load),
+    )
 }
 
 /// The matrix over the coordinates of an outer joint's loads on inner joints, in the rows of the inner ones, and of

@@ -3,10 +3,12 @@
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
 
+use super::loads::Load;
+
 use crate::economical::frames::Frames;
-use crate::economical::recursion::outward::LinkState;
+use crate::economical::recursion::outward::{self, LinkState};
 use crate::economical::spatial::Twist;
-use crate::vector::Vector;
+use crate::vector::{Matrix, Vector};
 
 /// The motions of a joint in its link's home axes, about the link's origin, which is at rest: wrenches do not change if
 /// all velocities change by the same one (Galileo).
@@ -22,10 +24,8 @@ pub(super) struct JointMotion<'g> {
     pub(super) shift: Twist<'g>,
     /// ω of the link.
     pub(super) omega: Vector<'g>,
-    /// ω times the factor.
-    pub(super) scaled_omega: Vector<'g>,
-    /// The acceleration of the link's origin, on its parent.
-    pub(super) acceleration: Vector<'g>,
+    /// The motion of the body that carries the joint.
+    pub(super) carrier: Carrier<'g>,
     /// The velocity of the link's origin relative to the parent's times the factor, in the parent's own axes or, within
     /// a group, its home axes.
     pub(super) passed: Vector<'g>,
@@ -52,6 +52,17 @@ impl<'g> Motions<'g> {
 }
 
 impl<'g> JointMotion<'g> {
+    /// The derivative by this joint's velocity of the torque of a joint that it carries, whose load is given at this
+    /// joint's link.
+    pub(super) fn by_velocity(&self, load: &Load<'_, 'g>) -> Expr<'g> {
+        self.rate.dot(&load.unit) + self.unit.angular.dot(load.projected)
+    }
+
+    /// The same by this joint's position.
+    pub(super) fn by_position(&self, load: &Load<'_, 'g>) -> Expr<'g> {
+        self.shift.dot(&load.unit) + self.turning.dot(load.projected)
+    }
+
     fn new(
         frames: &Frames<'_, 'g>,
         states: &[LinkState<'g>],
@@ -60,24 +71,17 @@ impl<'g> JointMotion<'g> {
     ) -> JointMotion<'g> {
         let chain = frames.chain;
         let zero = Vector::zero(chain.graph);
-        let (link, joint_frame) = (&chain.links[index], &frames.joint_frames[index]);
-        let home = |vector| frames.parent_to_home(index, vector);
-        let (omega, column, acceleration) = match link.parent {
-            Some(parent) => {
-                let state = &states[parent];
-                let acceleration = state.acceleration + state.tensor * joint_frame.origin;
-                (state.angular_velocity, state.tensor * link.axis, acceleration)
-            }
-            None => (zero, zero, -chain.gravity),
-        };
-        let (carrier, column, acceleration) = (home(omega), home(column), home(acceleration));
+        let link = &chain.links[index];
+        let carrier = Carrier::of(frames, states, index);
         let unit = frames.joint_twist(index);
-        let turning = carrier.cross(unit.angular);
-        let rate = Twist { angular: turning * factor, linear: carrier.cross(unit.linear) * factor };
+        let turning = carrier.omega.cross(unit.angular);
+        let linear = carrier.omega.cross(unit.linear);
+        let rate = Twist { angular: turning * factor, linear: linear * factor };
         // Of a rotation (U z, a × z), of a translation (0, U z).
+        let column = carrier.tensor.column(2);
         let shift = match link.kind {
             JointKind::Revolute => {
-                let linear = acceleration.cross(unit.angular);
+                let linear = carrier.acceleration.cross(unit.angular);
                 Twist { angular: column, linear }
             }
             JointKind::Prismatic => {
@@ -85,11 +89,55 @@ impl<'g> JointMotion<'g> {
                 Twist { angular: zero, linear }
             }
         };
-        let Vector([x, y, _]) = carrier;
+        let Vector([x, y, _]) = carrier.omega;
         let omega = Vector([x, y, states[index].angular_velocity.0[2]]);
-        let scaled_omega = omega * factor;
         let passed = passed(frames, states, index, factor);
-        JointMotion { unit, rate, turning, shift, omega, scaled_omega, acceleration, passed }
+        JointMotion { unit, rate, turning, shift, omega, carrier, passed }
+    }
+}
+
+/// The motion of the body that carries a joint, in the home axes of the joint's link.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carrier<'g> {
+    pub(super) omega: Vector<'g>,
+    /// U.
+    pub(super) tensor: Matrix<'g>,
+    /// At the link's origin.
+    pub(super) acceleration: Vector<'g>,
+}
+
+impl<'g> Carrier<'g> {
+    fn of(frames: &Frames<'_, 'g>, states: &[LinkState<'g>], index: usize) -> Carrier<'g> {
+        let chain = frames.chain;
+        let (link, joint_frame) = (&chain.links[index], &frames.joint_frames[index]);
+        let home = |vector| frames.parent_to_home(index, vector);
+        let Some(parent) = link.parent else {
+            return Carrier {
+                omega: Vector::zero(chain.graph),
+                tensor: Matrix::zero(chain.graph),
+                acceleration: home(-chain.gravity),
+            };
+        };
+        let state = &states[parent];
+        let omega = home(state.angular_velocity);
+        let column = home(state.tensor * link.axis);
+        let turned = |Matrix(rows): Matrix<'g>| Matrix(rows.map(|row| home(Vector(row)).0));
+        let exchanges_axes = !frames.is_joined(index)
+            && turned(Matrix::identity(chain.graph))
+                .0
+                .iter()
+                .flatten()
+                .all(|entry| entry.is_zero() || entry.is_one() || (-*entry).is_one());
+        let tensor = match exchanges_axes {
+            // The entries are those of the carrier's own axes.
+            true => turned(turned(state.tensor.transpose()).transpose()),
+            false => outward::tensor(omega, home(state.angular_acceleration), Some(column), true),
+        };
+        Carrier {
+            omega,
+            tensor,
+            acceleration: home(state.acceleration + state.tensor * joint_frame.origin),
+        }
     }
 }
 

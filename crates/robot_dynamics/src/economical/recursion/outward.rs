@@ -294,7 +294,7 @@ fn base_tensor<'g>(base: &BaseMotion<'g>) -> Matrix<'g> {
 }
 
 /// U = \[ε\]× + \[ω\]×², with its third column if that is known.
-fn tensor<'g>(
+pub(crate) fn tensor<'g>(
     omega: Vector<'g>,
     epsilon: Vector<'g>,
     column: Option<Vector<'g>>,

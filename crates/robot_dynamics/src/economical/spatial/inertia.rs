@@ -3,6 +3,7 @@
 use robot_symbolic::{Expr, Graph};
 
 use crate::economical::plan::Entry;
+use crate::economical::spatial::Twist;
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
 
@@ -79,6 +80,19 @@ impl<'g> PseudoInertia<'g> {
             first: self.first - other.first,
             mass: self.mass - other.mass,
         }
+    }
+
+    /// The rate of P in axes at rest if the body moves: V P + P Vᵀ.
+    pub(crate) fn rate(&self, motion: &Twist<'g>) -> PseudoInertia<'g> {
+        let Twist { angular, linear } = *motion;
+        let half = Matrix::skew(angular) * self.second + Matrix::outer(linear, self.first);
+        let zero = self.mass.graph().zero();
+        PseudoInertia {
+            second: half + half.transpose(),
+            first: angular.cross(self.first) + linear * self.mass,
+            mass: zero,
+        }
+        .symmetric()
     }
 
     /// The entries that a rotation about z cannot distinguish from those of the parent: m, h_z, Σzz.

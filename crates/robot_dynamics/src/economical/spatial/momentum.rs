@@ -27,6 +27,23 @@ impl<'g> Momentum<'g> {
         }
     }
 
+    /// Whether nothing moves.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.linear.is_zero() && self.second.0.iter().flatten().all(|entry| entry.is_zero())
+    }
+
+    /// The rate of B in axes at rest if all bodies move alike: V B + B Vᵀ.
+    pub(crate) fn rate(&self, motion: &Twist<'g>) -> Momentum<'g> {
+        let Twist { angular, linear } = *motion;
+        let turning = Matrix::skew(angular);
+        Momentum {
+            second: turning * self.second
+                + self.second * turning.transpose()
+                + Matrix::outer(self.linear, linear),
+            linear: angular.cross(self.linear),
+        }
+    }
+
     /// The wrench of the matrix Ẑ B for a unit rate of a joint with the angular part `turning`.
     pub(crate) fn wrench_of_unit_rate(&self, turning: Vector<'g>) -> Wrench<'g> {
         let Matrix(n) = Matrix::skew(turning) * self.second;
