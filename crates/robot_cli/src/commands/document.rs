@@ -72,16 +72,26 @@ enum Format {
 }
 
 impl Arguments {
-    fn format(&self) -> Format {
+    /// The notation: the one asked for, else that of the file's name.
+    fn format(&self) -> Result<Format, Failure> {
+        if let Some(format) = self.format {
+            return Ok(format);
+        }
         let extension = self.output.as_ref().and_then(|path| path.extension());
-        self.format.unwrap_or(match extension {
-            Some(extension) if extension == "typ" => Format::Typst,
-            Some(extension) if extension == "md" => Format::Markdown,
-            _ => Format::Latex,
-        })
+        match extension.map(|extension| extension.to_string_lossy()).as_deref() {
+            None | Some("tex" | "ltx" | "latex") => Ok(Format::Latex),
+            Some("typ") => Ok(Format::Typst),
+            Some("md") => Ok(Format::Markdown),
+            Some(other) => Err(Failure::Usage(vec![format!(
+                "a document is not written as .{}; name the file NAME.tex, NAME.typ or NAME.md, or choose its notation with \
+                 --format",
+                robot_build::shown(std::path::Path::new(other))
+            )])),
+        }
     }
 
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let format = self.format()?;
         let inputs = self.robot.inputs().into_iter().chain(self.equations.inputs());
         let writer = self.force.writer(inputs, file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
@@ -106,7 +116,7 @@ impl Arguments {
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
         tell_length(&document, &forms, terminal)?;
-        let shown = match self.format() {
+        let shown = match format {
             Format::Latex => commented("% ", "", latex::document(&document, page)),
             Format::Typst => commented("// ", "", typst::document(&document, page)),
             Format::Markdown => {

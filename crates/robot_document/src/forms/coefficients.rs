@@ -6,7 +6,8 @@ use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
-use super::{Equation, Group, Writer, generalized_force, letters, references, shapes};
+use super::definitions::Root;
+use super::{Equation, Group, Writer, aliases, generalized_force, letters, references, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -18,6 +19,8 @@ pub(super) const LIMITS: PolynomialOptions =
 pub(super) const MAX_TERMS: usize = 160;
 /// The most printed symbols of a coefficient, some six lines; names make longer ones shorter.
 pub(super) const MAX_LENGTH: usize = 200;
+/// The printed symbols of the shortest coefficient that is written by another one.
+pub(super) const MIN_LENGTH: usize = 3;
 
 /// Coefficients of a kind.
 pub(super) struct Section<'g> {
@@ -39,6 +42,10 @@ impl<'g> Coefficient<'g> {
         let shape = shapes::indexed(letters::character(letter), numbers);
         Coefficient { name: shapes::indexed_name(letter, numbers), shape, value }
     }
+
+    fn root(&self) -> Root<'g> {
+        Root { name: self.name.clone(), look: self.shape.clone(), value: self.value }
+    }
 }
 
 /// How a coefficient is printed.
@@ -54,6 +61,8 @@ pub(super) enum Shown<'g> {
     },
     /// By names of parts.
     Long,
+    /// Not at all: an earlier coefficient of its section stands in its place.
+    Earlier,
 }
 
 /// How the coefficients are printed, by section.
@@ -103,6 +112,7 @@ pub(super) fn define_all(
     for (coefficient, shown) in all(sections).zip(shown.iter().flatten()) {
         match shown {
             Shown::Zero => zeros.push(coefficient.name.clone()),
+            Shown::Earlier => {}
             _ => writer.define(&coefficient.name, coefficient.shape.clone())?,
         }
     }
@@ -117,16 +127,13 @@ fn generalized_forces<'g>(
     sums: Vec<Sum<'g>>,
     zeros: &[String],
 ) -> Result<Vec<Equation>, Error> {
-    let graph = writer.graph;
     let mut equations = vec![];
     for (index, sum) in sums.into_iter().enumerate() {
         let kept = sum.into_iter().filter(|(name, _)| !zeros.contains(name));
-        let value = kept.fold(graph.zero(), |sum, (name, rates)| sum + graph.symbol(&name) * rates);
+        let terms = aliases::terms(writer, &kept.collect::<Vec<_>>())?;
         let symbol = generalized_force(index);
-        let polynomial = Polynomial::of(value, &PolynomialOptions::default())
-            .map_err(|error| Error::TooLong { reason: error.to_string() })?;
         let (name, left) = (symbol.to_string(), Math::quantity(symbol));
-        equations.push(writer.of_polynomial(name, left, &polynomial)?);
+        equations.push(writer.of_terms(name, left, &terms)?);
     }
     Ok(equations)
 }
@@ -150,17 +157,20 @@ pub(super) fn definitions_of<'g>(
     let is_long = |(section, shown): (&Section<'g>, &Vec<Shown<'g>>)| {
         let long = section.coefficients.iter().zip(shown);
         let long = long.filter(|(_, shown)| !section.by_symbols && matches!(shown, Shown::Long));
-        long.map(|(coefficient, _)| coefficient.value).collect::<Vec<_>>()
+        long.map(|(coefficient, _)| coefficient.root()).collect::<Vec<_>>()
     };
-    let long: Vec<Expr<'g>> = sections.iter().zip(shown).flat_map(is_long).collect();
+    let long: Vec<Root<'g>> = sections.iter().zip(shown).flat_map(is_long).collect();
     let target = Graph::new();
-    let (mut groups, named) = definitions(writer, &long, &target)?;
+    let (mut groups, named) = definitions(writer, long, &target)?;
+    let defined = groups.iter().flat_map(|group| &group.equations);
+    let defined: Vec<String> = defined.map(|equation| equation.name.clone()).collect();
     for (section, shown) in sections.iter().zip(shown) {
         let mut equations = vec![];
         for (coefficient, shown) in section.coefficients.iter().zip(shown) {
             let (name, left) = (coefficient.name.clone(), coefficient.shape.clone());
             equations.push(match shown {
-                Shown::Zero => continue,
+                Shown::Zero | Shown::Earlier => continue,
+                Shown::Long if defined.contains(&name) => continue,
                 Shown::Short { terms, .. } => writer.of_terms(name, left, terms)?,
                 Shown::Long if section.by_symbols => {
                     writer.of_expression(name, left, coefficient.value)?

@@ -2,11 +2,11 @@
 
 use robot_dynamics::quantity::Symbol;
 use robot_symbolic::collected::{Collector, length};
-use robot_symbolic::print::{ArrangedTerm, arranged_text, arranged_value};
+use robot_symbolic::print::{ArrangedTerm, arranged_value};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
-use super::definitions::Definitions;
+use super::definitions::{Definitions, Root};
 use super::naming::{Named, is_leaf};
 use super::{Equation, Group, Writer, angle_sums, arranged, of_generalized_force, vectors};
 use crate::error::Error;
@@ -48,13 +48,16 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     Ok(groups)
 }
 
-/// Definitions of what `roots` use again: combinations of parameters, then expressions of the state.
+/// Definitions of what `roots` use again: combinations of parameters, then expressions of the state. A root that is part
+/// of others is defined among them under its own name, which is known to the writer.
 pub(super) fn definitions<'h>(
     writer: &mut Writer<'_, '_>,
-    roots: &[Expr<'_>],
+    roots: Vec<Root<'_>>,
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
-    let mut list = Definitions::new(target, roots, writer.options.digits);
+    let values: Vec<Expr<'_>> = roots.iter().map(|root| root.value).collect();
+    let mut list = Definitions::new(target, &values, writer.options.digits);
+    list.entries = roots;
     let groups = list.define(writer)?;
     Ok((groups, list.named))
 }
@@ -71,8 +74,7 @@ pub(super) fn tidy(
     value: Expr<'_>,
 ) -> Result<Equation, Error> {
     let terms = short_terms(writer, value);
-    let (text, right) = (arranged_text(&terms)?, writer.symbols.terms(&terms)?);
-    Ok(Equation { name, text, left, right })
+    writer.of_terms(name, left, &terms)
 }
 
 /// The terms of an expression as it is built, or collected if that is shorter and takes no more operations.

@@ -2,6 +2,7 @@
 
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::FxHashSet;
 
@@ -34,6 +35,15 @@ pub(super) struct Definitions<'g, 'h> {
     own: Vec<Own<'g>>,
     /// The places of those that are defined, in order.
     defined: Vec<usize>,
+    /// Roots with names, which are defined among the others if they are parts of these.
+    pub(super) entries: Vec<Root<'g>>,
+}
+
+/// A root with a name.
+pub(super) struct Root<'g> {
+    pub(super) name: String,
+    pub(super) look: Math,
+    pub(super) value: Expr<'g>,
 }
 
 /// A quantity that is known by its own name.
@@ -87,6 +97,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             pending: vec![],
             own: vec![],
             defined: vec![],
+            entries: vec![],
         }
     }
 
@@ -95,10 +106,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
     pub(super) fn own_names(&mut self, writer: &Writer<'_, '_>, quantities: &[Quantity<'g>]) {
         for quantity in quantities {
             let (value, symbol) = (quantity.value, quantity.symbol);
-            let mut part = value;
-            while let View::Neg(inside) = part.view() {
-                part = inside;
-            }
+            let part = positive(value);
             let is_worthy = self.worthy.iter().any(|one| one.expr == part);
             if symbol.kind != Kind::GeneralizedForce || !is_worthy {
                 continue;
@@ -233,17 +241,29 @@ impl<'g, 'h> Definitions<'g, 'h> {
             return self.emit_own(place, writer);
         }
         let value = self.named.rewritten(expr);
+        let terms = short_terms(writer, value);
+        if let Some(known) = known(&terms, self.named.graph) {
+            self.named.replace(expr, known);
+            return Ok(());
+        }
         if self.uses_own(value) {
             section.close();
             let torques = Group::of_quantities(TORQUES, String::new(), self.placed());
             section.groups.push(Group { used: true, ..torques });
+        }
+        if let Some(place) = self.entries.iter().position(|entry| positive(entry.value) == expr) {
+            let Root { name, look, value } = self.entries.swap_remove(place);
+            let own = self.named.rewritten(value);
+            section.equations.push(tidy(writer, name.clone(), look, own)?);
+            self.named.name(value, &name);
+            return Ok(());
         }
         section.count += 1;
         let name = shapes::indexed_name(section.letter, &[section.count]);
         let letter = section.letter.chars().next().unwrap_or('x');
         writer.define(&name, shapes::indexed(letter, &[section.count]))?;
         let left = writer.symbols.look(&name);
-        section.equations.push(tidy(writer, name.clone(), left, value)?);
+        section.equations.push(writer.of_terms(name.clone(), left, &terms)?);
         self.named.name(expr, &name);
         Ok(())
     }
@@ -279,5 +299,26 @@ impl<'g, 'h> Definitions<'g, 'h> {
             }
         }
         equations
+    }
+}
+
+/// An expression without a minus sign before it.
+fn positive(mut expr: Expr<'_>) -> Expr<'_> {
+    while let View::Neg(inside) = expr.view() {
+        expr = inside;
+    }
+    expr
+}
+
+/// What needs no name because its terms cancel: 0, or what has a name already, perhaps with the other sign.
+fn known<'h>(terms: &[ArrangedTerm<'h>], target: &'h Graph) -> Option<Expr<'h>> {
+    match terms {
+        [] => Some(target.zero()),
+        [ArrangedTerm { negative, coefficient, factors }] if coefficient.is_one() => {
+            let [(ArrangedFactor::Atom(atom), 1)] = factors.as_slice() else { return None };
+            atom.as_symbol()?;
+            Some(if *negative { -*atom } else { *atom })
+        }
+        _ => None,
     }
 }

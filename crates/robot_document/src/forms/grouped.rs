@@ -3,10 +3,10 @@
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Rational, walk};
 
-use super::coefficients::{Coefficient, Section, Sum, by_name, motions, shown};
+use super::coefficients::{Coefficient, Section, Shown, Sum, by_name, motions, shown};
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::matrices::{Known, Term, attach};
-use super::{Group, Writer};
+use super::{Group, Writer, aliases};
 use crate::error::Error;
 
 /// The most coordinates: the coefficients grow with their third power, and each with the chain.
@@ -32,8 +32,12 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         wrenches(writer, &forces, &mut sums),
     ];
     sections.extend(frictions(writer, "Friction", whole, &mut sums));
-    let introduction = introduction(writer);
-    let shown = shown(writer, &sections);
+    let mut shown = shown(writer, &sections);
+    if writer.options.references {
+        aliases::replace(&sections, &mut shown, &mut sums);
+    }
+    let is_united = shown.iter().flatten().any(|shown| matches!(shown, Shown::Earlier));
+    let introduction = introduction(writer, is_united);
     let known = Known::new(writer, &sections, &shown, &sums)?;
     let title = "Equations of motion, grouped";
     let mut groups = by_name(writer, title, introduction, &sections, shown, sums)?;
@@ -51,15 +55,21 @@ fn terms<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = (Term, &'s
     terms.into_iter().zip(sections).chain(last)
 }
 
-fn introduction(writer: &Writer<'_, '_>) -> String {
+fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
     let rates = match writer.options.christoffel {
         true => "Christoffel symbols of the first kind",
         false => "coefficients of the products of joint velocities",
     };
+    let equal = match is_united {
+        true => {
+            " Where a coefficient equals an earlier one, perhaps with the other sign, that one stands in its place."
+        }
+        false => "",
+    };
     format!(
         "The coefficients of the accelerations (the entries of the symmetric mass matrix), the Coriolis and \
          centrifugal terms by {rates}, and the gravity terms. The coefficients depend on the coordinates alone; \
-         those that are zero have no equation of their own."
+         those that are zero have no equation of their own.{equal}"
     )
 }
 

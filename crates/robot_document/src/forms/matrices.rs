@@ -7,7 +7,7 @@ use robot_symbolic::{Expr, Polynomial, Rational, walk};
 use rustc_hash::FxHashMap;
 
 use super::coefficients::{LIMITS, MAX_LENGTH, MAX_TERMS, Section, Shown, Sum, motions};
-use super::{Array, Cell, Equation, Group, Writer, Written, letters, shapes};
+use super::{Array, Cell, Equation, Group, Writer, Written, aliases, letters, shapes};
 use crate::error::Error;
 use crate::math::{Fence, Math};
 
@@ -53,7 +53,7 @@ impl<'g> Known<'g> {
                     let equation = writer.of_terms(String::new(), Math::default(), terms)?;
                     known.values.insert(name, (written(equation), coefficient.value));
                 }
-                Shown::Long => {}
+                Shown::Long | Shown::Earlier => {}
             }
         }
         Ok(known)
@@ -95,29 +95,36 @@ impl<'g> Known<'g> {
                 is_plain: false,
             });
         }
-        let zero = graph.zero();
-        let total = sum.iter().fold(zero, |all, (name, factor)| all + graph.symbol(name) * *factor);
-        let parts = Polynomial::of(total, &LIMITS)
-            .map_err(|error| Error::TooLong { reason: error.to_string() })?;
-        let parts = written(writer.of_polynomial(String::new(), Math::default(), &parts)?);
-        let value = sum.iter().try_fold(zero, |all, (name, factor)| {
-            self.values.get(name).map(|(_, value)| all + *value * *factor)
-        });
-        let whole = match value.map(|value| Polynomial::of(value, &LIMITS)) {
-            Some(Ok(value)) if value.len() <= MAX_TERMS => {
-                let terms = writer.collected(&value);
-                match length(&terms) <= MAX_LENGTH {
-                    true => {
-                        Some(written(writer.of_terms(String::new(), Math::default(), &terms)?))
-                    }
-                    false => None,
-                }
-            }
-            _ => None,
-        };
+        let parts = aliases::terms(writer, sum)?;
+        let parts = written(writer.of_terms(String::new(), Math::default(), &parts)?);
+        let whole = self.whole(writer, sum)?;
+        if let [(only, factor)] = sum.as_slice()
+            && *factor == -graph.one()
+        {
+            let (name, look) = (only.clone(), writer.symbols.look(only));
+            return Ok(Cell { name, look, whole, parts: Some(parts), is_plain: true });
+        }
         writer.define(&name, look)?;
         let (look, is_plain) = (writer.symbols.look(&name), sum.is_empty());
         Ok(Cell { name, look, whole, parts: Some(parts), is_plain })
+    }
+
+    /// A sum of coefficients times factors written out, unless that is too long.
+    fn whole(&self, writer: &Writer<'_, 'g>, sum: &Sum<'g>) -> Result<Option<Written>, Error> {
+        let value = sum.iter().try_fold(writer.graph.zero(), |all, (name, factor)| {
+            self.values.get(name).map(|(_, value)| all + *value * *factor)
+        });
+        let Some(Ok(value)) = value.map(|value| Polynomial::of(value, &LIMITS)) else {
+            return Ok(None);
+        };
+        if value.len() > MAX_TERMS {
+            return Ok(None);
+        }
+        let terms = writer.collected(&value);
+        match length(&terms) <= MAX_LENGTH {
+            true => Ok(Some(written(writer.of_terms(String::new(), Math::default(), &terms)?))),
+            false => Ok(None),
+        }
     }
 }
 
@@ -168,10 +175,15 @@ fn masses<'g>(
         let sum = known.row(section, row);
         let mut cells = vec![];
         for rate in &rates {
-            let mut own = sum.iter().filter(|(_, factor)| factor == rate);
+            let one = writer.graph.one();
+            let mut own = sum.iter().filter_map(|(name, factor)| match () {
+                () if factor == rate => Some((name, one)),
+                () if *factor == -*rate => Some((name, -one)),
+                () => None,
+            });
             cells.push(match own.next() {
-                Some((name, _)) => {
-                    let one = vec![(name.clone(), writer.graph.one())];
+                Some((name, sign)) => {
+                    let one = vec![(name.clone(), sign)];
                     known.entry(writer, String::new(), Math::default(), &one)?
                 }
                 None => zero(&format!("0_{}", plain.next().unwrap_or_default())),

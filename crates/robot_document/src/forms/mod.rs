@@ -1,5 +1,6 @@
 //! The forms of the equations of motion.
 
+mod aliases;
 mod angle_sums;
 mod arranged;
 mod arrays;
@@ -381,7 +382,7 @@ impl<'g> Writer<'_, 'g> {
         &self,
         name: String,
         left: Math,
-        terms: &[ArrangedTerm<'g>],
+        terms: &[ArrangedTerm<'_>],
     ) -> Result<Equation, Error> {
         let text = arranged_text(terms)?;
         let right = self.symbols.terms(terms)?;

@@ -28,11 +28,16 @@ impl<'h> Named<'h> {
     /// Names an expression, unless it has a name already; what it is but for its sign is then known by
     /// the name as well.
     pub(super) fn name(&mut self, expr: Expr<'_>, name: &str) {
-        let (mut symbol, mut expr) = (self.graph.symbol(name), expr);
+        self.replace(expr, self.graph.symbol(name));
+    }
+
+    /// What stands for an expression wherever it is used.
+    pub(super) fn replace(&mut self, expr: Expr<'_>, value: Expr<'h>) {
+        let (mut value, mut expr) = (value, expr);
         while let View::Neg(inside) = expr.view() {
-            (symbol, expr) = (-symbol, inside);
+            (value, expr) = (-value, inside);
         }
-        self.symbols.entry(expr.id()).or_insert(symbol);
+        self.symbols.entry(expr.id()).or_insert(value);
     }
 
     /// The expression by what has names.

@@ -6,7 +6,8 @@ use robot_model::functions::Effects;
 use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions, View};
 use rustc_hash::FxHashSet;
 
-use super::compact::definitions;
+use super::compact::{definitions, tidy};
+use super::definitions::Root;
 use super::naming::{Named, is_leaf, is_long_constant};
 use super::vectors::{cell, column};
 use super::{Cell, Equation, Group, Writer, generalized_force, shapes};
@@ -73,18 +74,21 @@ fn link_values<'h>(
     }
     let digits = writer.options.digits;
     link_values.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value, digits));
-    let values: Vec<Expr<'_>> = link_values.iter().map(|(_, _, value)| *value).collect();
-    let (mut groups, mut named) = definitions(writer, &values, target)?;
-    let mut group = Group::of_definitions("Parameters of the links", vec![]);
-    for (name, shape, expr) in link_values {
-        let value = named.rewritten(expr);
-        writer.define(&name, shape)?;
-        let left = writer.symbols.look(&name);
-        group.equations.push(writer.of_expression(name.clone(), left, value)?);
-        named.name(expr, &name);
+    let mut roots = vec![];
+    for (name, shape, value) in &link_values {
+        writer.define(name, shape.clone())?;
+        roots.push(Root { name: name.clone(), look: shape.clone(), value: *value });
     }
-    groups.push(group);
-    Ok((groups, named))
+    let (groups, mut named) = definitions(writer, roots, target)?;
+    let mut all: Vec<Equation> = groups.into_iter().flat_map(|group| group.equations).collect();
+    for (name, left, expr) in link_values {
+        if all.iter().all(|equation| equation.name != name) {
+            let value = named.rewritten(expr);
+            all.push(tidy(writer, name.clone(), left, value)?);
+            named.name(expr, &name);
+        }
+    }
+    Ok((vec![Group::of_definitions("Parameters of the links", all)], named))
 }
 
 /// The layout of a vector's components.

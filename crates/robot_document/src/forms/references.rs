@@ -6,16 +6,13 @@ use robot_symbolic::{Monomial, Number, Polynomial, Rational};
 use rustc_hash::FxHashMap;
 
 use super::Writer;
-use super::coefficients::{Section, Shown};
+use super::coefficients::{MIN_LENGTH, Section, Shown};
 
 /// The factors of an earlier coefficient, as numerator and denominator.
 const FACTORS: [(i64, i64); 6] = [(1, 1), (-1, 1), (2, 1), (-2, 1), (1, 2), (-1, 2)];
 
 /// The most names that a reader follows from a coefficient to one that is written out.
 const MAX_DEPTH: usize = 2;
-
-/// The printed symbols of the shortest coefficient that is written by another one.
-const MIN_LENGTH: usize = 3;
 
 /// The differences from earlier coefficients that are written out to find the shortest.
 const MAX_TRIED: usize = 3;

@@ -11,7 +11,7 @@ use super::coefficients::{
     Coefficient, Section, Shown, Sum, by_name, define_all, definitions_of, shown,
 };
 use super::loads::{frictions, wrenches};
-use super::{Equation, Group, Writer, generalized_force, shapes};
+use super::{Equation, Group, Writer, aliases, generalized_force, shapes};
 use crate::base_parameters::{self as base, Formulas, Written};
 use crate::error::Error;
 use crate::math::Math;
@@ -38,11 +38,17 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         sections.extend(frictions(writer, "Coulomb friction", dry, &mut sums));
     }
     let introduction = introduction(&found);
-    let shown = shown(writer, &sections);
+    let mut shown = shown(writer, &sections);
     let lengths: Option<Vec<usize>> = shown.first().into_iter().flatten().map(length_of).collect();
     groups.extend(match lengths.filter(|lengths| lengths.iter().sum::<usize>() <= MAX_LENGTH) {
         Some(_) => inline(writer, introduction, &sections, &shown, sums)?,
-        None => by_name(writer, TITLE, introduction, &sections, shown, sums)?,
+        None => {
+            if writer.options.references {
+                aliases::replace_symbols(sections.first(), shown.first_mut(), &mut sums);
+                aliases::replace(&sections, &mut shown, &mut sums);
+            }
+            by_name(writer, TITLE, introduction, &sections, shown, sums)?
+        }
     });
     Ok(groups)
 }
@@ -52,7 +58,7 @@ fn length_of(shown: &Shown<'_>) -> Option<usize> {
     match shown {
         Shown::Zero => Some(0),
         Shown::Short { terms, .. } => Some(length(terms)),
-        Shown::Long => None,
+        Shown::Long | Shown::Earlier => None,
     }
 }
 
@@ -165,6 +171,10 @@ fn parameter<'g>(
         true => formulas.of_parameter(parameter, standard)?,
         false => value.clone(),
     };
+    if let Some(known) = standard.iter().flatten().find(|known| known.text == formula.text) {
+        // What it was regrouped with is 0.
+        return Ok(writer.graph.symbol(&known.text));
+    }
     let (mut name, mut look) = (parameter.name(), base::look(parameter));
     if let Some(known) = standard.iter().flatten().find(|known| known.text == name) {
         if is_itself(parameter, known, standard) {
@@ -259,7 +269,7 @@ fn inline<'g>(
                 Some(Shown::Short { terms: own, .. }) => {
                     terms.push(product(writer, parameter, own));
                 }
-                Some(Shown::Long) | None => {
+                Some(Shown::Long | Shown::Earlier) | None => {
                     terms.push(product(writer, writer.graph.symbol(&name), &[unit()]));
                 }
             }

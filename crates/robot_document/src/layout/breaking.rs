@@ -123,8 +123,8 @@ impl Lines {
         self.split(pieces, joint, alone)
     }
 
-    /// Takes a parenthesis that has just been opened off the line, with the sign before it, if it has room before the
-    /// first pieces of its sum on the next line: a line does not end with `+ (`.
+    /// Takes a parenthesis that has just been opened off the line, with the sign before it or as a factor, if it has room
+    /// before the first pieces of its sum on the next line: a line does not end with `+ (`, nor with `) (`.
     fn opened(&mut self, next: &[Math]) -> Vec<Math> {
         let is_sign = |piece: &Math| matches!(piece, Math::Sign('+' | '-' | '('));
         if self.line.last() != Some(&Math::Sign('(')) {
@@ -132,7 +132,13 @@ impl Lines {
         }
         let start = self.line.iter().rposition(|piece| !is_sign(piece)).map_or(0, |last| last + 1);
         let opened = self.line.get(start..).unwrap_or_default().to_vec();
-        let follows = start > 0 && matches!(opened.first(), Some(Math::Sign('+' | '-')));
+        let before = start.checked_sub(1).and_then(|place| self.line.get(place));
+        let is_after_factor = before.is_some_and(|piece| !matches!(piece, Math::Sign(_)));
+        let (opened, follows) = match opened.as_slice() {
+            [Math::Sign('+' | '-'), ..] => (opened, start > 0),
+            [_] => ([Math::Sign('·')].into_iter().chain(opened).collect(), is_after_factor),
+            _ => (opened, false),
+        };
         let together = [opened.as_slice(), next].concat();
         if !follows || width(&Math::Row(together.clone())) > self.further(&together) {
             return vec![];
@@ -298,6 +304,11 @@ mod tests {
         let sum = r"c_1 + c_2 + \left(a_1 a_2 a_3 a_4 + b_2\right) \cos q_2";
         for first in 40..140 {
             let broken = lines(sum, f64::from(first), 80.0);
+            assert!(broken.iter().all(|line| !line.ends_with('(')), "{first}: {broken:?}");
+        }
+        let product = r"\left(c_1 + c_2\right) \left(a_1 a_2 a_3 a_4 + b_2\right)";
+        for first in 60..140 {
+            let broken = lines(product, f64::from(first), 90.0);
             assert!(broken.iter().all(|line| !line.ends_with('(')), "{first}: {broken:?}");
         }
     }

@@ -17,6 +17,8 @@ const DOUBLE: usize = 17;
 const DENOMINATORS: [u64; 2] = [2, 4];
 /// Fractions of π and of roots have no larger denominators, other fractions no larger numerators.
 const LARGEST: u64 = 12;
+/// Decimals with so many zeros after the point are printed with a power of ten.
+const ZEROS: usize = 4;
 
 /// A formula as people write its numbers: `√2/2` for `0.5 √2`, and `1/2` in sums and products if no number in it needs
 /// decimals; or all rounded to so many significant digits.
@@ -24,7 +26,40 @@ pub(crate) fn tidied(math: &Math, digits: Option<usize>) -> Math {
     let tidy = mapped(math.clone(), &|piece| rounded(piece, digits));
     // A rounded number is not a fraction.
     let simple = is_simple(math) && (digits.is_none() || tidy == *math);
-    mapped(tidy, &|piece| fractions(piece, simple))
+    let tidy = mapped(tidy, &|piece| fractions(piece, simple));
+    mapped(tidy, &|piece| match piece {
+        Math::Number(text) => number(&text),
+        other => other,
+    })
+}
+
+/// A number as its digits; a small one, in digits or with an exponent, as a product with a power of ten.
+pub(crate) fn number(text: &str) -> Math {
+    let Some((mantissa, exponent)) = power_of_ten(text) else {
+        return Math::Number(text.to_owned());
+    };
+    let exponent = match exponent.strip_prefix('-') {
+        Some(digits) => Math::Row(vec![Math::Sign('-'), Math::Number(digits.to_owned())]),
+        None => Math::Number(exponent),
+    };
+    let power = Math::Number("10".to_owned()).with_upper(exponent);
+    match mantissa.as_str() {
+        "1" => power,
+        _ => Math::Row(vec![Math::Number(mantissa), Math::Sign('·'), power]),
+    }
+}
+
+/// A small decimal as a number from 1 to 10 and its exponent of ten, as one with an exponent has them.
+fn power_of_ten(text: &str) -> Option<(String, String)> {
+    if let Some((mantissa, exponent)) = text.split_once('e') {
+        return Some((mantissa.to_owned(), exponent.to_owned()));
+    }
+    let decimals = text.strip_prefix("0.")?;
+    let digits = decimals.trim_start_matches('0');
+    let zeros = decimals.len() - digits.len();
+    let (first, others) = digits.split_at_checked(1).filter(|_| zeros >= ZEROS)?;
+    let point = if others.is_empty() { "" } else { "." };
+    Some((format!("{first}{point}{others}"), format!("-{}", zeros + 1)))
 }
 
 /// Whether a formula has decimals of more significant digits.
@@ -65,7 +100,11 @@ pub(crate) fn tidied_text(text: &str, digits: Option<usize>) -> String {
                 rest = after;
             }
             _ => {
-                shown.push_str(&short(number, digits.filter(|_| !is_power)));
+                let short = short(number, digits.filter(|_| !is_power));
+                match power_of_ten(&short) {
+                    Some((mantissa, exponent)) => shown.push_str(&format!("{mantissa}e{exponent}")),
+                    None => shown.push_str(&short),
+                }
                 rest = after;
             }
         }
@@ -307,6 +346,10 @@ mod tests {
         let noisy = read("1.1550000000000002 q").unwrap();
         assert_eq!(formula(&tidied(&noisy, Some(10))).replace(' ', ""), "1.155q");
         assert_eq!(formula(&tidied(&noisy, None)).replace(' ', ""), "1.1550000000000002q");
+        let small =
+            tidied(&read("0.0000000000128770759612 q - 0.00001 r + 0.0001").unwrap(), Some(4));
+        assert_eq!(formula(&small).replace(' ', ""), r"{1.288\cdot10^{-11}}q-10^{-5}r+0.0001");
+        assert_eq!(tidied_text("0.00001287707596*x^12", Some(4)), "1.288e-5*x^12");
         let longer = |text: &str| has_longer(&read(text).unwrap(), 4);
         assert!(longer("0.00012345 q") && longer(r"\left(a + 12.345\right) q"));
         assert!(!longer("0.0001234 q_{12345}") && !longer("123456 q + 1.234"));

@@ -1,6 +1,7 @@
 //! The layout of expressions as they are built, with the fewest parentheses that keep their value.
 
 use robot_model::signs::FunctionName;
+use robot_model::variable::JointVariable;
 use robot_symbolic::print::{MAX_OPERATIONS, Magnitude, as_power, check_length};
 use robot_symbolic::{Expr, Function, Number, View};
 
@@ -226,7 +227,10 @@ impl Expressions<'_> {
             Trigonometry::Named => Math::Function(FunctionName::Cosine),
         };
         if angle.as_symbol().is_none() {
-            return applied(name, angle, exponent);
+            return match joints(angle) {
+                Some(joints) => applied_to(name, in_order(angle, &joints), exponent),
+                None => applied(name, angle, exponent),
+            };
         }
         // An upper index on the angle's symbol would read as the function's.
         let mut steps = raised_name(name, exponent);
@@ -277,10 +281,35 @@ fn infix<'g>(a: Expr<'g>, left: Level, between: char, b: Expr<'g>, right: Level)
 
 /// Applies a function, to a power, and the argument in parentheses.
 fn applied(applying: Math, argument: Expr<'_>, exponent: u32) -> (Level, Vec<Step<'_>>) {
+    applied_to(applying, vec![Step::Operand(argument, Level::Sum)], exponent)
+}
+
+fn applied_to<'g>(
+    applying: Math,
+    argument: Vec<Step<'g>>,
+    exponent: u32,
+) -> (Level, Vec<Step<'g>>) {
     let mut steps = raised_name(applying, exponent);
-    let whole = Whole::Fenced(Fence::Parentheses);
-    steps.extend([Step::Open, Step::Operand(argument, Level::Sum), Step::Close(whole)]);
+    steps.push(Step::Open);
+    steps.extend(argument);
+    steps.push(Step::Close(Whole::Fenced(Fence::Parentheses)));
     (if exponent == 1 { Level::Atom } else { Level::Power }, steps)
+}
+
+/// The sum of the angles of joints, by number: `q_2 + q_3 + q_4`, in whatever order it was built.
+fn in_order<'g>(angle: Expr<'g>, joints: &[(bool, u32)]) -> Vec<Step<'g>> {
+    let mut steps = vec![];
+    for (place, (negative, joint)) in joints.iter().enumerate() {
+        match (negative, place) {
+            (true, _) => steps.push(sign('-')),
+            (false, 0) => {}
+            (false, _) => steps.push(sign('+')),
+        }
+        let index = (*joint as usize).saturating_sub(1);
+        let symbol = angle.graph().symbol(&JointVariable::Position.symbol(index));
+        steps.push(Step::Operand(symbol, Level::Sum));
+    }
+    steps
 }
 
 fn raised_name<'g>(applying: Math, exponent: u32) -> Vec<Step<'g>> {
@@ -302,8 +331,8 @@ fn index_of<'g>(letter: char, angle: Expr<'g>, exponent: u32) -> Vec<Step<'g>> {
     steps
 }
 
-/// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` if a joint has two digits.
-fn joint_numbers(angle: Expr<'_>) -> Option<Vec<Math>> {
+/// The joints whose angles an angle is the sum of, each with whether it is subtracted: added ones first, by number.
+fn joints(angle: Expr<'_>) -> Option<Vec<(bool, u32)>> {
     let mut joints: Vec<(bool, u32)> = vec![];
     let mut pending = vec![(angle, false)];
     while let Some((expr, negative)) = pending.pop() {
@@ -324,6 +353,12 @@ fn joint_numbers(angle: Expr<'_>) -> Option<Vec<Math>> {
         }
     }
     joints.sort_unstable();
+    Some(joints)
+}
+
+/// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` if a joint has two digits.
+fn joint_numbers(angle: Expr<'_>) -> Option<Vec<Math>> {
+    let joints = joints(angle)?;
     // An index 12 is the sum of q1 and q2.
     if let [(_, 10..)] | [(false, 10..), (true, _), ..] = joints.as_slice() {
         return None;

@@ -16,7 +16,7 @@ mod trigonometry;
 pub mod width;
 
 pub use digits::DIGITS;
-pub(crate) use digits::{has_longer, tidied, tidied_text};
+pub(crate) use digits::{has_longer, number, tidied, tidied_text};
 pub(crate) use order::BRACKETS;
 pub use order::{Order, Rank};
 pub(crate) use order::{is_motion, is_rate};

@@ -2,6 +2,7 @@
 
 use robot_symbolic::Rational;
 
+use crate::layout::number;
 use crate::math::{Fence, Math};
 
 /// Constants of more bytes of text are rounded in tables.
@@ -23,6 +24,11 @@ pub(super) fn rounded(number: f64) -> Math {
 }
 
 fn six(number: f64) -> String {
+    if number != 0.0 && number.abs() < 1e-4 {
+        let text = format!("{number:.5e}");
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'));
+    }
     let places = (5.0 - number.abs().log10().floor()).clamp(0.0, 12.0) as usize;
     let digits = format!("{number:.places$}");
     match digits.contains('.') {
@@ -34,8 +40,8 @@ fn six(number: f64) -> String {
 /// The text of a number, a minus as the sign.
 pub(super) fn signed(text: &str) -> Math {
     match text.strip_prefix('-') {
-        Some(digits) => Math::Row(vec![Math::Sign('-'), Math::Number(digits.to_owned())]),
-        None => Math::Number(text.to_owned()),
+        Some(digits) => Math::Row(vec![Math::Sign('-'), number(digits)]),
+        None => number(text),
     }
 }
 
@@ -62,6 +68,9 @@ mod tests {
         let shown = shown.map(|math| formula(&math));
         assert_eq!(shown, ["0.333333", "-1234.57", "0.000123457", "1200", "20000000"]);
         let cut = |text: &str| is_cut(&Rational::from_decimal(text).unwrap(), text);
+        let small = [0.000_018_738_2, -4.6e-16, 1e-5].map(rounded);
+        let small = small.map(|math| formula(&math).replace(' ', ""));
+        assert_eq!(small, [r"1.87382\cdot10^{-5}", r"-{4.6\cdot10^{-16}}", "10^{-5}"]);
         assert!(cut("1.1550000000000002") && cut("-0.12345678") && !cut("0.00000123456"));
     }
 }

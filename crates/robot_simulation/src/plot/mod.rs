@@ -1,7 +1,7 @@
 //! Pictures of series over time: SVG and PNG.
 //!
-//! The letters are those of the DejaVu fonts, which are part of the program: no fonts of the system
-//! are needed, and the same figure gives the same bytes everywhere.
+//! The letters of a PNG are those of the DejaVu fonts, which are part of the program: no fonts of the system are needed.
+//! An SVG names the sans-serif font of whoever shows it. The same figure gives the same bytes everywhere.
 
 mod axis;
 mod draw;
@@ -55,6 +55,13 @@ pub struct Curve {
 /// Figures are drawn this many times larger than they are shown, because coordinates are whole numbers.
 const SCALE: u32 = 4;
 
+/// The colors of an SVG where the reader's program asks for dark ones: each in place of one that is drawn. Programs that do
+/// not know the question, such as those that convert to PDF, show the light ones.
+const DARK: &str = "<style>@media (prefers-color-scheme: dark) { \
+    [fill='#FFFFFF'] { fill: #14171c } [fill='#282828'] { fill: #d8dce3 } [stroke='#282828'] { stroke: #d8dce3 } \
+    [stroke='#E1E1E1'] { stroke: #353b45 } [stroke='#000000'] { stroke: #ffffff } [stroke='#0072B2'] { stroke: #3fa2e0 } \
+    }</style>";
+
 /// Pixels of a PNG per unit of the figure.
 const DENSITY: u32 = 2;
 
@@ -74,7 +81,9 @@ impl Figure {
         // The picture is shown smaller than it is drawn; the view box keeps what it shows.
         let large = format!("width=\"{}\" height=\"{}\" viewBox", width * SCALE, height * SCALE);
         let small = format!("width=\"{width}\" height=\"{height}\" viewBox");
-        Ok(format!("<!-- {MARKER} -->\n{}", text.replacen(&large, &small, 1)))
+        let text = text.replacen(&large, &small, 1);
+        let (head, rest) = text.split_once('\n').unwrap_or((&text, ""));
+        Ok(format!("<!-- {MARKER} -->\n{head}\n{DARK}\n{rest}"))
     }
 
     /// The figure as PNG.

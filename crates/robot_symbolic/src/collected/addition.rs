@@ -26,6 +26,18 @@ impl Group {
         Terms::sum(all)
     }
 
+    /// The terms in each basis, all coefficients in the same one: longer as a sum than [`Group::shortest`], but products
+    /// of sums of sines and cosines are seen.
+    pub(super) fn in_bases(
+        &self,
+        terms: &Terms,
+        variables: &Variables<'_>,
+    ) -> impl Iterator<Item = Terms> {
+        let bases = self.bases.iter().enumerate();
+        let distinct = bases.filter(|(place, basis)| !self.bases[..*place].contains(basis));
+        distinct.map(|(_, basis)| Rewriter::new(self, basis, variables).rewritten(terms))
+    }
+
     /// The printed symbols, and then the number of coordinates in the angles.
     fn cost(&self, form: &Terms, cofactor: &Powers) -> (usize, usize) {
         let joints = |variable: Variable| {

@@ -4,7 +4,8 @@
 //! A [`Collector`] turns a canonical [`Polynomial`] into a nested sum of products. Its steps:
 //!
 //! 1. in every group of parallel joints, each coefficient is written in the angles between links that make it
-//!    shortest (`angles`, `addition`);
+//!    shortest, and in small groups all coefficients in the same angles, whichever gives the shorter formula in the end
+//!    (`angles`, `addition`);
 //! 2. of the squares of a sine and a cosine the shorter one is chosen (`squares`);
 //! 3. common factors are taken out, recursively: products of powers, sums that occur several times, and
 //!    complete squares (`divisors`, `factoring`), after the weak division of R. Brayton and C. McMullen, "The
@@ -33,10 +34,16 @@ use crate::print::{ArrangedFactor, ArrangedTerm};
 pub use angles::{ParallelAngles, Turn};
 
 use factoring::{Factoring, Formula};
+use terms::Terms;
 use variables::Variables;
 
 /// Polynomials of more terms are not collected: the time grows with the third power.
 pub const MAX_TERMS: usize = 400;
+
+/// A polynomial of at most so many terms, with one group of parallel joints of at most so many bases of angles, is tried in
+/// each basis as a whole, too.
+const MAX_WHOLE: usize = 60;
+const MAX_BASES: usize = 4;
 
 /// Makes short forms of the polynomials of one graph.
 #[derive(Clone, Copy, Debug)]
@@ -78,15 +85,30 @@ impl<'g> Collector<'g, '_> {
         }
         let variables = Variables::new(polynomial, self.angles, rank);
         let terms = variables.read(polynomial)?;
-        let groups = variables.groups().iter();
-        let terms = groups.fold(terms, |terms, group| group.shortest(&terms, &variables));
-        let terms = squares::chosen(&terms, &variables);
+        let groups = variables.groups();
         let early = variables.before(|atom| rank(atom) < *brackets);
-        let formula = match self.factors {
-            true => Factoring::new(&terms, early).formula(&terms),
-            false => Formula::flat(&terms),
+        let formula = |terms: Terms| {
+            let terms = squares::chosen(&terms, &variables);
+            match self.factors {
+                true => Factoring::new(&terms, early).formula(&terms),
+                false => Formula::flat(&terms),
+            }
         };
-        Some(variables.written(&formula, early))
+        let shortest =
+            groups.iter().fold(terms.clone(), |terms, group| group.shortest(&terms, &variables));
+        let mut best = formula(shortest);
+        if let [group] = groups
+            && self.factors
+            && group.bases.len() <= MAX_BASES
+            && terms.len() <= MAX_WHOLE
+        {
+            let others = group.in_bases(&terms, &variables).map(formula);
+            best = others.fold(best, |best, other| match other.length() < best.length() {
+                true => other,
+                false => best,
+            });
+        }
+        Some(variables.written(&best, early))
     }
 }
 

@@ -46,6 +46,8 @@ fn sums_of_angles_act() {
     ] {
         assert_eq!(collected(source, 2), expected, "{source}");
     }
+    let product = "(a*sin(q1) + b*sin(q1 + q2))*(a*cos(q1) + b*cos(q1 + q2))";
+    assert_eq!(collected(product, 2), product);
     assert_eq!(
         collected("a*cos(q1 + q2 + q3) - b*sin(q2 + q3)", 3),
         "a*cos(q1 + q2 + q3) - b*sin(q2 + q3)"
