@@ -19,6 +19,9 @@ const PRODUCTS: usize = 0;
 const SUMS: usize = 1;
 const OTHERS: usize = 2;
 
+/// How many steps of each unit are looked at for one that ends lives: the time to compile goes with them.
+const LOOKED_AT: usize = 48;
+
 /// Cycles until the result is there, and the unit.
 fn cost(step: Step) -> (u32, usize) {
     let Step::Value(instruction) = step else { return (1, OTHERS) };
@@ -42,6 +45,9 @@ pub(crate) struct Model {
     pub(crate) overlap: u32,
 }
 
+/// A step by the cycles that are waited for it.
+type Ready = (Reverse<u32>, u32);
+
 struct Scheduler<'l> {
     list: &'l List,
     model: Model,
@@ -55,8 +61,8 @@ struct Scheduler<'l> {
     uses: Vec<u32>,
     /// The cycle in which the operands of each step are there.
     start: Vec<u32>,
-    /// Steps whose operands are there, the one waited for longest first.
-    ready: BTreeSet<(Reverse<u32>, u32)>,
+    /// For each unit the steps whose operands are there, the one waited for longest first.
+    ready: [BTreeSet<Ready>; 3],
     /// Steps whose operands have started, by the cycle in which they are there.
     waiting: BTreeMap<u32, Vec<u32>>,
     now: u32,
@@ -68,7 +74,7 @@ impl List {
     /// The steps as a processor would start them.
     pub(crate) fn scheduled(&self, model: Model) -> List {
         let mut scheduler = Scheduler::new(self, model);
-        while !scheduler.ready.is_empty() || !scheduler.waiting.is_empty() {
+        while !scheduler.is_done() {
             scheduler.cycle();
         }
         self.in_order(&scheduler.order)
@@ -89,7 +95,7 @@ impl<'l> Scheduler<'l> {
             missing: vec![0; count],
             uses: vec![0; count],
             start: vec![0; count],
-            ready: BTreeSet::new(),
+            ready: [const { BTreeSet::new() }; 3],
             waiting: BTreeMap::new(),
             now: 0,
             alive: 0,
@@ -111,7 +117,7 @@ impl<'l> Scheduler<'l> {
         }
         for position in (0..count).filter(|position| needed[*position] && !is_home(*position)) {
             if scheduler.missing[position] == 0 {
-                scheduler.ready.insert((Reverse(scheduler.height[position]), position as u32));
+                scheduler.make_ready(position);
             }
         }
         scheduler
@@ -123,13 +129,13 @@ impl<'l> Scheduler<'l> {
 
     /// Starts what can start in a cycle.
     fn cycle(&mut self) {
-        if self.ready.is_empty() {
+        if self.ready.iter().all(BTreeSet::is_empty) {
             self.now = self.waiting.first_key_value().map_or(self.now, |(cycle, _)| *cycle);
         }
         while let Some(entry) = self.waiting.first_entry().filter(|entry| *entry.key() <= self.now)
         {
             for position in entry.remove() {
-                self.ready.insert((Reverse(self.height[position as usize]), position));
+                self.make_ready(position as usize);
             }
         }
         let mut units = UNITS;
@@ -142,20 +148,25 @@ impl<'l> Scheduler<'l> {
 
     /// The step to start next, if a unit is free for one.
     fn next(&self, units: [u8; 3]) -> Option<usize> {
-        let positions = self.ready.iter().map(|(_, position)| *position as usize);
-        let mut free = positions.filter(|position| units[cost(self.list.steps[*position]).1] > 0);
+        let free = || self.ready.iter().zip(units).filter(|(_, free)| *free > 0);
+        let first = free().filter_map(|(ready, _)| ready.first()).min()?;
         if self.alive < self.model.registers {
-            return free.next();
+            return Some(first.1 as usize);
         }
-        let mut best = free.next()?;
-        let mut most = self.ended(best);
-        for position in free {
-            let ended = self.ended(position);
-            if ended > most {
-                (best, most) = (position, ended);
-            }
-        }
-        Some(best)
+        let looked_at = free().flat_map(|(ready, _)| ready.iter().take(LOOKED_AT));
+        let best = looked_at.min_by_key(|(height, position)| {
+            (Reverse(self.ended(*position as usize)), *height, *position)
+        });
+        best.map(|(_, position)| *position as usize)
+    }
+
+    fn make_ready(&mut self, position: usize) {
+        let unit = cost(self.list.steps[position]).1;
+        self.ready[unit].insert((Reverse(self.height[position]), position as u32));
+    }
+
+    fn is_done(&self) -> bool {
+        self.ready.iter().all(BTreeSet::is_empty) && self.waiting.is_empty()
     }
 
     /// The values whose lives a step ends, less the one that it begins.
@@ -166,8 +177,8 @@ impl<'l> Scheduler<'l> {
     }
 
     fn begin(&mut self, position: usize) {
-        self.ready.remove(&(Reverse(self.height[position]), position as u32));
         let step = self.list.steps[position];
+        self.ready[cost(step).1].remove(&(Reverse(self.height[position]), position as u32));
         self.order.push(position);
         self.alive = self.alive.saturating_add_signed(-self.ended(position));
         for value in operands(step).filter(|value| !self.list.is_home(*value)) {
