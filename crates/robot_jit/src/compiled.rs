@@ -4,7 +4,7 @@ use robot_codegen::{
     Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry,
 };
 
-use crate::emit::{Fault, LanesEntry, SingleEntry, emit_lanes, emit_single};
+use crate::emit::{Fault, LanesEntry, SingleEntry, Target, emit_lanes, emit_single};
 use crate::error::Error;
 use crate::memory::{LanesCode, SingleCode, place};
 use crate::processor::Registers;
@@ -22,6 +22,9 @@ pub struct Options {
     pub registers: Option<Registers>,
     /// The source of sines and cosines: the polynomials, or there is an error.
     pub trigonometry: Trigonometry,
+    /// Whether multiply-adds of sines and cosines round once, as in code that rustc compiles for this processor: faster,
+    /// and of other bits than the interpreter's.
+    pub fused: bool,
     /// The names of the functions; all if `None`.
     pub functions: Option<Vec<String>>,
 }
@@ -100,6 +103,7 @@ pub(crate) fn code_of(interpreter: &Interpreter<'_>, options: &Options) -> Resul
     if options.trigonometry != Trigonometry::Polynomial {
         return Err(Error::Trigonometry);
     }
+    let target = Target { registers, fused: options.fused };
     let names: Vec<&str> = match &options.functions {
         Some(names) => names.iter().map(String::as_str).collect(),
         None => module.functions.iter().map(|function| function.name.as_str()).collect(),
@@ -108,7 +112,7 @@ pub(crate) fn code_of(interpreter: &Interpreter<'_>, options: &Options) -> Resul
     for name in &names {
         interpreter.function(name)?;
         if let Some(function) = module.function(name) {
-            entries.push(emit(function, interpreter.fields(), registers)?);
+            entries.push(emit(function, interpreter.fields(), target)?);
         }
     }
     let names = names.into_iter().map(str::to_owned);
@@ -120,7 +124,7 @@ pub(crate) fn code_of(interpreter: &Interpreter<'_>, options: &Options) -> Resul
 fn emit(
     function: &robot_codegen::module::Function,
     fields: &[f64],
-    registers: Registers,
+    target: Target,
 ) -> Result<(SingleEntry, LanesEntry), Error> {
     let name = || function.name.clone();
     let inputs: usize = function.inputs.iter().map(|input| input.symbols.len()).sum();
@@ -136,8 +140,8 @@ fn emit(
         Fault::Missing => Error::Load { function: name() },
         Fault::Encoding(error) => Error::Encoding { function: name(), reason: error.to_string() },
     };
-    let single = emit_single(function, fields, registers).map_err(failed)?;
-    let lanes = emit_lanes(function, fields, registers).map_err(failed)?;
+    let single = emit_single(function, fields, target).map_err(failed)?;
+    let lanes = emit_lanes(function, fields, target).map_err(failed)?;
     Ok((single, lanes))
 }
 

@@ -1,8 +1,11 @@
 //! Random functions for the tests.
 
+use std::f64::consts::FRAC_2_PI;
+
 use robot_codegen::module::Function;
 use robot_codegen::program::{Builder, Operation, Program, Source, Value};
 use robot_codegen::{Input, Module, Output};
+use robot_runtime::trig::double::{COSINE, HALF_PI, LIMIT, SHIFT, SINE};
 use robot_runtime::{Scalar, trig};
 use robot_symbolic::{Function as Call, Random};
 
@@ -114,7 +117,11 @@ fn core(random: &mut Random, inputs: usize, angles: usize, fused: bool) -> Progr
         let constant = builder.constant(number(random, 4));
         pool.push(constant);
     }
-    let length = [10, 60, 300][random.index(3)];
+    // The longest are ordered otherwise.
+    let length = match random.index(60) {
+        0 => 2500,
+        short => [10, 60, 300][short % 3],
+    };
     let window = [8, 40, 1000][random.index(3)];
     for _ in 0..1 + random.index(length) {
         let [a, b, c] = [0; 3].map(|_| pool[pool.len() - 1 - random.index(window.min(pool.len()))]);
@@ -131,15 +138,49 @@ fn core(random: &mut Random, inputs: usize, angles: usize, fused: bool) -> Progr
         let value = builder.push(operation);
         pool.push(value);
     }
-    let results = (0..1 + random.index(12)).map(|_| pool[random.index(pool.len())]);
-    let results = results.chain(pool.last().copied()).collect();
+    let mut results: Vec<Value> =
+        (0..1 + random.index(12)).map(|_| pool[random.index(pool.len())]).collect();
+    results.extend(pool.last());
+    // Constants one after the other, as in the matrices of poses.
+    for _ in 0..random.index(3) {
+        let at = random.index(results.len() + 1);
+        let constants = [0.0, 1.0].map(|number| builder.constant(number));
+        let row = (0..random.index(12)).map(|_| constants[random.index(2)]);
+        let row: Vec<Value> = row.collect();
+        results.splice(at..at, row);
+    }
     builder.finish(results)
 }
 
-fn call(function: Call, x: f64) -> f64 {
+/// Sine and cosine with multiply-adds that round once, as the runtime has them on targets that have these.
+fn fused_sin_cos(x: f64) -> (f64, f64) {
+    let shifted = x.mul_add(FRAC_2_PI, SHIFT);
+    let k = shifted - SHIFT;
+    let angle = if x.abs() < LIMIT { x } else { f64::NAN };
+    let r = k.mul_add(-HALF_PI[1], k.mul_add(-HALF_PI[0], angle));
+    let (z, rest) = (r * r, k * HALF_PI[2]);
+    let polynomial = |c: &[f64; 6]| {
+        let [low, middle, high] = [0, 2, 4].map(|at| c[at + 1].mul_add(z, c[at]));
+        high.mul_add(z * z, middle).mul_add(z * z, low)
+    };
+    let sine = r + (r * z).mul_add(polynomial(&SINE), -rest);
+    let cosine = z.mul_add(z.mul_add(polynomial(&COSINE), -0.5), 1.0);
+    match shifted.to_bits() & 3 {
+        0 => (sine, cosine),
+        1 => (cosine, -sine),
+        2 => (-sine, -cosine),
+        _ => (-cosine, sine),
+    }
+}
+
+fn sin_cos(x: f64, fused: bool) -> (f64, f64) {
+    if fused { fused_sin_cos(x) } else { trig::double::portable_sin_cos(x) }
+}
+
+fn call(function: Call, x: f64, fused: bool) -> f64 {
     match function {
-        Call::Sin => trig::double::portable_sin_cos(x).0,
-        Call::Cos => trig::double::portable_sin_cos(x).1,
+        Call::Sin => sin_cos(x, fused).0,
+        Call::Cos => sin_cos(x, fused).1,
         Call::Sqrt => x.sqrt(),
         Call::Abs => x.abs(),
         Call::Sign => x.signum0(),
@@ -148,7 +189,7 @@ fn call(function: Call, x: f64) -> f64 {
     }
 }
 
-fn values(program: &Program, load: impl Fn(Source) -> f64) -> Vec<f64> {
+fn values(program: &Program, fused: bool, load: impl Fn(Source) -> f64) -> Vec<f64> {
     let mut values: Vec<f64> = vec![];
     for operation in program.operations() {
         let at = |value: Value| values[value.index()];
@@ -161,22 +202,22 @@ fn values(program: &Program, load: impl Fn(Source) -> f64) -> Vec<f64> {
             Operation::Div(a, b) => at(a) / at(b),
             Operation::Neg(a) => -at(a),
             Operation::MulAdd(a, b, c) => at(a).mul_add(at(b), at(c)),
-            Operation::Call(function, a) => call(function, at(a)),
+            Operation::Call(function, a) => call(function, at(a), fused),
         });
     }
     program.results().iter().map(|value| values[value.index()]).collect()
 }
 
-/// The outputs of a function at a state, with multiply-adds that round once.
-pub(crate) fn reference(function: &Function, inputs: &[f64]) -> Vec<f64> {
+/// The outputs of a function at a state, with multiply-adds that round once; those of sines too if `fused`.
+pub(crate) fn reference(function: &Function, inputs: &[f64], fused: bool) -> Vec<f64> {
     let input = |source| match source {
         Source::Input(entry) => inputs[entry as usize],
         other => panic!("{other:?}"),
     };
-    let angles = values(&function.angles, input);
-    values(&function.core, |source| match source {
-        Source::Sin(angle) => call(Call::Sin, angles[angle as usize]),
-        Source::Cos(angle) => call(Call::Cos, angles[angle as usize]),
+    let angles = values(&function.angles, fused, input);
+    values(&function.core, fused, |source| match source {
+        Source::Sin(angle) => call(Call::Sin, angles[angle as usize], fused),
+        Source::Cos(angle) => call(Call::Cos, angles[angle as usize], fused),
         other => input(other),
     })
 }

@@ -2,9 +2,9 @@
 
 use iced_x86::{Code, Encoder, IcedError, Instruction, MemoryOperand, Register};
 
-use super::codes::{self, code};
+use super::codes::{self, Codes, code};
 use super::{Addressing, Shape};
-use crate::list::{Binary, Home, Target};
+use crate::list::{Binary, Home, WIDE};
 use crate::processor::Registers;
 
 /// The arguments of a function, as the ABI of System V has them.
@@ -31,7 +31,7 @@ pub(super) enum Operand {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Memory {
     Home(Home),
-    /// A register that was put aside.
+    /// A register that was put aside, at this number of the working memory.
     Spill(u32),
 }
 
@@ -49,21 +49,59 @@ pub(super) enum Form {
 /// Encodes instructions one after the other.
 pub(super) struct Bytes {
     encoder: Encoder,
-    length: u64,
+    pub(super) length: u64,
+    /// The shape of values that are not wide.
+    narrow: Shape,
+    /// The shape of the instruction at hand.
     pub(super) shape: Shape,
     pub(super) addressing: Addressing,
-    /// The number of the working memory at which registers are put aside.
-    pub(super) spills: u32,
-    /// The number at which the constants of the list lie.
-    pub(super) constants: usize,
+    /// The number at which the rows of constants lie.
+    rows: usize,
+    /// The numbers by which the pointers to working memory and constants are moved, so that displacements of one byte
+    /// reach twice as many.
+    reach: [i64; 2],
+    /// Where the code of a state begins.
+    start: u64,
     /// The first thing that had no encoding.
     error: Option<IcedError>,
 }
 
 impl Bytes {
-    pub(super) fn new(shape: Shape, addressing: Addressing, spills: u32) -> Bytes {
+    pub(super) fn new(narrow: Shape, addressing: Addressing, rows: usize) -> Bytes {
         let encoder = Encoder::new(64);
-        Bytes { encoder, length: 0, shape, addressing, spills, constants: 0, error: None }
+        let reach = [0; 2];
+        Bytes {
+            encoder,
+            length: 0,
+            start: 0,
+            narrow,
+            shape: narrow,
+            addressing,
+            rows,
+            reach,
+            error: None,
+        }
+    }
+
+    /// Moves the pointers of long code.
+    pub(super) fn extend_reach(&mut self) {
+        const STEPS: i64 = 128;
+        self.reach = [STEPS * self.narrow.lanes as i64, STEPS];
+        for (pointer, numbers) in [WORKING, POOL].into_iter().zip(self.reach) {
+            let moved = (NUMBER * numbers) as i32;
+            self.put(Instruction::with2(Code::Add_rm64_imm32, pointer, moved));
+        }
+        self.start = self.length;
+    }
+
+    /// The numbers of a value.
+    pub(super) fn numbers(&self, wide: bool) -> u32 {
+        if wide { WIDE as u32 } else { self.narrow.lanes as u32 }
+    }
+
+    /// What follows is on values that are wide, or not.
+    pub(super) fn widen(&mut self, wide: bool) {
+        self.shape.lanes = self.numbers(wide) as usize;
     }
 
     pub(super) fn finish(mut self) -> Result<Vec<u8>, IcedError> {
@@ -90,13 +128,12 @@ impl Bytes {
         first + u32::from(register)
     }
 
-    /// The bytes between constants in memory. AVX2 has no instruction that spreads one, so that there
-    /// they fill a register; masks for one number read sixteen bytes.
-    pub(super) fn constant_numbers(shape: Shape) -> usize {
-        match (shape.registers, shape.lanes) {
-            (Registers::Avx512, _) => 1,
-            (Registers::Avx2, 1) => 2,
-            (Registers::Avx2, lanes) => lanes,
+    /// The numbers between constants in memory. AVX2 has no instruction that spreads one, so that there
+    /// they fill a register, a wide one in code for one state.
+    pub(super) fn constant_numbers(narrow: Shape) -> usize {
+        match narrow.registers {
+            Registers::Avx512 => 1,
+            Registers::Avx2 => WIDE,
         }
     }
 
@@ -112,17 +149,17 @@ impl Bytes {
 
     /// The address; `spread` where the instruction is to spread one number over its lanes.
     fn memory(&mut self, memory: Memory, spread: bool) -> MemoryOperand {
-        let lanes = self.shape.lanes as i64;
         match memory {
-            Memory::Spill(slot) => {
-                let numbers = i64::from(self.spills) + i64::from(slot) * lanes;
-                Bytes::at(WORKING, numbers, spread)
-            }
-            Memory::Home(Home::Working(index)) => Bytes::at(WORKING, i64::from(index), spread),
+            Memory::Spill(number) => Bytes::at(WORKING, i64::from(number) - self.reach[0], spread),
             Memory::Home(Home::Constant(index)) => {
-                let numbers = Bytes::constant_numbers(self.shape) as i64;
-                Bytes::at(POOL, self.constants as i64 + i64::from(index) * numbers, spread)
+                let numbers = Bytes::constant_numbers(self.narrow) as i64;
+                Bytes::at(POOL, i64::from(index) * numbers - self.reach[1], spread)
             }
+            Memory::Home(Home::Row(index)) => Bytes::at(
+                POOL,
+                self.rows as i64 + i64::from(index) * WIDE as i64 - self.reach[1],
+                spread,
+            ),
             Memory::Home(Home::Input(entry)) => match self.addressing {
                 Addressing::Row => Bytes::at(INPUTS, i64::from(entry), spread),
                 Addressing::Columns => self.column(INPUTS, entry),
@@ -149,21 +186,47 @@ impl Bytes {
         arithmetic || lanes > 1 || registers == Registers::Avx512 || is_constant
     }
 
-    fn three(&mut self, code: Code, to: u8, a: u8, b: Operand, arithmetic: bool) {
-        let (to, a) = (self.vector(to), self.vector(a));
+    /// The encoding of an instruction on these registers and memory.
+    fn encoding(&self, codes: &Codes, registers: [u8; 2], memory: Option<&MemoryOperand>) -> Code {
+        code(codes, self.short(registers, memory))
+    }
+
+    /// The shape with whose encoding the instruction is short: that of AVX2 has no registers beyond the sixteenth, and
+    /// spreads no numbers of memory.
+    fn short(&self, registers: [u8; 2], memory: Option<&MemoryOperand>) -> Shape {
+        let is_short = self.shape.registers == Registers::Avx512
+            && self.shape.lanes <= WIDE
+            && registers.iter().all(|register| *register < 16)
+            && memory.is_none_or(|memory| {
+                // The long encoding scales displacements of one byte by what it reads.
+                let step = NUMBER * self.shape.lanes as i64;
+                let byte = |displacement: i64| i8::try_from(displacement).is_ok();
+                let displacement = memory.displacement;
+                let is_scaled = displacement % step == 0 && byte(displacement / step);
+                !memory.is_broadcast && (byte(displacement) || !is_scaled)
+            });
+        let registers = if is_short { Registers::Avx2 } else { self.shape.registers };
+        Shape { registers, ..self.shape }
+    }
+
+    fn three(&mut self, codes: &Codes, to: u8, a: u8, b: Operand, arithmetic: bool) {
+        let (first, second) = (self.vector(to), self.vector(a));
         let instruction = match b {
-            Operand::Register(b) => Instruction::with3(code, to, a, self.vector(b)),
+            Operand::Register(b) => {
+                let code = self.encoding(codes, [to.max(a), b], None);
+                Instruction::with3(code, first, second, self.vector(b))
+            }
             Operand::Memory(memory) => {
                 let memory = self.third(memory, arithmetic);
-                Instruction::with3(code, to, a, memory)
+                let code = self.encoding(codes, [to, a], Some(&memory));
+                Instruction::with3(code, first, second, memory)
             }
         };
         self.put(instruction);
     }
 
     pub(super) fn binary(&mut self, binary: Binary, to: u8, a: u8, b: Operand) {
-        let code = code(codes::binary(binary), self.shape);
-        self.three(code, to, a, b, binary.is_arithmetic());
+        self.three(codes::binary(binary), to, a, b, binary.is_arithmetic());
     }
 
     pub(super) fn multiply_add(&mut self, form: Form, first: u8, second: u8, third: Operand) {
@@ -172,11 +235,11 @@ impl Bytes {
             Form::F213 => &codes::FMA_213,
             Form::F231 => &codes::FMA_231,
         };
-        self.three(code(codes, self.shape), first, second, third, true);
+        self.three(codes, first, second, third, true);
     }
 
     pub(super) fn sqrt(&mut self, to: u8, a: u8) {
-        let code = code(&codes::SQRT, self.shape);
+        let code = self.encoding(&codes::SQRT, [to, a], None);
         let (to, a) = (self.vector(to), self.vector(a));
         self.put(match self.shape.lanes {
             1 => Instruction::with3(code, to, a, a),
@@ -185,7 +248,7 @@ impl Bytes {
     }
 
     pub(super) fn shift_left(&mut self, to: u8, a: u8, by: u8) {
-        self.shift(code(&codes::SHIFT_LEFT, self.shape), to, a, by);
+        self.shift(self.encoding(&codes::SHIFT_LEFT, [to, a], None), to, a, by);
     }
 
     pub(super) fn spread_sign(&mut self, to: u8, a: u8) {
@@ -198,22 +261,24 @@ impl Bytes {
     }
 
     pub(super) fn copy(&mut self, to: u8, from: u8) {
-        let (to, from) = (self.vector(to), self.vector(from));
-        self.put(Instruction::with2(code(&codes::COPY, self.shape), to, from));
+        let code = self.encoding(&codes::COPY, [to, from], None);
+        self.put(Instruction::with2(code, self.vector(to), self.vector(from)));
     }
 
     pub(super) fn load(&mut self, to: u8, memory: Memory) {
-        let codes = match memory {
-            Memory::Home(Home::Constant(_)) => &codes::SPREAD,
-            _ => &codes::LOAD,
+        let spreads = matches!(memory, Memory::Home(Home::Constant(_)));
+        let memory = self.memory(memory, false);
+        let code = match self.shape {
+            // Short or not, constants of AVX-512 are spread.
+            shape if spreads && shape.lanes > 1 => code(&codes::SPREAD, shape),
+            _ => self.encoding(&codes::LOAD, [to; 2], Some(&memory)),
         };
-        let (to, memory) = (self.vector(to), self.memory(memory, false));
-        self.put(Instruction::with2(code(codes, self.shape), to, memory));
+        self.put(Instruction::with2(code, self.vector(to), memory));
     }
 
     fn store_to(&mut self, memory: MemoryOperand, from: u8) {
-        let from = self.vector(from);
-        self.put(Instruction::with2(code(&codes::STORE, self.shape), memory, from));
+        let code = self.encoding(&codes::STORE, [from; 2], Some(&memory));
+        self.put(Instruction::with2(code, memory, self.vector(from)));
     }
 
     /// Puts a register aside.
@@ -222,21 +287,73 @@ impl Bytes {
         self.store_to(memory, from);
     }
 
-    pub(super) fn store(&mut self, target: Target, from: u8) {
-        let memory = match (target, self.addressing) {
-            (Target::Working(index), _) => Bytes::at(WORKING, i64::from(index), false),
-            (Target::Output(entry), Addressing::Row) => Bytes::at(OUTPUTS, i64::from(entry), false),
-            (Target::Output(entry), Addressing::Columns) => self.column(OUTPUTS, entry),
+    pub(super) fn store(&mut self, entry: u32, from: u8) {
+        let memory = match self.addressing {
+            Addressing::Row => Bytes::at(OUTPUTS, i64::from(entry), false),
+            Addressing::Columns => self.column(OUTPUTS, entry),
         };
         self.store_to(memory, from);
     }
 
+    /// The first numbers of two values side by side.
+    pub(super) fn pair(&mut self, to: u8, a: u8, b: Operand) {
+        let other = if let Operand::Register(b) = b { b } else { 0 };
+        let is_long = self.short([to.max(a), other], None).registers == Registers::Avx512;
+        let codes = |codes: [Code; 2]| codes[usize::from(is_long)];
+        let (to, a) = (Register::XMM0 + u32::from(to), Register::XMM0 + u32::from(a));
+        let instruction = match b {
+            Operand::Register(b) => {
+                let code = codes([
+                    Code::VEX_Vunpcklpd_xmm_xmm_xmmm128,
+                    Code::EVEX_Vunpcklpd_xmm_k1z_xmm_xmmm128b64,
+                ]);
+                Instruction::with3(code, to, a, Register::XMM0 + u32::from(b))
+            }
+            Operand::Memory(memory) => {
+                let code = codes([Code::VEX_Vmovhpd_xmm_xmm_m64, Code::EVEX_Vmovhpd_xmm_xmm_m64]);
+                let memory = self.memory(memory, false);
+                Instruction::with3(code, to, a, memory)
+            }
+        };
+        self.put(instruction);
+    }
+
+    /// The first two numbers of two values side by side.
+    pub(super) fn join(&mut self, to: u8, a: u8, b: u8) {
+        let [to, a] = [to, a].map(|register| Register::YMM0 + u32::from(register));
+        let code = match self.shape.registers {
+            Registers::Avx2 => Code::VEX_Vinsertf128_ymm_ymm_xmmm128_imm8,
+            Registers::Avx512 => Code::EVEX_Vinsertf64x2_ymm_k1z_ymm_xmmm128_imm8,
+        };
+        self.put(Instruction::with4(code, to, a, Register::XMM0 + u32::from(b), 1));
+    }
+
+    /// The second number of a value.
+    pub(super) fn second(&mut self, to: u8, a: u8) {
+        let [to, a] = [to, a].map(|register| Register::XMM0 + u32::from(register));
+        let code = match self.shape.registers {
+            Registers::Avx2 => Code::VEX_Vunpckhpd_xmm_xmm_xmmm128,
+            Registers::Avx512 => Code::EVEX_Vunpckhpd_xmm_k1z_xmm_xmmm128b64,
+        };
+        self.put(Instruction::with3(code, to, a, a));
+    }
+
+    /// The third and fourth number of a value.
+    pub(super) fn upper(&mut self, to: u8, a: u8) {
+        let code = match self.shape.registers {
+            Registers::Avx2 => Code::VEX_Vextractf128_xmmm128_ymm_imm8,
+            Registers::Avx512 => Code::EVEX_Vextractf64x2_xmmm128_k1z_ymm_imm8,
+        };
+        let (to, a) = (Register::XMM0 + u32::from(to), Register::YMM0 + u32::from(a));
+        self.put(Instruction::with3(code, to, a, 1));
+    }
+
     /// Goes on with the next states, back at the start, until all are done.
     pub(super) fn repeat(&mut self) {
-        let lanes = self.shape.lanes as i32;
+        let lanes = self.narrow.lanes as i32;
         self.put(Instruction::with2(Code::Add_rm64_imm8, STATE, lanes));
         self.put(Instruction::with2(Code::Cmp_r64_rm64, STATE, END));
-        self.put(Instruction::with_branch(Code::Jb_rel32_64, 0));
+        self.put(Instruction::with_branch(Code::Jb_rel32_64, self.start));
     }
 
     pub(super) fn end(&mut self) {

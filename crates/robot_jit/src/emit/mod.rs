@@ -8,6 +8,14 @@ mod registers;
 pub(crate) use self::function::{Entry, Fault, LanesEntry, SingleEntry, emit_lanes, emit_single};
 use crate::processor::Registers;
 
+/// What code is made for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Target {
+    pub(crate) registers: Registers,
+    /// Whether multiply-adds of sines round once.
+    pub(crate) fused: bool,
+}
+
 /// The registers, and how many of their numbers an instruction computes: 1, 4 or 8.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape {

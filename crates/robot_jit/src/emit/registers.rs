@@ -5,10 +5,12 @@
 //! computer", IBM Systems Journal 5(2), 1966); it is stored unless memory has it already.
 
 use super::encoder::{Bytes, Form, Memory, Operand};
-use crate::list::{Binary, Home, Id, Instruction, List, Step};
+use crate::list::{Binary, Home, Id, Instruction, List, Step, needed, operands};
 
 const NEVER: u32 = u32::MAX;
 const NOWHERE: u8 = u8::MAX;
+/// Steps within which a value must be done to be given a low register, which short encodings have.
+const SOON: u32 = 30;
 
 /// The steps that use each value, in order.
 struct Uses {
@@ -20,17 +22,10 @@ struct Uses {
 impl Uses {
     /// The uses by steps that something stored depends on, and for each step whether it is one.
     fn new(list: &List) -> (Uses, Vec<bool>) {
-        let count = list.steps.len();
-        let mut needed = vec![false; count];
-        let mut next = vec![(0, 0); count];
-        for (position, step) in list.steps.iter().enumerate().rev() {
-            needed[position] |= matches!(step, Step::Store(..));
-            if needed[position] {
-                for value in distinct(*step) {
-                    needed[value.index()] = true;
-                    next[value.index()].1 += 1;
-                }
-            }
+        let needed = needed(list);
+        let mut next = vec![(0, 0); list.steps.len()];
+        for (_, step) in list.steps.iter().enumerate().filter(|(at, _)| needed[*at]) {
+            operands(*step).for_each(|value| next[value.index()].1 += 1);
         }
         let mut start = 0;
         for (first, end) in &mut next {
@@ -40,7 +35,7 @@ impl Uses {
         }
         let mut steps = vec![0; start as usize];
         for (position, step) in list.steps.iter().enumerate().filter(|(at, _)| needed[*at]) {
-            for value in distinct(*step) {
+            for value in operands(*step) {
                 let end = &mut next[value.index()].1;
                 steps[*end as usize] = position as u32;
                 *end += 1;
@@ -55,6 +50,12 @@ impl Uses {
         if at < end { self.steps[at as usize] } else { NEVER }
     }
 
+    /// The last step that uses the value.
+    fn last(&self, value: Id) -> u32 {
+        let (at, end) = self.next[value.index()];
+        if at < end { self.steps[end as usize - 1] } else { NEVER }
+    }
+
     /// The one after it.
     fn after(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
@@ -62,19 +63,10 @@ impl Uses {
     }
 }
 
-/// The values that a step uses, each once.
-fn distinct(step: Step) -> impl Iterator<Item = Id> {
-    let operands: [Option<Id>; 3] = match step {
-        Step::Store(value, _) => [Some(value), None, None],
-        Step::Value(instruction) => {
-            let mut operands = instruction.operands();
-            std::array::from_fn(|_| operands.next())
-        }
-    };
-    let [a, b, c] = operands;
-    let b = b.filter(|b| Some(*b) != a);
-    let c = c.filter(|c| Some(*c) != a && Some(*c) != b);
-    [a, b, c].into_iter().flatten()
+/// A place in the working memory that becomes free.
+struct Freed {
+    slot: u32,
+    wide: bool,
 }
 
 struct Body<'a> {
@@ -87,11 +79,15 @@ struct Body<'a> {
     slot: Vec<Option<u32>>,
     /// For each register its value.
     value: Vec<Option<Id>>,
-    free_slots: Vec<u32>,
-    slots: u32,
+    /// Places in the working memory that are free, by whether they are for wide values.
+    free_slots: [Vec<u32>; 2],
+    /// The numbers of the working memory.
+    working: u32,
+    /// The step at hand.
+    position: u32,
 }
 
-/// Appends the code of a list; how many registers are put aside at once.
+/// Appends the code of a list; the numbers of working memory that it uses.
 pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
     let (uses, needed) = Uses::new(list);
     let count = list.steps.len();
@@ -103,10 +99,13 @@ pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
         register: vec![NOWHERE; count],
         slot: vec![None; count],
         value,
-        free_slots: vec![],
-        slots: 0,
+        free_slots: [vec![], vec![]],
+        working: 0,
+        position: 0,
     };
     for (position, step) in list.steps.iter().enumerate() {
+        body.bytes.widen(list.wide[position]);
+        body.position = position as u32;
         match step {
             _ if !needed[position] => {}
             Step::Value(Instruction::Home(_)) => {}
@@ -115,11 +114,11 @@ pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
                 let from = body.loaded(*value, &[]);
                 body.bytes.store(*target, from);
                 let freed = body.release(&[*value]);
-                body.free_slots.extend(freed.into_iter().flatten());
+                body.free_slot(freed);
             }
         }
     }
-    body.slots
+    body.working
 }
 
 impl Body<'_> {
@@ -173,28 +172,54 @@ impl Body<'_> {
         best
     }
 
-    fn free(&self) -> Option<u8> {
-        self.value.iter().position(Option::is_none).map(|register| register as u8)
+    /// A register without a value, if there is one: a low one for a value that is done soon.
+    fn free(&self, value: Id) -> Option<u8> {
+        let mut free = (0..self.value.len()).filter(|register| self.value[*register].is_none());
+        let is_soon = self.uses.last(value).saturating_sub(self.position) <= SOON;
+        let register = if is_soon { free.next() } else { free.next_back() };
+        register.map(|register| register as u8)
     }
 
     /// A register without a value. Those of `kept` keep theirs.
-    fn vacant(&mut self, kept: &[Id]) -> u8 {
-        if let Some(register) = self.free() {
+    fn vacant(&mut self, value: Id, kept: &[Id]) -> u8 {
+        if let Some(register) = self.free(value) {
             return register;
         }
         let (register, _) = self.farthest(kept);
         if let Some(value) = self.value[usize::from(register)].take() {
             self.register[value.index()] = NOWHERE;
             if self.home(value).is_none() && self.slot[value.index()].is_none() {
-                let slot = self.free_slots.pop().unwrap_or_else(|| {
-                    self.slots += 1;
-                    self.slots - 1
-                });
+                let slot = self.new_slot(value);
                 self.slot[value.index()] = Some(slot);
-                self.bytes.spill(slot, register);
+                self.for_value(value, |bytes| bytes.spill(slot, register));
             }
         }
         register
+    }
+
+    fn new_slot(&mut self, value: Id) -> u32 {
+        let wide = self.list.wide[value.index()];
+        self.free_slots[usize::from(wide)].pop().unwrap_or_else(|| {
+            let numbers = self.bytes.numbers(wide);
+            // Aligned, so that no register crosses a cache line.
+            let slot = self.working.next_multiple_of(numbers);
+            self.working = slot + numbers;
+            slot
+        })
+    }
+
+    /// Moves a value as wide as it is, amid an instruction that may be wider or not.
+    fn for_value(&mut self, value: Id, then: impl FnOnce(&mut Bytes)) {
+        let shape = self.bytes.shape;
+        self.bytes.widen(self.list.wide[value.index()]);
+        then(self.bytes);
+        self.bytes.shape = shape;
+    }
+
+    fn free_slot(&mut self, freed: [Option<Freed>; 3]) {
+        for Freed { slot, wide } in freed.into_iter().flatten() {
+            self.free_slots[usize::from(wide)].push(slot);
+        }
     }
 
     /// The value in a register.
@@ -202,9 +227,9 @@ impl Body<'_> {
         if let Some(register) = self.held(value) {
             return register;
         }
-        let register = self.vacant(kept);
+        let register = self.vacant(value, kept);
         let memory = self.memory(value);
-        self.bytes.load(register, memory);
+        self.for_value(value, |bytes| bytes.load(register, memory));
         self.bind(value, register);
         register
     }
@@ -215,7 +240,10 @@ impl Body<'_> {
             return Operand::Register(register);
         }
         let memory = self.memory(value);
-        let later = || self.free().is_none() && self.uses.after(value) >= self.farthest(kept).1;
+        let later = || {
+            self.value.iter().all(Option::is_some)
+                && self.uses.after(value) >= self.farthest(kept).1
+        };
         let stays = self.is_constant(value) || self.dies(value) || later();
         if stays && self.bytes.reads(memory, arithmetic) {
             return Operand::Memory(memory);
@@ -225,8 +253,8 @@ impl Body<'_> {
 
     /// Takes the registers from values that are not needed after this step; their slots, which are free once it is
     /// encoded.
-    fn release(&mut self, values: &[Id]) -> [Option<u32>; 3] {
-        let mut freed = [None; 3];
+    fn release(&mut self, values: &[Id]) -> [Option<Freed>; 3] {
+        let mut freed = [const { None }; 3];
         for (index, value) in values.iter().enumerate() {
             if values[..index].contains(value) {
                 continue;
@@ -237,7 +265,8 @@ impl Body<'_> {
                     self.value[usize::from(register)] = None;
                     self.register[value.index()] = NOWHERE;
                 }
-                freed[index] = self.slot[value.index()].take();
+                let wide = self.list.wide[value.index()];
+                freed[index] = self.slot[value.index()].take().map(|slot| Freed { slot, wide });
             }
         }
         freed
@@ -248,20 +277,45 @@ impl Body<'_> {
             Instruction::Home(_) => return,
             Instruction::Binary(binary, a, b) => self.binary(result, binary, a, b),
             Instruction::MulAdd(a, b, c) => self.multiply_add(result, a, b, c),
-            Instruction::Sqrt(a) | Instruction::ShiftLeft(a, _) | Instruction::SpreadSign(a) => {
+            Instruction::Pair(a, b) => {
+                let kept = [a, b];
+                let first = self.loaded(a, &kept);
+                let second = self.operand(b, &kept, true);
+                let freed = self.release(&kept);
+                let to = self.vacant(result, &[]);
+                self.bytes.pair(to, first, second);
+                self.bind(result, to);
+                freed
+            }
+            Instruction::Join(a, b) => {
+                let kept = [a, b];
+                let [first, second] = kept.map(|value| self.loaded(value, &kept));
+                let freed = self.release(&kept);
+                let to = self.vacant(result, &[]);
+                self.bytes.join(to, first, second);
+                self.bind(result, to);
+                freed
+            }
+            Instruction::Sqrt(a)
+            | Instruction::ShiftLeft(a, _)
+            | Instruction::SpreadSign(a)
+            | Instruction::Second(a)
+            | Instruction::Upper(a) => {
                 let from = self.loaded(a, &[a]);
                 let freed = self.release(&[a]);
-                let to = self.vacant(&[]);
+                let to = self.vacant(result, &[]);
                 match instruction {
                     Instruction::Sqrt(_) => self.bytes.sqrt(to, from),
                     Instruction::ShiftLeft(_, by) => self.bytes.shift_left(to, from, by),
+                    Instruction::Second(_) => self.bytes.second(to, from),
+                    Instruction::Upper(_) => self.bytes.upper(to, from),
                     _ => self.bytes.spread_sign(to, from),
                 }
                 self.bind(result, to);
                 freed
             }
         };
-        self.free_slots.extend(freed.into_iter().flatten());
+        self.free_slot(freed);
     }
 
     /// The operands of a sum or product so that the second is the one to be read from memory.
@@ -274,20 +328,20 @@ impl Body<'_> {
         }
     }
 
-    fn binary(&mut self, result: Id, binary: Binary, a: Id, b: Id) -> [Option<u32>; 3] {
+    fn binary(&mut self, result: Id, binary: Binary, a: Id, b: Id) -> [Option<Freed>; 3] {
         let (a, b) = if binary.commutes() { self.ordered(a, b) } else { (a, b) };
         let kept = [a, b];
         let first = self.loaded(a, &kept);
         let second = self.operand(b, &kept, binary.is_arithmetic());
         let freed = self.release(&kept);
-        let to = self.vacant(&[]);
+        let to = self.vacant(result, &[]);
         self.bytes.binary(binary, to, first, second);
         self.bind(result, to);
         freed
     }
 
     /// The result replaces one of the three: one that is not needed any more, else a copy of the addend.
-    fn multiply_add(&mut self, result: Id, a: Id, b: Id, c: Id) -> [Option<u32>; 3] {
+    fn multiply_add(&mut self, result: Id, a: Id, b: Id, c: Id) -> [Option<Freed>; 3] {
         let (a, b) = self.ordered(a, b);
         let kept = [a, b, c];
         let goes = |body: &Self, value| body.held(value).filter(|_| body.dies(value));
@@ -306,7 +360,7 @@ impl Body<'_> {
         } else {
             let second = self.loaded(a, &kept);
             let third = self.operand(b, &kept, true);
-            let first = self.vacant(&kept);
+            let first = self.vacant(result, &kept);
             match self.held(c) {
                 Some(addend) => self.bytes.copy(first, addend),
                 None => {

@@ -3,7 +3,7 @@
 
 use robot_runtime::FUSED;
 use robot_runtime::tanh::TANH_F64;
-use robot_runtime::trig::double::{COSINE, LIMIT, SHIFT, SHORT_HALF_PI, SINE};
+use robot_runtime::trig::double::{COSINE, HALF_PI, LIMIT, SHIFT, SHORT_HALF_PI, SINE};
 use robot_symbolic::Function;
 
 use super::Binary::{
@@ -23,7 +23,7 @@ impl Writer<'_> {
         match function {
             Function::Sin => self.sin_cos(x).0,
             Function::Cos => self.sin_cos(x).1,
-            Function::Sqrt => self.list.value(Instruction::Sqrt(x)),
+            Function::Sqrt => self.value(Instruction::Sqrt(x)),
             Function::Abs => self.abs(x),
             Function::Sign => self.sign(x),
             Function::Tanh => self.tanh(x),
@@ -48,7 +48,7 @@ impl Writer<'_> {
                 let zero = self.bits(0);
                 self.binary(GreaterInteger, zero, x)
             }
-            Registers::Avx512 => self.list.value(Instruction::SpreadSign(x)),
+            Registers::Avx512 => self.value(Instruction::SpreadSign(x)),
         }
     }
 
@@ -61,36 +61,47 @@ impl Writer<'_> {
     /// a b + c as the runtime of this build has it: its hyperbolic tangent is fused where the target is.
     fn as_built(&mut self, a: Id, b: Id, c: Id) -> Id {
         match FUSED {
-            true => self.list.value(Instruction::MulAdd(a, b, c)),
+            true => self.value(Instruction::MulAdd(a, b, c)),
             false => self.twice(a, b, c),
         }
     }
 
-    /// `trig::double::portable_sin_cos`.
+    /// a b + c of sines and cosines.
+    fn multiply_add(&mut self, a: Id, b: Id, c: Id) -> Id {
+        match self.fused {
+            true => self.value(Instruction::MulAdd(a, b, c)),
+            false => self.twice(a, b, c),
+        }
+    }
+
+    /// `trig::double::portable_sin_cos`, or `sin_cos` of a target with multiply-adds.
     pub(super) fn sin_cos(&mut self, angle: Id) -> (Id, Id) {
         let (turns, shift) = (self.number(std::f64::consts::FRAC_2_PI), self.number(SHIFT));
-        let shifted = self.twice(angle, turns, shift);
+        let shifted = self.multiply_add(angle, turns, shift);
         let k = self.binary(Sub, shifted, shift);
         let mut r = self.nan_unless_below(angle, LIMIT);
-        for part in &SHORT_HALF_PI[..3] {
+        let (first, last): (&[f64], f64) = match self.fused {
+            true => (&HALF_PI[..2], HALF_PI[2]),
+            false => (&SHORT_HALF_PI[..3], SHORT_HALF_PI[3]),
+        };
+        for part in first {
             let part = self.number(-part);
-            r = self.twice(k, part, r);
+            r = self.multiply_add(k, part, r);
         }
-        let last = self.number(SHORT_HALF_PI[3]);
+        let last = self.number(-last);
         let rest = self.binary(Mul, k, last);
         let z = self.binary(Mul, r, r);
         let z2 = self.binary(Mul, z, z);
         let rz = self.binary(Mul, r, z);
 
         let polynomial = self.polynomial(&SINE, z, z2);
-        let product = self.binary(Mul, rz, polynomial);
-        let behind = self.binary(Sub, product, rest);
+        let behind = self.multiply_add(rz, polynomial, rest);
         let sine = self.binary(Add, r, behind);
 
         let polynomial = self.polynomial(&COSINE, z, z2);
         let (half, one) = (self.number(-0.5), self.number(1.0));
-        let cosine = self.twice(z, polynomial, half);
-        let cosine = self.twice(z, cosine, one);
+        let cosine = self.multiply_add(z, polynomial, half);
+        let cosine = self.multiply_add(z, cosine, one);
         self.turned(shifted, sine, cosine)
     }
 
@@ -107,22 +118,22 @@ impl Writer<'_> {
     fn polynomial(&mut self, c: &[f64; 6], z: Id, z2: Id) -> Id {
         let [low, middle, high] = [0, 2, 4].map(|at| {
             let (low, high) = (self.number(c[at]), self.number(c[at + 1]));
-            self.twice(z, high, low)
+            self.multiply_add(z, high, low)
         });
-        let upper = self.twice(high, z2, middle);
-        self.twice(upper, z2, low)
+        let upper = self.multiply_add(high, z2, middle);
+        self.multiply_add(upper, z2, low)
     }
 
     /// Sine and cosine of r + k·π/2 from those of r; the low bits of `k` are those of k.
     fn turned(&mut self, k: Id, sine: Id, cosine: Id) -> (Id, Id) {
         let sign = self.bits(SIGN);
-        let odd = self.list.value(Instruction::ShiftLeft(k, 63));
+        let odd = self.value(Instruction::ShiftLeft(k, 63));
         let odd = self.spread_sign(odd);
         let different = self.binary(Xor, sine, cosine);
         let swap = self.binary(And, odd, different);
         let (sine, cosine) = (self.binary(Xor, sine, swap), self.binary(Xor, cosine, swap));
 
-        let half = self.list.value(Instruction::ShiftLeft(k, 62));
+        let half = self.value(Instruction::ShiftLeft(k, 62));
         let sine_sign = self.binary(And, half, sign);
         // (k + 1) · 2⁶² = k · 2⁶² + 2⁶².
         let quarter = self.bits(1 << 62);
@@ -186,7 +197,7 @@ impl Writer<'_> {
         let square = self.binary(Mul, r, r);
         let e = self.as_built(square, e, r);
 
-        let exponent = self.list.value(Instruction::ShiftLeft(shifted, FRACTION));
+        let exponent = self.value(Instruction::ShiftLeft(shifted, FRACTION));
         let power = self.binary(AddInteger, exponent, one);
         let less = self.binary(Sub, power, one);
         let t = self.as_built(power, e, less);

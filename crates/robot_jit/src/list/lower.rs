@@ -3,19 +3,17 @@
 use robot_codegen::module::Function;
 use robot_codegen::program::{Operation, Program, Source};
 use robot_symbolic::Function as Call;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Binary, Home, Id, Instruction, Target, Writer};
+use super::{Binary, Home, Id, Instruction, WIDE, Writer};
 
-/// Where sines and cosines of the angles of a function come from.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Angles<'p> {
-    /// They are computed before they are first used, from what this program gives.
-    Here(&'p Program),
-    /// They are in the working memory: sines from one number on, cosines from another.
-    Working { sines: u32, cosines: u32 },
-    /// The program has none.
-    None,
+/// How the sines and cosines of the angles of a function are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sines {
+    /// Each before it is first used.
+    Single,
+    /// At the start, several side by side in wide values.
+    SideBySide,
 }
 
 /// Something that a program loads and does not exist.
@@ -26,57 +24,90 @@ struct Lowering<'w, 'p, 'f> {
     writer: &'w mut Writer<'p>,
     function: &'f Function,
     fields: &'f [f64],
-    angles: Angles<'f>,
-    /// The values of the program of angles.
-    angle_values: Vec<Id>,
+    /// The angles of the function.
+    angles: Vec<Id>,
     /// Sines and cosines of angles by their index.
     pairs: Vec<Option<(Id, Id)>>,
     /// Sines and cosines of other values.
     calls: FxHashMap<Id, (Id, Id)>,
 }
 
-/// Appends a program; `results` has positions of its values and where these go.
+/// Appends a function.
 pub(crate) fn lower(
     writer: &mut Writer<'_>,
     function: &Function,
-    program: &Program,
     fields: &[f64],
-    angles: Angles<'_>,
-    results: &[(usize, Target)],
+    sines: Sines,
 ) -> Result<(), Missing> {
-    let mut lowering = Lowering {
-        writer,
-        function,
-        fields,
-        angles,
-        angle_values: vec![],
-        pairs: vec![None; function.angles.results().len()],
-        calls: FxHashMap::default(),
-    };
-    if let Angles::Here(angles) = angles {
-        lowering.angle_values = lowering.values(angles, |_, _, _| {})?;
+    let angles = function.angles.results();
+    let pairs = vec![None; angles.len()];
+    let calls = FxHashMap::default();
+    let mut lowering = Lowering { writer, function, fields, angles: vec![], pairs, calls };
+    let values = lowering.values(&function.angles, |_, _, _| {})?;
+    lowering.angles = angles.iter().map(|angle| values[angle.index()]).collect();
+    if sines == Sines::SideBySide && angles.len() > 1 {
+        let inputs = lowering.inputs();
+        let pairs = lowering.writer.side_by_side(&lowering.angles, inputs);
+        lowering.pairs = pairs.into_iter().map(Some).collect();
     }
-    let mut results = results.to_vec();
-    results.sort_by_key(|(position, _)| *position);
+    let mut results: Vec<(usize, u32)> = match sines {
+        Sines::Single => lowering.results(&[]),
+        Sines::SideBySide => {
+            let rows = lowering.constant_rows();
+            rows.iter().for_each(|(entry, row)| lowering.writer.store_row(*entry, *row));
+            lowering.results(&rows)
+        }
+    };
+    results.sort_unstable();
     let mut results = results.into_iter().peekable();
     // Stored as soon as they are known.
-    lowering.values(program, |writer, position, value| {
-        while let Some((_, target)) = results.next_if(|(result, _)| *result == position) {
-            writer.list.store(value, target);
+    lowering.values(&function.core, |writer, position, value| {
+        while let Some((_, entry)) = results.next_if(|(result, _)| *result == position) {
+            writer.store(value, entry);
         }
     })?;
     Ok(())
 }
 
-/// Appends sines and cosines of so many lanes from a place on, and stores them.
-pub(crate) fn sines(writer: &mut Writer<'_>, angle: Home, sine: u32, cosine: u32) {
-    let angle = writer.list.home(angle);
-    let (sine_value, cosine_value) = writer.sin_cos(angle);
-    writer.list.store(sine_value, Target::Working(sine));
-    writer.list.store(cosine_value, Target::Working(cosine));
-}
-
 impl Lowering<'_, '_, '_> {
+    /// Rows of outputs that are constants, by their first entries.
+    fn constant_rows(&self) -> Vec<(u32, [u64; WIDE])> {
+        let results = self.function.core.results().iter();
+        let bits: Vec<Option<u64>> = results
+            .map(|value| match self.function.core.operation(*value) {
+                Operation::Constant(constant) => Some(constant.get().to_bits()),
+                Operation::Load(Source::Field(index)) => {
+                    self.fields.get(index as usize).map(|field| field.to_bits())
+                }
+                _ => None,
+            })
+            .collect();
+        let mut rows = vec![];
+        let mut start = 0;
+        for run in bits.chunk_by(|a, b| a.is_some() == b.is_some()) {
+            let end = start + run.len();
+            if run[0].is_some() && run.len() >= WIDE {
+                // The last row overlaps with the one before it.
+                let firsts = (start..end).step_by(WIDE).map(|first| first.min(end - WIDE));
+                rows.extend(firsts.map(|first| {
+                    let row = std::array::from_fn(|lane| bits[first + lane].unwrap_or_default());
+                    (first as u32, row)
+                }));
+            }
+            start = end;
+        }
+        rows
+    }
+
+    /// Positions of values and the entries that they are, but for those of rows.
+    fn results(&self, rows: &[(u32, [u64; WIDE])]) -> Vec<(usize, u32)> {
+        let of_rows: FxHashSet<u32> =
+            rows.iter().flat_map(|(entry, _)| *entry..entry + WIDE as u32).collect();
+        let results = self.function.core.results().iter().zip(0..);
+        let results = results.filter(|(_, entry)| !of_rows.contains(entry));
+        results.map(|(value, entry)| (value.index(), entry)).collect()
+    }
+
     /// The values of a program; `then` is called after each with its position.
     fn values(
         &mut self,
@@ -103,7 +134,7 @@ impl Lowering<'_, '_, '_> {
             Operation::Div(a, b) => self.writer.binary(Binary::Div, at(a), at(b)),
             Operation::Neg(a) => self.writer.neg(at(a)),
             Operation::MulAdd(a, b, c) => {
-                self.writer.list.value(Instruction::MulAdd(at(a), at(b), at(c)))
+                self.writer.value(Instruction::MulAdd(at(a), at(b), at(c)))
             }
             Operation::Call(Call::Sin, a) => self.pair(at(a)).0,
             Operation::Call(Call::Cos, a) => self.pair(at(a)).1,
@@ -111,8 +142,12 @@ impl Lowering<'_, '_, '_> {
         })
     }
 
+    /// The number of entries of all inputs.
+    fn inputs(&self) -> u32 {
+        self.function.inputs.iter().map(|input| input.symbols.len() as u32).sum()
+    }
+
     fn load(&mut self, source: Source) -> Result<Id, Missing> {
-        let inputs = || self.function.inputs.iter().map(|input| input.symbols.len()).sum::<usize>();
         Ok(match source {
             // The interpreter gives the same: functions load fields.
             Source::Parameter(_) => self.writer.number(f64::NAN),
@@ -120,9 +155,7 @@ impl Lowering<'_, '_, '_> {
                 let value = *self.fields.get(index as usize).ok_or(Missing)?;
                 self.writer.number(value)
             }
-            Source::Input(index) if (index as usize) < inputs() => {
-                self.writer.list.home(Home::Input(index))
-            }
+            Source::Input(index) if index < self.inputs() => self.writer.home(Home::Input(index)),
             Source::Input(_) => return Err(Missing),
             Source::Sin(index) => self.angle(index)?.0,
             Source::Cos(index) => self.angle(index)?.1,
@@ -144,19 +177,8 @@ impl Lowering<'_, '_, '_> {
         if let Some(pair) = known {
             return Ok(*pair);
         }
-        let pair = match self.angles {
-            Angles::None => return Err(Missing),
-            Angles::Working { sines, cosines } => {
-                let list = &mut self.writer.list;
-                let sine = list.home(Home::Working(sines + index));
-                (sine, list.home(Home::Working(cosines + index)))
-            }
-            Angles::Here(program) => {
-                let value = program.results().get(index as usize).ok_or(Missing)?;
-                let angle = *self.angle_values.get(value.index()).ok_or(Missing)?;
-                self.pair(angle)
-            }
-        };
+        let angle = *self.angles.get(index as usize).ok_or(Missing)?;
+        let pair = self.pair(angle);
         self.pairs[index as usize] = Some(pair);
         Ok(pair)
     }

@@ -5,10 +5,15 @@
 
 mod functions;
 mod lower;
+mod order;
+mod schedule;
+mod side_by_side;
 
 use rustc_hash::FxHashMap;
 
-pub(crate) use self::lower::{Angles, Missing, lower, sines};
+pub(crate) use self::lower::{Missing, Sines, lower};
+pub(crate) use self::order::{needed, operands};
+pub(crate) use self::schedule::Model;
 use crate::processor::Registers;
 
 /// The value of an instruction, by its position in the list.
@@ -30,19 +35,10 @@ impl Id {
 pub(crate) enum Home {
     /// A constant of the pool, the same in all lanes.
     Constant(u32),
-    /// An entry of the inputs.
+    /// A row of different constants of the pool, for a wide value.
+    Row(u32),
+    /// An entry of the inputs; of a wide value the first.
     Input(u32),
-    /// A number of the working memory, where the parts of a function leave what the next ones read.
-    Working(u32),
-}
-
-/// A place in memory that values are stored to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Target {
-    /// An entry of the outputs.
-    Output(u32),
-    /// A number of the working memory.
-    Working(u32),
 }
 
 /// Instructions on two values; of the floating-point numbers, of their bits, or of these as integers.
@@ -90,19 +86,47 @@ pub(crate) enum Instruction {
     SpreadSign(Id),
     /// a b + c, rounded once.
     MulAdd(Id, Id, Id),
+    /// The first numbers of two values, side by side.
+    Pair(Id, Id),
+    /// The first two numbers of two values, side by side.
+    Join(Id, Id),
+    /// The second number of a value, as the first.
+    Second(Id),
+    /// The third and fourth number of a value, as the first and second.
+    Upper(Id),
 }
 
 impl Instruction {
     pub(crate) fn operands(self) -> impl Iterator<Item = Id> {
         let operands = match self {
             Instruction::Home(_) => [None; 3],
-            Instruction::Sqrt(a) | Instruction::ShiftLeft(a, _) | Instruction::SpreadSign(a) => {
-                [Some(a), None, None]
+            Instruction::Sqrt(a)
+            | Instruction::ShiftLeft(a, _)
+            | Instruction::SpreadSign(a)
+            | Instruction::Second(a)
+            | Instruction::Upper(a) => [Some(a), None, None],
+            Instruction::Binary(_, a, b) | Instruction::Pair(a, b) | Instruction::Join(a, b) => {
+                [Some(a), Some(b), None]
             }
-            Instruction::Binary(_, a, b) => [Some(a), Some(b), None],
             Instruction::MulAdd(a, b, c) => [Some(a), Some(b), Some(c)],
         };
         operands.into_iter().flatten()
+    }
+
+    /// The same instruction on other values.
+    pub(crate) fn map(self, at: impl Fn(Id) -> Id) -> Instruction {
+        match self {
+            Instruction::Home(home) => Instruction::Home(home),
+            Instruction::Binary(binary, a, b) => Instruction::Binary(binary, at(a), at(b)),
+            Instruction::Sqrt(a) => Instruction::Sqrt(at(a)),
+            Instruction::ShiftLeft(a, by) => Instruction::ShiftLeft(at(a), by),
+            Instruction::SpreadSign(a) => Instruction::SpreadSign(at(a)),
+            Instruction::MulAdd(a, b, c) => Instruction::MulAdd(at(a), at(b), at(c)),
+            Instruction::Pair(a, b) => Instruction::Pair(at(a), at(b)),
+            Instruction::Join(a, b) => Instruction::Join(at(a), at(b)),
+            Instruction::Second(a) => Instruction::Second(at(a)),
+            Instruction::Upper(a) => Instruction::Upper(at(a)),
+        }
     }
 }
 
@@ -111,42 +135,27 @@ impl Instruction {
 pub(crate) enum Step {
     /// Computes the value at this position.
     Value(Instruction),
-    /// Stores a value; the position has none.
-    Store(Id, Target),
+    /// Stores a value to an entry of the outputs, a wide one to it and the next ones; the position has none.
+    Store(Id, u32),
 }
 
+/// The numbers of a wide value.
+pub(crate) const WIDE: usize = 4;
+
 /// Instructions in their order.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct List {
     pub(crate) steps: Vec<Step>,
-    homes: FxHashMap<Home, Id>,
+    /// Whether the value of each step is wide: in code for one state, several numbers side by side.
+    pub(crate) wide: Vec<bool>,
+    homes: FxHashMap<(Home, bool), Id>,
 }
 
 impl List {
-    pub(crate) fn new() -> List {
-        List { steps: vec![], homes: FxHashMap::default() }
-    }
-
-    fn push(&mut self, step: Step) -> Id {
+    fn push(&mut self, step: Step, wide: bool) -> Id {
         self.steps.push(step);
+        self.wide.push(wide);
         Id(self.steps.len() as u32 - 1)
-    }
-
-    fn value(&mut self, instruction: Instruction) -> Id {
-        self.push(Step::Value(instruction))
-    }
-
-    fn home(&mut self, home: Home) -> Id {
-        if let Some(id) = self.homes.get(&home) {
-            return *id;
-        }
-        let id = self.value(Instruction::Home(home));
-        self.homes.insert(home, id);
-        id
-    }
-
-    fn store(&mut self, value: Id, target: Target) {
-        self.push(Step::Store(value, target));
     }
 }
 
@@ -155,6 +164,7 @@ impl List {
 pub(crate) struct Pool {
     bits: Vec<u64>,
     index: FxHashMap<u64, u32>,
+    rows: Vec<[u64; WIDE]>,
 }
 
 impl Pool {
@@ -167,27 +177,73 @@ impl Pool {
         index
     }
 
-    /// Each constant so many times, one after the other.
+    /// A row of constants.
+    pub(crate) fn row(&mut self, row: [u64; WIDE]) -> u32 {
+        let known = self.rows.iter().position(|known| *known == row);
+        let index = known.unwrap_or(self.rows.len());
+        if index == self.rows.len() {
+            self.rows.push(row);
+        }
+        index as u32
+    }
+
+    /// How many constants there are beside the rows.
+    pub(crate) fn count(&self) -> usize {
+        self.bits.len()
+    }
+
+    /// Each constant so many times, one after the other, and the rows.
     pub(crate) fn spread(&self, times: usize) -> Vec<u64> {
-        self.bits.iter().flat_map(|bits| std::iter::repeat_n(*bits, times)).collect()
+        let constants = self.bits.iter().flat_map(|bits| std::iter::repeat_n(*bits, times));
+        constants.chain(self.rows.iter().flatten().copied()).collect()
     }
 }
 
-/// A list under construction: its constants, and the processor that it is for.
+/// A list under construction: its constants, and what it is for.
 pub(crate) struct Writer<'p> {
     pub(crate) list: List,
     pub(crate) pool: &'p mut Pool,
     pub(crate) registers: Registers,
+    /// Whether multiply-adds of sines round once.
+    pub(crate) fused: bool,
+    /// Whether values are wide.
+    wide: bool,
 }
 
 impl<'p> Writer<'p> {
-    pub(crate) fn new(pool: &'p mut Pool, registers: Registers) -> Writer<'p> {
-        Writer { list: List::new(), pool, registers }
+    pub(crate) fn new(pool: &'p mut Pool, registers: Registers, fused: bool) -> Writer<'p> {
+        Writer { list: List::default(), pool, registers, fused, wide: false }
+    }
+
+    pub(crate) fn value(&mut self, instruction: Instruction) -> Id {
+        self.list.push(Step::Value(instruction), self.wide)
+    }
+
+    pub(crate) fn store(&mut self, value: Id, entry: u32) {
+        self.list.push(Step::Store(value, entry), self.wide);
+    }
+
+    /// Stores constants to neighboring entries.
+    fn store_row(&mut self, entry: u32, row: [u64; WIDE]) {
+        self.wide = true;
+        let row = Home::Row(self.pool.row(row));
+        let row = self.home(row);
+        self.store(row, entry);
+        self.wide = false;
+    }
+
+    pub(crate) fn home(&mut self, home: Home) -> Id {
+        if let Some(id) = self.list.homes.get(&(home, self.wide)) {
+            return *id;
+        }
+        let id = self.value(Instruction::Home(home));
+        self.list.homes.insert((home, self.wide), id);
+        id
     }
 
     pub(crate) fn bits(&mut self, bits: u64) -> Id {
         let index = self.pool.constant(bits);
-        self.list.home(Home::Constant(index))
+        self.home(Home::Constant(index))
     }
 
     pub(crate) fn number(&mut self, number: f64) -> Id {
@@ -195,6 +251,6 @@ impl<'p> Writer<'p> {
     }
 
     pub(crate) fn binary(&mut self, binary: Binary, a: Id, b: Id) -> Id {
-        self.list.value(Instruction::Binary(binary, a, b))
+        self.value(Instruction::Binary(binary, a, b))
     }
 }

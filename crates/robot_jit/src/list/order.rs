@@ -1,0 +1,100 @@
+//! The order of the steps of a list. Not a bit changes.
+
+use super::{Id, Instruction, List, Step};
+
+/// The values that a step uses, each once.
+pub(crate) fn operands(step: Step) -> impl Iterator<Item = Id> {
+    let operands: [Option<Id>; 3] = match step {
+        Step::Store(value, _) => [Some(value), None, None],
+        Step::Value(instruction) => {
+            let mut operands = instruction.operands();
+            std::array::from_fn(|_| operands.next())
+        }
+    };
+    let [a, b, c] = operands;
+    let b = b.filter(|b| Some(*b) != a);
+    let c = c.filter(|c| Some(*c) != a && Some(*c) != b);
+    [a, b, c].into_iter().flatten()
+}
+
+/// For each step whether something stored depends on it.
+pub(crate) fn needed(list: &List) -> Vec<bool> {
+    let mut needed = vec![false; list.steps.len()];
+    for (position, step) in list.steps.iter().enumerate().rev() {
+        needed[position] |= matches!(step, Step::Store(..));
+        if needed[position] {
+            operands(*step).for_each(|value| needed[value.index()] = true);
+        }
+    }
+    needed
+}
+
+impl List {
+    /// Whether a value is in memory, so that it needs no register before it is used.
+    pub(super) fn is_home(&self, value: Id) -> bool {
+        matches!(self.steps[value.index()], Step::Value(Instruction::Home(_)))
+    }
+
+    /// The steps at these positions, each after its operands.
+    pub(super) fn in_order(&self, order: &[usize]) -> List {
+        let mut moved = vec![None; self.steps.len()];
+        let mut list = List::default();
+        for position in order {
+            // Operands come before, so that all are there.
+            let at = |id: Id| moved[id.index()].unwrap_or(id);
+            let step = match self.steps[*position] {
+                Step::Store(value, entry) => Step::Store(at(value), entry),
+                Step::Value(instruction) => Step::Value(instruction.map(at)),
+            };
+            moved[*position] = Some(list.push(step, self.wide[*position]));
+        }
+        list
+    }
+
+    /// Depth first from what is stored, of operands first the one that needs more registers (R. Sethi and J. D. Ullman,
+    /// "The generation of optimal code for arithmetic expressions", J. ACM 17(4), 1970), so that values live briefly.
+    pub(crate) fn depth_first(&self) -> List {
+        let registers = self.registers();
+        let mut done = vec![false; self.steps.len()];
+        let (mut order, mut pending) = (vec![], vec![]);
+        for (position, step) in self.steps.iter().enumerate() {
+            if let Step::Store(..) = step {
+                pending.push(position);
+            }
+            while let Some(top) = pending.last().copied() {
+                let waiting = pending.len();
+                if !done[top] {
+                    let missing = operands(self.steps[top]).map(Id::index);
+                    pending.extend(missing.filter(|operand| !done[*operand]));
+                }
+                if pending.len() > waiting {
+                    // The last goes first.
+                    pending[waiting..].sort_by_key(|operand| registers[*operand]);
+                } else {
+                    pending.pop();
+                    if !done[top] {
+                        done[top] = true;
+                        order.push(top);
+                    }
+                }
+            }
+        }
+        self.in_order(&order)
+    }
+
+    /// The registers that each value needs if nothing were shared.
+    fn registers(&self) -> Vec<u32> {
+        let mut registers: Vec<u32> = Vec::with_capacity(self.steps.len());
+        for (position, step) in self.steps.iter().enumerate() {
+            let mut needs = [0; 3];
+            for (need, value) in needs.iter_mut().zip(operands(*step)) {
+                *need = registers[value.index()];
+            }
+            needs.sort_unstable_by(|a, b| b.cmp(a));
+            let most = needs.iter().zip(0..).map(|(need, held)| need + held.min(*need)).max();
+            let own = u32::from(!self.is_home(Id::at(position)));
+            registers.push(most.unwrap_or_default().max(own));
+        }
+        registers
+    }
+}
