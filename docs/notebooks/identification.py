@@ -47,25 +47,23 @@ noise = np.array([0.3, 0.2, 0.5, 0.02])
 tau = arm.inverse_dynamics(q, qd, qdd) + noise * random.standard_normal((len(t), n))
 
 # %% [markdown]
-# Joints differ in their noise, so each row is divided by that of its joint; `identify` weighs all rows alike, and here the weighted system is solved by hand to
-# show that there is nothing behind it but the regressor Y, with τ = Y β.
+# Joints differ in their noise: the third, which slides, in newtons. With `noise`, each row weighs as it is known. Behind `identify` there is nothing but
+# the regressor Y, with τ = Y β, and a linear system; the standard errors come with it.
 
 # %%
-found = arm.identify(q, qd, qdd, tau)
-Y = arm.regressor_base(q, qd, qdd) / noise[:, None]
-values, *_ = np.linalg.lstsq(Y.reshape(-1, Y.shape[2]), (tau / noise).ravel(), rcond=None)
-error = np.sqrt(np.diag(np.linalg.inv(np.einsum("nij,nik->jk", Y, Y))))
-true = [float(entry["value"]) for entry in arm.base_parameters()["base"]]
+found = arm.identify(q, qd, qdd, tau, noise=noise)
+alike = arm.identify(q, qd, qdd, tau)
+true = np.array([float(entry["value"]) for entry in arm.base_parameters()["base"]])
 print(f"rank {found.rank} of {len(found.names)}, condition {found.condition:.0f}")
 print("parameter      true   all rows alike   weighted ± its standard error")
-for name, *row in zip(found.names, true, found.values, values, error):
+for name, *row in zip(found.names, true, alike.values, found.values, found.errors):
     print(f"{name:9} {row[0]:9.4f} {row[1]:16.4f} {row[2]:10.4f} ± {row[3]:.4f}")
 
 # %% [markdown]
 # The errors are those that the noise explains: the difference from the true value, in standard errors, should be like numbers of a normal distribution.
 
 # %%
-print("differences in standard errors:", ((values - true) / error).round(1))
+print("differences in standard errors:", ((found.values - true) / found.errors).round(1))
 
 # %% [markdown]
 # ## A bad motion looks as good
@@ -75,11 +73,9 @@ print("differences in standard errors:", ((values - true) / error).round(1))
 # %%
 slow = excitation(np.array([0.2, 0.2, 0.01, 0.2]))
 measured = arm.inverse_dynamics(*slow) + noise * random.standard_normal((len(t), n))
-poor = arm.identify(*slow, measured)
-Y_slow = arm.regressor_base(*slow) / noise[:, None]
-poor_error = np.sqrt(np.diag(np.linalg.inv(np.einsum("nij,nik->jk", Y_slow, Y_slow))))
+poor = arm.identify(*slow, measured, noise=noise)
 print(f"residual {found.residual:.3f} and {poor.residual:.3f} N m, N")
-print("standard errors grow by", (poor_error / error).round(0))
+print("standard errors grow by", (poor.errors / found.errors).round(0))
 
 # %% [markdown]
 # ## The test that counts
@@ -92,7 +88,7 @@ expected = arm.inverse_dynamics(*fresh)
 regressor = arm.regressor_base(*fresh)
 figure, axes = plt.subplots(figsize=(7, 4))
 axes.plot(t, expected[:, 0], "k", label="true")
-for name, beta in (("identified", values), ("from the bad motion", poor.values)):
+for name, beta in (("identified", found.values), ("from the bad motion", poor.values)):
     predicted = regressor @ beta
     axes.plot(t, predicted[:, 0], "--", label=name)
     print(f"{name:20} root mean square error", np.sqrt(np.mean((predicted - expected) ** 2, axis=0)).round(3))

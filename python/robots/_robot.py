@@ -216,19 +216,35 @@ class Robot:
         rest = {name: table[:, index] for index, name in enumerate(columns) if name.rstrip("0123456789") not in found}
         return {**rest, **found}
 
-    def identify(self, q: Any, qd: Any, qdd: Any, tau: Any, *, parameters: Mapping[str, float] | None = None) -> Identification:
-        """The base parameters that explain joint torques best, by least squares over all rows."""
+    def identify(
+        self, q: Any, qd: Any, qdd: Any, tau: Any, *, noise: Any = None, parameters: Mapping[str, float] | None = None
+    ) -> Identification:
+        """The base parameters that explain joint torques best, by least squares over all rows.
+
+        `noise` is the standard deviation of each joint's torques, (n,): rows then weigh as they are known. Without it all weigh alike.
+
+        >>> arm = robots.load("planar_2r.toml")
+        >>> q, qd, qdd = np.random.default_rng(1).uniform(-1, 1, (3, 50, 2))
+        >>> found = arm.identify(q, qd, qdd, arm.inverse_dynamics(q, qd, qdd))
+        >>> found.rank, round(found.as_dict()["MX_2"], 9)
+        (6, 1.2)
+        """
         regressor = self.regressor_base(q, qd, qdd, parameters=parameters)
         measured = np.asarray(tau, np.float64)
         if regressor.ndim != 3 or measured.shape != regressor.shape[:2]:
             raise RobotError(f"tau has the shape {measured.shape}; it must be (N, {self.degrees_of_freedom}) as the states are")
-        matrix = regressor.reshape(-1, regressor.shape[2])
-        if not (np.isfinite(matrix).all() and np.isfinite(measured).all()):
+        weights = 1.0 / np.broadcast_to(_noise(noise, self.degrees_of_freedom), measured.shape).ravel()
+        matrix, torques = regressor.reshape(-1, regressor.shape[2]), measured.ravel()
+        if not (np.isfinite(matrix).all() and np.isfinite(torques).all()):
             raise RobotError("the states and torques must be finite")
-        values, _, rank, singular = np.linalg.lstsq(matrix, measured.ravel(), rcond=None)
-        residual = measured.ravel() - matrix @ values
+        weighted = matrix * weights[:, None]
+        values, _, rank, singular = np.linalg.lstsq(weighted, torques * weights, rcond=None)
+        residuals = torques - matrix @ values
+        free = len(torques) - int(rank)
+        spread = 1.0 if noise is not None else float(np.sqrt(residuals @ residuals / free)) if free > 0 else np.inf
         names = [entry["name"] for entry in self.base_parameters()["base"]]
-        return Identification(names, values, int(rank), singular, float(np.sqrt(np.mean(residual**2))))
+        errors = spread * _standard_errors(weighted) if rank == len(values) else np.full(len(values), np.inf)
+        return Identification(names, values, errors, int(rank), singular, float(np.sqrt(np.mean(residuals**2))))
 
     def arrow(self, *names: str, output: str = "fixed_lists", keep: Sequence[str] = ()) -> BatchFunction:
         """A function from a record batch of pyarrow, or a table of whatever has Arrow's PyCapsule interface, to another.
@@ -239,7 +255,11 @@ class Robot:
         >>> arm.arrow("gravity", output="columns", keep=["id"])(batch).schema.names
         ['id', 'tau1', 'tau2']
         """
-        return BatchFunction(self._path, names, self._options, output, tuple(keep))
+        return BatchFunction(os.path.abspath(self._path), names, self._options, output, tuple(keep))
+
+    def __reduce__(self) -> Any:
+        """Another process reads the file again."""
+        return (_of_file, (os.path.abspath(self._path), self._options))
 
     def __repr__(self) -> str:
         return f"<robot {self.name}, {self.degrees_of_freedom} coordinates, {self._path}>"
@@ -248,6 +268,10 @@ class Robot:
         scheme = _shown.picture(self._run("scheme"), f"scheme of {self.name}")
         tables = [_shown.table(self._source.links()), _shown.table(self._source.parameter_rows())]
         return _shown.block(self.name, self._source.description, [scheme, *tables])
+
+
+def _of_file(path: str, options: dict[str, bool]) -> Robot:
+    return Robot(path, **options)
 
 
 def _flags(options: Mapping[str, Any]) -> list[str]:
@@ -262,12 +286,29 @@ def _flags(options: Mapping[str, Any]) -> list[str]:
     return flags
 
 
+def _noise(given: Any, joints: int) -> Any:
+    if given is None:
+        return np.ones(joints)
+    noise = np.asarray(given, np.float64)
+    if noise.shape != (joints,) or not (np.isfinite(noise).all() and (noise > 0).all()):
+        raise RobotError(f"noise must be {joints} positive numbers, one for each joint")
+    return noise
+
+
+def _standard_errors(matrix: Any) -> Any:
+    """The roots of the diagonal of (Aᵀ A)⁻¹, by a triangle R with Rᵀ R = Aᵀ A, which is not formed."""
+    triangle = np.linalg.qr(matrix, mode="r")
+    return np.linalg.norm(np.linalg.inv(triangle), axis=1)
+
+
 class Identification:
     """Base parameters that were identified."""
 
-    def __init__(self, names: list[str], values: Any, rank: int, singular_values: Any, residual: float) -> None:
+    def __init__(self, names: list[str], values: Any, errors: Any, rank: int, singular_values: Any, residual: float) -> None:
         self.names = names
         self.values = values
+        self.errors = errors
+        """The standard errors of the values: of the noise that was given, else of one that is the same in all rows, as large as what is left."""
         self.rank = rank
         self.singular_values = singular_values
         self.residual = residual

@@ -1,7 +1,9 @@
 //! Functions that run over tables of states.
 
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use robot_codegen::{Errors, Module, Trigonometry};
 use robot_jit::{Executable, Handle};
 
@@ -44,24 +46,40 @@ impl Engine {
         Ok(self.handle()?.is_native())
     }
 
-    /// Computes one state, from an array of one dimension for each input into contiguous arrays. False, and nothing is
-    /// written, if that is not what is given: then Python looks closer.
-    fn state(&self, inputs: Vec<Bound<'_, PyAny>>, outputs: Vec<PyBuffer<f64>>) -> PyResult<bool> {
+    /// Computes one state, from an array of one dimension of doubles for each input: the output, or a tuple of all. None if
+    /// that is not what is given: then Python looks closer.
+    fn state<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyTuple>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let handle = self.handle()?;
-        let found: Option<Vec<Table>> = outputs.iter().map(Table::flat).collect();
-        let buffers: Vec<PyBuffer<f64>> =
-            inputs.iter().map_while(|array| PyBuffer::get(array).ok()).collect();
-        let given: Option<Vec<Table>> = buffers.iter().map(Table::state).collect();
-        let (Some(given), Some(found)) = (given, found) else { return Ok(false) };
-        let sizes = handle.inputs().iter().map(|input| input.symbols.len());
-        let made: usize = found.iter().map(|table| table.entries()).sum();
-        let fits = given.iter().map(|table| table.entries()).eq(sizes);
-        if !fits || made != handle.output_size() {
-            return Ok(false);
+        if given.len() != handle.inputs().len() {
+            return Ok(None);
         }
-        let sizes = [handle.input_size(), made];
-        let task = Task { handle, inputs: &given, outputs: &found, sizes };
-        task.single().map(|()| true).map_err(wrong)
+        let mut entries = Vec::with_capacity(handle.input_size());
+        for (array, input) in given.iter_borrowed().zip(handle.inputs()) {
+            let Ok(array) = array.cast::<PyArray1<f64>>() else { return Ok(None) };
+            let table = Table::state(&array);
+            if table.entries() != input.symbols.len() {
+                return Ok(None);
+            }
+            entries.extend((0..table.entries()).map(|entry| table.read(0, entry)));
+        }
+        let mut found = vec![0.0; handle.output_size()];
+        handle.entries(&entries, &mut found).map_err(wrong)?;
+        let mut rest = found.as_slice();
+        let mut made = Vec::with_capacity(handle.outputs().len());
+        for output in handle.outputs() {
+            let (values, after) = rest.split_at(output.len());
+            made.push(array_of(py, values, &output.shape)?);
+            rest = after;
+        }
+        let single = if made.len() == 1 { made.pop() } else { None };
+        Ok(Some(match single {
+            Some(output) => output,
+            None => PyTuple::new(py, made)?.into_any(),
+        }))
     }
 
     /// Computes all states: tables (states, entries) of every input and output, in their order.
@@ -93,6 +111,16 @@ impl Engine {
             1 => task.single().map_err(wrong),
             _ => py.detach(|| task.all(states, threads)).map_err(wrong),
         }
+    }
+}
+
+/// An array of that shape; a number of NumPy for none.
+fn array_of<'py>(py: Python<'py>, values: &[f64], shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
+    let flat = PyArray1::from_slice(py, values);
+    match *shape {
+        [] => flat.as_any().get_item(0),
+        [_] => Ok(flat.into_any()),
+        _ => Ok(flat.reshape(shape.to_vec())?.into_any()),
     }
 }
 

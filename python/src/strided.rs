@@ -2,6 +2,7 @@
 
 #![allow(unsafe_code)]
 
+use numpy::{PyArray1, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::buffer::PyBuffer;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -33,20 +34,11 @@ impl Table {
         Ok(Table { start, strides: [by_state, by_entry], shape: [states, entries] })
     }
 
-    /// One state: an array of one dimension, if it is one.
-    pub(crate) fn state(buffer: &PyBuffer<f64>) -> Option<Table> {
-        let (&[entries], &[stride]) = (buffer.shape(), buffer.strides()) else { return None };
-        let start = buffer.buf_ptr().cast();
-        let is_plain = buffer.suboffsets().is_none();
-        is_plain.then_some(Table { start, strides: [0, stride], shape: [1, entries] })
-    }
-
-    /// All entries of an output of any number of dimensions, row by row, as those of one state.
-    pub(crate) fn flat(buffer: &PyBuffer<f64>) -> Option<Table> {
-        let is_plain = buffer.is_c_contiguous() && !buffer.readonly();
-        let start = buffer.buf_ptr().cast();
-        let strides = [0, size_of::<f64>() as isize];
-        is_plain.then_some(Table { start, strides, shape: [1, buffer.item_count()] })
+    /// One state: an array of one dimension, which is only read, while Python's lock is held.
+    pub(crate) fn state(array: &Bound<'_, PyArray1<f64>>) -> Table {
+        // NumPy states no strides for arrays of a library that has none.
+        let stride = array.strides().first().copied().unwrap_or(size_of::<f64>() as isize);
+        Table { start: array.data().cast(), strides: [0, stride], shape: [1, array.len()] }
     }
 
     pub(crate) fn states(self) -> usize {
@@ -70,7 +62,7 @@ impl Table {
     }
 
     pub(crate) fn write(self, state: usize, entry: usize, value: f64) {
-        // SAFETY: as in `read`; `new` and `flat` have checked outputs, which alone are written.
+        // SAFETY: as in `read`; `new` has checked outputs, which alone are written.
         unsafe { self.place(state, entry).write_unaligned(value) }
     }
 }

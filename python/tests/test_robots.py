@@ -1,6 +1,6 @@
 """The package as users see it. Robot files are those of the repository."""
 
-import os
+import importlib.util
 import pickle
 import shutil
 import subprocess
@@ -13,6 +13,11 @@ import pytest
 import robots
 
 FILES = Path(__file__).resolve().parents[2] / "robots"
+
+
+FORMS = ["expanded", "collected", "grouped", "compact", "recursive", "regrouped"]
+# The others have no expanded form, or one of a hundred pages.
+SHORT = {"planar_2r", "planar_3r", "scara", "trttr1", "puma560"}
 
 
 def arm(name):
@@ -149,7 +154,7 @@ def test_sympy_agrees(name):
         assert np.abs(found[:, 0] - tau).max() <= 1e-12 * max(1.0, np.abs(tau).max())
 
 
-@pytest.mark.parametrize("form", ["expanded", "collected", "grouped", "compact", "recursive", "regrouped"])
+@pytest.mark.parametrize("form", FORMS)
 def test_equations_are_shown(form):
     for name in ("planar_2r", "trttr1"):
         equations = arm(name).equations(form=form)
@@ -168,6 +173,25 @@ def test_identification_finds_the_parameters():
     fresh = states(robot, 20, seed=2)
     torques = robot.regressor_base(*fresh) @ found.values
     assert np.allclose(torques, robot.inverse_dynamics(*fresh), rtol=1e-8, atol=1e-8)
+
+
+def test_standard_errors_are_those_of_repeated_measurements():
+    robot, random = arm("scara"), np.random.default_rng(4)
+    q, qd, qdd = states(robot, 60)
+    exact, noise = robot.inverse_dynamics(q, qd, qdd), np.array([0.3, 0.1, 0.5, 0.02])
+    measured = [exact + noise * random.standard_normal(exact.shape) for _ in range(400)]
+    found = [robot.identify(q, qd, qdd, tau, noise=noise) for tau in measured]
+    spread = np.std([one.values for one in found], axis=0)
+    # The standard deviation of 400 values is known to 3.5 %; four of those.
+    assert np.allclose(spread, found[0].errors, rtol=0.15)
+    alike = robot.identify(q, qd, qdd, exact + 0.1 * random.standard_normal(exact.shape))
+    same = robot.identify(q, qd, qdd, exact, noise=[0.1] * 4)
+    assert np.allclose(alike.errors, same.errors, rtol=0.25)
+    still = robot.identify(q[:1].repeat(9, 0), qd[:1].repeat(9, 0), qdd[:1].repeat(9, 0), exact[:1].repeat(9, 0))
+    assert still.rank < 8 and np.isinf(still.errors).all()
+    for wrong in ([0.1] * 3, [0.0] * 4, [np.nan] * 4):
+        with pytest.raises(robots.RobotError, match="noise must be 4 positive"):
+            robot.identify(q, qd, qdd, exact, noise=wrong)
 
 
 def test_doors(tmp_path):
@@ -199,6 +223,19 @@ def test_documents(tmp_path, monkeypatch):
         with pytest.raises(robots.RobotError, match=remedy):
             robot.document(tmp_path / "arm.pdf", by=by)
     assert not (tmp_path / "arm.pdf").exists()
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no pdflatex")
+@pytest.mark.parametrize("name", sorted(file.stem for file in FILES.glob("*.toml")))
+def test_what_notebooks_show_compiles(tmp_path, name):
+    """Each form as a notebook gives it to LaTeX, with amsmath alone."""
+    forms = FORMS if name in SHORT else ["compact", "recursive"]
+    shown = [arm(name).equations(form=form)._repr_latex_() for form in forms]
+    head = "\\documentclass{article}\n\\usepackage{amsmath}\n\\allowdisplaybreaks\n\\begin{document}\n"
+    (tmp_path / "shown.tex").write_text(head + "\n\n".join(shown) + "\n\\end{document}\n")
+    command = ["pdflatex", "-no-shell-escape", "-draftmode", "-interaction=nonstopmode", "-halt-on-error", "shown.tex"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, errors="replace")
+    assert done.returncode == 0, done.stdout[-2000:]
 
 
 @pytest.mark.parametrize("by", ["typst", "latex"])
@@ -262,6 +299,19 @@ def test_unphysical_files_are_taken_if_that_is_said(tmp_path):
     assert robot.check()["warnings"] > 0
     pytest.importorskip("pyarrow")
     pickle.loads(pickle.dumps(robot.arrow("gravity")))
+
+
+def test_other_processes_read_the_file_again(tmp_path, monkeypatch):
+    """A worker may run in another folder."""
+    monkeypatch.chdir(FILES)
+    robot = robots.load("planar_2r.toml")
+    made = [pickle.dumps(robot)]
+    if importlib.util.find_spec("pyarrow"):
+        made.append(pickle.dumps(robot.arrow("gravity")))
+    monkeypatch.chdir(tmp_path)
+    assert np.array_equal(pickle.loads(made[0]).gravity([0.1, 0.2]), robot.gravity([0.1, 0.2]))
+    for text in made:
+        pickle.loads(text)
 
 
 def test_what_editors_show():
