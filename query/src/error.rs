@@ -53,6 +53,14 @@ impl Error {
     }
 }
 
+/// A worker that does not answer any more.
+fn lost(reason: &str) -> Error {
+    Error::Query(format!(
+        "a worker was lost while it computed ({reason}), and the query has no answer; start the worker again, or leave \
+         it out of --workers, and repeat the query"
+    ))
+}
+
 impl From<Error> for DataFusionError {
     fn from(error: Error) -> DataFusionError {
         DataFusionError::External(Box::new(error))
@@ -62,7 +70,10 @@ impl From<Error> for DataFusionError {
 impl From<DataFusionError> for Error {
     fn from(error: DataFusionError) -> Error {
         match error.find_root() {
-            DataFusionError::External(inner) => Error::Query(inner.to_string()),
+            DataFusionError::External(inner) => match inner.downcast_ref::<tonic::Status>() {
+                Some(status) => lost(status.message()),
+                None => Error::Query(inner.to_string()),
+            },
             _ => Error::Engine(error.strip_backtrace()),
         }
     }

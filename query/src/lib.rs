@@ -3,8 +3,10 @@
 //! A log is a table: rows are states at times, columns are q, q̇, q̈ and τ. [`functions`] computes the dynamics over
 //! its columns; [`identify`] folds them into parameters.
 
+pub mod cluster;
 mod columns;
 pub mod convert;
+pub mod derivative;
 mod error;
 pub mod functions;
 pub mod identify;

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_query::Error;
-use robot_query::log::{Log, Names, check};
+use robot_query::log::{Log, check};
 
+use super::inputs::Variables;
 use super::{Engine, show};
 
 /// What is likely wrong with a log: rows with nulls or NaN, times that repeat or go back, units, files that cannot be read
@@ -20,6 +21,8 @@ pub(super) struct Arguments {
     /// The log: Parquet files, or folders of them
     #[arg(required = true)]
     log: Vec<PathBuf>,
+    #[command(flatten)]
+    variables: Variables,
     /// The column of times, s
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
@@ -33,7 +36,7 @@ impl Arguments {
         let model = engine.robots()?.model(&self.robot)?;
         let log = Log::open(&self.log)?;
         let (time, episode) = (self.time.as_deref(), self.episode.as_deref());
-        let found = check(&log, &model, &Names::default(), time, episode)?;
+        let found = check(&log, &model, &self.variables.names(), time, episode)?;
         show(&found.iter().map(|finding| format!("{finding}\n")).collect::<String>())?;
         match found.len() {
             0 => Ok(()),

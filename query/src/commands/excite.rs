@@ -69,7 +69,7 @@ impl Arguments {
             row.iter().for_each(|value| text.push_str(&format!(",{value}")));
             text.push('\n');
         }
-        written(&self.output, &text)?;
+        written(&self.output, text.as_bytes())?;
         eprintln!("condition {condition:.3}");
         Ok(())
     }

@@ -2,17 +2,20 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 use datafusion::execution::FunctionRegistry;
 use datafusion::functions_nested::expr_fn::make_array;
 use datafusion::logical_expr::lit;
+use datafusion::physical_plan::collect;
 use robot_model::variable::JointVariable;
 use robot_query::Error;
-use robot_query::identify::Estimate;
+use robot_query::identify::{Estimate, Known, Prior};
+use robot_query::log::{Progress, is_whole};
 
 use super::Engine;
-use super::inputs::{Inputs, Opened};
+use super::inputs::{Inputs, Opened, explained};
 use super::{noise, show, written};
 
 /// The base parameters that explain the measured torques best, with their standard deviations
@@ -31,10 +34,18 @@ pub(super) struct Arguments {
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint [default: estimated]
     #[arg(long, value_delimiter = ',', value_name = "NUMBERS")]
     noise: Option<Vec<f64>>,
+    /// Keeps parameters near the robot file: the weight of its values, beside that of all rows of the log, as 0.001
+    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0)]
+    ridge: f64,
+    /// A parameter that is known: its value, or that of the robot file if none is given, and the standard deviation of
+    /// it, 0 if it is fixed
+    #[arg(long, value_delimiter = ',', value_name = "NAME=VALUE:DEVIATION")]
+    prior: Vec<Known>,
     /// A .csv file with the parameters to write
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// A robot file with the identified values to write: of all that bodies can have, those that explain the log best
+    /// A .toml file with the identified values to write, or a .urdf file from one: of all that bodies can have, those that
+    /// explain the log best
     #[arg(long, value_name = "FILE")]
     write_back: Option<PathBuf>,
 }
@@ -43,10 +54,13 @@ impl Arguments {
     pub(super) async fn run(&self, engine: &Engine) -> Result<(), Error> {
         let session = engine.session(engine.threads())?;
         let opened = self.inputs.open(&session).await?;
-        let estimate = self.estimate(&session, &opened).await?;
+        let Some(estimate) = self.estimate(&session, &opened).await? else {
+            return Ok(());
+        };
+        is_whole(estimate.rows + estimate.excluded, opened.rows())?;
         show(&shown(&estimate))?;
         if let Some(path) = &self.output {
-            written(path, &csv(&estimate))?;
+            written(path, csv(&estimate).as_bytes())?;
         }
         match &self.write_back {
             Some(path) => write_back(&estimate, &opened, path),
@@ -54,23 +68,34 @@ impl Arguments {
         }
     }
 
+    /// The estimate; `None` if only the plan is wanted.
     async fn estimate(
         &self,
         session: &robot_query::log::Session,
         opened: &Opened,
-    ) -> Result<Estimate, Error> {
+    ) -> Result<Option<Estimate>, Error> {
         let mut arguments = opened.arguments(&JointVariable::ALL)?;
         if let Some(given) = &self.noise {
             let noise = noise(given, opened.model.joints())?;
             arguments.push(make_array(noise.into_iter().map(lit).collect()));
         }
+        let prior = Prior { ridge: self.ridge, known: self.prior.clone() };
+        arguments.push(lit(prior.to_string()));
         let identify = session.context.udaf("identify")?.call(arguments).alias("answer");
         let table = opened.table.clone().aggregate(vec![], vec![identify])?;
-        let batches = table.collect().await.map_err(|error| opened.located(error.into()))?;
+        if self.inputs.explain {
+            return explained(table).await.map(|()| None);
+        }
+        let context = Arc::new(table.task_ctx());
+        let plan = table.create_physical_plan().await?;
+        let progress = Progress::of(&plan, opened.rows());
+        let batches = collect(plan, context).await;
+        drop(progress);
+        let batches = batches.map_err(|error| opened.located(error.into()))?;
         let answers = batches.iter().find(|batch| batch.num_rows() > 0);
         let answer = answers.map(|batch| Estimate::from_array(batch.column(0), 0)).transpose()?;
         let no_rows = || Error::Identification("the log has no rows".to_owned());
-        answer.flatten().ok_or_else(no_rows)
+        answer.flatten().ok_or_else(no_rows).map(Some)
     }
 }
 
@@ -91,7 +116,7 @@ fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), E
     };
     show(&said)?;
     eprint!("{complaints}");
-    written(path, &text)
+    written(path, text.as_bytes())
 }
 
 /// The estimate for readers.
@@ -121,6 +146,9 @@ fn shown(estimate: &Estimate) -> String {
                 writeln!(text, "{} acts only together with {}", parameter.name, with.join(", "))
             }
         };
+    }
+    for name in &estimate.fixed {
+        let _ = writeln!(text, "{name} was fixed");
     }
     let _ = writeln!(text, "\n{:24}{:>16}{:>16}", "joint", "residual (rms)", "noise");
     for joint in &estimate.joints {

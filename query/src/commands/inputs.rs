@@ -4,11 +4,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
+use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::logical_expr::Expr;
 use datafusion::prelude::{DataFrame, ident};
 use robot_model::variable::JointVariable;
 use robot_query::log::{Log, Names, Session};
 use robot_query::{Error, Model};
+
+use super::show;
 
 /// A robot and its log.
 #[derive(Args)]
@@ -18,6 +21,19 @@ pub(super) struct Inputs {
     /// The log: Parquet or CSV files, or folders of Parquet files
     #[arg(required = true)]
     log: Vec<PathBuf>,
+    #[command(flatten)]
+    variables: Variables,
+    /// Only rows of which this SQL expression is true, as in "episode < 10"
+    #[arg(long = "where", value_name = "SQL")]
+    pub(super) filter: Option<String>,
+    /// Shows how the query would be computed, and computes nothing
+    #[arg(long)]
+    pub(super) explain: bool,
+}
+
+/// The columns of the joints' variables.
+#[derive(Args)]
+pub(super) struct Variables {
     /// The column of positions: a list, or the beginning of the names of numbered columns [default: q]
     #[arg(long, value_name = "COLUMN")]
     q: Option<String>,
@@ -30,32 +46,56 @@ pub(super) struct Inputs {
     /// The column of measured torques [default: tau]
     #[arg(long, value_name = "COLUMN")]
     tau: Option<String>,
-    /// Only rows of which this SQL expression is true, as in "episode < 10"
-    #[arg(long = "where", value_name = "SQL")]
-    filter: Option<String>,
+}
+
+impl Variables {
+    pub(super) fn names(&self) -> Names {
+        let Variables { q, qd, qdd, tau } = self;
+        Names { variables: [q, qd, qdd, tau].map(Clone::clone) }
+    }
+}
+
+/// Shows the plan of a table.
+pub(super) async fn explained(table: DataFrame) -> Result<(), Error> {
+    let batches = table.explain(false, false)?.collect().await?;
+    let text = pretty_format_batches(&batches);
+    let text = text.map_err(|error| Error::Query(error.to_string()))?;
+    show(&format!("{text}\n"))
 }
 
 /// A log that has been opened for a robot.
 pub(super) struct Opened {
     pub(super) model: Arc<Model>,
     pub(super) table: DataFrame,
+    pub(super) log: Log,
     robot: String,
-    log: Log,
     names: Names,
+    /// Whether every row of the log is wanted.
+    all: bool,
 }
 
 impl Inputs {
     pub(super) async fn open(&self, session: &Session) -> Result<Opened, Error> {
+        self.open_log(session, Log::open(&self.log)?).await
+    }
+
+    /// Another log for the robot.
+    pub(super) async fn open_log(&self, session: &Session, log: Log) -> Result<Opened, Error> {
         let model = session.robots.model(&self.robot)?;
-        let log = Log::open(&self.log)?;
         let mut table = session.table(&log).await?;
         if let Some(filter) = &self.filter {
             let filter = table.parse_sql_expr(filter)?;
             table = table.filter(filter)?;
         }
-        let Inputs { q, qd, qdd, tau, .. } = self;
-        let names = Names { variables: [q, qd, qdd, tau].map(Clone::clone) };
-        Ok(Opened { model, table, robot: self.robot.clone(), log, names })
+        let names = self.variables.names();
+        Ok(Opened {
+            model,
+            table,
+            log,
+            robot: self.robot.clone(),
+            names,
+            all: self.filter.is_none(),
+        })
     }
 }
 
@@ -74,6 +114,11 @@ impl Opened {
             || self.table.schema().fields().iter().map(|field| field.name().clone()).collect();
         let names: Vec<String> = columns.map_or_else(all, <[String]>::to_vec);
         names.into_iter().map(ident).collect()
+    }
+
+    /// The number of rows that an answer must have, if files say.
+    pub(super) fn rows(&self) -> Option<u64> {
+        self.log.rows().filter(|_| self.all)
     }
 
     /// An error with the place in the log, if the log is the reason.

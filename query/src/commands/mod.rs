@@ -7,8 +7,10 @@ mod generate;
 mod identify;
 mod inputs;
 mod residual;
+mod rows;
 mod sql;
 mod torques;
+mod worker;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -16,6 +18,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Parser, Subcommand};
 use robot_query::Error;
 use robot_query::Robots;
+use robot_query::cluster::Workers;
 use robot_query::log::{Session, Settings};
 
 /// Torques, residuals and identification over logs of robots.
@@ -38,6 +41,7 @@ enum What {
     Excite(excite::Arguments),
     Convert(convert::Arguments),
     Check(check::Arguments),
+    Worker(worker::Arguments),
 }
 
 /// What all subcommands share.
@@ -52,6 +56,9 @@ struct Engine {
     /// The most memory that a query may keep, MiB
     #[arg(long, global = true, value_name = "MIB", default_value_t = 1024)]
     memory: usize,
+    /// Machines that compute, started by `robot-query worker`; logs must lie under the same paths there
+    #[arg(long, global = true, value_delimiter = ',', value_name = "HOST:PORT")]
+    workers: Vec<String>,
 }
 
 impl Engine {
@@ -68,7 +75,8 @@ impl Engine {
 
     /// A session with so many threads.
     fn session(&self, threads: usize) -> Result<Session, Error> {
-        Session::new(self.robots()?, Settings { threads, memory: self.memory << 20 })
+        let settings = Settings { threads, memory: self.memory << 20 };
+        Session::on(self.robots()?, settings, Workers::at(&self.workers)?)
     }
 }
 
@@ -77,6 +85,7 @@ pub(crate) fn run() -> Result<(), Error> {
     let Command { engine, what } = Command::parse();
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(engine.threads())
+        .enable_all()
         .build()
         .map_err(|error| Error::Query(error.to_string()))?;
     runtime.block_on(async {
@@ -89,6 +98,7 @@ pub(crate) fn run() -> Result<(), Error> {
             What::Excite(arguments) => arguments.run(&engine),
             What::Convert(arguments) => arguments.run(&engine),
             What::Check(arguments) => arguments.run(&engine),
+            What::Worker(arguments) => arguments.run(&engine).await,
         }
     })
 }
@@ -106,14 +116,14 @@ fn noise(given: &[f64], joints: usize) -> Result<Vec<f64>, Error> {
 }
 
 /// Writes a file that is not there yet.
-fn written(path: &Path, text: &str) -> Result<(), Error> {
+fn written(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let failed = |error: std::io::Error| Error::File {
         path: path.to_owned(),
         row_group: None,
         reason: error.to_string(),
     };
     let mut file = std::fs::File::create_new(path).map_err(failed)?;
-    file.write_all(text.as_bytes()).map_err(failed)
+    file.write_all(bytes).map_err(failed)
 }
 
 /// Writes to standard output, of which a reader may take only the beginning.

@@ -1,17 +1,20 @@
 //! `residual`: what the model leaves of measured torques.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use datafusion::execution::FunctionRegistry;
+use datafusion::logical_expr::Expr;
+use datafusion::prelude::ident;
 use robot_model::variable::JointVariable;
 use robot_query::Error;
-use robot_query::log::{Answer, write};
-use robot_query::residual::{Statistics, statistics};
+use robot_query::log::{Session, is_whole};
+use robot_query::residual::{Residuals, Statistics, figure, statistics};
 
-use super::inputs::Inputs;
-use super::{Engine, show};
+use super::inputs::{Inputs, Opened, explained};
+use super::rows::Rows;
+use super::{Engine, show, written};
 
 /// What the model leaves of measured torques, joint by joint
 ///
@@ -19,6 +22,7 @@ use super::{Engine, show};
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query residual robots/ur5.toml logs
+  robot-query residual robots/ur5.toml logs --plot residuals.svg
   robot-query residual robots/ur5.toml logs -o residuals.parquet --columns episode,t")]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -29,33 +33,69 @@ pub(super) struct Arguments {
     /// The columns of the log that are kept in the output [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAMES", requires = "output")]
     columns: Option<Vec<String>>,
+    /// Each Parquet file of the log gets a file in the folder; those that an earlier run finished are kept
+    #[arg(long, requires = "output")]
+    resume: bool,
+    /// An .svg file with the residuals of each joint over time: their mean, their root mean square, the smallest and the
+    /// largest in each of 300 parts
+    #[arg(long, value_name = "FILE", conflicts_with = "output")]
+    plot: Option<PathBuf>,
+    /// The column of times of the plot, s
+    #[arg(long, value_name = "COLUMN", default_value = "t", requires = "plot")]
+    time: String,
+}
+
+fn residual(session: &Session, opened: &Opened) -> Result<Expr, Error> {
+    let function = session.context.udf("residual")?;
+    Ok(function.call(opened.arguments(&JointVariable::ALL)?).alias("residual"))
 }
 
 impl Arguments {
     pub(super) async fn run(&self, engine: &Engine) -> Result<(), Error> {
-        let answer = self.output.as_deref().map(Answer::at).transpose()?;
-        let in_order = matches!(answer, Some(Answer::Parquet(_) | Answer::Csv(_)));
-        let session = engine.session(if in_order { 1 } else { engine.threads() })?;
+        if let Some(output) = &self.output {
+            let rows = Rows {
+                inputs: &self.inputs,
+                columns: self.columns.as_deref(),
+                output,
+                resume: self.resume,
+                column: residual,
+            };
+            return rows.write(engine).await;
+        }
+        // A plot has the same bytes however many threads there are.
+        let session = engine.session(if self.plot.is_some() { 1 } else { engine.threads() })?;
         let opened = self.inputs.open(&session).await?;
-        let function = session.context.udf("residual")?;
-        let residual = function.call(opened.arguments(&JointVariable::ALL)?).alias("residual");
-        if let Some(answer) = &answer {
-            let mut columns = opened.kept(self.columns.as_deref());
-            columns.push(residual);
-            let table = opened.table.clone().select(columns)?;
-            let rows = write(table, answer).await.map_err(|error| opened.located(error))?;
-            eprintln!("{rows} rows");
-            return Ok(());
+        let residuals = residual(&session, &opened)?;
+        let table = opened.table.clone().select(vec![residuals.clone()])?;
+        if self.inputs.explain {
+            return explained(table).await;
         }
-        let table = opened.table.clone().select(vec![residual])?;
-        let found = statistics(table).await.map_err(|error| opened.located(error))?;
-        let mut text = format!("{} rows, {} left out\n", found.rows, found.excluded);
-        let _ = writeln!(text, "{:24}{:>14}{:>14}{:>14}", "joint", "mean", "rms", "largest");
-        for (coordinate, joint) in opened.model.robot.coordinates.iter().zip(found.joints()) {
-            let Statistics { mean, rms, largest } = joint;
-            let name = &coordinate.joint;
-            let _ = writeln!(text, "{name:24}{mean:>14.6}{rms:>14.6}{largest:>14.6}");
+        let found = statistics(table, opened.rows()).await;
+        let found = found.map_err(|error| opened.located(error))?;
+        is_whole(found.rows + found.excluded, opened.rows())?;
+        show(&shown(&found, &opened))?;
+        match &self.plot {
+            Some(path) => self.plot(path, residuals, &opened).await,
+            None => Ok(()),
         }
-        show(&text)
     }
+
+    async fn plot(&self, path: &Path, residuals: Expr, opened: &Opened) -> Result<(), Error> {
+        let time = ident(self.time.as_str()).alias("t");
+        let table = opened.table.clone().select(vec![residuals, time])?;
+        let figure = figure(table, &opened.model).await.map_err(|error| opened.located(error))?;
+        written(path, figure.svg()?.as_bytes())
+    }
+}
+
+/// The residuals for readers.
+fn shown(found: &Residuals, opened: &Opened) -> String {
+    let mut text = format!("{} rows, {} left out\n", found.rows, found.excluded);
+    let _ = writeln!(text, "{:24}{:>14}{:>14}{:>14}", "joint", "mean", "rms", "largest");
+    for (coordinate, joint) in opened.model.robot.coordinates.iter().zip(found.joints()) {
+        let Statistics { mean, rms, largest } = joint;
+        let name = &coordinate.joint;
+        let _ = writeln!(text, "{name:24}{mean:>14.6}{rms:>14.6}{largest:>14.6}");
+    }
+    text
 }

@@ -45,7 +45,7 @@ impl Arguments {
         let table = session.context.sql(&self.query).await?;
         match &self.output {
             Some(path) => {
-                let rows = write(table, &Answer::at(path)?).await.map_err(located)?;
+                let rows = write(table, &Answer::at(path)?, None).await.map_err(located)?;
                 eprintln!("{rows} rows");
                 Ok(())
             }

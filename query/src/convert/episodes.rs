@@ -11,8 +11,9 @@ use datafusion::arrow::datatypes::{DataType, Field, Schema};
 use datafusion::parquet::arrow::ArrowWriter;
 
 use super::Converted;
-use super::derivative::{Samples, derivatives};
+
 use crate::columns::doubles;
+use crate::derivative::{Samples, derivatives};
 use crate::error::Error;
 use crate::log::{Place, properties};
 

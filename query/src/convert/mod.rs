@@ -1,7 +1,6 @@
 //! Recordings of other programs as logs.
 
 mod cdr;
-mod derivative;
 mod episodes;
 mod lerobot;
 mod mcap;

@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::robots::Robots;
 use dynamics::Dynamics;
 pub(crate) use dynamics::{compute, function};
+pub(crate) use literal::text_of;
 use residual::Residual;
 pub use residual::torques_of;
 
@@ -33,6 +34,12 @@ pub fn register(registry: &mut dyn FunctionRegistry, robots: &Arc<Robots>) -> Re
 
 fn udf(function: impl ScalarUDFImpl + 'static) -> Arc<ScalarUDF> {
     Arc::new(ScalarUDF::new_from_impl(function))
+}
+
+/// Whether the first argument of a function or aggregate of that name is a robot.
+pub(crate) fn takes_robot(name: &str) -> bool {
+    let mut kinds = FunctionKind::ALL.iter().filter(|kind| is_one(**kind));
+    name == "residual" || name == "identify" || kinds.any(|kind| kind.name() == name)
 }
 
 /// Whether a kind is one function: those of frames are one for each.

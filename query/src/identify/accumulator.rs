@@ -11,15 +11,20 @@ use datafusion::common::ScalarValue;
 use datafusion::error::Result;
 use datafusion::logical_expr::function::{AccumulatorArgs, StateFieldsArgs};
 use datafusion::logical_expr::{Accumulator, AggregateUDFImpl, Signature, Volatility};
+use datafusion::physical_expr::PhysicalExpr;
+use datafusion::physical_expr::expressions::Literal;
 
 use super::answer::{answer_type, null_answer};
 use super::measurements::{Measurements, Scratch};
+use super::prior::Prior;
 use crate::columns::{Columns, doubles};
 use crate::error::Error;
+use crate::functions::text_of;
 use crate::robots::Robots;
 
-/// `identify(robot, q, qd, qdd, tau [, noise])`: the base parameters that explain the torques best. `noise` is the
-/// standard deviation of all torques or of each, a number or a list; without it, that of each joint is estimated.
+/// `identify(robot, q, qd, qdd, tau [, noise] [, prior])`: the base parameters that explain the torques best. `noise` is
+/// the standard deviation of all torques or of each, a number or a list; without it, that of each joint is estimated.
+/// `prior` is a literal text, see [`Prior`].
 #[derive(Debug)]
 pub(super) struct Identify {
     robots: Arc<Robots>,
@@ -59,9 +64,26 @@ impl AggregateUDFImpl for Identify {
         Ok(answer_type())
     }
 
-    fn accumulator(&self, _: AccumulatorArgs) -> Result<Box<dyn Accumulator>> {
-        let robots = self.robots.clone();
-        Ok(Box::new(Identification { robots, robot: None, scratch: Scratch::default() }))
+    fn accumulator(&self, arguments: AccumulatorArgs) -> Result<Box<dyn Accumulator>> {
+        let literal = |argument: &Arc<dyn PhysicalExpr>| {
+            let literal = argument.downcast_ref::<Literal>()?;
+            text_of(literal.value()).map(str::to_owned)
+        };
+        let [first, others @ ..] = arguments.exprs else {
+            return Err(no_robot().into());
+        };
+        let last = arguments.expr_fields.last().filter(|_| !others.is_empty());
+        let has_prior = last.is_some_and(|field| field.data_type().is_string());
+        let text = others.last().filter(|_| has_prior).map(literal);
+        let text = text.map(|text| text.ok_or_else(no_prior)).transpose()?;
+        Ok(Box::new(Identification {
+            robots: self.robots.clone(),
+            literal: literal(first),
+            prior: text.map(|text| text.parse()).transpose()?.unwrap_or_default(),
+            has_prior,
+            robot: None,
+            scratch: Scratch::default(),
+        }))
     }
 
     fn state_fields(&self, arguments: StateFieldsArgs) -> Result<Vec<FieldRef>> {
@@ -69,6 +91,7 @@ impl AggregateUDFImpl for Identify {
         let measurements = DataType::List(doubles());
         Ok(vec![
             Arc::new(Field::new(name("robot"), DataType::Utf8, true)),
+            Arc::new(Field::new(name("prior"), DataType::Utf8, true)),
             Arc::new(Field::new(name("measurements"), measurements, true)),
         ])
     }
@@ -77,6 +100,11 @@ impl AggregateUDFImpl for Identify {
 /// The measurements of one group.
 struct Identification {
     robots: Arc<Robots>,
+    /// The robot of all rows, if the query names it by a literal.
+    literal: Option<String>,
+    prior: Prior,
+    /// Whether the last argument is the prior.
+    has_prior: bool,
     /// The robot as the query names it, once there are rows.
     robot: Option<(String, Measurements)>,
     scratch: Scratch,
@@ -97,7 +125,8 @@ impl Identification {
         match &mut self.robot {
             Some((_, measurements)) => Ok(measurements),
             robot => {
-                let measurements = Measurements::new(self.robots.model(literal)?)?;
+                let mut measurements = Measurements::new(self.robots.model(literal)?)?;
+                measurements.prior = self.prior.clone();
                 Ok(&mut robot.insert((literal.to_owned(), measurements)).1)
             }
         }
@@ -107,16 +136,16 @@ impl Identification {
 impl Accumulator for Identification {
     fn update_batch(&mut self, values: &[ArrayRef]) -> Result<()> {
         let (literals, arguments) = values.split_first().ok_or_else(no_robot)?;
+        let arguments = &arguments[..arguments.len() - usize::from(self.has_prior)];
         let rows = literals.len();
         if rows == 0 {
             return Ok(());
         }
-        let literals = cast(literals, &DataType::Utf8)?;
-        let literals = literals.as_string::<i32>();
-        let literal = literals.iter().next().flatten().ok_or_else(no_robot)?;
-        if literals.iter().any(|other| other != Some(literal)) {
-            return Err(Error::Query("identify takes one robot; group by it".to_owned()).into());
-        }
+        let literal = match &self.literal {
+            Some(literal) => literal.clone(),
+            None => the_only(literals)?,
+        };
+        let literal = literal.as_str();
         let mut scratch = std::mem::take(&mut self.scratch);
         let measurements = self.of(literal)?;
         let joints = measurements.model.joints();
@@ -150,24 +179,43 @@ impl Accumulator for Identification {
         let null = ScalarValue::try_from(&DataType::List(doubles()))?;
         Ok(vec![
             ScalarValue::Utf8(self.robot.as_ref().map(|(literal, _)| literal.clone())),
+            ScalarValue::Utf8(Some(self.prior.to_string())),
             numbers.map_or(null, ScalarValue::List),
         ])
     }
 
     fn merge_batch(&mut self, states: &[ArrayRef]) -> Result<()> {
-        let [literals, numbers] = states else {
+        let [literals, priors, numbers] = states else {
             return Err(no_robot().into());
         };
-        let literals = cast(literals, &DataType::Utf8)?;
-        for (literal, numbers) in
-            literals.as_string::<i32>().iter().zip(numbers.as_list::<i32>().iter())
-        {
-            if let (Some(literal), Some(numbers)) = (literal, numbers) {
+        let [literals, priors] = [cast(literals, &DataType::Utf8)?, cast(priors, &DataType::Utf8)?];
+        let texts = literals.as_string::<i32>().iter().zip(priors.as_string::<i32>().iter());
+        for ((literal, prior), numbers) in texts.zip(numbers.as_list::<i32>().iter()) {
+            if let (Some(literal), Some(prior), Some(numbers)) = (literal, prior, numbers) {
+                self.prior = prior.parse()?;
                 self.of(literal)?.merge(numbers.as_primitive::<Float64Type>().values())?;
             }
         }
         Ok(())
     }
+}
+
+/// The robot of all rows of a batch.
+fn the_only(literals: &ArrayRef) -> Result<String> {
+    let literals = cast(literals, &DataType::Utf8)?;
+    let literals = literals.as_string::<i32>();
+    let literal = literals.iter().next().flatten().ok_or_else(no_robot)?;
+    if literals.iter().any(|other| other != Some(literal)) {
+        return Err(Error::Query("identify takes one robot; group by it".to_owned()).into());
+    }
+    Ok(literal.to_owned())
+}
+
+fn no_prior() -> Error {
+    Error::Query(
+        "what is known beforehand is the last argument of identify, a literal text, as in 'ridge=0.01, ZZR_2=1.2:0.1'"
+            .to_owned(),
+    )
 }
 
 fn no_robot() -> Error {

@@ -34,6 +34,7 @@ fn fields() -> Fields {
         ("noise", numbers()),
         ("unidentifiable", texts()),
         ("together_with", texts()),
+        ("fixed", texts()),
         ("triangle", numbers()),
     ];
     fields.into_iter().map(|(name, kind)| Field::new(name, kind, true)).collect()
@@ -87,6 +88,7 @@ impl Estimate {
             numbers(self.joints.iter().map(|joint| joint.noise))?,
             texts(self.unidentifiable.iter().map(|one| &one.name))?,
             texts(self.unidentifiable.iter().map(|one| one.with.join(" ")))?,
+            texts(&self.fixed)?,
             all(&self.triangle)?,
         ];
         Ok(ScalarValue::Struct(Arc::new(StructArray::try_new(fields(), columns, None)?)))
@@ -131,6 +133,7 @@ impl Estimate {
                     with: with.split_whitespace().map(str::to_owned).collect(),
                 })
                 .collect(),
+            fixed: read.texts("fixed"),
             triangle: all("triangle"),
         }))
     }

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::measurements::{Joint, Measurements};
 use super::parameters::Parameters;
+use super::prior::Placed;
 use super::triangle::Triangle;
 use crate::error::Error;
 
@@ -47,8 +48,10 @@ pub struct Estimate {
     pub joints: Vec<Residual>,
     /// The parameters that are not identifiable.
     pub unidentifiable: Vec<Unidentifiable>,
+    /// The names of the parameters that were fixed beforehand.
+    pub fixed: Vec<String>,
     /// R of [Y τ], rows divided by their noise, on and above the diagonal, row by row: it determines the estimates
-    /// of all models that are linear in these columns.
+    /// of all models that are linear in these columns. What is known beforehand is among the rows.
     pub triangle: Vec<f64>,
 }
 
@@ -77,23 +80,25 @@ impl Measurements {
     ///
     /// # Errors
     ///
-    /// Fewer rows than parameters; values that overflow; what [`Parameters::of`] refuses.
+    /// Fewer rows than parameters; values that overflow; names of the prior that no parameter has; what
+    /// [`Parameters::of`] refuses.
     pub(crate) fn estimate(&self) -> Result<Estimate, Error> {
         let parameters = Parameters::of(&self.model)?;
         self.check(&parameters)?;
+        let prior = Placed::of(&self.prior, &parameters)?;
         let mut noise = vec![1.0; self.joints.len()];
-        let mut solution = self.solve(&parameters.nominal, &noise)?;
+        let mut solution = self.solve(&prior, &noise)?;
         for _ in 0..if self.weighted { 0 } else { MOST_ROUNDS } {
             let found = self.noise(&solution, &noise);
             let change = found.iter().zip(&noise).map(|(found, old)| (found / old - 1.0).abs());
             let change = change.fold(0.0, f64::max);
             noise = found;
-            solution = self.solve(&parameters.nominal, &noise)?;
+            solution = self.solve(&prior, &noise)?;
             if change < 1e-13 {
                 break;
             }
         }
-        Ok(self.answer(&parameters, solution, &noise))
+        Ok(self.answer(&parameters, &prior, solution, &noise))
     }
 
     /// The condition of the regressor with the noise of each joint; infinite where parameters are not identifiable.
@@ -102,7 +107,7 @@ impl Measurements {
     ///
     /// No parameter that acts.
     pub(crate) fn condition(&self, noise: &[f64]) -> Result<f64, Error> {
-        let solution = self.solve(&DVector::zeros(self.parameters()), noise)?;
+        let solution = self.solve(&Placed::none(self.parameters()), noise)?;
         Ok(if solution.left.is_empty() { solution.condition } else { f64::INFINITY })
     }
 
@@ -148,16 +153,34 @@ impl Measurements {
         all
     }
 
-    fn solve(&self, nominal: &DVector<f64>, noise: &[f64]) -> Result<Solution, Error> {
-        let all = self.stacked(noise);
+    /// [`Measurements::stacked`], with what is known beforehand as further rows.
+    fn informed(&self, prior: &Placed, noise: &[f64]) -> Triangle {
+        let mut all = self.stacked(noise);
+        if prior.has_weights() {
+            let count = self.parameters();
+            let lengths = lengths(&all);
+            let row = |weight: f64, row: usize, column: usize| match column {
+                column if column == row => weight,
+                column if column == count => weight * prior.expected[row],
+                _ => 0.0,
+            };
+            all.fold_rows(count, |place, column| row(prior.ridge * lengths[place], place, column));
+            all.fold_rows(count, |place, column| row(prior.weights[place], place, column));
+        }
+        all
+    }
+
+    fn solve(&self, prior: &Placed, noise: &[f64]) -> Result<Solution, Error> {
+        let all = self.informed(prior, noise);
         let count = self.parameters();
-        let lengths: Vec<f64> = (0..count)
-            .map(|column| (0..=column).map(|row| all.get(row, column).powi(2)).sum::<f64>().sqrt())
-            .collect();
+        let nominal = &prior.expected;
+        let is_free = |column: &usize| !prior.fixed.contains(column);
+        let lengths = lengths(&all);
         let scales: Vec<f64> =
             lengths.iter().map(|length| if *length > 0.0 { 1.0 / length } else { 0.0 }).collect();
         let scaled = DMatrix::from_fn(count + 1, count, |row, column| {
-            if row > column { 0.0 } else { all.get(row, column) * scales[column] }
+            let is_there = row <= column && is_free(&column);
+            if is_there { all.get(row, column) * scales[column] } else { 0.0 }
         });
         let (kept, left) = independent(scaled);
         if kept.is_empty() {
@@ -189,7 +212,7 @@ impl Measurements {
             top.solve_upper_triangular(&DMatrix::identity(rank, rank)).ok_or_else(failed)?;
         let together = top.solve_upper_triangular(&right).ok_or_else(failed)?;
         let singular = top.singular_values();
-        let mut values = nominal.clone();
+        let mut values = DVector::from_column_slice(nominal);
         let mut root = DMatrix::zeros(count, rank);
         for (place, column) in kept.iter().enumerate() {
             values[*column] = found[place] * scales[*column];
@@ -218,17 +241,27 @@ impl Measurements {
         estimates.collect()
     }
 
-    fn answer(&self, parameters: &Parameters, solution: Solution, noise: &[f64]) -> Estimate {
+    fn answer(
+        &self,
+        parameters: &Parameters,
+        prior: &Placed,
+        solution: Solution,
+        noise: &[f64],
+    ) -> Estimate {
         let Solution { values, root, condition, kept, left, together, all } = solution;
         let joints = self.joints.iter().zip(noise);
         let squares: f64 = joints.map(|(joint, noise)| joint.left(&values) / noise.powi(2)).sum();
-        let degrees = self.rows as f64 * self.joints.len() as f64 - kept.len() as f64;
+        let joints = self.joints.iter().zip(noise);
+        // The number of identifiable parameters, less what of them is known beforehand.
+        let taken: f64 = joints.map(|(joint, noise)| joint.taken(&root) / noise.powi(2)).sum();
+        let degrees = self.rows as f64 * self.joints.len() as f64 - taken;
         let scale = (squares / degrees).sqrt();
         let covariance = &root * root.transpose() * scale.powi(2);
         let deviation = |column: usize| covariance[(column, column)].sqrt();
         let is_kept = |column: &usize| kept.contains(column);
         let name = |column: usize| parameters.names[column].clone();
-        let unidentifiable = left.iter().enumerate().map(|(place, column)| {
+        let open = left.iter().enumerate().filter(|(_, column)| !prior.fixed.contains(column));
+        let unidentifiable = open.map(|(place, column)| {
             let acting = together.column(place);
             let with = kept.iter().zip(acting.iter()).filter(|(_, share)| share.abs() > NAMED);
             Unidentifiable {
@@ -259,9 +292,17 @@ impl Measurements {
             scale,
             joints: residuals.collect(),
             unidentifiable: unidentifiable.collect(),
+            fixed: prior.fixed.iter().map(|column| name(*column)).collect(),
             triangle: all.packed().collect(),
         }
     }
+}
+
+/// The lengths of the columns of a triangle but for the last.
+fn lengths(triangle: &Triangle) -> Vec<f64> {
+    let square =
+        |column: usize| -> f64 { (0..=column).map(|row| triangle.get(row, column).powi(2)).sum() };
+    (0..triangle.size() - 1).map(|column| square(column).sqrt()).collect()
 }
 
 /// Least squares with given noise.

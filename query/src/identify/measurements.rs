@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use robot_build::FunctionKind;
 
+use super::prior::Prior;
 use super::triangle::{Column, ROWS, Triangle};
 use crate::columns::{BLOCK, Columns};
 use crate::error::Error;
@@ -25,6 +26,8 @@ pub(crate) struct Measurements {
     pub(super) excluded: u64,
     /// Whether noise was given with the rows.
     pub(super) weighted: bool,
+    /// What is known of the parameters besides.
+    pub(crate) prior: Prior,
 }
 
 /// The measurements of a joint.
@@ -68,6 +71,7 @@ impl Measurements {
             rows: 0,
             excluded: 0,
             weighted: false,
+            prior: Prior::default(),
             regressor,
         })
     }

@@ -6,6 +6,7 @@ mod consistent;
 mod estimate;
 mod measurements;
 mod parameters;
+mod prior;
 mod triangle;
 mod written;
 
@@ -20,6 +21,7 @@ use accumulator::Identify;
 pub use consistent::Consistent;
 pub use estimate::{Estimate, Residual, Unidentifiable};
 pub(crate) use measurements::{Measurements, Scratch};
+pub use prior::{Known, Prior};
 
 /// Registers the aggregate `identify`.
 ///

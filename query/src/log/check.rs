@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use datafusion::arrow::array::ArrayRef;
 use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
+use robot_symbolic::Rational;
 
 use super::files::{Log, reader};
 use super::variables::Names;
@@ -42,8 +43,11 @@ impl fmt::Display for Finding {
     }
 }
 
+/// How far beyond its limits a joint may be, of its range.
+const BEYOND: f64 = 0.1;
+
 /// What is looked for in a row, in the order of checks.
-const KINDS: usize = 6;
+const KINDS: usize = 7;
 
 /// Looks through the Parquet files of a log: rows with nulls, NaN or infinities, times that repeat, go back or are not in
 /// seconds, and positions that are not in radians. `time` and `episode` are columns; time is compared within an episode.
@@ -60,7 +64,7 @@ pub fn check(
 ) -> Result<Vec<Finding>, Error> {
     let mut found = vec![];
     let mut last = Last::default();
-    for path in log.files() {
+    for path in log.parquet("check")? {
         let mut row = 0;
         for group in 0..reader(path)?.metadata().num_row_groups() {
             let failed = |error: &dyn fmt::Display| Error::File {
@@ -69,7 +73,7 @@ pub fn check(
                 reason: format!("it cannot be read ({error}); copy or write the file again"),
             };
             let batches = reader(path)?.with_row_groups(vec![group]).build();
-            let mut rows = Rows { first: [None; KINDS], count: [0; KINDS], turns: vec![] };
+            let mut rows = Rows { first: [None; KINDS], count: [0; KINDS], bounds: vec![] };
             for batch in batches.map_err(|error| failed(&error))? {
                 let batch = batch.map_err(|error| failed(&error))?;
                 let schema = batch.schema();
@@ -78,7 +82,7 @@ pub fn check(
                 wanted.extend(time.map(str::to_owned));
                 let before = wanted.len();
                 if names.of(&schema, JointVariable::Position, model).is_some() {
-                    rows.turns = turns(model);
+                    rows.bounds = bounds(model);
                 }
                 for variable in JointVariable::ALL {
                     // A log may lack variables; what needs them says so.
@@ -118,12 +122,32 @@ const WHAT: [&str; KINDS] = [
     "the time is before that of the row before",
     "the time is more than 60 s after that of the row before: is it in seconds?",
     "a position is beyond 10 turns: is it in radians?",
+    "a position is beyond the limits of the robot file: is it in radians or meters, and the joint the right one?",
 ];
 
-/// The coordinates that turn.
-fn turns(model: &Model) -> Vec<bool> {
-    let coordinates = model.robot.coordinates.iter();
-    coordinates.map(|coordinate| coordinate.kind == JointKind::Revolute).collect()
+/// What positions a coordinate may have.
+#[derive(Clone, Copy)]
+struct Bounds {
+    /// The largest absolute value.
+    turns: f64,
+    low: f64,
+    high: f64,
+}
+
+fn bounds(model: &Model) -> Vec<Bounds> {
+    let bounds = model.robot.coordinates.iter().map(|coordinate| {
+        let turns = match coordinate.kind {
+            JointKind::Revolute => std::f64::consts::TAU * TURNS,
+            JointKind::Prismatic => f64::INFINITY,
+        };
+        let unlimited = Bounds { turns, low: f64::NEG_INFINITY, high: f64::INFINITY };
+        coordinate.limits.as_ref().map_or(unlimited, |limits| {
+            let [low, high] = limits.each_ref().map(Rational::to_f64);
+            let more = BEYOND * (high - low);
+            Bounds { turns, low: low - more, high: high + more }
+        })
+    });
+    bounds.collect()
 }
 
 /// Episode and time of the row before.
@@ -137,7 +161,7 @@ struct Last {
 struct Rows {
     first: [Option<u64>; KINDS],
     count: [u64; KINDS],
-    turns: Vec<bool>,
+    bounds: Vec<Bounds>,
 }
 
 impl Rows {
@@ -170,14 +194,14 @@ impl Rows {
                 if (before..columns.entries()).any(|entry| !value(entry).is_finite()) {
                     self.note(1, row);
                 }
-                let mut positions = self.turns.iter().enumerate();
-                let largest = std::f64::consts::TAU * TURNS;
-                if positions.any(|(joint, turns)| {
-                    *turns
-                        && before + joint < columns.entries()
-                        && value(before + joint).abs() > largest
-                }) {
+                let positions = self.bounds.iter().enumerate();
+                let positions = positions.filter(|(joint, _)| before + joint < columns.entries());
+                let mut positions =
+                    positions.map(|(joint, bounds)| (value(before + joint), bounds));
+                if positions.clone().any(|(position, bounds)| position.abs() > bounds.turns) {
                     self.note(5, row);
+                } else if positions.any(|(at, bounds)| at < bounds.low || at > bounds.high) {
+                    self.note(6, row);
                 }
                 if has_time {
                     let now = value(usize::from(has_episode));

@@ -13,6 +13,8 @@ use crate::error::Error;
 pub struct Log {
     files: Vec<PathBuf>,
     format: Format,
+    /// The rows of each file, where footers say.
+    rows: Vec<u64>,
 }
 
 /// The format of a log.
@@ -48,9 +50,9 @@ impl Log {
                 format!("it has another format than {}; read them by themselves", first.display());
             return Err(Error::file(&files[place], reason));
         }
-        let log = Log { files, format };
+        let mut log = Log { files, format, rows: vec![] };
         if format == Format::Parquet {
-            log.check_columns()?;
+            log.rows = log.check_columns()?;
         }
         Ok(log)
     }
@@ -61,15 +63,50 @@ impl Log {
         &self.files
     }
 
+    /// The number of rows, which footers of Parquet files say; `None` for CSV.
+    #[must_use]
+    pub fn rows(&self) -> Option<u64> {
+        (self.format == Format::Parquet).then(|| self.rows.iter().sum())
+    }
+
+    /// The files, if they are Parquet.
+    ///
+    /// # Errors
+    ///
+    /// CSV files, of which `what` knows nothing.
+    pub(super) fn parquet(&self, what: &str) -> Result<&[PathBuf], Error> {
+        match self.format {
+            Format::Parquet => Ok(&self.files),
+            Format::Csv => {
+                let reason = format!(
+                    "`{what}` reads Parquet files; `robot-query sql --log FILE \"SELECT * FROM log\" -o log.parquet` makes one"
+                );
+                Err(Error::file(&self.files[0], reason))
+            }
+        }
+    }
+
+    /// Each Parquet file with its rows.
+    ///
+    /// # Errors
+    ///
+    /// CSV files.
+    pub(super) fn with_rows(&self) -> Result<impl Iterator<Item = (&PathBuf, u64)>, Error> {
+        Ok(self.parquet("--resume")?.iter().zip(self.rows.iter().copied()))
+    }
+
     pub(super) fn format(&self) -> Format {
         self.format
     }
 
-    /// That all files have the same columns.
-    fn check_columns(&self) -> Result<(), Error> {
+    /// That all files have the same columns; gives the rows of each.
+    fn check_columns(&self) -> Result<Vec<u64>, Error> {
         let mut known: Option<(&Path, SchemaRef)> = None;
+        let mut rows = vec![];
         for path in &self.files {
-            let schema = reader(path)?.schema().clone();
+            let reader = reader(path)?;
+            rows.push(reader.metadata().file_metadata().num_rows().unsigned_abs());
+            let schema = reader.schema().clone();
             match &known {
                 None => known = Some((path, schema)),
                 Some((first, wanted)) if wanted.fields() != schema.fields() => {
@@ -86,7 +123,7 @@ impl Log {
                 Some(_) => {}
             }
         }
-        Ok(())
+        Ok(rows)
     }
 
     /// The first place at which the files cannot be read: why a query over them failed.

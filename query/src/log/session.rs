@@ -3,14 +3,17 @@
 use std::sync::Arc;
 
 use datafusion::execution::runtime_env::RuntimeEnvBuilder;
+use datafusion::execution::{FunctionRegistry, SessionStateBuilder};
 use datafusion::prelude::{
     CsvReadOptions, DataFrame, ParquetReadOptions, SessionConfig, SessionContext,
 };
+use datafusion_distributed::{DistributedExt, SessionStateBuilderExt};
 
 use super::files::{Format, Log};
+use crate::cluster::{Texts, WORTH, Workers};
 use crate::error::Error;
 use crate::robots::Robots;
-use crate::{functions, identify};
+use crate::{derivative, functions, identify};
 
 /// How a session computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,16 +40,39 @@ impl Session {
     ///
     /// Settings that the engine refuses.
     pub fn new(robots: Robots, settings: Settings) -> Result<Session, Error> {
+        Session::on(robots, settings, Workers::none())
+    }
+
+    /// A session whose queries are computed by workers, where a log is large enough; without workers by this process.
+    ///
+    /// # Errors
+    ///
+    /// Settings that the engine refuses.
+    pub fn on(robots: Robots, settings: Settings, workers: Workers) -> Result<Session, Error> {
         let mut config = SessionConfig::new()
             .with_target_partitions(settings.threads.max(1))
             .with_information_schema(true);
         config.options_mut().execution.parquet.pushdown_filters = true;
         let runtime =
             RuntimeEnvBuilder::new().with_memory_limit(settings.memory, 1.0).build_arc()?;
-        let mut context = SessionContext::new_with_config_rt(config, runtime).enable_url_table();
+        let mut builder = SessionStateBuilder::new()
+            .with_config(config)
+            .with_runtime_env(runtime)
+            .with_default_features();
+        let distributed = !workers.is_empty();
+        if distributed {
+            builder = builder
+                .with_distributed_worker_resolver(workers)
+                .with_distributed_planner()
+                .with_distributed_file_scan_config_bytes_per_partition(WORTH)?;
+        }
+        let mut context = SessionContext::new_with_state(builder.build()).enable_url_table();
         let robots = Arc::new(robots);
         functions::register(&mut context, &robots)?;
         identify::register(&mut context, &robots)?;
+        derivative::register(&mut context)?;
+        let texts = Texts { robots: robots.clone(), distributed };
+        context.register_function_rewrite(Arc::new(texts))?;
         Ok(Session { context, robots })
     }
 

@@ -13,11 +13,14 @@ use datafusion::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use datafusion::execution::SendableRecordBatchStream;
 use datafusion::parquet::arrow::ArrowWriter;
 use datafusion::parquet::basic::{Compression, ZstdLevel};
+use datafusion::parquet::file::metadata::KeyValue;
 use datafusion::parquet::file::properties::WriterProperties;
+use datafusion::physical_plan::{execute_stream, execute_stream_partitioned};
 use datafusion::prelude::DataFrame;
 use futures::StreamExt;
 
 use super::place::{Place, empty_folder};
+use super::progress::Progress;
 use crate::error::Error;
 
 /// Where an answer goes.
@@ -51,49 +54,69 @@ impl Answer {
     }
 }
 
-/// Computes a table and writes it. The result is the number of rows.
+/// Computes a table and writes it. The result is the number of rows, which must be that wanted, if one is.
 ///
 /// # Errors
 ///
-/// What fails while it is computed or written; then no file is left.
-pub async fn write(table: DataFrame, answer: &Answer) -> Result<u64, Error> {
+/// What fails while it is computed or written; another number of rows. Then no file is left.
+pub async fn write(table: DataFrame, answer: &Answer, wanted: Option<u64>) -> Result<u64, Error> {
+    let schema = table.schema().inner().clone();
+    let context = Arc::new(table.task_ctx());
+    let plan = table.create_physical_plan().await?;
+    let _progress = Progress::of(&plan, wanted);
+    let mut sinks = vec![];
     match answer {
         Answer::Parquet(path) => {
-            let sink = Sink::new(path, table.schema().inner().clone(), Kind::Parquet)?;
-            drain(table.execute_stream().await?, sink).await
+            let sink = Sink::new(path, schema, Kind::Parquet)?;
+            sinks.push(drain(execute_stream(plan, context)?, sink).await?);
         }
         Answer::Csv(path) => {
-            let sink = Sink::new(path, table.schema().inner().clone(), Kind::Csv)?;
-            drain(table.execute_stream().await?, sink).await
+            let sink = Sink::new(path, schema, Kind::Csv)?;
+            sinks.push(drain(execute_stream(plan, context)?, sink).await?);
         }
         Answer::Folder(folder) => {
             empty_folder(folder)?;
-            let schema = table.schema().inner().clone();
             let mut parts = vec![];
-            for (place, stream) in table.execute_stream_partitioned().await?.into_iter().enumerate()
-            {
+            let streams = execute_stream_partitioned(plan, context)?;
+            for (place, stream) in streams.into_iter().enumerate() {
                 let path = folder.join(format!("part-{place:04}.parquet"));
                 let sink = Sink::new(&path, schema.clone(), Kind::Parquet)?;
                 parts.push(tokio::spawn(drain(stream, sink)));
             }
-            let mut rows = 0;
             for part in parts {
-                rows += part.await.map_err(|error| Error::Query(error.to_string()))??;
+                sinks.push(part.await.map_err(|error| Error::Query(error.to_string()))??);
             }
-            Ok(rows)
         }
+    }
+    let rows = sinks.iter().map(|sink| sink.rows).sum();
+    is_whole(rows, wanted)?;
+    sinks.into_iter().try_for_each(Sink::finish)?;
+    Ok(rows)
+}
+
+/// That an answer has as many rows as its log, if that is known: a part that got lost is not to pass for the whole.
+///
+/// # Errors
+///
+/// Another number of rows.
+pub fn is_whole(rows: u64, wanted: Option<u64>) -> Result<(), Error> {
+    match wanted.filter(|wanted| *wanted != rows) {
+        None => Ok(()),
+        Some(wanted) => Err(Error::Query(format!(
+            "the answer has {rows} of the log's {wanted} rows, and was not kept; were files changed meanwhile? repeat \
+             the query"
+        ))),
     }
 }
 
-async fn drain(mut stream: SendableRecordBatchStream, mut sink: Sink) -> Result<u64, Error> {
-    let mut rows = 0;
+pub(super) async fn drain(
+    mut stream: SendableRecordBatchStream,
+    mut sink: Sink,
+) -> Result<Sink, Error> {
     while let Some(batch) = stream.next().await {
-        let batch = batch?;
-        rows += batch.num_rows() as u64;
-        sink.push(&batch)?;
+        sink.push(&batch?)?;
     }
-    sink.finish()?;
-    Ok(rows)
+    Ok(sink)
 }
 
 enum Kind {
@@ -102,10 +125,11 @@ enum Kind {
 }
 
 /// A file that is being written.
-struct Sink {
+pub(super) struct Sink {
     place: Place,
     schema: SchemaRef,
     writer: Writer,
+    rows: u64,
 }
 
 enum Writer {
@@ -129,19 +153,40 @@ pub(crate) fn properties(compressed: bool) -> WriterProperties {
 
 impl Sink {
     fn new(path: &Path, schema: SchemaRef, kind: Kind) -> Result<Sink, Error> {
+        if matches!(kind, Kind::Parquet) {
+            return Sink::parquet(path, schema, None);
+        }
         let (place, file) = Place::create(path)?;
-        let writer = match kind {
-            Kind::Parquet => {
-                let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(false)));
-                Writer::Parquet(Box::new(writer.map_err(|error| Error::file(path, error))?))
-            }
-            Kind::Csv => Writer::Csv(Box::new(csv::Writer::new(BufWriter::new(file)))),
-        };
-        Ok(Sink { place, schema, writer })
+        let writer = Writer::Csv(Box::new(csv::Writer::new(BufWriter::new(file))));
+        Ok(Sink { place, schema, writer, rows: 0 })
+    }
+
+    /// A Parquet file, perhaps with a text in its metadata under a key.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be made.
+    pub(super) fn parquet(
+        path: &Path,
+        schema: SchemaRef,
+        words: Option<(&str, String)>,
+    ) -> Result<Sink, Error> {
+        let (place, file) = Place::create(path)?;
+        let words = words.map(|(key, text)| vec![KeyValue::new(key.to_owned(), text)]);
+        let properties = properties(false).into_builder().set_key_value_metadata(words).build();
+        let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties));
+        let writer = Writer::Parquet(Box::new(writer.map_err(|error| Error::file(path, error))?));
+        Ok(Sink { place, schema, writer, rows: 0 })
+    }
+
+    /// The rows so far.
+    pub(super) fn rows(&self) -> u64 {
+        self.rows
     }
 
     fn push(&mut self, batch: &RecordBatch) -> Result<(), Error> {
         let path = self.place.path();
+        self.rows += batch.num_rows() as u64;
         match &mut self.writer {
             Writer::Parquet(writer) => {
                 writer.write(batch).map_err(|error| Error::file(path, error))
@@ -152,7 +197,7 @@ impl Sink {
         }
     }
 
-    fn finish(self) -> Result<(), Error> {
+    pub(super) fn finish(self) -> Result<(), Error> {
         let path = self.place.path();
         match self.writer {
             Writer::Parquet(writer) => {

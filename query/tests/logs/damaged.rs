@@ -97,6 +97,40 @@ fn likely_mistakes_are_found_with_their_rows() {
 }
 
 #[test]
+fn positions_beyond_the_limits_of_the_robot_are_found() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = folder.path().join("log.parquet");
+    let text = fs::read_to_string(robot("planar_2r")).unwrap();
+    let limited = text.replacen("type = \"revolute\"", "type = \"revolute\", limits = [-1, 3]", 1);
+    assert_ne!(text, limited);
+    // Within 10 % of the range is within reason; 45 is degrees.
+    let value = |name: &str, row: usize| match (name, row) {
+        ("q", 120) => 3.3,
+        ("q", 130) => 45.0,
+        _ => 0.5,
+    };
+    write(&path, 400, value);
+    let model = Robots::new().model(&limited).unwrap();
+    let log = Log::open(&[path]).unwrap();
+    let found = check(&log, &model, &Names::default(), None, None).unwrap();
+    let found: Vec<String> = found.iter().map(ToString::to_string).collect();
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert!(found[0].contains("beyond the limits of the robot file"), "{found:#?}");
+    assert!(found[0].ends_with("1 rows, the first is row 130"), "{found:#?}");
+}
+
+#[test]
+fn a_log_in_csv_is_said_to_be_none_that_is_checked() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = folder.path().join("log.csv");
+    fs::write(&path, "t,q1,q2\n0,1,2\n").unwrap();
+    let model = Robots::new().model(&robot("planar_2r")).unwrap();
+    let log = Log::open(&[path]).unwrap();
+    let error = check(&log, &model, &Names::default(), None, None).unwrap_err().to_string();
+    assert!(error.contains("log.csv: `check` reads Parquet files"), "{error}");
+}
+
+#[test]
 fn files_of_other_columns_are_refused() {
     let folder = tempfile::TempDir::new().unwrap();
     write(&folder.path().join("a.parquet"), 10, |_, _| 0.5);
@@ -120,7 +154,7 @@ fn an_answer_replaces_nothing() {
     let runtime = tokio::runtime::Runtime::new().unwrap();
     let written = runtime.block_on(async {
         let table = super::support::session(1).context.sql("SELECT 1 AS one").await.unwrap();
-        robot_query::log::write(table, &answer).await
+        robot_query::log::write(table, &answer, None).await
     });
     assert!(written.unwrap_err().to_string().contains("it exists"));
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");

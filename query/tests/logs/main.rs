@@ -2,9 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod cluster;
 mod conversion;
 mod damaged;
+mod derivatives;
 mod dynamics;
 mod identification;
+mod pictures;
+mod priors;
+mod resumed;
 mod support;
 mod written;

@@ -121,3 +121,70 @@ fn friction_and_armature_are_identified_and_written() {
     let again = identified(1, &files(logged.path()), &path, "").unwrap();
     assert!(difference(&again.nominal, &consistent.base) < 1e-9);
 }
+
+/// The planar arm as URDF, with a tool that is fixed to its second link, and a link without inertial between.
+const URDF: &str = r#"<?xml version="1.0"?>
+<!-- Kept as it is. -->
+<robot name="arm">
+  <link name="base"/>
+  <link name="upper">
+    <visual><geometry><box size="1 1 1"/></geometry></visual>
+    <inertial>
+      <origin xyz="0.3 0.02 0" rpy="0 0 0.4"/><mass value="3"/>
+      <inertia ixx="0.02" ixy="0.001" ixz="0" iyy="0.09" iyz="0" izz="0.1"/>
+    </inertial>
+  </link>
+  <link name="lower" />
+  <link name="tool">
+    <inertial>
+      <origin xyz="0.1 0 0.2"/><mass value="1.5"/>
+      <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.02"/>
+    </inertial>
+  </link>
+  <joint name="shoulder" type="revolute">
+    <parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2" effort="100" velocity="2"/>
+  </joint>
+  <joint name="elbow" type="revolute">
+    <parent link="upper"/><child link="lower"/><origin xyz="0.6 0 0" rpy="0.3 0 0"/><axis xyz="0 0.6 0.8"/>
+    <limit lower="-2" upper="2" effort="100" velocity="2"/>
+  </joint>
+  <joint name="flange" type="fixed">
+    <parent link="lower"/><child link="tool"/><origin xyz="0.4 0 0" rpy="0 0 0.5"/>
+  </joint>
+</robot>
+"#;
+
+#[test]
+fn a_urdf_file_gets_other_inertials_and_nothing_else() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let truth = folder.path().join("truth.urdf").to_string_lossy().into_owned();
+    fs::write(&truth, URDF).unwrap();
+    let logged = log(&truth, &generation(&truth, 10_000));
+    let start = folder.path().join("start.urdf").to_string_lossy().into_owned();
+    fs::write(&start, URDF.replace("mass value=\"1.5\"", "mass value=\"2.5\"")).unwrap();
+    let estimate = identified(2, &files(logged.path()), &start, "").unwrap();
+    let model = Robots::new().model(&start).unwrap();
+    let consistent = estimate.consistent(&model).unwrap();
+    let (text, complaints) = estimate.robot_file(&model, &consistent, "identified.urdf").unwrap();
+    assert!(!complaints.contains("error"), "{complaints}");
+    assert!(text.contains("+-") && text.contains("<!-- Kept as it is. -->"), "{text}");
+    assert!(text.contains("<visual><geometry><box size=\"1 1 1\"/></geometry></visual>"), "{text}");
+    // The tool is part of the link that carries it.
+    assert_eq!((text.matches("<inertial>").count(), text.matches("<joint ").count()), (2, 3));
+    let written = folder.path().join("identified.urdf").to_string_lossy().into_owned();
+    fs::write(&written, &text).unwrap();
+    let again = identified(1, &files(logged.path()), &written, "").unwrap();
+    assert!(difference(&again.nominal, &consistent.base) < 1e-9);
+    let wanted = identified(1, &files(logged.path()), &truth, "").unwrap().nominal;
+    let (before, after) =
+        (difference(&estimate.nominal, &wanted), difference(&again.nominal, &wanted));
+    assert!(before > 0.2 && after < 0.02, "{before} {after}");
+    // As TOML, too; but a file in TOML is not written as URDF.
+    let (toml, _) = estimate.robot_file(&model, &consistent, "identified.toml").unwrap();
+    assert!(toml.contains("[[link]]"));
+    let other = Robots::new().model(&toml).unwrap();
+    let error =
+        estimate.robot_file(&other, &consistent, "identified.urdf").unwrap_err().to_string();
+    assert!(error.contains("only from a URDF file"), "{error}");
+}

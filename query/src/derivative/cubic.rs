@@ -3,22 +3,25 @@
 
 use nalgebra::{Matrix4, Vector4};
 
+/// The fewest samples that a cubic fits.
+pub(super) const LEAST: usize = 4;
+
 /// The samples of an episode, in the order of their times.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Samples {
+pub(crate) struct Samples {
     /// Seconds.
-    pub(super) times: Vec<f64>,
+    pub(crate) times: Vec<f64>,
     /// A column for each joint.
-    pub(super) positions: Vec<Vec<f64>>,
+    pub(crate) positions: Vec<Vec<f64>>,
 }
 
 /// The first and the second derivative of every column, by cubics over windows of so many samples; at the ends by the
 /// first and the last whole window.
-pub(super) fn derivatives(samples: &Samples, window: usize) -> [Vec<Vec<f64>>; 2] {
+pub(crate) fn derivatives(samples: &Samples, window: usize) -> [Vec<Vec<f64>>; 2] {
     let count = samples.times.len();
     let window = window.min(count);
     let mut found = [(); 2].map(|()| vec![vec![0.0; count]; samples.positions.len()]);
-    if window < 4 {
+    if window < LEAST {
         // Too few for a cubic: nothing is known.
         return found.map(|columns| columns.iter().map(|_| vec![f64::NAN; count]).collect());
     }

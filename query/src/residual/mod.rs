@@ -1,11 +1,18 @@
 //! Statistics of residuals.
 
+mod figure;
+
+use std::sync::Arc;
+
 use datafusion::arrow::array::{Array, AsArray};
 use datafusion::arrow::datatypes::Float64Type;
+use datafusion::physical_plan::execute_stream;
 use datafusion::prelude::DataFrame;
 use futures::StreamExt;
 
 use crate::error::Error;
+use crate::log::Progress;
+pub use figure::{Curve, Figure, Panel, figure};
 
 /// The residuals of all joints over a log.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,14 +48,17 @@ impl Residuals {
     }
 }
 
-/// The residuals of a table whose only column has them as lists.
+/// The residuals of a table whose only column has them as lists; `rows` is how many there are, if that is known.
 ///
 /// # Errors
 ///
 /// What fails while they are computed.
-pub async fn statistics(table: DataFrame) -> Result<Residuals, Error> {
+pub async fn statistics(table: DataFrame, rows: Option<u64>) -> Result<Residuals, Error> {
     let mut found = Residuals::default();
-    let mut stream = table.execute_stream().await?;
+    let context = Arc::new(table.task_ctx());
+    let plan = table.create_physical_plan().await?;
+    let _progress = Progress::of(&plan, rows);
+    let mut stream = execute_stream(plan, context)?;
     while let Some(batch) = stream.next().await {
         let batch = batch?;
         let other = || Error::Query("this is not an answer of residual".to_owned());

@@ -1,0 +1,78 @@
+//! Queries over several machines: each reads a part of the log, and partial answers are put together.
+//!
+//! Plans travel to the workers by DataFusion's distributed execution, and batches come back, over TCP. A worker serves
+//! all robots: their files travel with the plans. Logs are read by the workers, under the same paths.
+
+mod texts;
+mod worker;
+
+use std::net::ToSocketAddrs;
+use std::time::Duration;
+
+use datafusion::error::Result as EngineResult;
+use datafusion_distributed::WorkerResolver;
+use url::Url;
+
+use crate::error::Error;
+pub(crate) use texts::Texts;
+pub use worker::{Listener, serve};
+
+/// How long a worker may take to be reached.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// The bytes of a log that are worth another machine: some milliseconds of work.
+pub(crate) const WORTH: usize = 1 << 20;
+
+/// Machines that compute.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Workers {
+    urls: Vec<Url>,
+}
+
+impl Workers {
+    /// None: the process computes by itself.
+    #[must_use]
+    pub fn none() -> Workers {
+        Workers::default()
+    }
+
+    /// Workers by their addresses, as `192.168.0.7:7070` or `arm-lab:7070`. Each must accept a connection.
+    ///
+    /// # Errors
+    ///
+    /// What is not an address; a worker that cannot be reached.
+    pub fn at(addresses: &[String]) -> Result<Workers, Error> {
+        let mut urls = vec![];
+        for address in addresses {
+            let failed = |reason: &dyn std::fmt::Display| {
+                Error::Query(format!(
+                    "worker {address}: {reason}; a worker is started by `robot-query worker` and named by HOST:PORT"
+                ))
+            };
+            let url = Url::parse(&format!("http://{address}")).map_err(|error| failed(&error))?;
+            let found = address.to_socket_addrs().map_err(|error| failed(&error))?;
+            let mut reason = "it has no address".to_owned();
+            let reached = found.into_iter().any(|address| {
+                let connected = std::net::TcpStream::connect_timeout(&address, PATIENCE);
+                connected.map_err(|error| reason = error.to_string()).is_ok()
+            });
+            if !reached {
+                return Err(failed(&reason));
+            }
+            urls.push(url);
+        }
+        Ok(Workers { urls })
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.urls.is_empty()
+    }
+}
+
+impl WorkerResolver for Workers {
+    fn get_urls(&self) -> EngineResult<Vec<Url>> {
+        Ok(self.urls.clone())
+    }
+}

@@ -1,0 +1,111 @@
+//! Answers of long queries file by file, of which those that are there need not be computed again.
+
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use datafusion::prelude::DataFrame;
+use futures::StreamExt;
+
+use super::files::{Log, reader};
+use super::write::{Sink, drain, is_whole};
+use crate::error::Error;
+
+/// The key of a file's metadata under which the question stands that the file answers.
+const KEY: &str = "robot-query";
+
+/// What is asked of each file of a log.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// In words, robot and columns among them: answers to other questions are not taken for this one's.
+    pub words: String,
+    /// Whether rows may be left out.
+    pub filtered: bool,
+    /// The files that are computed at the same time.
+    pub threads: usize,
+}
+
+/// Rows that were computed, and those that were there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Resumed {
+    /// Rows of files that were computed.
+    pub computed: u64,
+    /// Rows of files that were there already.
+    pub kept: u64,
+}
+
+/// Writes a Parquet file into a folder for each file of a log, under its name. A file that is there and answers the same
+/// question of the same file is kept. `table` gives the answer for a log of one file, whose rows stay in their order.
+///
+/// # Errors
+///
+/// Two files of one name; a file in the folder that answers another question; what fails while an answer is computed or
+/// written. Files that were finished by then are whole, and are kept.
+pub async fn resume(
+    log: &Log,
+    folder: &Path,
+    question: &Question,
+    table: impl AsyncFn(Log) -> Result<DataFrame, Error>,
+) -> Result<Resumed, Error> {
+    std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
+    let mut tasks = vec![];
+    let mut seen: Vec<PathBuf> = vec![];
+    for (path, rows) in log.with_rows()? {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let output = folder.join(format!("{stem}.parquet"));
+        if seen.contains(&output) {
+            let reason = "another file of the log has its name; rename it, or answer them apart";
+            return Err(Error::file(path, reason));
+        }
+        seen.push(output.clone());
+        tasks.push((path.to_owned(), rows, output));
+    }
+    let table = &table;
+    let answers = tasks.into_iter().map(|(path, rows, output)| async move {
+        let words = format!("{}\nof {}", question.words, version(&path)?);
+        if output.exists() {
+            return kept(&output, &words);
+        }
+        let answer = table(Log::open(std::slice::from_ref(&path))?).await?;
+        let schema = answer.schema().inner().clone();
+        let sink = Sink::parquet(&output, schema, Some((KEY, words)))?;
+        // Each in a thread of its own.
+        let stream = answer.execute_stream().await?;
+        let sink = tokio::spawn(drain(stream, sink)).await;
+        let sink = sink.map_err(|error| Error::Query(error.to_string()))??;
+        let rows_found = sink.rows();
+        is_whole(rows_found, (!question.filtered).then_some(rows))?;
+        sink.finish()?;
+        Ok(Resumed { computed: rows_found, kept: 0 })
+    });
+    let mut found = Resumed::default();
+    let mut answers = futures::stream::iter(answers).buffer_unordered(question.threads.max(1));
+    while let Some(answer) = answers.next().await {
+        let Resumed { computed, kept } = answer?;
+        found.computed += computed;
+        found.kept += kept;
+    }
+    Ok(found)
+}
+
+/// A file as it is now: another one under its name has another time or size.
+fn version(path: &Path) -> Result<String, Error> {
+    let failed = |error: std::io::Error| Error::file(path, error);
+    let found = std::fs::metadata(path).map_err(failed)?;
+    let changed = found.modified().map_err(failed)?;
+    let changed = changed.duration_since(UNIX_EPOCH).unwrap_or_default();
+    Ok(format!("{}, {} bytes, changed at {changed:?}", path.display(), found.len()))
+}
+
+/// The rows of a file that is there, if it answers the question.
+fn kept(path: &Path, words: &str) -> Result<Resumed, Error> {
+    let reader = reader(path)?;
+    let metadata = reader.metadata().file_metadata();
+    let mut pairs = metadata.key_value_metadata().into_iter().flatten();
+    let found = pairs.find(|pair| pair.key == KEY).and_then(|pair| pair.value.as_deref());
+    if found != Some(words) {
+        let reason = "it answers another question: of another robot, other columns or another file; remove it or choose \
+                      another folder";
+        return Err(Error::file(path, reason));
+    }
+    Ok(Resumed { computed: 0, kept: metadata.num_rows().unsigned_abs() })
+}
