@@ -101,26 +101,38 @@ fn parameters(text: &mut String, sections: &Sections<'_>) {
 
 fn functions(text: &mut String, sections: &Sections<'_>) {
     section(text, "Functions");
-    paragraph_of_counts(text, sections.constructor);
+    // Without parameters there is no constructor to tell of.
+    let has_parameters = !sections.module.parameters.is_empty();
+    paragraph_of_counts(text, has_parameters.then_some(sections.constructor));
     for (name, counts) in counts(sections.module) {
         let (call, once) = (&counts.call, &counts.constructor);
-        let columns = [
-            call.mul, call.add, call.div, call.sqrt, call.other, call.sin, call.cos, once.mul,
-            once.add, once.div,
-        ];
-        let columns = columns.map(|count| format!(" {count} |")).concat();
+        let mut columns =
+            vec![call.mul, call.add, call.div, call.sqrt, call.other, call.sin, call.cos];
+        if has_parameters {
+            columns.extend([once.mul, once.add, once.div]);
+        }
+        let columns: String = columns.iter().map(|count| format!(" {count} |")).collect();
         line_of(text, format_args!("| `{}` |{columns}", name_of(sections, &name)));
     }
 }
 
-fn paragraph_of_counts(text: &mut String, constructor: &str) {
+fn paragraph_of_counts(text: &mut String, constructor: Option<&str>) {
+    let once = constructor.map(|constructor| {
+        format!(
+            "; the last columns are the operations of `{constructor}`, once per set of parameters"
+        )
+    });
+    let (heads, lines) = match constructor {
+        Some(_) => (" once: mul | add | div |", "---|---|---|"),
+        None => ("", ""),
+    };
     line_of(
         text,
         format_args!(
-            "Operations per call. Subtractions count as additions, sign changes are not counted; \
-             the last columns are the operations of `{constructor}`, once per set of \
-             parameters.\n\n| function | mul | add | div | sqrt | abs, sign, tanh | sin | cos | \
-             once: mul | add | div |\n|---|---|---|---|---|---|---|---|---|---|---|"
+            "Operations per call. Subtractions count as additions, sign changes are not counted{}.\n\n\
+             | function | mul | add | div | sqrt | abs, sign, tanh | sin | cos |{heads}\n\
+             |---|---|---|---|---|---|---|---|{lines}",
+            once.unwrap_or_default()
         ),
     );
 }
@@ -132,6 +144,7 @@ fn check_values(text: &mut String, sections: &Sections<'_>) {
     section(text, "Check values");
     let parameters = sections.checks.first().map(|check| check.parameters.as_slice());
     match parameters {
+        _ if sections.module.parameters.is_empty() => {}
         Some([]) | None => line_of(text, format_args!("At the nominal parameters:\n")),
         Some(parameters) => {
             let stated: Vec<String> =

@@ -5,6 +5,7 @@ mod c;
 mod casadi;
 mod cppcheck;
 mod cuda;
+mod flags;
 mod rust;
 mod scripts;
 mod thumb;
@@ -61,6 +62,7 @@ pub struct Found {
 pub fn all() -> Vec<Box<dyn Runner>> {
     let mut runners: Vec<Box<dyn Runner>> = vec![Box::new(rust::Rust)];
     runners.extend(c::all());
+    runners.push(Box::new(flags::Flags));
     runners.push(Box::new(cuda::Cuda));
     runners.push(Box::new(cuda::Nvrtc));
     runners.extend(scripts::all());

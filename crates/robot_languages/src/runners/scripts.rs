@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use robot_build::languages::Language;
-use robot_codegen::Scalar;
 use robot_codegen::backend::flat::{FlatOptions, Tree};
 use robot_codegen::backend::{javascript, matlab, python};
+use robot_codegen::{Scalar, Trigonometry};
 
 use super::{Found, Runner, read, results, write_package};
 use crate::files;
@@ -96,7 +96,38 @@ impl Runner for Script {
             let bytes = read(folder, &format!("{way}.bin"))?;
             Ok(Found { way, results: results(work, &bytes, |_| true)? })
         });
-        found.collect()
+        let found = found.collect::<Result<_, String>>()?;
+        let has_own_sines = self.language == Language::JavaScript;
+        if has_own_sines && work.options.trigonometry == Trigonometry::Standard {
+            self.run_with_sines_of_the_system(work, folder)?;
+        }
+        Ok(found)
+    }
+}
+
+impl Script {
+    /// Once more with sines and cosines of the system's library, which the interpreter takes: then all bits are the same. What
+    /// differs with the sines of the language comes from these alone.
+    fn run_with_sines_of_the_system(&self, work: &Work, folder: &Path) -> Result<(), String> {
+        let angles = read(folder, "angles.bin")?;
+        let angles = angles.as_chunks::<8>().0.iter().map(|angle| f64::from_le_bytes(*angle));
+        let table = angles.flat_map(|angle| [angle, angle.sin(), angle.cos()]);
+        let table: Vec<u8> = table.flat_map(f64::to_le_bytes).collect();
+        files::write(folder, "sines.bin", &table)?;
+        files::run(folder, self.interpreter, self.arguments)?;
+        let found = results(work, &read(folder, "single.bin")?, |_| true)?;
+        for (calls, found) in work.functions.iter().zip(found) {
+            let bits =
+                |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+            if found.is_none_or(|found| bits(&found) != bits(&calls.expected)) {
+                let (name, function) = (self.name, &calls.name);
+                return Err(format!(
+                    "{name}, {}, {function}: other bits with the sines of the system's library",
+                    work.source.name
+                ));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -259,6 +290,32 @@ end
     text
 }
 
+/// Takes sines and cosines from a table if there is one, and else collects the angles.
+const SINES: &str = "
+const angles = new Set();
+const table = new Map();
+if (fs.existsSync(\"sines.bin\")) {
+    const bytes = fs.readFileSync(\"sines.bin\");
+    const rows = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+    for (let i = 0; i < rows.length; i += 3) table.set(rows[i], [rows[i + 1], rows[i + 2]]);
+    Math.sin = (angle) => table.get(angle)[0];
+    Math.cos = (angle) => table.get(angle)[1];
+} else {
+    for (const name of [\"sin\", \"cos\"]) {
+        const own = Math[name];
+        Math[name] = (angle) => {
+            angles.add(angle);
+            return own(angle);
+        };
+    }
+}
+";
+
+/// Writes the angles.
+const ANGLES: &str =
+    "fs.writeFileSync(\"angles.bin\", new Uint8Array(Float64Array.from(angles).buffer));
+";
+
 fn node(work: &Work) -> String {
     let tree = javascript::tree(&work.programs.module, &FlatOptions::default());
     let name = &tree.name;
@@ -272,6 +329,10 @@ fn node(work: &Work) -> String {
     let calls = lines(work, &tree, |function, taken, _, states| {
         format!("calls(robot.{function}, [{taken}], {states});\n")
     });
+    let (sines, angles) = match work.options.trigonometry {
+        Trigonometry::Standard => (SINES, ANGLES),
+        Trigonometry::Polynomial => ("", ""),
+    };
     format!(
         "import * as fs from \"node:fs\";
 import * as robot from \"./{name}.mjs\";
@@ -281,6 +342,7 @@ const bytes = fs.readFileSync(\"states.bin\");
 const data = new Float64Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
 let place = 0;
 const found = [];
+{sines}
 const flat = (value) =>
     typeof value === \"number\" ? [value] : value instanceof Float64Array ? [...value] : Object.values(value).flatMap(flat);
 
@@ -293,6 +355,6 @@ function calls(f, taken, states) {{
 
 {calls}
 fs.writeFileSync(\"single.bin\", new Uint8Array(Float64Array.from(found).buffer));
-"
+{angles}"
     )
 }

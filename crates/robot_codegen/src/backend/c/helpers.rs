@@ -15,6 +15,10 @@ pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
     let polynomials = header.options.trigonometry == Trigonometry::Polynomial;
     let functions = header.tree.helpers();
     let constructor = Helpers::of(&header.tree.constructor);
+    let all = functions.and(constructor);
+    if header.dialect == Dialect::C && (all.tanh || (all.circular && polynomials)) {
+        lines.extend(refusal());
+    }
     let needed = match scalar {
         Scalar::F64 => vec![(Scalar::F64, functions.and(constructor))],
         Scalar::F32 => vec![(Scalar::F64, constructor), (Scalar::F32, functions)],
@@ -65,6 +69,16 @@ fn macros(header: &Header<'_>) -> Vec<String> {
         Dialect::Cuda => cuda::macros([&inline, &part, &restrict], &name("kernel")),
     };
     Writer::lines(&text)
+}
+
+/// Sums that are reordered would lose what rounds to the nearest integer: sines would be wrong in every digit, and nobody
+/// would be told.
+fn refusal() -> Vec<String> {
+    Writer::lines(
+        "#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error \"-ffast-math and /fp:fast make sines wrong: compile what includes this header without (-fno-fast-math, /fp:precise)\"
+#endif",
+    )
 }
 
 /// Writes the helpers of a number type.

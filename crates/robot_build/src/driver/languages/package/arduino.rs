@@ -89,7 +89,7 @@ static void check(const char *what, const float *found, const float *stated, int
     }}
 }}
 
-void setup()
+{}void setup()
 {{
     Serial.begin(115200);
 }}
@@ -99,7 +99,8 @@ void loop()
     failures = 0;
 ",
         unnamed_header(),
-        printer.tolerance()
+        printer.tolerance(),
+        printer.hidden()
     );
     for line in printer.model() {
         text.push_str(&format!("    {line}\n"));

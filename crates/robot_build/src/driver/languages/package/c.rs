@@ -27,6 +27,49 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     files
 }
 
+/// What the README says of the options of compilers.
+pub(super) fn options(parts: &Parts<'_>) -> String {
+    let sines = match parts.options.trigonometry {
+        Trigonometry::Polynomial => {
+            "`-ffast-math` reorders sums: sines would be wrong, and the header does not compile"
+        }
+        Trigonometry::Standard => "`-ffast-math` reorders sums: last bits differ",
+    };
+    format!(
+        "Without `-ffp-contract=off` some compilers fuse products and sums: results then differ in last bits. With gcc add \
+         `-fno-tree-slp-vectorize` to `-O3`: version 12 fuses there all the same. {sines}."
+    )
+}
+
+/// Whether the check values are known to the bit: those of the interpreter in double precision.
+pub(super) fn has_bits(parts: &Parts<'_>) -> bool {
+    parts.options.scalar == Scalar::F64
+        && parts.options.trigonometry == Trigonometry::Polynomial
+        && !parts.options.fused
+}
+
+/// A function that names the compiler's options under which bits differ, and counts them as failures.
+pub(super) const FLAGS: &str = "/* Says which option of the compiler changes bits. */
+static void name_flags(void)
+{
+    /* (1 + e)^2 - 1 - 2 e is e^2 if a product and a sum are fused, else 0. */
+    volatile double e = 7.450580596923828e-9;
+    const double a = 1.0 + e, b = 1.0 + 2.0 * e;
+    const double fused = a * a - b;
+    /* A sum that is not reordered leaves an integer. */
+    const double integer = (e + 6755399441055744.0) - 6755399441055744.0;
+    if (fused != 0.0) {
+        printf(\"products and sums are fused: compile with -ffp-contract=off\\n\");
+        failures++;
+    }
+    if (integer != 0.0) {
+        printf(\"sums are reordered: compile without -ffast-math, -fassociative-math, -funsafe-math-optimizations\\n\");
+        failures++;
+    }
+}
+
+";
+
 /// Calls of functions with the interface of C.
 pub(super) struct Printer<'a> {
     pub(super) parts: &'a Parts<'a>,
@@ -86,11 +129,9 @@ add_test(NAME {name} COMMAND {name}_test)
             "Every function is in the header `{name}.h`, which needs the C library's mathematical functions alone. Arrays are \
              of numbers of type `{}`; a matrix is an array, row by row. To test it:\n\n\
              ```sh\ncc -std=c99 -O2 -ffp-contract=off test.c -o test -lm && ./test\n```\n\n\
-             or with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. Without \
-             `-ffp-contract=off` some compilers fuse products and sums, and with `-ffast-math` they reorder them: results \
-             then differ in last bits, which the test says. With gcc add `-fno-tree-slp-vectorize` to `-O3`: version 12 \
-             fuses there all the same.\n",
-            self.real()
+             or with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. {}\n",
+            self.real(),
+            options(self.parts)
         ));
         usage.push_str(
             &self.casadi.map(|casadi| casadi::usage(self.tree, casadi)).unwrap_or_default(),
@@ -163,7 +204,10 @@ add_test(NAME {name} COMMAND {name}_test)
             unnamed_header()
         );
         text.push_str(&self.comparison());
-        text.push_str(&self.flags());
+        text.push_str(&self.hidden());
+        if self.has_bits() {
+            text.push_str(FLAGS);
+        }
         text.push_str("int main(void)\n{\n");
         for line in self.model() {
             text.push_str(&format!("    {line}\n"));
@@ -176,6 +220,25 @@ add_test(NAME {name} COMMAND {name}_test)
         }
         text.push_str("    printf(failures ? \"FAILED\\n\" : \"all check values are met\\n\");\n    return failures != 0;\n}\n");
         text
+    }
+
+    /// The function that hides inputs.
+    pub(super) fn hidden(&self) -> String {
+        let real = self.real();
+        format!(
+            "/* The compiler shall not know the numbers, or it computes results by itself, as no program does later. */
+static void hide({real} *numbers, int count)
+{{
+    volatile {real} number;
+    int i;
+    for (i = 0; i < count; i++) {{
+        number = numbers[i];
+        numbers[i] = number;
+    }}
+}}
+
+"
+        )
     }
 
     /// The function that compares results with stated values.
@@ -211,9 +274,7 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
 
     /// Whether the check values are known to the bit: those of the interpreter in double precision.
     pub(super) fn has_bits(&self) -> bool {
-        self.parts.options.scalar == Scalar::F64
-            && self.parts.options.trigonometry == Trigonometry::Polynomial
-            && !self.parts.options.fused
+        has_bits(self.parts)
     }
 
     fn bits(&self) -> String {
@@ -224,30 +285,6 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
         printf(\"%s: last bits differ from the stated values; see the README for options of compilers\\n\", what);
         failures++;
     }
-"
-        .to_owned()
-    }
-
-    /// A function that names the compiler's options under which bits differ.
-    fn flags(&self) -> String {
-        if !self.has_bits() {
-            return String::new();
-        }
-        "/* Says which option of the compiler changes bits. */
-static void name_flags(void)
-{
-    /* (1 + e)^2 - 1 - 2 e is e^2 if a product and a sum are fused, else 0. */
-    volatile double e = 7.450580596923828e-9;
-    const double a = 1.0 + e, b = 1.0 + 2.0 * e;
-    const double fused = a * a - b;
-    if (fused != 0.0) {
-        printf(\"products and sums are fused: compile with -ffp-contract=off\\n\");
-    }
-#ifdef __FAST_MATH__
-    printf(\"sums are reordered: compile without -ffast-math\\n\");
-#endif
-}
-
 "
         .to_owned()
     }
@@ -264,8 +301,17 @@ static void name_flags(void)
         else {
             return String::new();
         };
+        // The call is the last line; the inputs stand first.
         let mut text = "    {\n".to_owned();
-        for line in lines {
+        let (declared, call) = lines.split_at(lines.len().saturating_sub(1));
+        for line in declared {
+            let line = line.strip_prefix("const ").unwrap_or(line);
+            text.push_str(&format!("        {line}\n"));
+        }
+        for array in &function.inputs {
+            text.push_str(&format!("        hide({}, {});\n", array.name, array.length));
+        }
+        for line in call {
             text.push_str(&format!("        {line}\n"));
         }
         for (array, output) in function.outputs.iter().zip(&check.outputs) {

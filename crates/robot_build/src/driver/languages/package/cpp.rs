@@ -3,8 +3,9 @@
 use robot_codegen::Scalar;
 use robot_codegen::backend::SourceFile;
 use robot_codegen::backend::c;
-use robot_codegen::backend::flat::Tree;
+use robot_codegen::backend::flat::{Function, Tree};
 
+use super::c::{FLAGS, has_bits, options};
 use super::call::{checked, numbers};
 use super::{Parts, description, file, of_sources};
 use crate::driver::check::CheckValue;
@@ -65,14 +66,19 @@ fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> Vec<String> {
     lines
 }
 
+/// The entries of each input at a check state.
+fn inputs(parts: &Parts<'_>, check: &CheckValue) -> impl Iterator<Item = String> {
+    let suffix = if parts.options.scalar == Scalar::F32 { "F" } else { "" };
+    check.inputs.iter().map(move |(_, values)| {
+        let entries = values.iter().map(|value| format!("{value:?}{suffix}"));
+        entries.collect::<Vec<_>>().join(", ")
+    })
+}
+
 /// The arguments of the call at a check state.
 fn arguments(parts: &Parts<'_>, tree: &Tree<'_>, check: &CheckValue) -> String {
-    let suffix = if parts.options.scalar == Scalar::F32 { "F" } else { "" };
     let model = tree.has_parameters().then(|| "model".to_owned());
-    let inputs = check.inputs.iter().map(|(_, values)| {
-        let entries = values.iter().map(|value| format!("{value:?}{suffix}"));
-        format!("{{{{{}}}}}", entries.collect::<Vec<_>>().join(", "))
-    });
+    let inputs = inputs(parts, check).map(|entries| format!("{{{{{entries}}}}}"));
     model.into_iter().chain(inputs).collect::<Vec<_>>().join(", ")
 }
 
@@ -89,27 +95,70 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     usage.push_str(&format!(
         "```\n\n`{name}.hpp` includes `{name}.h`, which C takes too; a matrix is an array, row by row. Several outputs are \
          returned as a structure. To test it:\n\n```sh\nc++ -std=c++17 -O2 -ffp-contract=off test.cpp -o test && \
-         ./test\n```\n\nor with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. Without \
-         `-ffp-contract=off` some compilers fuse products and sums: results then differ in last bits. With gcc add \
-         `-fno-tree-slp-vectorize` to `-O3`: version 12 fuses there all the same.\n"
+         ./test\n```\n\nor with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. {}\n",
+        options(parts)
     ));
     parts.readme(tree, "C++17: straight-line code without branches or allocation", &usage, "Model")
 }
 
 fn test(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
+    let mut text = comparison(parts, tree);
+    if has_bits(parts) {
+        text.push_str(FLAGS);
+    }
+    text.push_str("int main()\n{\n");
+    for line in model(parts, tree) {
+        text.push_str(&format!("    {line}\n"));
+    }
+    if has_bits(parts) {
+        text.push_str("    name_flags();\n");
+    }
+    for (function, check) in checked(parts, tree) {
+        text.push_str(&test_of(parts, tree, function, check));
+    }
+    text.push_str(
+        "    puts(failures ? \"FAILED\" : \"all check values are met\");\n    return failures != 0;\n}\n",
+    );
+    text
+}
+
+/// What the test has before `main`.
+fn comparison(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     let (name, real) = (&tree.name, real(parts));
     let tolerance = if parts.options.scalar == Scalar::F64 { "1e-12" } else { "1e-4" };
-    let mut text = format!(
+    let bits = match has_bits(parts) {
+        true => {
+            "        // Where the code promises them, all bits.
+        if (std::memcmp(&found[i], &stated[i], sizeof stated[i]) != 0) {
+            printf(\"%s: last bits of entry %zu differ; see the README for options of compilers\\n\", what, i);
+            failures++;
+        }
+"
+        }
+        false => "",
+    };
+    format!(
         "// {}
 // The check values of the README.
 
 #include \"{name}.hpp\"
 
 #include <cmath>
-#include <cstdio>
+#include <cstring>
+#include <stdio.h>
 #include <vector>
 
 static int failures = 0;
+
+// The compiler shall not know the numbers, or it computes results by itself, as no program does later.
+template <std::size_t N> static std::array<{real}, N> hidden(std::array<{real}, N> numbers)
+{{
+    for ({real} &number : numbers) {{
+        volatile {real} unknown = number;
+        number = unknown;
+    }}
+    return numbers;
+}}
 
 static void append(std::vector<double> &entries, {real} value) {{ entries.push_back(static_cast<double>(value)); }}
 
@@ -128,39 +177,46 @@ static void check(const char *what, const std::vector<double> &found, const std:
     }}
     for (std::size_t i = 0; i < stated.size(); i++) {{
         if (found.size() != stated.size() || !(std::fabs(found[i] - stated[i]) <= {tolerance} * size)) {{
-            std::printf(\"%s: entry %zu is not the stated one\\n\", what, i);
+            printf(\"%s: entry %zu is not the stated one\\n\", what, i);
             failures++;
+            continue;
         }}
-    }}
+{bits}    }}
 }}
 
-int main()
-{{
 ",
         unnamed_header()
+    )
+}
+
+/// The check of one function.
+fn test_of(
+    parts: &Parts<'_>,
+    tree: &Tree<'_>,
+    function: &Function<'_>,
+    check: &CheckValue,
+) -> String {
+    let stated: Vec<f64> =
+        check.outputs.iter().flat_map(|output| output.values.iter().copied()).collect();
+    let (name, called) = (&tree.name, &function.name);
+    let model = tree.has_parameters().then(|| "model".to_owned());
+    let inputs = function
+        .inputs
+        .iter()
+        .zip(inputs(parts, check))
+        .map(|(array, entries)| format!("hidden<{}>({{{{{entries}}}}})", array.length));
+    let arguments = model.into_iter().chain(inputs).collect::<Vec<_>>().join(", ");
+    let mut text = format!(
+        "    {{\n        const auto result = {name}::{called}({arguments});\n        std::vector<double> found;\n"
     );
-    for line in model(parts, tree) {
-        text.push_str(&format!("    {line}\n"));
+    for array in &function.outputs {
+        let field =
+            if function.outputs.len() > 1 { format!(".{}", array.name) } else { String::new() };
+        text.push_str(&format!("        append(found, result{field});\n"));
     }
-    for (function, check) in checked(parts, tree) {
-        let stated: Vec<f64> =
-            check.outputs.iter().flat_map(|output| output.values.iter().copied()).collect();
-        let (called, arguments) = (&function.name, arguments(parts, tree, check));
-        text.push_str(&format!(
-            "    {{\n        const auto result = {name}::{called}({arguments});\n        std::vector<double> found;\n"
-        ));
-        for array in &function.outputs {
-            let field =
-                if function.outputs.len() > 1 { format!(".{}", array.name) } else { String::new() };
-            text.push_str(&format!("        append(found, result{field});\n"));
-        }
-        text.push_str(&format!(
-            "        check(\"{called}\", found, {{{}}});\n    }}\n",
-            numbers(&stated, ", ")
-        ));
-    }
-    text.push_str(
-        "    std::puts(failures ? \"FAILED\" : \"all check values are met\");\n    return failures != 0;\n}\n",
-    );
+    text.push_str(&format!(
+        "        check(\"{called}\", found, {{{}}});\n    }}\n",
+        numbers(&stated, ", ")
+    ));
     text
 }
