@@ -15,6 +15,8 @@ const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
 const COLUMNS: [&str; 7] =
     ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
 
+/// Editors of some systems put it before a text.
+pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 /// The placeholder of a left side that is printed in the display before.
 const PHANTOM: &str = r"\phantom{";
 /// Bytes of a left side that `\phantom` holds.
@@ -126,10 +128,12 @@ pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<D
     }
 }
 
-/// The text with comments replaced by as many spaces.
+/// The text with comments, and a byte order mark, replaced by as many spaces.
 fn without_comments(text: &str, notation: Notation) -> String {
     let mut clean = String::with_capacity(text.len());
-    for line in text.split_inclusive('\n') {
+    let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    clean.extend(std::iter::repeat_n(' ', text.len() - unmarked.len()));
+    for line in unmarked.split_inclusive('\n') {
         let comment = match notation {
             Notation::Text => line.trim_start().starts_with('#').then_some(0),
             Notation::Latex => percent(line),

@@ -7,7 +7,7 @@ use robot_model::description::is_finite;
 use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
 use robot_symbolic::{Formula, ParseError};
 
-use super::entries::{Entry, entries, unnamed};
+use super::entries::{BYTE_ORDER_MARK, Entry, entries, unnamed};
 use super::symbols::Symbols;
 
 /// The notation of equations.
@@ -23,6 +23,7 @@ impl Notation {
     /// Guesses the notation of a text: infix text has no backslash but in comments.
     #[must_use]
     pub fn detect(text: &str) -> Notation {
+        let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         let mut lines = text.lines().filter(|line| !line.trim_start().starts_with('#'));
         if lines.any(|line| line.contains('\\')) { Notation::Latex } else { Notation::Text }
     }

@@ -202,6 +202,26 @@ fn latex_is_compared_as_text_is() {
     assert_eq!((found.differences[0].number.as_str(), found.differences[0].line), ("31", 2));
 }
 
+/// Some editors put a byte order mark before a text.
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_equations() {
+    let robot = robot("planar_2r");
+    let equation = "Q2 = m2*r2^2*qdd1 # not a comment here\n";
+    for (text, notation) in [
+        ("# The equations, \\emph{as printed}.\n(2) Q2 = I2*(qdd1 + qdd2)\n", Notation::Text),
+        ("(2) Q2 = I2*(qdd1 + qdd2)\n", Notation::Text),
+        ("% As printed.\n\\[ Q_2 = I_2 (\\ddot q_1 + \\ddot q_2) \\]\n", Notation::Latex),
+    ] {
+        let marked = format!("\u{feff}{text}");
+        assert_eq!([Notation::detect(text), Notation::detect(&marked)], [notation; 2], "{text}");
+        let [plain, found] = [text, &marked].map(|text| compared(&robot, text).unwrap());
+        assert!(!plain.differences.is_empty(), "{text}");
+        assert_eq!(found.differences, plain.differences, "{text}");
+    }
+    let shown = compared(&robot, &format!("\u{feff}{equation}")).unwrap_err().to_string();
+    assert!(shown.contains("printed:1:"), "{shown}");
+}
+
 /// `Q_2`, `Q_m^2` and `\tau_2` are the second joint's generalized force.
 #[test]
 fn a_generalized_force_is_known_by_its_usual_letters() {

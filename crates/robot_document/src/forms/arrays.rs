@@ -311,10 +311,27 @@ fn text(rows: &[Vec<Written>]) -> String {
     let lengths: Vec<usize> = (0..columns).map(length).collect();
     let one = |row: &Vec<Written>| {
         let cells = row.iter().zip(&lengths).map(|(cell, length)| {
-            let text = &cell.text;
-            format!("{text:<length$}")
+            // By hand: a width of `format!` is at most 65,535, and entries can be longer.
+            let padding = length.saturating_sub(cell.text.len());
+            format!("{}{}", cell.text, " ".repeat(padding))
         });
         format!("[ {} ]", cells.collect::<Vec<_>>().join(",  "))
     };
     rows.iter().map(one).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_of_any_length_are_written_below_each_other() {
+        let written =
+            |text: &str| Written { text: text.to_owned(), math: Math::Number(String::new()) };
+        assert_eq!(text(&[vec![written("a"), written("b")]]), "[ a,  b ]");
+        let long = "q1 + ".repeat(20_000);
+        let rows = text(&[vec![written(&long)], vec![written("0")]]);
+        let lengths: Vec<usize> = rows.lines().map(str::len).collect();
+        assert_eq!(lengths, [long.len() + 4, long.len() + 4]);
+    }
 }
