@@ -37,7 +37,8 @@ pub(super) fn options(parts: &Parts<'_>) -> String {
     };
     format!(
         "Without `-ffp-contract=off` some compilers fuse products and sums: results then differ in last bits. With gcc add \
-         `-fno-tree-slp-vectorize` to `-O3`: version 12 fuses there all the same. {sines}."
+         `-fno-tree-slp-vectorize` where the processor has multiply-adds that round once (`-march=native`): version 12 fuses \
+         there all the same. {sines}."
     )
 }
 
@@ -282,7 +283,7 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
             return "    (void)differs;\n".to_owned();
         }
         "    if (differs) {
-        printf(\"%s: last bits differ from the stated values; see the README for options of compilers\\n\", what);
+        printf(\"%s: last bits differ: compile with -ffp-contract=off and, gcc, -fno-tree-slp-vectorize\\n\", what);
         failures++;
     }
 "

@@ -130,7 +130,7 @@ fn comparison(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         true => {
             "        // Where the code promises them, all bits.
         if (std::memcmp(&found[i], &stated[i], sizeof stated[i]) != 0) {
-            printf(\"%s: last bits of entry %zu differ; see the README for options of compilers\\n\", what, i);
+            printf(\"%s: last bits of entry %zu differ: compile with -ffp-contract=off and, gcc, -fno-tree-slp-vectorize\\n\", what, i);
             failures++;
         }
 "
