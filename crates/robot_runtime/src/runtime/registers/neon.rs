@@ -1,4 +1,4 @@
-//! Registers of 64-bit ARM: of 128 bits, which every such processor has (Advanced SIMD, Neon).
+//! Registers of 64-bit ARM: of 128 bits (Advanced SIMD, Neon), for targets that may use them.
 
 #![allow(unsafe_code)]
 
