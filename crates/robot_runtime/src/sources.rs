@@ -24,6 +24,8 @@ pub const SOURCES: &[(&str, &str)] = &[
     ("real.rs", include_str!("runtime/real.rs")),
     ("reciprocal.rs", include_str!("runtime/reciprocal.rs")),
     ("registers.rs", include_str!("runtime/registers.rs")),
+    ("registers/neon.rs", include_str!("runtime/registers/neon.rs")),
+    ("registers/register.rs", include_str!("runtime/registers/register.rs")),
     ("registers/x86.rs", include_str!("runtime/registers/x86.rs")),
     ("root.rs", include_str!("runtime/root.rs")),
     ("scalar.rs", include_str!("runtime/scalar.rs")),

@@ -5,6 +5,7 @@
 
 mod axes;
 mod base_parameters;
+mod derivatives;
 mod energies;
 mod functions;
 mod recursions;

@@ -12,7 +12,7 @@ use super::scalar::Scalar;
 ///
 /// An array whose operations go through vector registers if `T` is `f64` or `f32` and `N` a multiple of what a
 /// register of the target holds: on x86-64 two `f64` or four `f32`, with AVX2 four or eight, with AVX-512 eight or
-/// sixteen. Else, and on other targets, a loop of constant length, which LLVM may vectorise.
+/// sixteen; on 64-bit ARM two or four. Else, and on other targets, a loop of constant length, which LLVM may vectorise.
 ///
 /// To evaluate a function of numbers at many states a loop over the states is as fast, at 2
 /// already, and leaves the function as it is: see [`sin_cos_each`](super::sin_cos_each).

@@ -4,16 +4,20 @@
 //! has them. A type of this module exists if the code around it is compiled for such processors;
 //! beyond that [`processor`](super::processor) uses those of 256 bits after it has asked.
 
+#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+mod neon;
+#[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
+mod register;
 #[cfg(target_arch = "x86_64")]
 pub(super) mod x86;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
 use super::fused::FUSED;
 use super::lanewise::{Lanewise, one_by_one};
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
 use super::scalar::Scalar;
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
 /// A register of `W` numbers of type `F`.
 pub(super) trait Register<F, const W: usize>: Scalar {
     /// Element i in lane i.
@@ -23,7 +27,7 @@ pub(super) trait Register<F, const W: usize>: Scalar {
     fn store(self, to: &mut [F; W]);
 }
 
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
 /// `operation` of arrays whose length is a multiple of the register's, register by register; without
 /// a loop for the first four.
 #[inline(always)]
@@ -82,13 +86,19 @@ macro_rules! by_widest {
                     arguments,
                 );
             }
+            #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+            if N % $narrow_lanes == 0 {
+                return by_register::<neon::$narrow<FUSED>, O, $float, $narrow_lanes, A, R, N>(
+                    arguments,
+                );
+            }
             one_by_one::<$float, O, A, R, N>(arguments)
         }
     };
 }
 
 /// `operation` of the registers at `index`. A closure would keep instructions of a processor that was asked out of line.
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
 #[inline(always)]
 fn at<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
     arguments: &[&[F; N]; A],
