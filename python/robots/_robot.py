@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -165,19 +164,23 @@ class Robot:
     def _document(self, notation: str, target: Path, flags: list[str]) -> None:
         self._run("document", "--format", notation, "-o", str(target), *flags)
 
-    def source(self, language: str = "rust") -> str:
-        """Code of the robot's usual functions as one file: rust, c, cpp, cuda, matlab, octave, python, javascript, wgsl.
+    def source(self, language: str = "rust", **options: Any) -> str:
+        """Code of the robot's usual functions in a language that has it in one file: rust, c, cuda, python or wgsl; `package` writes the others.
+
+        `options` are those of the command `generate`: `function="gravity"`, `scalar="f32"`, ….
 
         >>> "planar_2r_inverse_dynamics(" in robots.load("planar_2r.toml").source("c")
         True
         """
-        if language == "rust":
-            return self._run("generate")
-        with tempfile.TemporaryDirectory() as folder:
-            self._run("crate", "--language", language, "-o", os.path.join(folder, "code"))
-            ending = {"c": ".h", "cpp": ".hpp", "cuda": ".cuh", "octave": ".m", "matlab": ".m", "javascript": ".js", "python": ".py"}.get(language, "")
-            files = sorted(file for file in Path(folder).rglob(f"*{ending}") if file.is_file())
-            return "\n".join(file.read_text() for file in files)
+        return self._run("generate", f"--language={language}", *_flags(options))
+
+    def package(self, folder: str | os.PathLike[str], language: str = "rust", *, force: bool = False, **options: Any) -> Path:
+        """Writes code with what its users expect around it, a crate in Rust: rust, c, cpp, arduino, cuda, matlab, python, javascript, wasm or wgsl.
+
+        `options` are those of the command `crate`. Files of another origin are replaced only with `force`.
+        """
+        self._run("crate", f"--language={language}", "-o", os.fspath(folder), *_flags(options), *["--force"] * force)
+        return Path(folder)
 
     def simulate(
         self,

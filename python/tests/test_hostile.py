@@ -165,6 +165,7 @@ def test_calls_from_many_threads(puma, given):
         (lambda r: r.simulate(1.0, q0=[0.0]), "1 entries of q, not 2"),
         (lambda r: r.simulate(1.0, torques={"3": "1"}), "3"),
         (lambda r: r.source("cobol"), "cobol"),
+        (lambda r: r.source("cpp"), "several files"),
     ],
 )
 def test_what_is_wrong_is_said(call, message):
@@ -206,3 +207,14 @@ def test_a_payload_is_a_body(tmp_path):
     tensor = robots.Payload(mass, [x, 0, 0], [[0, 0, 0], [0, 0, 0], [0, 0, zz]])
     assert np.array_equal(robot.mass_matrix(q, payload=tensor), robot.mass_matrix(q, payload=payload))
     assert np.array_equal(robot.gravity(q, payload_mass=mass, payload_x=x, m2=1.0), robot.gravity(q, payload=robots.Payload(mass, [x, 0, 0]), m2=1.0))
+
+
+def test_a_tensor_is_six_numbers_or_three_rows(tmp_path):
+    file = tmp_path / "carrying.toml"
+    file.write_text((FILES / "puma560.toml").read_text() + "\n[payload]\n")
+    robot, q = robots.load(file), np.linspace(-1, 1, 6)
+    xx, yy, zz, xy, xz, yz = 0.3, 0.4, 0.5, 0.01, 0.02, 0.03
+    rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+    as_rows, as_numbers = (robot.mass_matrix(q, payload=robots.Payload(1.0, [0, 0, 0.1], tensor)) for tensor in (rows, [xx, yy, zz, xy, xz, yz]))
+    by_name = robot.mass_matrix(q, payload_mass=1.0, payload_z=0.1, payload_xx=xx, payload_yy=yy, payload_zz=zz, payload_xy=xy, payload_xz=xz, payload_yz=yz)
+    assert np.array_equal(as_rows, by_name) and np.array_equal(as_numbers, by_name)

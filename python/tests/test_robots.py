@@ -202,6 +202,11 @@ def test_doors(tmp_path):
     shown = robot._repr_html_()
     assert "data:image/svg+xml" in shown and "revolute about (0, 0, 1)" in shown and "mass of link 2" in shown
     assert "fn inverse_dynamics" in robot.source() and "double" in robot.source("c")
+    assert "def inverse_dynamics" not in robot.source("python", function="gravity")
+    assert "float" in robot.source("c", scalar="f32") and "float" not in robot.source("c")
+    for language in ("rust", "cpp", "matlab", "javascript", "wasm"):
+        made = robot.package(tmp_path / language, language)
+        assert sum(file.stat().st_size for file in made.rglob("*") if file.is_file()) > 5000, language
     assert "documentclass" in robot.document(tmp_path / "arm.tex").read_text()
     assert "inverse_dynamics" in dir(robot) and robot.inverse_dynamics.__doc__
     motion = robot.simulate(1.0, q0=[0.5, 0.1], step=0.1)
