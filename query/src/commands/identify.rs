@@ -84,7 +84,7 @@ impl Arguments {
         let identify = session.context.udaf("identify")?.call(arguments).alias("answer");
         let table = opened.table.clone().aggregate(vec![], vec![identify])?;
         if self.inputs.explain {
-            return explained(table).await.map(|()| None);
+            return explained(table, opened).await.map(|()| None);
         }
         let context = Arc::new(table.task_ctx());
         let plan = table.create_physical_plan().await?;

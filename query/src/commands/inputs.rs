@@ -4,9 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::logical_expr::Expr;
 use datafusion::prelude::{DataFrame, ident};
+use datafusion_distributed::display_plan_ascii;
 use robot_model::variable::JointVariable;
 use robot_query::log::{Log, Names, Session};
 use robot_query::{Error, Model};
@@ -55,12 +55,13 @@ impl Variables {
     }
 }
 
-/// Shows the plan of a table.
-pub(super) async fn explained(table: DataFrame) -> Result<(), Error> {
-    let batches = table.explain(false, false)?.collect().await?;
-    let text = pretty_format_batches(&batches);
-    let text = text.map_err(|error| Error::Query(error.to_string()))?;
-    show(&format!("{text}\n"))
+/// Shows the plan of a table, with the stages that other machines compute.
+pub(super) async fn explained(table: DataFrame, opened: &Opened) -> Result<(), Error> {
+    let plan = table.create_physical_plan().await?;
+    let text = display_plan_ascii(plan.as_ref(), false);
+    // To other machines a robot goes as the text of its file.
+    let text = text.replace(&opened.model.source.text, &opened.robot);
+    show(&format!("{}\n", text.trim_end()))
 }
 
 /// A log that has been opened for a robot.

@@ -68,7 +68,7 @@ impl Arguments {
         let residuals = residual(&session, &opened)?;
         let table = opened.table.clone().select(vec![residuals.clone()])?;
         if self.inputs.explain {
-            return explained(table).await;
+            return explained(table, &opened).await;
         }
         let found = statistics(table, opened.rows()).await;
         let found = found.map_err(|error| opened.located(error))?;

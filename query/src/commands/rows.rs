@@ -33,7 +33,7 @@ impl Rows<'_> {
         let opened = self.inputs.open(&session).await?;
         let table = self.table(&session, &opened)?;
         if self.inputs.explain {
-            return explained(table).await;
+            return explained(table, &opened).await;
         }
         let rows = write(table, &answer, opened.rows()).await;
         let rows = rows.map_err(|error| opened.located(error))?;
@@ -60,7 +60,7 @@ impl Rows<'_> {
         let opened = self.inputs.open(&session).await?;
         let table = self.table(&session, &opened)?;
         if self.inputs.explain {
-            return explained(table).await;
+            return explained(table, &opened).await;
         }
         let names: Vec<&str> =
             table.schema().fields().iter().map(|field| field.name().as_str()).collect();

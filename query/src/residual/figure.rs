@@ -98,16 +98,8 @@ impl Figure {
             for (curve, color) in panel.curves.iter().zip(COLORS) {
                 let points = self.t.iter().copied().zip(curve.values.iter().copied());
                 let points = points.filter(|(_, value)| value.is_finite());
-                chart
-                    .draw_series(LineSeries::new(points, color.stroke_width(1)))?
-                    .label(curve.name)
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], color));
+                chart.draw_series(LineSeries::new(points, color.stroke_width(1)))?;
             }
-            chart
-                .configure_series_labels()
-                .background_style(WHITE.mix(0.8))
-                .border_style(BLACK.mix(0.3))
-                .draw()?;
         }
         area.present()?;
         Ok(())
@@ -187,7 +179,11 @@ pub async fn figure(table: DataFrame, model: &Model) -> Result<Figure, Error> {
         }
     });
     Ok(Figure {
-        title: format!("Residuals of {}", model.robot.name),
+        // In the colors of the curves.
+        title: format!(
+            "Residuals of {}: mean (blue), rms (orange), smallest and largest (gray)",
+            model.robot.name
+        ),
         panels: panels.collect(),
         t: (0..PARTS).map(middle).collect(),
     })

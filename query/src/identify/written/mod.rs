@@ -65,7 +65,8 @@ impl Estimate {
                 "the file with the identified values has other base parameters; please report this";
             return Err(failed(reason.to_owned()));
         }
-        Ok((text, found.to_string()))
+        let complaints = if found.is_empty() { String::new() } else { found.to_string() };
+        Ok((text, complaints))
     }
 
     /// The estimates of a link's base parameters in words.

@@ -76,6 +76,7 @@ impl Written<'_> {
             );
         }
         let Body { mass, center, inertia } = self.identified.body(self.place)?;
+        table.remove("massless");
         table.insert("mass", value(mass));
         table.insert("center_of_mass", value(center.iter().copied().collect::<Array>()));
         let mut entries = InlineTable::new();
