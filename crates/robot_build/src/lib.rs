@@ -46,7 +46,9 @@ pub use driver::singular::{Unsolvable, unsolvable};
 pub use driver::snapping::{Snapping, snapping};
 pub use driver::{ablation, budget, check, package, snapping};
 pub use entry::builder::{Builder, compile};
-pub use entry::files::{MARKER, Output, Ownership, Pending, Staleness, Writer, staleness};
+pub use entry::files::{
+    MARKER, Output, Ownership, Pending, Staleness, Writer, remaining, staleness,
+};
 pub use entry::paths::{RobotFile, missing};
 pub use entry::pin::{pin_path, pin_text, robot_inputs};
 pub use error::{Error, Errors, shown};

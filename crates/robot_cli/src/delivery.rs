@@ -5,10 +5,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{File, Output, Ownership, Staleness, Writer, shown, staleness};
+use robot_build::{File, Output, Ownership, Staleness, Writer, remaining, shown, staleness};
 
 use crate::Terminal;
 use crate::failure::Failure;
+
+/// So many files of an earlier run are named.
+const SHOWN: usize = 5;
 
 /// Whether files of others are replaced.
 #[derive(Args)]
@@ -204,6 +207,32 @@ pub(crate) fn deliver_folder(
     if changed > 0 {
         writeln!(terminal.errors, "wrote {}: {count}{all} files", shown(folder))?;
     }
+    warn_of_remaining(folder, &remaining(folder, files), terminal)
+}
+
+/// Warns of files of an earlier run, which can be called as those of this run can.
+fn warn_of_remaining(
+    folder: &Path,
+    files: &[PathBuf],
+    terminal: &mut Terminal<'_>,
+) -> Result<(), Failure> {
+    if files.is_empty() {
+        return Ok(());
+    }
+    let names: Vec<String> = files
+        .iter()
+        .take(SHOWN)
+        .map(|path| shown(path.strip_prefix(folder).unwrap_or(path)))
+        .collect();
+    let more = files.len().saturating_sub(SHOWN);
+    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+    let (count, place) = (files.len(), shown(folder));
+    writeln!(
+        terminal.errors,
+        "warning: {place} has {count} file(s) of an earlier run that this one does not write: {}{more}; remove \
+         what you do not need",
+        names.join(", ")
+    )?;
     Ok(())
 }
 

@@ -209,3 +209,100 @@ fn slender_bodies_with_tensors_about_the_origin_are_told() {
         assert_eq!(codes(&text), [code::ABOUT_ORIGIN], "seed 6, round {round}:\n{text}");
     }
 }
+
+/// A body with a tensor is in doubt where some of it must be denser than osmium: 2 kg with this tensor are as dense as
+/// 137 kg/m³ at least, and the density rises with the mass to the power of 2.5.
+#[test]
+fn bodies_denser_than_osmium_are_told() {
+    let heavy = |mass: &str| {
+        codes(&rod(2.0, 1.0, false).replace("mass = 2\n", &format!("mass = {mass}\n")))
+    };
+    assert_eq!(heavy("14"), [""; 0]);
+    assert_eq!(heavy("21"), [code::UNITS]);
+}
+
+/// The unit that is named is the one in which the body is as large as its link, 0.4 m.
+#[test]
+fn the_size_of_the_link_decides_between_units() {
+    let found = check("arm.toml", &rod(2.0, 146_900.0, false), &Options::default()).found;
+    assert!(found.to_string().contains("in kg cm^2?"), "{found}");
+}
+
+/// Thrice the size of the link is the largest radius of gyration; this rod's is 0.117 m, times √scale.
+#[test]
+fn bodies_wider_than_their_links_are_told() {
+    assert_eq!(codes(&rod(2.0, 80.0, false)), [""; 0]);
+    assert_eq!(codes(&rod(2.0, 130.0, false)), [code::TOO_WIDE]);
+}
+
+/// A center of mass lies outside of the link by less than thrice the link's size and the radius of gyration.
+#[test]
+fn centers_outside_of_the_link_are_measured_from_its_ends() {
+    let at = |x: &str| rod(2.0, 1.0, false).replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
+    assert_eq!(codes(&at("1.9")), [""; 0]);
+    assert_eq!(codes(&at("2")), [code::CENTER_FAR]);
+    // A link that reaches to both sides is as long as both together.
+    let other = "[[link]]\nname = \"other\"\nparent = \"rod\"\norigin = { xyz = [-0.4, 0, 0] }\n\
+                 joint = { type = \"revolute\", axis = \"y\" }\nmass = 1\n\
+                 center_of_mass = [0.05, 0, 0]\ninertia = { xx = 0.002, yy = 0.003, zz = 0.003 }\n";
+    assert_eq!(codes(&format!("{}{other}", at("2.9"))), [""; 0]);
+    // A link without a size of its own is held against the reach of the arm, 0.4 m.
+    let point = |x: &str| {
+        let hand = "inertia = { xx = 0.001, yy = 0.002, zz = 0.002 }";
+        let text = rod(2.0, 1.0, false).replace(hand, "inertia = { xx = 0, yy = 0, zz = 0 }");
+        codes(&text.replace("[0.05, 0, 0]", &format!("[{x}, 0, 0]")))
+    };
+    assert!(!point("1.1").contains(&code::CENTER_FAR));
+    assert!(point("2").contains(&code::CENTER_FAR));
+}
+
+/// Only of a body whose two ends are known, and whose tensor is to be checked, is the point of its tensor judged.
+#[test]
+fn tensors_are_judged_where_the_ends_of_the_body_are_known() {
+    let wrong = rod(2.0, 1.0, true);
+    let last = wrong.split("[[link]]\nname = \"hand\"").next().unwrap();
+    assert_eq!(codes(last), [code::ABOUT_ORIGIN]);
+    assert_eq!(codes(&wrong.replacen("xx =", "unchecked = true, xx =", 1)), [""; 0]);
+    // The center of mass is next to the end of the link, so that the body reaches beyond it, nobody knows how far.
+    let beyond = arm("mass = 2\ncenter_of_mass = [0.38, 0, 0]\n\
+         inertia = { xx = 0.0009, yy = 0.3493, zz = 0.3493 }");
+    assert_eq!(codes(&beyond), [""; 0]);
+}
+
+/// The same tensor with masses that differ by less than one in a hundred is no copy, whatever the masses.
+#[test]
+fn masses_that_hardly_differ_are_the_same() {
+    let pair = |masses: [&str; 2]| {
+        let link = |mass: &str| {
+            format!(
+                "[[link]]\nname = \"link_{mass}\"\njoint = {{ type = \"revolute\", axis = \"x\" }}\n\
+                 origin = {{ xyz = [0.2, 0, 0] }}\nmass = {mass}\ncenter_of_mass = [0.1, 0, 0]\n\
+                 inertia = {{ xx = 2, yy = 2, zz = 2 }}\n"
+            )
+        };
+        codes(&format!("format = 1\n[robot]\nname = \"arm\"\n{}", masses.map(link).concat()))
+    };
+    assert_eq!(pair(["200", "201"]), [""; 0]);
+    assert_eq!(pair(["200", "203"]), [code::COPIED]);
+}
+
+#[test]
+fn gravity_that_points_up_is_told() {
+    let with = |gravity: &str| {
+        let robot = format!("name = \"arm\"\ngravity = {gravity}\n");
+        codes(&rod(2.0, 1.0, false).replacen("name = \"arm\"\n", &robot, 1))
+    };
+    assert_eq!(with("[0, 0, 9.81]"), [code::GRAVITY_UP]);
+    assert_eq!(with("[1, 2, 9.81]"), [code::GRAVITY_UP]);
+    for sideways in ["[0, 9, 5]", "[-9, 0, 5]", "[0, 0, -9.81]", "[0, 0, 0]"] {
+        assert_eq!(with(sideways), [""; 0], "{sideways}");
+    }
+}
+
+/// Where nothing has mass, no joint moves any.
+#[test]
+fn a_robot_without_mass_moves_nothing() {
+    let text = "format = 1\n[robot]\nname = \"arm\"\n[[link]]\nname = \"a\"\n\
+                joint = { type = \"revolute\", axis = \"z\" }\nmassless = true\n";
+    assert_eq!(codes(text), [code::MOVES_NOTHING]);
+}

@@ -169,6 +169,14 @@ fn terms_that_are_no_torque_are_told() {
         ["has units kg m s^-2, but a torque has kg m^2 s^-2"]
     );
     assert_eq!(evidence("+ k*l1*r2*cos(q2)*qdd1"), ["the robot does not have the symbol k"]);
+    for (wrong, unit, dots) in [
+        ("", "kg m^2", "2 time derivatives are missing"),
+        ("*qd1*qdd1", "kg m^2 s^-3", "one time derivative too many"),
+        ("*qdd1^2", "kg m^2 s^-4", "2 time derivatives too many"),
+    ] {
+        let expected = format!("has units {unit}, but a torque has kg m^2 s^-2: {dots}");
+        assert_eq!(evidence(&format!("+ m2*l1*r2*cos(q2){wrong}")), [expected]);
+    }
     // Where more than the time is wrong it is not a matter of dots.
     for (wrong, dimension) in [("qd1", "kg^2 m^2 s^-1"), ("qd1*qdd1", "kg^2 m^2 s^-3")] {
         let expected = format!("has units {dimension}, but a torque has kg m^2 s^-2");
@@ -318,4 +326,27 @@ fn equations_without_end_are_refused() {
             assert!(!errors.to_string().is_empty(), "seed {seed}");
         }
     }
+}
+
+/// The sign of an exponent begins no term.
+#[test]
+fn numbers_have_signed_exponents() {
+    for one in ["1e-3*1e+3", "2.5e-1*4", "1E-2*1e2"] {
+        assert_eq!(spoilt(TERMS[4], &format!("+ {one}*m2*r2^2*qdd1")), [], "{one}");
+    }
+}
+
+#[test]
+fn the_order_of_a_sum_is_taken_and_a_single_term_has_none() {
+    let order = |text: &str| {
+        let source = Source { name: "printed".to_owned(), text: text.to_owned() };
+        term_order(&robot("planar_2r"), &source, &Options::default()).unwrap()
+    };
+    assert!(order("F_l1.x = F1.x\nQ2 = I2*qdd2\n").is_empty());
+    let [forth, back] =
+        ["I2*qdd2 + I2*qdd1", "I2*qdd1 + I2*qdd2"].map(|sum| order(&format!("Q2 = {sum}\n")));
+    assert!(!forth.is_empty());
+    assert_ne!(forth, back);
+    // Of a quantity printed twice the later equation counts.
+    assert_eq!(order("Q2 = I2*qdd1 + I2*qdd2\nQ2 = I2*qdd2 + I2*qdd1\n"), forth);
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_build::{Output, Ownership, shown};
+use robot_model::description;
 
 use crate::Terminal;
 use crate::delivery::{ForceArgument, write};
@@ -31,22 +32,35 @@ pub(crate) struct Arguments {
     force: ForceArgument,
 }
 
-/// A name that can be a robot's and a file's.
+/// A name that can be a robot's and a file's: the file is read with it, so that no file is written that no command
+/// reads.
 fn name(text: &str) -> Result<String, String> {
-    let text = text.strip_suffix(".toml").unwrap_or(text);
-    let is_fine = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    match text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(is_fine) {
-        true => Ok(text.to_owned()),
-        false => {
-            Err("a name begins with a letter and has letters, digits, _ and - only".to_owned())
+    let name = text.strip_suffix(".toml").unwrap_or(text);
+    let is_fine = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(is_fine) {
+        return Err("a name begins with a letter and has letters, digits and _ only".to_owned());
+    }
+    let refused = description::read_toml(name, &named(name)).err();
+    let refused = refused.as_ref().and_then(|found| found.iter().next());
+    match refused {
+        None => Ok(name.to_owned()),
+        Some(refused) => {
+            let reason = refused.primary.iter().map(|label| label.text.as_str());
+            let parts = reason.chain(refused.help.as_deref());
+            Err(std::iter::once(&*refused.message).chain(parts).collect::<Vec<_>>().join("; "))
         }
     }
+}
+
+/// The file of a robot of that name.
+fn named(name: &str) -> String {
+    ROBOT.replace(NAME, name)
 }
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let path = PathBuf::from(format!("{}.toml", self.name));
-        let text = ROBOT.replace(NAME, &self.name);
+        let text = named(&self.name);
         let writer = self.force.writer([], true)?;
         let (bytes, ownership) = (text.as_bytes(), Ownership::Edited);
         let file = shown(&path);

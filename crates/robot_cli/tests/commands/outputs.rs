@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use robot_build::languages::Language;
+
 use crate::{URDF, complaint, folder, output, robot, run, run_between, run_with};
 
 const TRAJECTORY: &str =
@@ -224,6 +226,45 @@ fn a_crate_of_somebody_else_stays() {
     let outcome = run(&["crate", &file, "-o", &mine]);
     assert_eq!((outcome.code, outcome.errors), (0, format!("wrote {mine}: 1 of 28 files\n")));
     assert_eq!(output(&["crate", &file, "-o", &mine], ""), "");
+}
+
+/// A package is written again after each change of its robot, and says if functions of before are left in it.
+#[test]
+fn packages_of_all_languages_are_written_again() {
+    let inputs = Inputs::new("outputs-languages");
+    let file = inputs.path("arm.toml");
+    let text = fs::read_to_string(robot("planar_2r")).unwrap();
+    let changed = text.replace("value = 9.81", "value = 1.62");
+    for language in Language::ALL.iter().map(|language| language.name()) {
+        let scalar = if ["arduino", "wgsl"].contains(&language) { "f32" } else { "f64" };
+        let folder = inputs.path(language);
+        let arguments = [
+            "crate",
+            &file,
+            "--language",
+            language,
+            "--scalar",
+            scalar,
+            "-o",
+            &folder,
+            "--function",
+        ];
+        let write = |text: &str, functions: &str| {
+            fs::write(&file, text).unwrap();
+            run(&[&arguments[..], &[functions]].concat())
+        };
+        let first = write(&text, "inverse_dynamics,gravity");
+        assert_eq!(first.code, 0, "{language}: {}", first.errors);
+        let second = write(&changed, "inverse_dynamics");
+        assert_eq!(second.code, 0, "{language}: {}", second.errors);
+        let warning = second.errors.contains("1 file(s) of an earlier run");
+        assert_eq!(warning, language == "matlab", "{language}: {}", second.errors);
+        if warning {
+            assert!(second.errors.contains("gravity.m; remove"), "{}", second.errors);
+        }
+        // A folder holds nothing of before in what is up to date.
+        assert_eq!(output(&[&arguments[..], &["inverse_dynamics", "--check"]].concat(), ""), "");
+    }
 }
 
 #[test]

@@ -142,6 +142,30 @@ fn a_first_robot_is_written_and_kept() {
     assert_eq!(shell.run("robot-symbolic init ../arm").code, Some(2));
 }
 
+/// Whatever `init` writes, the other commands read.
+#[test]
+fn a_first_robot_has_a_name_that_robots_can_have() {
+    let shell = Shell::new();
+    for (name, reason) in [
+        ("two-link", "letters, digits and _ only"),
+        (
+            "q1",
+            "a joint's position, velocity, acceleration or torque; choose another name, such as `q1_1`",
+        ),
+        ("tanh", "a symbol of the equations"),
+        (&*"x".repeat(65), "65 bytes long; at most 64"),
+    ] {
+        let refused = shell.run(&format!("robot-symbolic init {name}"));
+        assert_eq!(refused.code, Some(2), "{name}");
+        assert!(refused.errors.contains(reason), "{name}: {}", refused.errors);
+        assert_ne!(shell.run(&format!("ls {name}.toml")).code, Some(0), "{name}");
+    }
+    for name in ["match", "base", "x_1", "Foo"] {
+        let both = format!("robot-symbolic init {name} && robot-symbolic check {name}.toml");
+        assert_eq!(shell.run(&both).code, Some(0), "{name}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn pages_are_opened_with_the_program_of_the_system() {

@@ -9,12 +9,14 @@ mod place;
 mod staging;
 mod writer;
 
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 pub use marker::MARKER;
 pub use pending::Pending;
 pub use writer::{Output, Ownership, Writer};
 
+use crate::driver::file::File;
 use crate::error::Error;
 
 /// The difference between a file on disk and the text that would be generated.
@@ -60,6 +62,25 @@ pub fn staleness(path: &Path, wanted: &[u8]) -> Result<Option<Staleness>, Error>
             _ => return Ok(Some(Staleness::Differs { line })),
         }
     }
+}
+
+/// The files of an earlier run in the folders that `files` go to, where they are not among `files`: they still have this
+/// program's mark, and describe a robot or functions of then. Paths in `folder`, in the order of names; what cannot be
+/// read is somebody else's.
+#[must_use]
+pub fn remaining(folder: &Path, files: &[File]) -> Vec<PathBuf> {
+    let written: BTreeSet<PathBuf> = files.iter().map(|file| file.path_in(folder)).collect();
+    let folders: BTreeSet<&Path> = written.iter().filter_map(|path| path.parent()).collect();
+    let entries = folders.into_iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
+    let is_own = |path: &PathBuf| {
+        path.is_file()
+            && marker::beginning(path)
+                .is_ok_and(|text| marker::is_marked(path, &text).unwrap_or(false))
+    };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let found: BTreeSet<PathBuf> =
+        paths.filter(|path| !written.contains(path)).filter(is_own).collect();
+    found.into_iter().collect()
 }
 
 #[cfg(test)]

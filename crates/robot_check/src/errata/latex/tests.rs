@@ -149,3 +149,16 @@ fn hostile_text_ends_in_an_error_or_a_formula() {
         }
     }
 }
+
+/// The depth of a formula is that of its brackets and arguments, not their number.
+#[test]
+fn a_long_formula_is_not_a_deep_one() {
+    for part in [r"\sin q_1", r"\cos(q_1)", "(q_1)", r"\frac{q_1}{q_2}", r"q_1 \left[ q_2 \right]"]
+    {
+        let sum = vec![part; 2000].join(" + ");
+        let read = to_infix(&sum, &names);
+        assert!(read.is_ok(), "{part}: {:?}", read.err());
+    }
+    let deep = format!("{}q_1{}", "(".repeat(2000), ")".repeat(2000));
+    assert!(to_infix(&deep, &names).unwrap_err().message.contains("nested deeper"));
+}
