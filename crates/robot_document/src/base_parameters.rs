@@ -134,23 +134,12 @@ impl BaseSet {
         (set, is_rounded)
     }
 
-    /// The formulas as displayed equations, each with the value behind the formula; one that prints as a symbol of the robot
-    /// file has no equation, and is named before them.
+    /// The formulas as displayed equations, each with the value behind the formula.
     #[must_use]
     pub fn group(&self) -> Group {
-        let all = self.list.iter().map(BaseEntry::equation);
-        let (same, equations): (Vec<Equation>, Vec<Equation>) =
-            all.partition(|one| latex::formula(&one.left) == latex::formula(&one.right));
-        let names: Vec<&str> = same.iter().map(|one| one.name.as_str()).collect();
-        let also = match names.as_slice() {
-            [] => String::new(),
-            [one] => format!(" {one} is a base parameter as the robot file has it."),
-            names => {
-                format!(" {} are base parameters as the robot file has them.", names.join(", "))
-            }
-        };
+        let equations = self.list.iter().map(BaseEntry::equation).collect();
         let group = Group::of_definitions("Base parameters", equations);
-        Group { introduction: format!("{NAMES}{also}"), ..group }
+        Group { introduction: NAMES.to_owned(), ..group }
     }
 }
 

@@ -50,13 +50,6 @@ fn parameters_of_links_are_not_renamed() {
 }
 
 #[test]
-fn a_base_parameter_that_prints_as_a_symbol_is_named_before_the_others() {
-    let shown = output(&["base", &robot("trttr1"), "--format", "latex"], "");
-    assert!(shown.contains("M_3 is a base parameter as the robot file has it."), "{shown}");
-    assert!(!shown.contains("M_3 &= M_3"), "{shown}");
-}
-
-#[test]
 fn a_document_has_a_name_of_its_notation() {
     let file = robot("planar_2r");
     let found = complaint(2, &["document", &file, "-o", "arm.docx"], "");
