@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use robot_dynamics::economical::search::{Found, Measure, search};
+use robot_dynamics::economical::search::{Found, Measure, search, search_several};
 use robot_dynamics::economical::{Plan, Recursion, plan::LinkPlan};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::robot::Robot;
@@ -113,4 +113,25 @@ fn a_long_chain_is_searched_window_by_window() {
     assert_eq!(cost(&robot, &found.plan), operations);
     let differing = found.plan.links.iter().filter(|link| **link != found.plan.links[0]).count();
     assert!(differing > 12, "{differing}");
+}
+
+#[test]
+fn the_cheapest_plans_begin_with_the_one_that_is_found() {
+    let legs = {
+        let mut file = File::new(3);
+        (0..2).for_each(|number| file.leg(number));
+        file.robot()
+    };
+    for robot in [chain(3), legs] {
+        let several = search_several(&robot, &MechanismOptions::ROUNDED, Measure::Operations, 8);
+        let several = several.unwrap();
+        assert_eq!(several[0].plan, searched(&robot).plan);
+        assert!(several.len() > 1 && several.len() <= 8, "{}", several.len());
+        assert!(several[1..].is_sorted_by_key(|found| found.operations));
+        for (index, found) in several.iter().enumerate() {
+            assert!(found.operations >= several[0].operations && !found.tuned);
+            assert_eq!(found.operations, cost(&robot, &found.plan));
+            assert!(several[..index].iter().all(|other| other.plan != found.plan));
+        }
+    }
 }

@@ -106,7 +106,7 @@ fn many_random_functions_have_the_bits_of_the_reference() {
         for registers in registers() {
             compare(&module, registers, &mut random, [fused, seed % 5 == 0]);
         }
-        if (seed + 1 - first).is_multiple_of(1000) {
+        if (seed + 1 - first).is_multiple_of(100) {
             println!("seeds {first} to {seed}: {} functions", (seed + 1 - first) * 40);
         }
     }

@@ -41,6 +41,7 @@ pub fn pin_text(robot: &Robot, found: &Found) -> String {
         digest: String::new(),
         measure: found.measure,
         operations: found.operations,
+        tuned: found.tuned,
         plan: found.plan.clone(),
     };
     pin.digest = digest(&pin.content());
@@ -147,6 +148,7 @@ mod tests {
             instructions: 5,
             tried: 1,
             cut_short: false,
+            tuned: false,
         };
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
         assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));

@@ -176,3 +176,30 @@ fn what_is_no_file_is_no_plan() {
     std::os::unix::fs::symlink(&plan, &plan).unwrap();
     assert!(complaint(1, &["generate", &arm], "").contains("arm.plan"));
 }
+
+#[test]
+fn a_tuned_plan_is_one_of_those_with_the_fewest_operations() {
+    let robot = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/puma560.toml");
+    let arm = folder("plans_tuned").join("puma560.toml").to_str().unwrap().to_owned();
+    std::fs::copy(robot, &arm).unwrap();
+    let outcome = run(&["search", "--tune", &arm]);
+    if robot_jit::Registers::detect().is_err() {
+        assert!(outcome.errors.contains("search without --tune"), "{}", outcome.errors);
+        return;
+    }
+    assert_eq!(outcome.code, 0, "{}", outcome.errors);
+    // The table of times: operations are 274 at least, and one plan is chosen.
+    let rows = outcome.output.lines().skip_while(|line| !line.contains("ns a call")).skip(1);
+    let rows: Vec<&str> = rows.take_while(|line| !line.trim().is_empty()).collect();
+    assert!(rows.len() > 1, "{}", outcome.output);
+    for row in &rows {
+        let numbers: Vec<f64> = row.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let [operations, fused, call, state] = numbers[..] else { panic!("{row}") };
+        assert!(operations >= 274.0 && fused < operations && call > state, "{row}");
+    }
+    assert_eq!(rows.iter().filter(|row| row.starts_with("chosen")).count(), 1);
+    let fewest = rows.iter().any(|row| row.starts_with("chosen") && row.contains(" 274 "));
+    let pin = std::fs::read_to_string(arm.replace(".toml", ".plan")).unwrap();
+    assert!(fewest || pin.contains("tuned = true"), "{pin}");
+    output(&["generate", &arm], "");
+}

@@ -19,6 +19,9 @@ pub struct Pin {
     pub measure: Measure,
     /// The multiplications and additions of inverse dynamics under the plan.
     pub operations: usize,
+    /// Whether the plan was chosen among several by the time of its code on the machine of the search: another
+    /// machine, or another run, may choose another.
+    pub tuned: bool,
     /// The plan.
     pub plan: Plan,
 }
@@ -106,6 +109,9 @@ impl Pin {
         }
         // Writing to a string does not fail.
         let _ = writeln!(text, "operations = {}", self.operations);
+        if self.tuned {
+            text.push_str("tuned = true\n");
+        }
         if let Some((link, component)) = self.plan.unit_length {
             let _ = writeln!(text, "unit_length = [{link}, {component}]");
         }
@@ -149,6 +155,7 @@ impl Pin {
                 None => Measure::Operations,
             },
             operations: keys.required("operations", number)?,
+            tuned: keys.optional("tuned", flag)?.unwrap_or_default(),
             plan: Plan {
                 unit_length: keys
                     .optional("unit_length", |value| exactly(value, number))?
@@ -218,7 +225,7 @@ fn link_of(value: &DeValue<'_>) -> Result<LinkPlan, PinError> {
 fn place_of(value: &DeValue<'_>) -> Result<Place, PinError> {
     let mut keys = Keys::of(value)?;
     let link = keys.required("link", number)?;
-    let turned = keys.required("turned", |value| value.as_bool().ok_or_else(wrong_type))?;
+    let turned = keys.required("turned", flag)?;
     keys.end()?;
     Ok(Place { link, turned })
 }
@@ -273,6 +280,10 @@ fn wrong_type() -> PinError {
     PinError("a value of another type is expected".to_owned())
 }
 
+fn flag(value: &DeValue<'_>) -> Result<bool, PinError> {
+    value.as_bool().ok_or_else(wrong_type)
+}
+
 fn text_of(value: &DeValue<'_>) -> Result<String, PinError> {
     value.as_str().map(str::to_owned).ok_or_else(wrong_type)
 }
@@ -316,10 +327,11 @@ mod tests {
         let plan = Plan { links: links.collect(), unit_length: Some((3, 1)) };
         let fingerprint = "ab12".to_owned();
         let digest = "cd34".to_owned();
-        let pin = Pin { fingerprint, digest, measure: Measure::Operations, operations: 239, plan };
+        let (measure, operations, tuned) = (Measure::Operations, 239, false);
+        let pin = Pin { fingerprint, digest, measure, operations, tuned, plan };
         assert!(pin.to_text().ends_with(&pin.content()) && !pin.content().contains("cd34"));
         assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin.clone()));
-        let pin = Pin { measure: Measure::Instructions, ..pin };
+        let pin = Pin { measure: Measure::Instructions, tuned: true, ..pin };
         assert_eq!(Pin::from_text(&pin.to_text()), Ok(pin));
     }
 
@@ -330,6 +342,7 @@ mod tests {
             digest: String::new(),
             measure: Measure::Operations,
             operations: 0,
+            tuned: false,
             plan: Plan { links: vec![LinkPlan::BASIC], unit_length: None },
         };
         let text = pin.to_text();
@@ -342,6 +355,7 @@ mod tests {
             ("operations", "operation"),
             ("fingerprint = \"\"", "fingerprint = 1"),
             ("operations = 0", "operations = -1"),
+            ("operations = 0", "operations = 0\ntuned = 1"),
             ("turn = ", "other = 1\nturn = "),
             ("turn = ", "meeting = { link = 1 }\nturn = "),
             ("turn = ", "turn "),

@@ -5,6 +5,7 @@
 //! those of the paper's iterations at test states.
 
 mod changes;
+mod cheapest;
 mod limbs;
 
 use std::collections::{BTreeSet, HashSet};
@@ -19,6 +20,8 @@ use crate::economical::plan::{FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::newton_euler;
 use changes::{Change, frame_changes, motion_changes};
+use cheapest::Cheapest;
+pub use cheapest::search_several;
 use limbs::Limbs;
 
 /// A plan must reproduce the torques to this fraction of the largest.
@@ -73,6 +76,8 @@ pub struct Found {
     /// Whether the search ended early because of the length of the mechanism: then it is the best plan that
     /// was seen, and others were not tried.
     pub cut_short: bool,
+    /// Whether it was chosen among several by the time that its code took on some machine, which no search does itself.
+    pub tuned: bool,
 }
 
 /// The expressions of a candidate that a search counts and checks.
@@ -111,6 +116,17 @@ pub struct Scope {
 /// economical recursion does not apply (a joint axis that depends on parameters).
 #[must_use]
 pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Option<Found> {
+    search_with(robot, options, measure, 0, |_, found| found)
+}
+
+/// Searches, keeps so many of the cheapest plans, and gives what is made of both.
+fn search_with<T>(
+    robot: &Robot,
+    options: &MechanismOptions,
+    measure: Measure,
+    kept: usize,
+    then: impl FnOnce(&mut Search<'_, '_>, Found) -> T,
+) -> Option<T> {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, options);
     let base = Base::new(&mechanism)?;
@@ -120,12 +136,15 @@ pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Op
         &|recursion| Objective::new(recursion.inverse_dynamics(false));
     let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
     search.measure = measure;
+    search.cheapest = Cheapest::new(kept);
     let scope = Scope { motions: true, composites: false, free: false };
-    if limbs::applies(&mechanism) {
+    let found = if limbs::applies(&mechanism) {
         search.max_work = limbs::MAX_WORK;
-        return Some(Limbs { robot, options, measure }.search(&mut search, scope));
-    }
-    Some(search.run(scope))
+        Limbs { robot, options, measure }.search(&mut search, scope)
+    } else {
+        search.run(scope)
+    };
+    Some(then(&mut search, found))
 }
 
 /// Searches the plan with the fewest multiplications and additions for the given functions.
@@ -194,6 +213,7 @@ struct Search<'m, 'g> {
     tried: usize,
     /// Plans that need not be tried again, if they are kept.
     known: Option<HashSet<Plan>>,
+    cheapest: Cheapest,
     work: usize,
     max_tries: usize,
     max_work: usize,
@@ -227,6 +247,7 @@ impl<'m, 'g> Search<'m, 'g> {
             measure: Measure::Operations,
             tried: 0,
             known: None,
+            cheapest: Cheapest::new(0),
             work: 0,
             max_tries: MAX_TRIES,
             max_work: MAX_WORK,
@@ -245,7 +266,7 @@ impl<'m, 'g> Search<'m, 'g> {
         let count = self.operations(&candidate.counted);
         let (operations, instructions) = (count.flops(), count.instructions());
         let (measure, tried) = (self.measure, self.tried);
-        Found { plan, measure, operations, instructions, tried, cut_short: false }
+        Found { plan, measure, operations, instructions, tried, cut_short: false, tuned: false }
     }
 
     /// Plans to descend from, the cheapest first: one with the options of `held` for all links, and some with
@@ -323,14 +344,16 @@ impl<'m, 'g> Search<'m, 'g> {
 
     fn cost(&mut self, plan: &Plan) -> usize {
         let candidate = self.candidate(plan);
-        self.cost_of(&candidate)
+        self.cost_of(plan, &candidate)
     }
 
-    fn cost_of(&mut self, candidate: &Objective<'g>) -> usize {
+    fn cost_of(&mut self, plan: &Plan, candidate: &Objective<'g>) -> usize {
         let count = self.operations(&candidate.counted);
         self.tried += 1;
         self.work += count.flops();
-        self.measure.of(&count)
+        let cost = self.measure.of(&count);
+        self.cheapest.offer(cost, &count, plan);
+        cost
     }
 
     /// Ends the search.
@@ -350,7 +373,7 @@ impl<'m, 'g> Search<'m, 'g> {
     /// The plan's cost if it is below a bound and the values are right.
     fn better(&mut self, plan: &Plan, bound: usize) -> Option<usize> {
         let candidate = self.candidate(plan);
-        let cost = self.cost_of(&candidate);
+        let cost = self.cost_of(plan, &candidate);
         (cost < bound && self.is_accurate(&candidate.checked)).then_some(cost)
     }
 

@@ -1,13 +1,16 @@
 //! `search`: the form of the recursion with the fewest operations.
 
+mod tune;
+
 use std::time::SystemTime;
 
 use clap::Args;
-use robot_build::{Output, Ownership, pin_path, pin_text, shown, snapping};
+use robot_build::{Options, Output, Ownership, pin_path, pin_text, shown, snapping};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{Entry, LinkPlan, Origin, Turn};
-use robot_dynamics::economical::search::{Measure, search};
+use robot_dynamics::economical::search::{Found, Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
+use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::delivery::ForceArgument;
@@ -25,6 +28,11 @@ each. All forms give the same torques. The best plan is pinned beside the robot 
 builds, which do not search themselves. After a change of the robot's mechanics the plan is stale: builds
 refuse it and other commands warn, until you search again. Remarks, names and values of parameters may change.
 
+With --tune the plans with the fewest operations are also compiled in memory and timed on this machine: a call of
+inverse dynamics at one state, and a state among many. The one whose call is fastest is pinned, if it is faster by 1 %
+than the one with the fewest operations. Another run or machine may choose another plan, which the pin says. Without
+--tune the result is the same everywhere.
+
 For each link the table has the position of its frame's origin on the joint axis (at the foot of the common normal
 to the next or previous axis, say), the direction of its x axis, further options, and the first and second moments S
 of the parent that parts of the link make vanish (residual).
@@ -38,6 +46,9 @@ pub(crate) struct Arguments {
     /// targets that multiply and add in one instruction
     #[arg(long)]
     fused: bool,
+    /// Of the plans with the fewest operations pin the one that is fastest on this machine
+    #[arg(long)]
+    tune: bool,
     /// Show the result without pinning it
     #[arg(long)]
     dry_run: bool,
@@ -63,8 +74,12 @@ impl Arguments {
         let robot = self.robot.read(terminal)?.robot;
         let options = MechanismOptions::ROUNDED.with_snap(self.robot.snap(), &robot);
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
-        let find = || search(&robot, &options, measure);
-        let Some(found) = watched("searching", terminal, find) else {
+        let code = Options { fused: self.fused, snap: self.robot.snap(), ..Options::default() };
+        let find = || match self.tune {
+            true => tune::search(&robot, (&options, measure), &code),
+            false => Ok(search(&robot, &options, measure).map(|found| (found, vec![]))),
+        };
+        let Some((found, times)) = watched("searching", terminal, find)? else {
             return Err(Failure::input(format!(
                 "{}: a joint axis depends on parameters, which the economical recursion does not \
                  support",
@@ -79,26 +94,7 @@ impl Arguments {
             writer.write(&[Output { path: path.clone(), bytes, ownership }])?;
             self.touch(terminal)?;
         }
-        writeln!(
-            terminal.output,
-            "{}: {} multiplications and additions, {} with multiply-adds; the best of {} forms{}\n",
-            robot.name,
-            found.operations,
-            found.instructions,
-            found.tried,
-            if found.cut_short { ", the limit for a robot of this size" } else { "" }
-        )?;
-        let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
-        write!(terminal.output, "{}", text::table(&rows(&found.plan, &names)))?;
-        if let Some((link, component)) = found.plan.unit_length {
-            let name = names.get(link).copied().unwrap_or_default();
-            let axis = ["x", "y", "z"][component.min(2)];
-            writeln!(
-                terminal.output,
-                "\nunit of length: the {axis} component of the position of \
-                link {name}"
-            )?;
-        }
+        show(&robot, &found, &times, terminal)?;
         writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
             writeln!(terminal.output, "\npinned in {}", shown(&path))?;
@@ -121,6 +117,39 @@ impl Arguments {
         }
         Ok(())
     }
+}
+
+/// Shows what was found: counts, times if plans were timed, and the plan.
+fn show(
+    robot: &Robot,
+    found: &Found,
+    times: &[Vec<String>],
+    terminal: &mut Terminal<'_>,
+) -> Result<(), Failure> {
+    writeln!(
+        terminal.output,
+        "{}: {} multiplications and additions, {} with multiply-adds; the best of {} forms{}\n",
+        robot.name,
+        found.operations,
+        found.instructions,
+        found.tried,
+        if found.cut_short { ", the limit for a robot of this size" } else { "" }
+    )?;
+    if !times.is_empty() {
+        writeln!(terminal.output, "{}", text::table(times))?;
+    }
+    let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
+    write!(terminal.output, "{}", text::table(&rows(&found.plan, &names)))?;
+    if let Some((link, component)) = found.plan.unit_length {
+        let name = names.get(link).copied().unwrap_or_default();
+        let axis = ["x", "y", "z"][component.min(2)];
+        writeln!(
+            terminal.output,
+            "\nunit of length: the {axis} component of the position of \
+            link {name}"
+        )?;
+    }
+    Ok(())
 }
 
 fn rows(plan: &Plan, names: &[&str]) -> Vec<Vec<String>> {
