@@ -91,10 +91,11 @@ impl Arguments {
     }
 
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let format = self.format()?;
         let inputs = self.robot.inputs().into_iter().chain(self.equations.inputs());
         let writer = self.force.writer(inputs, file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
+        // An input is refused as such, whatever its name.
+        let format = self.format()?;
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
         let mut options = self.equations.options(&self.robot, Form::default())?;
