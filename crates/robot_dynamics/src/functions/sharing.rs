@@ -22,6 +22,7 @@ const REUSES: [(FunctionKind, Reuse); 5] = [
 /// Applies each alternative that makes the functions together need fewer operations.
 pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Function<'g>]) {
     let mut least = derivation.cost(functions);
+    derivatives_in_other_forms(derivation, functions, &mut least);
     for (kind, reuse) in REUSES {
         let Some(mut values) = reuse(derivation, functions) else { continue };
         let Some(index) = functions.iter().position(|one| one.name == kind.name()) else {
@@ -33,6 +34,35 @@ pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Functi
             least = operations;
         } else {
             swap(functions, index, &mut values);
+        }
+    }
+}
+
+/// Takes the form of inverse dynamics' derivatives with which the functions together need the fewest operations: one of
+/// them shares its wrenches with inverse dynamics.
+fn derivatives_in_other_forms<'g>(
+    derivation: &Derivation<'_, 'g>,
+    functions: &mut [Function<'g>],
+    least: &mut usize,
+) {
+    let name = FunctionKind::InverseDynamicsDerivatives.name();
+    let (Some(index), Some(recursion)) =
+        (functions.iter().position(|one| one.name == name), &derivation.recursion)
+    else {
+        return;
+    };
+    for form in recursion.torque_derivatives() {
+        let mut other = functions[index].clone();
+        for (output, matrix) in other.outputs.iter_mut().zip([form.positions, form.velocities]) {
+            output.values = matrix.rows();
+        }
+        let known =
+            std::mem::replace(&mut functions[index], derivation.of_acting_parameters(other));
+        let operations = derivation.cost(functions);
+        if operations < *least {
+            *least = operations;
+        } else {
+            functions[index] = known;
         }
     }
 }
