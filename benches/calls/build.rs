@@ -1,13 +1,14 @@
 //! Generates every function of every robot twice, with the standard library's sine and cosine and with
 //! the runtime's, and the list of all calls. Multiply-adds are products and sums where the target has
-//! none.
+//! none. Besides, inverse dynamics with the default options, forms of the UR5 over many states, and single functions of
+//! larger robots.
 
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use robot_build::{
-    Builder, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, Source, Trigonometry, programs,
+    Builder, Bundle, DEFAULT_BATCH, FunctionKind, Functions, Options, Scalar, Source, Trigonometry, programs,
 };
 
 const TRIGONOMETRY: [(&str, Trigonometry); 2] =
@@ -16,6 +17,12 @@ const TRIGONOMETRY: [(&str, Trigonometry); 2] =
 /// The poses and Jacobians of all named frames in one call, as the other contenders give them for the
 /// last one.
 const BUNDLE: &str = "pose_and_jacobian";
+/// Functions of robots that would need too long with all of them: file, functions.
+const LARGE: [(&str, &[&str]); 3] = [
+    ("../../tests/fixtures/limbs/quadruped.toml", &["inverse_dynamics"]),
+    ("robots/humanoid.toml", &["inverse_dynamics", "inverse_dynamics_derivatives"]),
+    ("robots/chain.toml", &["mass_matrix_lower"]),
+];
 const BUNDLED: [FunctionKind; 2] = [FunctionKind::FramePoses, FunctionKind::Jacobian];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -34,36 +41,74 @@ fn main() -> Result<(), Box<dyn Error>> {
             .out_dir(out)
             .compile_folder(folder)?;
     }
+    let folder_of = |name: &str| -> std::io::Result<PathBuf> {
+        let folder = out.join(name);
+        std::fs::create_dir_all(&folder)?;
+        Ok(folder)
+    };
+    let one = || Builder::new().functions(["inverse_dynamics"]).allow_outside(true);
+    one().out_dir(folder_of("default")?).compile_folder(folder)?;
+    let forms = || one().trigonometry(Trigonometry::Polynomial).fused(true).generic(true);
+    let ur5 = [folder.join("ur5.toml")];
+    forms().batch(8).out_dir(folder_of("double")?).compile(&ur5)?;
+    let single = forms().batch(16).scalar(Scalar::F32);
+    single.out_dir(folder_of("single")?).compile(&ur5)?;
+    for (file, functions) in LARGE {
+        Builder::new()
+            .functions(functions.iter().copied())
+            .trigonometry(Trigonometry::Polynomial)
+            .fused(true)
+            .allow_outside(true)
+            .out_dir(folder_of("large")?)
+            .compile(&[file])?;
+    }
     let mut files: Vec<PathBuf> =
         std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
     files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
     files.sort();
     let mut list = String::from("/// Every function of every robot.\npub fn all(calls: &mut impl Calls) {\n");
     for file in files {
-        robot(&mut list, &file)?;
+        let built: Vec<(&str, Option<&[&str]>)> =
+            TRIGONOMETRY.iter().map(|(name, _)| (*name, None)).collect();
+        robot(&mut list, &file, &built)?;
+        robot(&mut list, &file, &[("default", Some(&["inverse_dynamics"]))])?;
+    }
+    for (file, functions) in LARGE {
+        robot(&mut list, Path::new(file), &[("large", Some(functions))])?;
     }
     list.push_str("}\n");
     Ok(std::fs::write(out.join("list.rs"), list)?)
 }
 
-/// The calls of one robot's functions.
-fn robot(list: &mut String, file: &Path) -> Result<(), Box<dyn Error>> {
+/// The calls of one robot's functions, in modules of these names with these functions of it, or all and a batch.
+fn robot(
+    list: &mut String,
+    file: &Path,
+    modules: &[(&str, Option<&[&str]>)],
+) -> Result<(), Box<dyn Error>> {
     let text = std::fs::read_to_string(file)?;
     let name = file.file_stem().ok_or("a file without a name")?.to_string_lossy().into_owned();
     let source = Source { name: file.to_string_lossy().into_owned(), text };
     let described = programs(&source, &Options::default())?;
-    let functions = FunctionKind::of_robot(&described.robot);
+    let all = modules.iter().all(|(_, chosen)| chosen.is_none());
+    let chosen = modules.iter().filter_map(|(_, chosen)| *chosen).flatten();
+    let functions = match all {
+        true => FunctionKind::of_robot(&described.robot),
+        false => chosen.filter_map(|name| FunctionKind::from_name(name)).collect(),
+    };
     let bundle = Bundle { name: BUNDLE.to_owned(), functions: BUNDLED.to_vec() };
-    let options =
-        Options { functions: Functions::Chosen(functions), bundles: vec![bundle], ..Options::default() };
+    let bundles = if all { vec![bundle] } else { vec![] };
+    let options = Options { functions: Functions::Chosen(functions), bundles, ..Options::default() };
     let module = programs(&source, &options)?.module;
     let parameters = !module.parameters.is_empty();
     let model = if parameters { "Model::new(&Parameters::NOMINAL)" } else { "Model::NOMINAL" };
     let import = if parameters { "{Model, Parameters}" } else { "Model" };
-    for (trigonometry, _) in TRIGONOMETRY {
+    for (trigonometry, chosen) in modules {
         writeln!(list, "{{ use crate::{trigonometry}::{name}::{import}; let model = std::hint::black_box({model});")?;
         // What needs no inputs is computed once, and takes no time.
-        for function in module.functions.iter().filter(|function| !function.inputs.is_empty()) {
+        let wanted = |name: &str| chosen.is_none_or(|chosen| chosen.contains(&name));
+        let functions = module.functions.iter().filter(|function| wanted(&function.name));
+        for function in functions.filter(|function| !function.inputs.is_empty()) {
             let names: Vec<String> = (0..function.inputs.len()).map(|i| format!("i{i}")).collect();
             let arrays: Vec<String> = function
                 .inputs
@@ -81,6 +126,10 @@ fn robot(list: &mut String, file: &Path) -> Result<(), Box<dyn Error>> {
                 "calls.call(({name:?}, {trigonometry:?}, {function:?}), |random| ({arrays},), |({names},)| model.{function}({names}), |(i0, ..)| i0, |result| {first});",
                 function = function.name,
             )?;
+        }
+        if chosen.is_some() {
+            list.push('}');
+            continue;
         }
         writeln!(
             list,

@@ -56,6 +56,43 @@ def command(*words):
     return subprocess.run(words, capture_output=True, text=True).stdout.splitlines()[0]
 
 
+# What to reach: words, how many times faster than whom, or ns a state; figures of one machine, a Zen 4.
+LEAST = [
+    ("default build, default options, inverse dynamics, four arms, over Pinocchio", "plain default", "inverse_dynamics", ROBOTS, "pinocchio", 10),
+    ("the same, native", "native default", "inverse_dynamics", ROBOTS, "pinocchio", 12),
+    ("the same, default build, `fused`", "plain polynomial", "inverse_dynamics", ROBOTS, "pinocchio", 10),
+    ("the same, native, `fused`", "native polynomial", "inverse_dynamics", ROBOTS, "pinocchio", 12),
+    ("inverse dynamics' derivatives, four arms, over Pinocchio", "native polynomial", "inverse_dynamics_derivatives", ROBOTS, "pinocchio", 15),
+    ("the same over CasADi", "native polynomial", "inverse_dynamics_derivatives", ROBOTS, "casadi", 8.5),
+    ("forward dynamics' derivatives, four arms, over Pinocchio", "native polynomial", "forward_dynamics_derivatives", ROBOTS, "pinocchio", 12),
+    ("quadruped of 12 joints, inverse dynamics, over Pinocchio", "native large", "inverse_dynamics", ["quadruped"], "pinocchio", 28),
+    ("humanoid of 29 joints, derivatives, over Pinocchio", "native large", "inverse_dynamics_derivatives", ["humanoid"], "pinocchio", 6),
+    ("chain of 60 joints, mass matrix, over Pinocchio", "native large", "mass_matrix", ["chain"], "pinocchio", 2),
+]
+MOST = [
+    ("UR5 over 8 lanes, f64, ns a state", "native polynomial", "ur5", "inverse_dynamics_lanes", 9.2),
+    ("UR5 in columns, f64, ns a state, native", "native polynomial", "ur5", "inverse_dynamics_columns", 9.2),
+    ("the same, default build", "plain polynomial", "ur5", "inverse_dynamics_columns", 10.1),
+    ("UR5 in columns, f32, ns a state, native", "native polynomial", "ur5", "inverse_dynamics_columns_f32", 3.9),
+    ("the same, default build", "plain polynomial", "ur5", "inverse_dynamics_columns_f32", 4.3),
+    ("quadruped of 12 joints, inverse dynamics, ns", "native large", "quadruped", "inverse_dynamics", 30),
+]
+
+
+def targets(figures):
+    rows = []
+    for words, own, function, robots, peer, least in LEAST:
+        # Pinocchio's mass matrix is a triangle.
+        ours = "mass_matrix_lower" if robots == ["chain"] else function
+        pairs = [(figures.get((peer, robot, function)), figures.get((own, robot, ours))) for robot in robots]
+        found = "" if any(None in pair for pair in pairs) else f"{geometric_mean([a / b for a, b in pairs]):.2f}"
+        rows.append([words, found, f"at least {least}"])
+    for words, own, robot, function, most in MOST:
+        figure = figures.get((own, robot, function))
+        rows.append([words, "" if figure is None else f"{figure:.1f}", f"at most {most}"])
+    return rows
+
+
 def main():
     rounds, errors = read(sys.argv[1])
     figures = {key: statistics.median(values) for key, values in rounds.items()}
@@ -73,6 +110,9 @@ def main():
         if any(None in pair for pair in pairs):
             return ""
         return f"{geometric_mean([theirs / own for theirs, own in pairs]):.2f}"
+
+    print("Targets, medians of the rounds:\n")
+    table(["", "found", "target"], targets(figures))
 
     latencies = [f"{function} latency" for function in FUNCTIONS[:4]]
     heads = ["function"] + [f"{own.split()[1]} / {peer}" for own in OURS for peer in PEERS]

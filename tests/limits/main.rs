@@ -4,4 +4,5 @@
 mod operation_counts;
 mod options;
 mod pins;
+mod records;
 mod security;

@@ -6,7 +6,7 @@ use robot_codegen::Counts;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// The cells of the rows of a document's tables.
-fn rows(document: &str) -> Vec<Vec<String>> {
+pub(crate) fn rows(document: &str) -> Vec<Vec<String>> {
     let text = std::fs::read_to_string(format!("{ROOT}/docs/{document}")).unwrap();
     let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
     rows.map(|row| row.split(" | ").map(str::to_owned).collect()).collect()

@@ -11,6 +11,28 @@ mod polynomial {
     include!(concat!(env!("OUT_DIR"), "/polynomial/robots.rs"));
 }
 
+/// Inverse dynamics with the options that nobody chose.
+mod default {
+    include!(concat!(env!("OUT_DIR"), "/default/robots.rs"));
+}
+
+/// Inverse dynamics of the UR5 over many states.
+pub mod double {
+    include!(concat!(env!("OUT_DIR"), "/double/ur5.rs"));
+}
+
+/// The same in single precision.
+pub mod single {
+    include!(concat!(env!("OUT_DIR"), "/single/ur5.rs"));
+}
+
+/// Single functions of larger robots.
+mod large {
+    include!(concat!(env!("OUT_DIR"), "/large/quadruped.rs"));
+    include!(concat!(env!("OUT_DIR"), "/large/humanoid.rs"));
+    include!(concat!(env!("OUT_DIR"), "/large/chain.rs"));
+}
+
 include!(concat!(env!("OUT_DIR"), "/list.rs"));
 
 /// A robot, where sines come from, and a function.

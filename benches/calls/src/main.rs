@@ -5,6 +5,7 @@
 //! calls time NAME          a line of JSON for each figure, NAME before "standard" or "polynomial"
 //! ```
 
+mod forms;
 mod robot_data;
 mod timing;
 
@@ -18,8 +19,16 @@ use crate::timing::nanoseconds;
 /// The robots of the comparison: those without parameters.
 const ROBOTS: [&str; 6] = ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"];
 
+/// Larger robots, of which single functions are compared.
+const LARGE: [(&str, &str); 3] = [
+    ("quadruped", "../../tests/fixtures/limbs/quadruped.toml"),
+    ("humanoid", "robots/humanoid.toml"),
+    ("chain", "robots/chain.toml"),
+];
+
 /// The functions of the comparison.
-const FUNCTIONS: [&str; 9] = [
+const FUNCTIONS: [&str; 10] = [
+    "mass_matrix_lower",
     "inverse_dynamics",
     "mass_matrix",
     "forward_dynamics",
@@ -54,7 +63,8 @@ impl Calls for Timer {
         waits: impl Fn(&mut I) -> &mut [f64],
         first: impl Fn(&R) -> f64,
     ) {
-        if !ROBOTS.contains(&name.0) || !FUNCTIONS.contains(&name.2) {
+        let is_large = LARGE.iter().any(|(robot, _)| *robot == name.0);
+        if !(is_large || ROBOTS.contains(&name.0)) || !FUNCTIONS.contains(&name.2) {
             return;
         }
         let mut random = Random::default();
@@ -99,8 +109,17 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let path = format!("{}/../../robots/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
                 std::fs::write(format!("{folder}/{robot}.txt"), robot_data::of_file(robot, &path)?)?;
             }
+            std::fs::create_dir_all(format!("{folder}/large"))?;
+            for (robot, path) in LARGE {
+                let path = format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
+                std::fs::write(format!("{folder}/large/{robot}.txt"), robot_data::of_file(robot, &path)?)?;
+            }
         }
-        ["time", name] => calls::all(&mut Timer { compiled: (*name).to_owned() }),
+        ["time", name] => {
+            let mut timer = Timer { compiled: (*name).to_owned() };
+            calls::all(&mut timer);
+            forms::time(|function, ns| timer.report(("ur5", "polynomial", function), "", ns));
+        }
         _ => return Err("calls models FOLDER | calls time NAME".into()),
     }
     Ok(())

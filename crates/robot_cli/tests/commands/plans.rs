@@ -179,7 +179,7 @@ fn what_is_no_file_is_no_plan() {
 
 #[test]
 fn a_tuned_plan_is_one_of_those_with_the_fewest_operations() {
-    let robot = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/puma560.toml");
+    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/puma560.toml");
     let arm = folder("plans_tuned").join("puma560.toml").to_str().unwrap().to_owned();
     std::fs::copy(robot, &arm).unwrap();
     let outcome = run(&["search", "--tune", &arm]);
@@ -193,7 +193,8 @@ fn a_tuned_plan_is_one_of_those_with_the_fewest_operations() {
     let rows: Vec<&str> = rows.take_while(|line| !line.trim().is_empty()).collect();
     assert!(rows.len() > 1, "{}", outcome.output);
     for row in &rows {
-        let numbers: Vec<f64> = row.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let numbers: Vec<f64> =
+            row.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         let [operations, fused, call, state] = numbers[..] else { panic!("{row}") };
         assert!(operations >= 274.0 && fused < operations && call > state, "{row}");
     }

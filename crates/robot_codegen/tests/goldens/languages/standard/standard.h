@@ -31,6 +31,10 @@ extern "C" {
 #pragma STDC FP_CONTRACT OFF
 #endif
 
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "-ffast-math and /fp:fast make sines wrong: compile what includes this header without (-fno-fast-math, /fp:precise)"
+#endif
+
 /* a b + c, rounded once where the processor has the instruction. */
 STANDARD_INLINE_ double standard_mul_add_f64_(double a, double b, double c)
 {
