@@ -58,6 +58,18 @@ fn the_builder_writes_the_packages_of_the_command() {
     let _ = std::fs::remove_dir_all(&folder);
 }
 
+/// The distance of columns is not read where an array has a single one, of which compilers warn.
+#[test]
+fn functions_over_columns_of_a_single_joint_use_all_parameters() {
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    for language in [Language::C, Language::Cpp] {
+        let files = package(&source, &Options::default(), language).unwrap();
+        let texts = files.iter().map(|file| String::from_utf8_lossy(file.contents.bytes()));
+        let text: String = texts.collect();
+        assert!(text.contains("size_t stride") && text.contains("(void)stride;"), "{text}");
+    }
+}
+
 #[test]
 fn plain_names_and_texts_are_those_of_a_robot() {
     let chosen = Chosen { names: PLAIN.map(str::to_owned), ..Chosen::default() };

@@ -13,7 +13,7 @@ fn number(name: &'static str) -> Element {
 
 /// The joint torques, their parts by cause in numbers, and as bars.
 pub(super) fn torques(robot: &Robot) -> Element {
-    let mut causes = vec!["inertia", "coriolis", "gravity"];
+    let mut causes = vec!["inertia", "Coriolis", "gravity"];
     if robot.has_friction() {
         causes.push("friction");
     }

@@ -48,6 +48,12 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
     for array in function.inputs.iter().filter(|array| !array.is_used) {
         lines.push(format!("    (void){};", array.name));
     }
+    // Of a single coordinate each column is the only one of its array.
+    let is_wide = |array: &Array| array.length > 1;
+    let used = function.inputs.iter().filter(|array| array.is_used);
+    if !used.chain(&function.outputs).any(is_wide) {
+        lines.push("    (void)stride;".to_owned());
+    }
     lines.push("    for (i = 0; i < n; i++) {".to_owned());
     lines.extend(iteration(header, function).into_iter().map(|line| format!("    {line}")));
     lines.extend(["    }", "}", ""].map(str::to_owned));
