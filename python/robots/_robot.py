@@ -105,7 +105,7 @@ class Robot:
 
         >>> arm = robots.load("planar_2r.toml")
         >>> print(arm.equations(quantities="Q", form="grouped").formulas["Q2"])
-        M_1_2*qdd1 + M_2_2*qdd2 + b_2_1_1*qd1^2 + g_2 + w_2
+        M_1_2*qdd1 + M_2_2*qdd2 - b_1_2_2*qd1^2 + g_2 + w_2
         """
         found = Equations(["equations", self._path, *self._flags, "--form", form, "--quantity", quantities, *_flags(options)])
         _ = found.text  # What is wrong is told now.
