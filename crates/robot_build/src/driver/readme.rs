@@ -101,7 +101,7 @@ fn parameters(text: &mut String, sections: &Sections<'_>) {
 
 fn functions(text: &mut String, sections: &Sections<'_>) {
     section(text, "Functions");
-    // Without parameters there is no constructor to tell of.
+    // Without parameters there is no constructor to describe.
     let has_parameters = !sections.module.parameters.is_empty();
     paragraph_of_counts(text, has_parameters.then_some(sections.constructor));
     for (name, counts) in counts(sections.module) {

@@ -269,7 +269,7 @@ fn tensors_are_judged_where_the_ends_of_the_body_are_known() {
     assert_eq!(codes(&beyond), [""; 0]);
 }
 
-/// The same tensor with masses that differ by less than one in a hundred is no copy, whatever the masses.
+/// The same tensor with masses that differ by less than one in a hundred is not a copy, whatever the masses.
 #[test]
 fn masses_that_hardly_differ_are_the_same() {
     let pair = |masses: [&str; 2]| {

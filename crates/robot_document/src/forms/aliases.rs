@@ -41,7 +41,7 @@ pub(super) fn replace<'g>(
     }
 }
 
-/// Puts the symbol in the place of each coefficient that is no more than one: Q₁ = q̈₁ β₁, and no equation Y₁₁ = q̈₁.
+/// Puts the symbol in the place of each coefficient that is only a symbol: Q₁ = q̈₁ β₁, and no equation Y₁₁ = q̈₁.
 pub(super) fn replace_symbols<'g>(
     section: Option<&Section<'g>>,
     shown: Option<&mut Vec<Shown<'g>>>,
