@@ -26,7 +26,7 @@ pub(crate) fn report(seed: u64) -> Result<(String, String), Box<dyn Error>> {
     let (trajectory, condition) =
         study::exciting(candidates, samples, &mut random).ok_or("no trajectory")?;
     let measured = study::measure(&trajectory, SAMPLES, &mut random);
-    let estimate = study::estimate(&measured).ok_or("a parameter cannot be told")?;
+    let estimate = study::estimate(&measured).ok_or("a parameter is not identifiable")?;
     let other = Trajectory::random(&study::LIMITS, &mut random);
     let unseen = study::measure(&other, SAMPLES, &mut random);
     let predicted: Vec<Joints> =

@@ -29,7 +29,7 @@ impl Complaints {
         self.count == 0
     }
 
-    /// A line for each that is shown, then how many are not.
+    /// A line for each message that is shown, then one with the number of those that are not.
     pub(crate) fn lines(&self) -> Vec<String> {
         let mut lines: Vec<String> =
             self.first.iter().map(|message| format!("error: {message}")).collect();

@@ -24,7 +24,7 @@ pub struct CodeSize {
 }
 
 impl CodeSize {
-    /// The estimate for a function with these counts of a call.
+    /// The estimate for a function; `call` holds the operation counts of one call.
     #[must_use]
     pub fn of(function: &Function, call: &Counts) -> CodeSize {
         let operations = call.operations() + call.sqrt + call.other;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// One thing that is wrong. The text names the place, the reason and, if there is one, the remedy.
+/// An error. Its message gives the place, the reason and, if there is one, the remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

@@ -110,7 +110,7 @@ mod tests {
     use super::*;
     use crate::program::Builder;
 
-    /// (1 + x) − 1 for a small x: the difference takes the rounding of the sum along.
+    /// (1 + x) − 1 for a small x: the difference inherits the rounding error of the sum.
     #[test]
     fn a_difference_of_near_numbers_has_few_digits() {
         let mut builder = Builder::new();

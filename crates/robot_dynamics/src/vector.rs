@@ -105,7 +105,7 @@ impl<'g> Matrix<'g> {
         self.0[0][0] + self.0[1][1] + self.0[2][2]
     }
 
-    /// A column.
+    /// The column with this index, from 0.
     #[must_use]
     pub fn column(self, column: usize) -> Vector<'g> {
         Vector(self.0.map(|row| row[column]))

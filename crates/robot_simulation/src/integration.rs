@@ -14,15 +14,15 @@ use crate::friction::{Balance, Mode, chosen, starting};
 use crate::simulation::SimulationOptions;
 use crate::system::{Overrun, System};
 
-/// Steps smaller than this part of the time that is simulated lead nowhere.
+/// The smallest step, as a fraction of the simulated time: shorter steps make no progress.
 const SMALLEST_STEP: f64 = 1e-14;
-/// Stops nearer to each other than this part of the time that is simulated are one.
+/// Stops closer together than this fraction of the simulated time count as one.
 const SMALLEST_PIECE: f64 = 1e-12;
-/// The steps after which it is asked how far they led.
+/// The number of steps after which progress is checked.
 const WATCHED: usize = 5000;
-/// Squares of larger numbers are beyond the range of numbers.
+/// Velocities and accelerations above this magnitude are too large: their squares may exceed the range of `f64`.
 const LARGE: f64 = 1e150;
-/// The most events that follow each other without a time between them.
+/// The most events in a row with practically no time between them.
 const MAX_EVENTS: usize = 100;
 
 /// DOP853.

@@ -247,7 +247,7 @@ impl Graph {
         self.expr(self.intern(Node::Pi))
     }
 
-    /// The number of nodes made so far, shared ones once.
+    /// The number of nodes created so far; a shared node counts once.
     #[must_use]
     pub fn len(&self) -> usize {
         self.inner.borrow().nodes.len()

@@ -15,9 +15,10 @@ use crate::robots::Model;
 pub struct Conversion {
     /// The samples over which a cubic is fitted for velocities and accelerations.
     pub window: usize,
-    /// The topic of an MCAP file; not needed if only one has joint states.
+    /// The topic of an MCAP file; not needed if only one topic has joint states.
     pub topic: Option<String>,
-    /// The names of the robot's joints in the recording, in the robot's order, where they are not those of the robot file.
+    /// The names of the robot's joints in the recording, in the robot's order, if they differ from those of the
+    /// robot file.
     pub joints: Option<Vec<String>>,
     /// Whether positions are in degrees.
     pub degrees: bool,

@@ -15,7 +15,7 @@ const PAUSE: Duration = Duration::from_millis(500);
 pub struct Progress(Option<JoinHandle<()>>);
 
 impl Progress {
-    /// Where standard error is a terminal, shows the part of `rows` that the plan has read from files so far.
+    /// If standard error is a terminal, shows the percentage of `rows` that the plan has read from files so far.
     #[must_use]
     pub fn of(plan: &Arc<dyn ExecutionPlan>, rows: Option<u64>) -> Progress {
         let rows = rows.filter(|rows| *rows > 0 && std::io::stderr().is_terminal());

@@ -59,8 +59,8 @@ fn each(plan: &mut Plan, change: fn(&mut LinkPlan)) {
     plan.links.iter_mut().for_each(change);
 }
 
-/// The operations of functions: as they are, without each option of the recursion, and without each
-/// pass. Options act together, so that what single ones save does not add up.
+/// The operation counts of functions: with all options and passes, without each option of the recursion, and
+/// without each pass. Options interact, so the savings of single ones do not add up.
 ///
 /// # Errors
 ///

@@ -60,7 +60,9 @@ fn placed(angle: &AngleLocation, snap: f64) -> Option<Diagnostic> {
         return Some(
             Diagnostic::note(code::TAKEN_ANGLE, format!("an angle is snapped to {multiple}"))
                 .at(&angle.place, format!("off by {} rad", significant(miss)))
-                .because(format!("angles within {snap:e} rad are snapped")),
+                .because(format!(
+                    "angles within {snap:e} rad of a multiple of π/2 are snapped to it"
+                )),
         );
     }
     is_rounded(value, quarters, miss).then(|| {

@@ -158,7 +158,7 @@ fn percent(line: &str) -> Option<usize> {
     })
 }
 
-/// An entry of each line, with the indented lines that follow it.
+/// An entry for each line, together with the indented lines that follow it.
 fn lines(text: &str) -> Vec<Result<Entry, Box<Diagnostic>>> {
     let mut ranges: Vec<Range<usize>> = vec![];
     let mut start = 0;
@@ -301,7 +301,7 @@ fn begins<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize)> {
     Some((name, inside + argument.map_or(0, |end| end + 1)))
 }
 
-/// An entry of each row with a `=`, with the rows that follow it.
+/// An entry for each row that contains `=`, together with the rows up to the next such row.
 fn rows(
     text: &str,
     displays: Vec<Result<Range<usize>, Box<Diagnostic>>>,

@@ -8,7 +8,8 @@ use super::nary::Node;
 use super::waiting::Waiting;
 use crate::program::Program;
 
-/// Orders the terms of each sum and the factors of each product by when they are known. Reassociates.
+/// Orders the terms of each sum and the factors of each product by the time at which they become available, and
+/// reassociates the operations.
 #[must_use]
 pub(super) fn run(program: &Program) -> Program {
     ordered(program, false).view.program()

@@ -35,9 +35,9 @@ pub(super) const DRIVE: [Quantity; 3] =
 struct Span<'g> {
     /// Twists about the link's origin, in its axes.
     twists: Vec<Row<'g>>,
-    /// Functions of parameters that kinetic energies are.
+    /// Linear functions of the parameters, each a kinetic energy of the motion.
     kinetic: Vec<Row<'g>>,
-    /// Functions of parameters that potential energies are, and a constant.
+    /// Linear functions of the parameters, each a potential energy of the motion, and a constant.
     potential: Vec<Row<'g>>,
 }
 

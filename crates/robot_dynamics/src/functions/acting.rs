@@ -14,14 +14,14 @@ use super::{Derivation, Function};
 
 /// States at which slopes are taken.
 const STATES: u64 = 3;
-/// A slope below this part of the terms that it is the sum of may be 0.
+/// A slope below this fraction of the size of its terms may be 0.
 const NOTICED: f64 = 1e-8;
-/// A parameter that changes so many times ...
+/// A parameter that is multiplied by this factor ...
 const CHANGE: f64 = 1e3;
 /// ... and changes no value by more than this part of it does not act: its contribution to the value is
 /// below the rounding of the value.
 const UNCHANGED: f64 = 1e-10;
-/// Values below this part of the largest are rounding.
+/// Values below this fraction of the largest value count as rounding errors.
 const ROUNDING: f64 = 1e-14;
 
 impl<'g> Derivation<'_, 'g> {

@@ -19,12 +19,12 @@ const SMALL: f64 = 1e-2;
 /// The threshold from [`MANY`] coordinates on: the inner joints of long chains and of humanoids have pivots down
 /// to 10⁻⁴ because of the length of what they carry, and are solved by articulated bodies in any case.
 const SMALL_OF_MANY: f64 = 1e-5;
-/// Coordinates from which on a robot has many.
+/// The number of coordinates from which a robot counts as one with many.
 const MANY: usize = 9;
-/// The number of mass matrices to evaluate, times the square of the coordinates: a second at most if nothing
-/// is optimized.
+/// The most mass matrices to evaluate, times the square of the number of coordinates: at most a second in an
+/// unoptimized build.
 const MAX_WORK: usize = 30_000;
-/// The number of mass matrices to evaluate in any case.
+/// The least number of mass matrices to evaluate.
 const LEAST: usize = 60;
 /// The number of configurations from which smaller pivots are searched.
 const DESCENTS: usize = 3;

@@ -180,7 +180,7 @@ impl Body<'_> {
         register.map(|register| register as u8)
     }
 
-    /// A register without a value. Those of `kept` keep theirs.
+    /// A register without a value; if there is none, one is cleared that holds no value of `kept`.
     fn vacant(&mut self, value: Id, kept: &[Id]) -> u8 {
         if let Some(register) = self.free(value) {
             return register;

@@ -26,7 +26,7 @@ pub(super) fn read(
     let entry = table.get("mass");
     if let (Some(entry), Some(massless), true) = (&entry, &massless, is_massless) {
         reader.report(
-            Diagnostic::error(code::CONFLICT, "a massless link has no `mass`")
+            Diagnostic::error(code::CONFLICT, "a massless link cannot have a `mass`")
                 .at(&entry.key, "a mass")
                 .and_at(&massless.key, "massless")
                 .help("keep one of them"),

@@ -167,7 +167,7 @@ pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind)
         for span in lonely.into_iter().flatten() {
             entries.conflict(
                 &span,
-                "this has no effect without `rotor_inertia`",
+                "this key has no effect without `rotor_inertia`",
                 "add `rotor_inertia`, in kg m^2 about the rotor's axis, or remove this key",
             );
         }

@@ -94,7 +94,7 @@ fn frame(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<DraftFrame> {
         reader.report(
             Diagnostic::error(code::CONFLICT, "a frame cannot have a wrench")
                 .at(&entry.key, "only tips have wrenches")
-                .help("write `[[tip]]` for `[[frame]]`"),
+                .help("write `[[tip]]` instead of `[[frame]]`"),
         );
     }
     table.finish(reader);

@@ -173,10 +173,10 @@ fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool)
     let diagnostic = match &verdict {
         Verdict::Possible => return,
         Verdict::Negative(_) => Diagnostic::error(verdict.code(), verdict.message())
-            .because("a moment of inertia is a sum of mass times distance squared")
+            .because("a moment of inertia is a sum of mass times distance squared, so it is never negative")
             .help(if shifted {
-                "shifted to the center of mass, the tensor is negative: check whether it is \
-                 already about the center of mass"
+                "shifted to the center of mass, the tensor has a negative principal moment: check \
+                 whether the given one is already about the center of mass"
             } else {
                 "check the signs of the products of inertia (entries of the tensor, xy = -∫xy \
                  dm) and that all values are in kg m^2"

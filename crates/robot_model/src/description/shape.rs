@@ -9,7 +9,7 @@ use crate::robot::BaseFrames;
 /// A table of the file.
 #[derive(Debug)]
 pub struct Shape {
-    /// The table in messages: `a joint`.
+    /// What messages call the table: `a joint`.
     pub what: &'static str,
     /// Its purpose.
     pub doc: &'static str,

@@ -79,9 +79,12 @@ impl<'a> Table<'a> {
         let entry = self.get(key);
         if entry.is_none() {
             reader.report(
-                Diagnostic::error(code::MISSING_KEY, format!("{} has no `{key}`", self.shape.what))
-                    .at(&self.span, format!("`{key}` is missing"))
-                    .help(help),
+                Diagnostic::error(
+                    code::MISSING_KEY,
+                    format!("{} must have `{key}`", self.shape.what),
+                )
+                .at(&self.span, format!("`{key}` is missing"))
+                .help(help),
             );
         }
         entry

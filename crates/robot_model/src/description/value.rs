@@ -240,7 +240,7 @@ impl Reader<'_> {
             }
             Err(error) => {
                 let message = match text.trim() {
-                    "" => "an empty text is not an expression".to_owned(),
+                    "" => "an empty string is not an expression".to_owned(),
                     _ => format!("`{}` is not an expression: {}", quote(text), error.message),
                 };
                 let mut diagnostic =

@@ -287,7 +287,7 @@ impl FunctionKind {
         if friction && !robot.has_friction() {
             return Some(
                 "no joint has friction; add `friction` to a link of the robot file (the import \
-                 option `friction` does so for the `<dynamics>` of URDF)",
+                 option `friction` copies it from the `<dynamics>` of a URDF file)",
             );
         }
         if self.declaration().base { out_of_reach(robot) } else { None }

@@ -80,7 +80,7 @@ fn difference(a: &[i8], b: &[i8]) -> (bool, Vec<i8>) {
     (negative, signs)
 }
 
-/// An angle between two bodies by the variables of its sine and cosine.
+/// An angle between two bodies, given by the variables of its sine and cosine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Angle {
     pub(super) sine: Variable,
@@ -97,7 +97,7 @@ pub(super) struct Edge {
 /// Angles from which all of a group follow: each coordinate as a sum of them, by edge and sign.
 pub(super) type Basis = Vec<Vec<(usize, bool)>>;
 
-/// A group of parallel joints by variables.
+/// A group of parallel joints, its angles given by the variables of their sines and cosines.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     /// The angles between bodies.

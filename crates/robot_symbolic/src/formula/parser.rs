@@ -346,7 +346,7 @@ fn unknown_function(name: &str, span: Range<usize>) -> ParseError {
     let error = ParseError::new(span, format!("`{name}` is not a function"));
     match near {
         Some(near) => {
-            error.help(format!("did you mean `{near}(…)`? For a product write `{name}*(…)`"))
+            error.help(format!("did you mean `{near}(…)`? For a product, write `{name}*(…)`"))
         }
         None => error.help(format!(
             "the functions are sin, cos, tan, sqrt, abs, sign and tanh; for a product write \

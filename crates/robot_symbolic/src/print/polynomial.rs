@@ -75,7 +75,7 @@ pub fn arranged_value<'g>(terms: &[ArrangedTerm<'g>], graph: &'g Graph) -> Expr<
     })
 }
 
-/// The atoms of a sum of terms, in the order in which they stand.
+/// The atoms of a sum of terms, in order of appearance.
 #[must_use]
 pub fn atoms<'g>(terms: &[ArrangedTerm<'g>]) -> Vec<Expr<'g>> {
     let factors = terms.iter().flat_map(|term| &term.factors);

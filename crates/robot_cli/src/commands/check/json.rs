@@ -66,7 +66,7 @@ fn related(source: &Source, label: &Label) -> Value {
     })
 }
 
-/// Line and column of the first character, and of the one behind the last.
+/// Line and column of the first character, and of the character after the last.
 fn corners(source: &Source, span: &Span) -> [usize; 4] {
     let (line, column) = source.position(span.start);
     let (end_line, end_column) = source.position(span.end.max(span.start));

@@ -2,7 +2,7 @@
 //! sums.
 
 use super::spelling::{literal, number};
-use super::{Dialect, Header, cuda, vectors};
+use super::{Dialect, Header, macros, vectors};
 use crate::backend::common::Scalar;
 use crate::backend::flat::Helpers;
 use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
@@ -10,14 +10,14 @@ use crate::trigonometry::Trigonometry;
 
 /// The macros, and the helpers that the module needs.
 pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
-    let mut lines = macros(header);
+    let mut lines = macros::macros(header);
     let scalar = header.options.scalar;
     let polynomials = header.options.trigonometry == Trigonometry::Polynomial;
     let functions = header.tree.helpers();
     let constructor = Helpers::of(&header.tree.constructor);
     let all = functions.and(constructor);
     if header.dialect == Dialect::C && (all.tanh || (all.circular && polynomials)) {
-        lines.extend(refusal());
+        lines.extend(macros::refusal());
     }
     let needed = match scalar {
         Scalar::F64 => vec![(Scalar::F64, functions.and(constructor))],
@@ -45,40 +45,6 @@ pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
         }
     }
     lines
-}
-
-fn macros(header: &Header<'_>) -> Vec<String> {
-    let name = |name: &str| header.names.private_upper(name);
-    let [inline, part, restrict] = ["inline", "part", "restrict"].map(name);
-    let text = match header.dialect {
-        Dialect::C => format!(
-            "#if defined(__GNUC__)
-#define {inline} static inline __attribute__((always_inline, unused))
-#define {part} static __attribute__((noinline, unused))
-#define {restrict} __restrict__
-#else
-#define {inline} static inline
-#define {part} static
-#define {restrict}
-#endif
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#endif
-"
-        ),
-        Dialect::Cuda => cuda::macros([&inline, &part, &restrict], &name("kernel")),
-    };
-    Writer::lines(&text)
-}
-
-/// Sums that are reordered would lose what rounds to the nearest integer: sines would be wrong in every digit, and nobody
-/// would be told.
-fn refusal() -> Vec<String> {
-    Writer::lines(
-        "#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
-#error \"-ffast-math and /fp:fast make sines wrong: compile what includes this header without (-fno-fast-math, /fp:precise)\"
-#endif",
-    )
 }
 
 /// Writes the helpers of a number type.

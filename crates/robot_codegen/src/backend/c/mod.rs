@@ -13,6 +13,7 @@ mod function;
 mod helpers;
 mod items;
 mod keywords;
+mod macros;
 mod names;
 mod spelling;
 mod vectors;

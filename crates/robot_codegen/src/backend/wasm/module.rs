@@ -39,7 +39,7 @@ impl Assembly {
         self.shared
     }
 
-    /// Keeps the memory below an address.
+    /// Reserves the memory below the address `end`: the heap starts there or later.
     pub(super) fn reserve(&mut self, end: u32) {
         self.heap = self.heap.max(end);
     }

@@ -42,7 +42,7 @@ pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFr
     Some(frames)
 }
 
-/// A right-handed triad with the given z; a permutation of the coordinate axes if z is one.
+/// A right-handed triad with the given z axis; a permutation of the coordinate axes if z is a coordinate axis.
 ///
 /// `None` if it depends on parameters.
 pub(crate) fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {

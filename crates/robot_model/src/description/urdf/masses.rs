@@ -138,7 +138,7 @@ fn judge_body(
         Verdict::Possible => return,
         Verdict::Negative(_) => {
             diagnostic = diagnostic
-                .because("a moment of inertia is a sum of mass times distance squared")
+                .because("a moment of inertia is a sum of mass times distance squared, so it is never negative")
                 .help(
                     "check the signs of the products of inertia (entries of the tensor) and \
                     that all values are in kg m^2",

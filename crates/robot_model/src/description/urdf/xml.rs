@@ -38,7 +38,7 @@ fn words(text: &str, error: &Error) -> Diagnostic {
                 .help("declare it in the root element: xmlns:prefix=\"…\", or remove it")
         }
         Error::UnexpectedCloseTag(expected, found, _) => {
-            syntax(format!("`</{}>` closes `<{}>`", quote(found), quote(expected)))
+            syntax(format!("`</{}>` cannot close `<{}>`", quote(found), quote(expected)))
                 .help(format!("close `<{}>` first", quote(expected)))
         }
         Error::DuplicatedAttribute(name, _) => {

@@ -25,7 +25,7 @@ pub enum Style {
     Terminal,
 }
 
-/// One diagnostic as text, without a newline at the end.
+/// The text of one diagnostic, without a trailing newline.
 #[must_use]
 pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String {
     render_group(source, &Group { first: diagnostic, others: vec![] }, style)

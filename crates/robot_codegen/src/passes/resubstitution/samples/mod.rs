@@ -288,7 +288,7 @@ impl Sample {
         if agree(1.0) { Some(false) } else { agree(-1.0).then_some(true) }
     }
 
-    /// The quotient by another value where it is the same within each set of parameters.
+    /// This value divided by another, or `None` if the quotient varies within a set of parameters.
     pub(super) fn ratio(&self, other: &Sample) -> Option<Sample> {
         let ratio = self.over(other);
         let first = |point: usize| point / POINTS_PER_SET * POINTS_PER_SET;

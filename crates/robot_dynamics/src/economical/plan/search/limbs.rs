@@ -46,9 +46,9 @@ pub(super) fn applies(mechanism: &Mechanism<'_>) -> bool {
 /// Links that are searched together.
 #[derive(Clone, Debug)]
 struct Part {
-    /// The links, and those around them that are held; parents before children.
+    /// The links to search and the links around them, whose options are held; parents before children.
     links: Vec<usize>,
-    /// The places in `links` of those that are searched.
+    /// The indices in `links` of the links to search.
     searched: Vec<usize>,
 }
 
