@@ -21,7 +21,7 @@ use crate::program::{Operation, Program, Source};
 use crate::trigonometry::Trigonometry;
 
 /// Functions of more operations than this are not offered for inlining into other crates.
-const INLINE_LIMIT: usize = 2000;
+const INLINE_LIMIT: usize = 5000;
 
 /// The names of a function's methods.
 pub(super) struct Names {

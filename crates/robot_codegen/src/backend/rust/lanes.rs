@@ -177,6 +177,7 @@ impl Methods<'_, '_> {
             parse_quote!(let mut #name = #zeros;)
         });
         let mut statements: Vec<Stmt> = zeros.collect();
+        statements.extend(self.copied(slices, layout));
         if self.function.angles.results().is_empty() {
             statements.push(self.loop_without_angles(slices, layout));
             return statements;
@@ -274,6 +275,9 @@ impl Methods<'_, '_> {
 
     /// `State::set_lane(result, &mut tau, lane);`
     fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Stmt> {
+        if layout == Layout::Lanes && self.has_matrices() {
+            return self.entries(slices);
+        }
         let runtime = self.number.runtime();
         let set: Expr = match layout {
             Layout::Lanes => parse_quote!(#runtime::State::set_lane),

@@ -14,6 +14,7 @@ mod kernel;
 mod keywords;
 mod lanes;
 mod limbs;
+mod matrices;
 mod namer;
 mod names;
 mod number;
