@@ -176,6 +176,17 @@ pub enum Error {
         /// The function or the constructor.
         place: String,
     },
+    /// A constant that the scalar type rounds to 0, or to few digits.
+    #[error(
+        "the constant {value} of {place} is too small for f32, which keeps its digits down to \
+         1.2e-38; generate f64, or choose units in which it is larger"
+    )]
+    BelowSinglePrecision {
+        /// The constant.
+        value: String,
+        /// The function or the constructor.
+        place: String,
+    },
     /// A number type that a language does not have.
     #[error("{language} computes in f64 alone; leave out the option `scalar`")]
     Scalar {

@@ -115,3 +115,21 @@ fn of_generation() {
     let found = one(generated(options), &["1e40", "`f`", "f64"]);
     assert!(matches!(found, Error::BeyondSinglePrecision { .. }));
 }
+
+#[test]
+fn constants_that_single_precision_rounds_to_nothing_are_refused() {
+    let generated = |power: i32, scalar| {
+        let graph = Graph::new();
+        let module = compiled(&module(graph.integer(10).powi(power) * graph.symbol("q1"))).unwrap();
+        generate(&module, &RustOptions { scalar, ..RustOptions::default() }).map(|_| ())
+    };
+    // 0 in single precision, and a number of few digits.
+    for power in [-50, -40] {
+        let found =
+            one(generated(power, Scalar::F32), &[&format!("1e{power}"), "function `f`", "f64"]);
+        assert!(matches!(found, Error::BelowSinglePrecision { .. }));
+        generated(power, Scalar::F64).unwrap();
+    }
+    generated(-37, Scalar::F32).unwrap();
+    generated(38, Scalar::F32).unwrap();
+}

@@ -27,7 +27,10 @@ mod terms;
 mod tests;
 mod variables;
 
-use crate::expr::Expr;
+use std::collections::BTreeMap;
+
+use crate::expr::{Expr, View};
+use crate::graph::{Graph, Id};
 use crate::polynomial::{Polynomial, PolynomialOptions};
 use crate::print::{ArrangedFactor, ArrangedTerm};
 
@@ -66,12 +69,19 @@ impl<'g> Collector<'g, '_> {
         rank: impl Fn(Expr<'g>) -> K,
         brackets: &K,
     ) -> Vec<ArrangedTerm<'g>> {
-        let collected = self.collected(polynomial, &rank, brackets).filter(|terms| {
-            let proved = is_equal(terms, polynomial);
-            debug_assert!(proved, "a collected formula differs from its polynomial");
-            proved
-        });
-        collected.unwrap_or_else(|| polynomial.arranged(&rank))
+        let Some(mut terms) = self.collected(polynomial, &rank, brackets) else {
+            return polynomial.arranged(&rank);
+        };
+        cancel(&mut terms, polynomial.graph());
+        match proved(&terms, polynomial) {
+            Some(Proved::Same) => terms,
+            // A factor has met the same sum under a fraction bar.
+            Some(Proved::Shorter(cancelled)) => self.collect(&cancelled, rank, brackets),
+            None => {
+                debug_assert!(false, "a collected formula differs from its polynomial");
+                polynomial.arranged(&rank)
+            }
+        }
     }
 
     fn collected<K: Ord>(
@@ -133,9 +143,95 @@ fn term_length(term: &ArrangedTerm<'_>) -> usize {
     number + bar + term.factors.iter().map(factor).sum::<usize>()
 }
 
+/// Cancels sums in brackets that are in the same term's denominator.
+fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
+    let of = |value: Expr<'g>| Polynomial::of(value, &PolynomialOptions::default()).ok();
+    for term in terms {
+        let divisors = term.factors.iter().enumerate().filter_map(|(place, (factor, exponent))| {
+            let atom = factor.as_atom().filter(|_| *exponent < 0)?;
+            matches!(atom.view(), View::Add(..) | View::Sub(..)).then(|| (place, of(atom)))
+        });
+        let divisors: Vec<(usize, Option<Polynomial<'g>>)> = divisors.collect();
+        let mut cancelled: Vec<(usize, usize)> = vec![];
+        for (place, (factor, exponent)) in term.factors.iter_mut().enumerate() {
+            let ArrangedFactor::Sum(inner) = factor else { continue };
+            cancel(inner, graph);
+            if divisors.is_empty() || *exponent < 1 {
+                continue;
+            }
+            let sum = of(crate::print::arranged_value(inner, graph));
+            let same = divisors.iter().find(|(_, divisor)| sum.is_some() && *divisor == sum);
+            cancelled.extend(same.map(|(divisor, _)| (place, *divisor)));
+        }
+        for (sum, divisor) in cancelled {
+            let [Some((_, above)), Some((_, below))] =
+                [sum, divisor].map(|at| term.factors.get(at))
+            else {
+                continue;
+            };
+            let common = (*above).min(-*below);
+            for (place, by) in [(sum, -common), (divisor, common)] {
+                if let Some((_, exponent)) = term.factors.get_mut(place) {
+                    *exponent += by;
+                }
+            }
+        }
+        term.factors.retain(|(_, exponent)| *exponent != 0);
+    }
+}
+
+/// What is known of terms that are equal to a polynomial.
+enum Proved<'g> {
+    /// They stay.
+    Same,
+    /// Multiplied out they are this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
+    Shorter(Polynomial<'g>),
+}
+
 /// Whether terms, multiplied out, are the polynomial.
-fn is_equal<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> bool {
+fn proved<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> Option<Proved<'g>> {
     let value = crate::print::arranged_value(terms, polynomial.graph());
-    let expanded = Polynomial::of(value, &PolynomialOptions::default());
-    expanded.is_ok_and(|expanded| expanded == *polynomial)
+    let expanded = Polynomial::of(value, &PolynomialOptions::default()).ok()?;
+    if expanded == *polynomial {
+        return Some(Proved::Same);
+    }
+    let difference = expanded.sub(polynomial).ok()?;
+    let is_shorter = expanded.len() < polynomial.len();
+    is_zero(difference)?.then_some(if is_shorter {
+        Proved::Shorter(expanded)
+    } else {
+        Proved::Same
+    })
+}
+
+/// Sums under the fraction bars of sums: beyond this depth nothing is proved.
+const MAX_DENOMINATORS: usize = 4;
+
+/// Whether a polynomial is 0 once it is multiplied by the sums in its denominators, which are atoms to it.
+fn is_zero(mut polynomial: Polynomial<'_>) -> Option<bool> {
+    let graph = polynomial.graph();
+    for _ in 0..MAX_DENOMINATORS {
+        let mut lowest: BTreeMap<Id, i32> = BTreeMap::new();
+        for (monomial, _) in polynomial.terms() {
+            for factor in monomial.factors().iter().filter(|factor| factor.exponent() < 0) {
+                if matches!(graph.expr(factor.atom()).view(), View::Add(..) | View::Sub(..)) {
+                    let known = lowest.entry(factor.atom()).or_default();
+                    *known = factor.exponent().min(*known);
+                }
+            }
+        }
+        if lowest.is_empty() {
+            return Some(polynomial.is_zero());
+        }
+        let value = polynomial.terms().fold(graph.zero(), |sum, (monomial, number)| {
+            let own = monomial.factors().iter().filter(|it| !lowest.contains_key(&it.atom()));
+            let own = own.map(|factor| graph.expr(factor.atom()).powi(factor.exponent()));
+            let raised = lowest.iter().map(|(atom, exponent)| {
+                graph.expr(*atom).powi(monomial.exponent(*atom).saturating_sub(*exponent))
+            });
+            sum + own.chain(raised).fold(graph.number(number.clone()), |a, b| a * b)
+        });
+        polynomial = Polynomial::of(value, &PolynomialOptions::default()).ok()?;
+    }
+    None
 }

@@ -61,3 +61,14 @@ fn coefficients_of_sines_are_in_brackets() {
         "-2*l1*((m2*r2 + m3*l2)*sin(q2) + m3*r3*sin(q2 + q3))"
     );
 }
+
+#[test]
+fn sums_under_fraction_bars_cancel() {
+    // Masses that add up: the center of two bodies has their sum in its denominator.
+    for (source, expected) in [
+        ("m^3*r/(m + n)^2 + 2*m^2*n*r/(m + n)^2 + m*n^2*r/(m + n)^2", "m*r"),
+        ("k*m/(m + n) + k*n/(m + n) + a*k", "k*(a + 1)"),
+    ] {
+        assert_eq!(collected(source, 0), expected, "{source}");
+    }
+}

@@ -40,18 +40,21 @@ impl Scalar {
 ///
 /// # Errors
 ///
-/// Each constant beyond the range of the type, with the function.
+/// Each constant beyond the range of the type, with the function: one that would be infinite, or too small to keep its digits, and
+/// then be 0 or anything near it.
 pub fn check_range(module: &Module, scalar: Scalar) -> Result<(), Errors> {
     let mut errors = vec![];
     let mut check = |program: &Program, place: &str| {
         for operation in program.operations() {
-            if let Operation::Constant(constant) = operation
-                && (constant.get() as f32).is_infinite()
-            {
-                errors.push(Error::BeyondSinglePrecision {
-                    value: format!("{:e}", constant.get()),
-                    place: place.to_owned(),
-                });
+            let Operation::Constant(constant) = operation else { continue };
+            let exact = constant.get();
+            let value = format!("{exact:e}");
+            let place = place.to_owned();
+            let single = exact as f32;
+            if single.is_infinite() {
+                errors.push(Error::BeyondSinglePrecision { value, place });
+            } else if exact != 0.0 && !single.is_normal() {
+                errors.push(Error::BelowSinglePrecision { value, place });
             }
         }
     };
