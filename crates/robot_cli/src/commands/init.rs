@@ -21,11 +21,11 @@ const NAME: &str = "my_robot";
   robot-symbolic init
   robot-symbolic init two_link
 
-Writes NAME.toml, a planar arm of two links with a comment on each key, to be edited. Its first line names the
-JSON schema for editors; `robot-symbolic schema` writes that. docs/robot-file.md describes all keys, and
-`import` makes a robot file of a URDF file.")]
+Writes NAME.toml, a planar arm with two links and a comment on each key, to be edited. Its first line names the
+JSON schema for editors, which `robot-symbolic schema` writes. docs/robot-file.md describes all keys, and
+`import` converts a URDF file to a robot file.")]
 pub(crate) struct Arguments {
-    /// The name of the robot, and of the file before `.toml`
+    /// The name of the robot, and of the file without `.toml`
     #[arg(default_value = NAME, value_parser = name)]
     name: String,
     #[command(flatten)]

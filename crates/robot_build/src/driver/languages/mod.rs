@@ -76,16 +76,16 @@ impl Language {
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
-            Language::Rust => "Rust, without the standard library if need be",
+            Language::Rust => "Rust, also without the standard library",
             Language::C => "C99, one header",
-            Language::Cpp => "C++17, a header with a namespace over that of C",
-            Language::Arduino => "C99 as a library of Arduino, in single precision alone",
+            Language::Cpp => "C++17, a header with a namespace, on top of the C header",
+            Language::Arduino => "C99 as an Arduino library, only in single precision",
             Language::Cuda => "CUDA C++, a header with a kernel for each function",
-            Language::Matlab => "MATLAB and Octave, a function a file",
+            Language::Matlab => "MATLAB and Octave, one file for each function",
             Language::Python => "Python, for numbers and for NumPy arrays",
-            Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
+            Language::JavaScript => "JavaScript, an ES module with TypeScript declarations",
             Language::Wasm => "WebAssembly, with an ES module that loads it",
-            Language::Wgsl => "WGSL, compute kernels of WebGPU, in single precision alone",
+            Language::Wgsl => "WGSL, WebGPU compute kernels, only in single precision",
         }
     }
 

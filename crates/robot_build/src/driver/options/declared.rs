@@ -182,7 +182,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         name: "functions",
         title: "functions to generate; `all` for every function of the robot",
         help: "Functions to generate, separated by commas; `all` for every function of the \
-            robot, `jacobian_NAME` and `jacobian_dot_qd_NAME` for those of one frame or moving \
+            robot, `jacobian_NAME` and `jacobian_dot_qd_NAME` for one frame or moving \
             link [default: those of the robot file's [code], else the forms of inverse dynamics \
             and the joint wrenches]",
         group: Group::Derive,
@@ -207,8 +207,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "snap",
         title: "angles near multiples of π/2",
-        help: "Snap constant angles within RAD of a multiple of π/2 to it [default: the robot file's `snap`, else \
-               1e-9 for code and 1e-5 in print]",
+        help: "Snap constant angles within RAD of a multiple of π/2 to that multiple [default: the robot file's `snap`, \
+               else 1e-9 for code and 1e-5 in print]",
         group: Group::Derive,
         kind: Kind::Angle,
         value_name: "RAD",
@@ -275,7 +275,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         name: "parallel",
         title: "batches over threads",
         help: "Add a parallel form `…_batch_parallel` to each batch, on the threads of the crate \
-            rayon; needs batches",
+            rayon; needs --batch",
         requires: Some("batch"),
         set: |options, value| value.flag().map(|flag| options.parallel = flag),
         ..PLAIN
@@ -283,8 +283,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "fused",
         title: "multiply-adds",
-        help: "Multiply and add in one instruction with a single rounding, if the target \
-            supports it",
+        help: "Use instructions that multiply and add with a single rounding, if the target \
+            supports them",
         group: Group::Optimize,
         set: |options, value| value.flag().map(|flag| options.fused = flag),
         ..PLAIN
@@ -319,11 +319,11 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "limbs",
         title: "[limbs that are alike](generated-code.md#limbs-that-are-alike)",
-        help: "Legs, fingers or arms on a fixed base that differ in numbers alone",
+        help: "Code for legs, fingers or arms on a fixed base that differ only in numbers",
         group: Group::Optimize,
         kind: Kind::Choice(&[
-            ("side_by_side", "In the lanes of one call, where functions use the runtime's sines"),
-            ("apart", "Each by code of its own"),
+            ("side_by_side", "In the lanes of one call, if functions use the runtime's sines"),
+            ("apart", "Separate code for each"),
         ]),
         example: "\"apart\"",
         set: |options, value| {
