@@ -84,8 +84,7 @@ const WORDS: &str = "This page computes these numbers with the robot's own code,
     the last bit, as those of Rust code generated with the same functions.";
 
 /// The words below the scheme.
-const CAPTION: &str =
-    "The robot, drawn to scale. Drag the picture to turn it, or focus it and use the arrow keys, + and −.";
+const CAPTION: &str = "The robot, drawn to scale. Drag the picture to turn it, or focus it and use the arrow keys, + and −.";
 
 fn section(programs: &Programs, module: &[u8]) -> Element {
     let robot = &programs.robot;

@@ -23,7 +23,7 @@ pub struct OptionSpec {
     pub example: &'static str,
     /// Which commands take it.
     pub commands: Commands,
-    /// What the command line's help calls its value; nothing of flags, and of what has only the option's name.
+    /// The name of its value in the command line's help; empty for flags, and if the name of the option suffices.
     pub value_name: &'static str,
     /// The option without which it has no effect, if there is one.
     pub requires: Option<&'static str>,
@@ -57,7 +57,7 @@ pub enum Commands {
     Code,
     /// The command that makes a module for a crate of the user's own.
     Module,
-    /// None: the robot file says it, or it has no meaning there.
+    /// None: the robot file sets it, or it has no meaning in commands.
     None,
 }
 
@@ -73,7 +73,7 @@ pub enum Kind {
     },
     /// An angle, rad.
     Angle,
-    /// A word of several; with each what it means, if its name does not say it. The first is the default.
+    /// One of several words, each with its meaning if the name does not say it. The first is the default.
     Choice(&'static [(&'static str, &'static str)]),
     /// A path of Rust.
     Path,
@@ -126,8 +126,8 @@ impl OptionSpec {
         OPTIONS.iter().find(|option| option.name == name)
     }
 
-    /// A value from its text, as the macro and tables write it; `None` of functions and bundles and where the
-    /// text is not a value of the option.
+    /// A value from its text, as the macro and tables write it; `None` for functions and bundles, and if the text is
+    /// not a value of the option.
     #[must_use]
     pub fn value<'v>(&self, text: &'v str) -> Option<Value<'v>> {
         let quoted = || text.strip_prefix('"')?.strip_suffix('"');
@@ -144,7 +144,7 @@ impl OptionSpec {
         }
     }
 
-    /// The flag of the command line: that of a list is in the singular, for it may be given several times.
+    /// The flag of the command line; that of a list is in the singular, because it may be given several times.
     #[must_use]
     pub fn flag(&self) -> String {
         let name = match self.kind {
@@ -154,8 +154,8 @@ impl OptionSpec {
         format!("--{}", name.replace('_', "-"))
     }
 
-    /// Gives the option a value in `options`; `None` if the value is not one of its kind. Functions and bundles,
-    /// whose names a robot must be known for, and what concerns files alone change nothing.
+    /// Sets the option in `options`; `None` if the value has the wrong kind. Functions and bundles, whose names
+    /// depend on the robot, and options that concern only files change nothing.
     pub fn set(&self, options: &mut Options, value: Value<'_>) -> Option<()> {
         (self.set)(options, value)
     }

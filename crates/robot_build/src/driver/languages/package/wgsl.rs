@@ -57,7 +57,9 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         wgsl::WORKGROUP
     );
     if wgsl::has_model(tree) {
-        usage.push_str("| 3 | uniform | the model: the values that depend only on the parameters |\n");
+        usage.push_str(
+            "| 3 | uniform | the model: the values that depend only on the parameters |\n",
+        );
     }
     usage.push_str(
         "\nDeclare the group yourself: a layout derived from an entry point lacks the buffers that it does not read. WGSL does not \
