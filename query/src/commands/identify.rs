@@ -108,12 +108,12 @@ fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), E
         estimate.robot_file(&opened.model, &consistent, &path.to_string_lossy())?;
     let path_shown = path.display();
     let said = if consistent.is_estimate {
-        format!("\nbodies can have the estimate; {path_shown} has it\n")
+        format!("\nthe estimate is physically possible; {path_shown} contains it\n")
     } else {
         let percent = 100.0 * (consistent.growth - 1.0);
         format!(
-            "\nno bodies have the estimate; {path_shown} has what they can have and explains the log best, and the \
-             residual is {percent:.3e} % larger\n"
+            "\nthe estimate is physically impossible; {path_shown} contains the possible values that explain the log \
+             best, with a residual {percent:.3e} % larger\n"
         )
     };
     show(&said)?;
@@ -145,7 +145,12 @@ fn shown(estimate: &Estimate) -> String {
         let _ = match parameter.with.as_slice() {
             [] => writeln!(text, "{} has no effect in this log", parameter.name),
             with => {
-                writeln!(text, "{} acts only together with {}", parameter.name, with.join(", "))
+                writeln!(
+                    text,
+                    "{} has an effect only together with {}",
+                    parameter.name,
+                    with.join(", ")
+                )
             }
         };
     }
