@@ -38,7 +38,9 @@ fn name(text: &str) -> Result<String, String> {
     let name = text.strip_suffix(".toml").unwrap_or(text);
     let is_fine = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(is_fine) {
-        return Err("a name begins with a letter and has letters, digits and _ only".to_owned());
+        return Err(
+            "a name begins with a letter and contains only letters, digits and _".to_owned()
+        );
     }
     let refused = description::read_toml(name, &named(name)).err();
     let refused = refused.as_ref().and_then(|found| found.iter().next());
@@ -67,7 +69,7 @@ impl Arguments {
         if std::fs::read(&path).is_ok_and(|present| present == bytes) {
             writeln!(
                 terminal.errors,
-                "{file} is there already, as init writes it; it is not written again"
+                "{file} already exists as init writes it; it is not written again"
             )?;
         } else {
             let output = Output { path: path.clone(), bytes, ownership };
