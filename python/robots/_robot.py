@@ -143,7 +143,8 @@ class Robot:
         """Writes a document in the format of the path's extension: .pdf, .tex, .typ, .md, or .html for a page in which the robot moves.
 
         Typst (`pip install typst`, or the program) or else pdflatex typesets a PDF; `by="typst"` or `by="latex"` chooses one. `options` are those of the
-        command `document`, or `report` for a page: `form="grouped,recursive"`, `title="…"`, …. An existing file that this package did not write is replaced only with `force`.
+        command `document`, or `report` for a page: `form="grouped,recursive"`, `title="…"`, …. An existing file that this package did
+        not write is replaced only with `force`.
         """
         target = Path(path)
         notation = {".tex": "latex", ".typ": "typst", ".md": "markdown"}.get(target.suffix)

@@ -36,7 +36,7 @@ pub(super) struct Arguments {
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint
     #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "0")]
     noise: Vec<f64>,
-    /// Columns: a list for each variable, or a number for each variable and joint, which is faster to read
+    /// The layout: a list for each variable, or a column for each variable and joint, which is faster to read
     #[arg(long, value_enum, default_value_t = Columns::Lists)]
     layout: Columns,
     /// The seed of the random numbers
