@@ -1,7 +1,7 @@
-//! The command `robot-symbolic`: robot files to equations, code and numbers.
+//! The command `robot-symbolic`, which turns robot files into equations, code and numbers.
 //!
-//! [`run`] is the whole command, given its arguments and streams. It knows how to ask and how to
-//! show; all else is done by the other crates.
+//! [`run`] is the whole command, given its arguments and streams. It reads arguments and shows results; the other
+//! crates do everything else.
 
 mod commands;
 mod complaints;

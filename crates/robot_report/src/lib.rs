@@ -1,9 +1,9 @@
 //! A page about a robot: one HTML file that needs nothing else.
 //!
-//! [`report`] is pure: a robot file and what the compiler made of its code go in, the text of the page
-//! comes out, the same bytes for the same input. Everything that comes from the robot file is text by
-//! construction ([`robot_document::markup`] is the one place where text becomes markup), and the page's policy lets a
-//! browser run and load nothing but the page's own style and script, by their hashes.
+//! [`report`] is pure: it takes a robot file and what the compiler made of its code, and returns the text of the
+//! page, the same bytes for the same input. Everything that comes from the robot file is text by construction
+//! ([`robot_document::markup`] is the one place where text becomes markup), and the page's policy lets a browser run
+//! and load only the page's own style and script, by their hashes.
 
 mod costs;
 mod drawing;
