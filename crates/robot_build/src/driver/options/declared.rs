@@ -275,7 +275,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         name: "parallel",
         title: "batches over threads",
         help: "Add a parallel form `…_batch_parallel` to each batch, on the threads of the crate \
-            rayon; needs --batch",
+            rayon; needs batches",
         requires: Some("batch"),
         set: |options, value| value.flag().map(|flag| options.parallel = flag),
         ..PLAIN
