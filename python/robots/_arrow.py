@@ -15,11 +15,11 @@ OUTPUTS = ("fixed_lists", "lists", "columns")
 
 
 class BatchFunction:
-    """A function over record batches, or whatever has Arrow's PyCapsule interface.
+    """A function over record batches, or tables of any library with Arrow's PyCapsule interface.
 
-    A batch has a column for each input, named as it (`q`, `qd`, …): a list of constant length, or columns `q1` … of numbers. The result has for each output,
-    after the columns of the batch that `keep` names, what `output` says: a column of lists of fixed length ("fixed_lists"), of lists of any length ("lists",
-    which Spark wants), or columns of numbers `tau1` … ("columns"). It can be pickled: another process reads the robot file again.
+    A batch has a column with the name of each input (`q`, `qd`, …): a list of constant length, or columns `q1` … of numbers. The result has the columns of
+    the batch that `keep` names, then for each output, as `output` says, a column of lists of fixed length ("fixed_lists"), a column of lists of any length
+    ("lists", which Spark needs), or columns of numbers `tau1` … ("columns"). It can be pickled: another process reads the robot file again.
     """
 
     def __init__(self, path: str, names: tuple[str, ...], options: dict[str, bool], output: str, keep: tuple[str, ...]) -> None:

@@ -45,13 +45,13 @@ class Equations:
 
     @property
     def definitions(self) -> dict[str, str]:
-        """What the form has names for, such as the entries of the mass matrix, as infix text, each of those before it."""
+        """The named expressions of the form, such as the entries of the mass matrix, as infix text; each may contain earlier ones."""
         found: dict[str, str] = json.loads(self._as("json")).get("definitions", {})
         return found
 
     @property
     def formulas(self) -> dict[str, str]:
-        """The quantities, most often the joint torques Q1, Q2, …, as infix text by name: exact, and readable by other programs."""
+        """The quantities, usually the joint torques Q1, Q2, …, as infix text by name: exact, and readable by other programs."""
         quantities: dict[str, str] = json.loads(self._as("json"))["quantities"]
         # A form may define a joint torque by the one behind it; their order here is that of the joints.
         numbers = {name: re.fullmatch(r"(\D+)(\d+)", name) for name in quantities}
@@ -61,12 +61,12 @@ class Equations:
 
     @property
     def expressions(self) -> dict[str, Any]:
-        """`definitions` and `formulas` as SymPy expressions over symbols of their names, as they are printed."""
+        """`definitions` and `formulas` as SymPy expressions in symbols with the printed names."""
         return {name: _sympy(text, {}) for name, text in {**self.definitions, **self.formulas}.items()}
 
     @property
     def sympy(self) -> Any:
-        """A column of SymPy expressions for the entries of `formulas`; what has a name of its own in this form is put in.
+        """A column of SymPy expressions for the entries of `formulas`; the form's named expressions are substituted.
 
         >>> torques = robots.load("planar_2r.toml").equations().sympy
         >>> torques.shape

@@ -19,12 +19,12 @@ _KEPT = 16
 class Function:
     """A function of a robot, or several in one call.
 
-    Inputs are arrays of the shape ``(entries,)`` for one state or ``(N, entries)`` for N, of any layout, in f64 or f32; an input of one
-    state goes with each of N states. An input that is 0 may be the number 0; a wrench that is left out is 0. The result has the type f32 if all arrays are f32; the
-    calculation is in f64.
+    Inputs are arrays of the shape ``(entries,)`` for one state or ``(N, entries)`` for N states, of any layout, in f64 or f32; an input of one
+    state is combined with each of the N states. The number 0 stands for an array of zeros; a wrench that is left out is 0. The result has the type f32 if
+    all arrays are f32; the calculation is in f64.
 
-    Parameters of the robot file are set for a call by their names, ``m2=3.0``, or by ``parameters={"m2": 3.0}``; ``payload`` is the body that the robot
-    carries, if its file has a table `[payload]`.
+    Parameters of the robot file are set for a call by name, ``m2=3.0``, or with ``parameters={"m2": 3.0}``; ``payload`` is the body that the robot
+    carries, if its file has a `[payload]` table.
     """
 
     def __init__(self, source: RobotSource, names: list[str]) -> None:

@@ -16,7 +16,7 @@ _AXES = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1), "xz": (0, 2), "
 class Payload:
     """A body that a robot carries: `arm.gravity(q, payload=robots.Payload(2.0, [0, 0, 0.1]))`.
 
-    `mass` is in kg, `center_of_mass` in m in the frame that the table `[payload]` of the robot file names. `inertia` is the tensor about the center of
+    `mass` is in kg, `center_of_mass` in m, in the frame that the `[payload]` table of the robot file names. `inertia` is the tensor about the center of
     mass in the axes of that frame, kg m²: xx, yy, zz, xy, xz, yz, or three rows of three. A body without it is a point mass.
     """
 

@@ -21,10 +21,11 @@ from ._native import RobotError, RobotSource
 def load(
     path: str | os.PathLike[str], *, search: bool = False, allow_massless: bool = False, allow_unphysical: bool = False
 ) -> Robot:
-    """Reads a robot file, TOML or URDF, and the plan that is pinned beside it, if there is one.
+    """Reads a robot file, TOML or URDF, and the plan pinned beside it, if there is one.
 
-    `search` looks for the cheapest form of the recursion, for a second or so, if no plan is pinned. `allow_massless` accepts moving links without mass,
-    `allow_unphysical` inertias that no body has. Everything that is wrong with the file is in one RobotError; `arm.check()` has the warnings.
+    If no plan is pinned, `search` looks for the form of the recursion with the fewest operations, for about a second. `allow_massless` accepts moving links
+    without mass, `allow_unphysical` physically impossible inertias. One RobotError reports everything that is wrong with the file; `arm.check()` returns the
+    warnings.
 
     >>> arm = robots.load("planar_2r.toml")
     >>> arm
@@ -108,11 +109,11 @@ class Robot:
         M_1_2*qdd1 + M_2_2*qdd2 - b_1_2_2*qd1^2 + g_2 + w_2
         """
         found = Equations(["equations", self._path, *self._flags, "--form", form, "--quantity", quantities, *_flags(options)])
-        _ = found.text  # What is wrong is told now.
+        _ = found.text  # Errors are raised now.
         return found
 
     def base_parameters(self) -> dict[str, Any]:
-        """The base parameters: names, formulas over the standard parameters, values.
+        """The base parameters: names, formulas in the standard parameters, values.
 
         >>> arm = robots.load("planar_2r.toml")
         >>> [entry["name"] for entry in arm.base_parameters()["base"]]
@@ -122,7 +123,7 @@ class Robot:
         return found
 
     def check(self) -> dict[str, Any]:
-        """Errors, warnings and notes about the file.
+        """Returns errors, warnings and notes about the file.
 
         >>> robots.load("planar_2r.toml").check()["errors"]
         0
@@ -131,7 +132,7 @@ class Robot:
         return found
 
     def diff(self, other: Robot) -> dict[str, Any]:
-        """How another robot differs: parameters, terms, operations, torques."""
+        """Shows how another robot differs: parameters, terms, operations, torques."""
         if not isinstance(other, Robot):
             raise RobotError(f"diff compares with another robot of robots.load, not with {other!r}")
         flags = sorted({*self._flags, *other._flags})
@@ -139,10 +140,11 @@ class Robot:
         return found
 
     def document(self, path: str | os.PathLike[str], *, force: bool = False, by: str | None = None, **options: Any) -> Path:
-        """Writes a document; the ending of the path says what: .pdf, .tex, .typ or .md, or .html for a page in which the robot moves.
+        """Writes a document in the format of the path's extension: .pdf, .tex, .typ, .md, or .html for a page in which the robot moves.
 
-        A PDF is typeset by Typst (`pip install typst`, or the program) or else by pdflatex; `by` is "typst" or "latex" to choose. `options` are those of the
-        command `document`, or `report` for a page: `form="grouped,recursive"`, `title="…"`, …. An existing file of another origin is replaced only with `force`.
+        Typst (`pip install typst`, or the program) or else pdflatex typesets a PDF; `by="typst"` or `by="latex"` chooses one. `options` are those of the
+        command `document`, or `report` for a page: `form="grouped,recursive"`, `title="…"`, …. An existing file that this package did
+        not write is replaced only with `force`.
         """
         target = Path(path)
         notation = {".tex": "latex", ".typ": "typst", ".md": "markdown"}.get(target.suffix)
@@ -165,7 +167,7 @@ class Robot:
         self._run("document", "--format", notation, "-o", str(target), *flags)
 
     def source(self, language: str = "rust", **options: Any) -> str:
-        """Code of the robot's usual functions in a language that has it in one file: rust, c, cuda, python or wgsl; `package` writes the others.
+        """Returns code of the robot's usual functions in a language that needs only one file: rust, c, cuda, python or wgsl; `package` writes the others.
 
         `options` are those of the command `generate`: `function="gravity"`, `scalar="f32"`, ….
 
@@ -175,9 +177,9 @@ class Robot:
         return self._run("generate", f"--language={language}", *_flags(options))
 
     def package(self, folder: str | os.PathLike[str], language: str = "rust", *, force: bool = False, **options: Any) -> Path:
-        """Writes code with what its users expect around it, a crate in Rust: rust, c, cpp, arduino, cuda, matlab, python, javascript, wasm or wgsl.
+        """Writes a package with the code, in Rust a crate; the languages are rust, c, cpp, arduino, cuda, matlab, python, javascript, wasm and wgsl.
 
-        `options` are those of the command `crate`. Files of another origin are replaced only with `force`.
+        `options` are those of the command `crate`. Files that this package did not write are replaced only with `force`.
         """
         self._run("crate", f"--language={language}", "-o", os.fspath(folder), *_flags(options), *["--force"] * force)
         return Path(folder)
@@ -193,9 +195,9 @@ class Robot:
         friction: bool = False,
         parameters: Mapping[str, float] | None = None,
     ) -> dict[str, Any]:
-        """The motion from a state: arrays `t`, `q`, `qd`, `qdd`, `tau` and energies, a row for each time.
+        """Simulates the motion from a state: arrays `t`, `q`, `qd`, `qdd`, `tau` and energies, with a row for each time.
 
-        `torques` has an expression over t, q1 …, qd1 … and parameters for each driven joint, by its number or name.
+        `torques` has an expression in t, q1 …, qd1 … and the parameters for each driven joint, by number or name.
 
         >>> motion = robots.load("planar_2r.toml").simulate(1.0, q0=[0.5, 0.1], step=0.1)
         >>> motion["t"].shape, motion["q"].shape
@@ -222,9 +224,9 @@ class Robot:
     def identify(
         self, q: Any, qd: Any, qdd: Any, tau: Any, *, noise: Any = None, parameters: Mapping[str, float] | None = None
     ) -> Identification:
-        """The base parameters that explain joint torques best, by least squares over all rows.
+        """Estimates the base parameters from joint torques, by least squares over all rows.
 
-        `noise` is the standard deviation of each joint's torques, (n,): rows then weigh as they are known. Without it all weigh alike.
+        `noise` is the standard deviation of each joint's torques, (n,): rows are then weighted by their precision. Without it all rows have the same weight.
 
         >>> arm = robots.load("planar_2r.toml")
         >>> q, qd, qdd = np.random.default_rng(1).uniform(-1, 1, (3, 50, 2))
@@ -250,7 +252,7 @@ class Robot:
         return Identification(names, values, errors, int(rank), singular, float(np.sqrt(np.mean(residuals**2))))
 
     def arrow(self, *names: str, output: str = "fixed_lists", keep: Sequence[str] = ()) -> BatchFunction:
-        """A function from a record batch of pyarrow, or a table of whatever has Arrow's PyCapsule interface, to another.
+        """Returns a function that turns a record batch of pyarrow, or a table of any library with Arrow's PyCapsule interface, into another.
 
         >>> import pyarrow as pa
         >>> arm = robots.load("planar_2r.toml")

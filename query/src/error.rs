@@ -56,8 +56,8 @@ impl Error {
 /// A worker that does not answer any more.
 fn lost(reason: &str) -> Error {
     Error::Query(format!(
-        "a worker was lost while it computed ({reason}), and the query has no answer; start the worker again, or leave \
-         it out of --workers, and repeat the query"
+        "a worker was lost while it computed ({reason}), so the query has no result; start the worker again, or \
+         leave it out of --workers, and repeat the query"
     ))
 }
 

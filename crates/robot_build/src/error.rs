@@ -7,7 +7,7 @@ use robot_model::diagnostic::{Diagnostics, quote, visible};
 use robot_model::functions::WrongName;
 use robot_model::snap::InvalidSnap;
 
-/// One thing that is wrong; the text names the place, the reason and the remedy.
+/// An error; its text states the place, the reason and the remedy.
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -206,7 +206,7 @@ impl fmt::Debug for Error {
     }
 }
 
-/// All that is wrong; never empty.
+/// All errors; never empty.
 ///
 /// Both `Display` and `Debug` give the text for people, so that a `build.rs` whose `main` returns it
 /// shows the robot file's own errors.

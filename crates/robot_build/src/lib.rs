@@ -1,5 +1,5 @@
-//! From a robot file to Rust: the driver that joins the reader, the derivation and the backend, and
-//! the builder that a `build.rs` calls.
+//! Generates Rust from a robot file: the driver that connects the reader, the derivation and the backend, and the
+//! builder that a `build.rs` calls.
 //!
 //! The common case is one line in `build.rs`
 //!
@@ -9,21 +9,20 @@
 //! }
 //! ```
 //!
-//! and one in the crate, which thereby has a module `trttr1`:
+//! and one in the crate, which then has a module `trttr1`:
 //!
 //! ```ignore
 //! include!(concat!(env!("OUT_DIR"), "/trttr1.rs"));
 //! ```
 //!
-//! The module has the robot's name in lower case; the file may be called as that or as the robot file.
-//! Generated code calls the crate `robot_runtime`, which must be a dependency (with its feature `std`
-//! where [`Builder::trigonometry`] asks for the standard library's sine and cosine). Building again is
-//! cheap: the file is written only if it changes, and Cargo runs the build script again only if a
-//! robot file has changed. [`Builder`] has the options.
+//! The module has the robot's name in lower case; the file can be included under that name or under the name of the
+//! robot file. Generated code calls the crate `robot_runtime`, which must be a dependency (with its feature `std` if
+//! [`Builder::trigonometry`] asks for the standard library's sine and cosine). The file is written only if it
+//! changes, and Cargo runs the build script again only if a robot file has changed. [`Builder`] has the options.
 //!
-//! The driver itself is pure: [`generate`] takes a text and gives a text. It touches no file, no
-//! environment and no terminal, so that the builder, the macro `include_robot!` and the command
-//! `robot-symbolic` give the same code.
+//! The driver itself is pure: [`generate`] takes a text and returns a text. It does not access files, the environment
+//! or the terminal, so the builder, the macro `include_robot!` and the command `robot-symbolic` generate the same
+//! code.
 
 mod driver;
 mod entry;

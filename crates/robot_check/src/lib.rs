@@ -1,4 +1,4 @@
-//! Judgment of robots and equations.
+//! Checks of robots and equations.
 //!
 //! [`doctor`] looks for likely mistakes in robot files, [`errata`] compares published equations with the
 //! derived ones, [`difference`] compares two robots, [`accuracy`] compares programs with the numeric

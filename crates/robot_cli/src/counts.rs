@@ -44,7 +44,7 @@ pub(crate) fn size_line(name: &str, size: CodeSize) -> String {
     let verdict = match size.fetching() {
         None => format!("fits a {cache} KB instruction cache"),
         Some(time) => format!(
-            "does not fit a {cache} KB instruction cache; expect the time of fetching it, some \
+            "does not fit a {cache} KB instruction cache; expect the time to fetch it, about \
              {time:.0} ns at {GIGAHERTZ} GHz"
         ),
     };

@@ -31,11 +31,10 @@ pub(crate) struct EquationArguments {
     /// the form expanded, else keep]
     #[arg(long, value_enum)]
     angle_sums: Option<AngleSumStyle>,
-    /// In the forms grouped and regrouped, multiply the coefficients out instead of taking common factors out of
-    /// brackets
+    /// In the forms grouped and regrouped, multiply the coefficients out instead of factoring them
     #[arg(long)]
     expand: bool,
-    /// In the grouped form, write every coefficient out, instead of some as multiples of earlier ones
+    /// In the grouped form, write every coefficient out instead of expressing some by earlier ones
     #[arg(long)]
     no_references: bool,
     /// In the grouped form, print Christoffel symbols instead of Coriolis and centrifugal coefficients
@@ -45,18 +44,19 @@ pub(crate) struct EquationArguments {
     /// grouped and recursive in LaTeX, Typst, Markdown and MathML, else scalars]
     #[arg(long, value_enum)]
     layout: Option<LayoutStyle>,
-    /// Equations in the order, the shape and the signs of the paper on TRTTR1: all quantities multiplied out, terms as its relations yield them, the vectors as
-    /// columns, those in the joints from the last link to the first, sines and cosines as sq_2 and cq_2
+    /// Print equations in the order, form and symbols of the paper on TRTTR1: all quantities multiplied out, terms as
+    /// the paper's relations yield them, vectors as columns, those in the joints from the last link to the first,
+    /// sines and cosines as sq_2 and cq_2
     #[arg(long, value_enum, conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
           "no_references", "letters"])]
     style: Option<StyleName>,
-    /// Equations like those published in this file, which has them as `compare` reads them: in the style paper, with the
-    /// terms and factors in the order of the file
+    /// Print equations like the published ones in this file, in the format that `compare` reads: in the paper's
+    /// style, with terms and factors in the order of the file
     #[arg(long, value_name = "PRINTED", conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
           "no_references", "letters"])]
     like: Option<PathBuf>,
-    /// Letters of joint torques, mass matrix, velocity terms and gravity terms, such as tau,M,C,g; `field` for
-    /// these, `paper` for Q and letters that no symbol of the robot has [default: paper]
+    /// Letters for joint torques, mass matrix, velocity terms and gravity terms, such as tau,M,C,g; `field` for these
+    /// four, `paper` for Q and letters that no symbol of the robot uses [default: paper]
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
     /// Significant digits of decimals in equations [default: 10]
@@ -72,13 +72,13 @@ pub(crate) struct EquationArguments {
 pub(crate) enum FormName {
     /// Sums of products, with like terms merged
     Expanded,
-    /// Common factors in front of brackets, sums of angles
+    /// Common factors in front of parentheses, sums of angles
     Collected,
     /// Mass matrix, Coriolis and centrifugal terms, gravity terms
     Grouped,
     /// Link by link, each quantity from the previous ones
     Recursive,
-    /// Repeated expressions have names
+    /// Names for repeated expressions
     Compact,
     /// Linear in the base parameters
     Regrouped,

@@ -1,7 +1,7 @@
-//! The command `robot-symbolic`: robot files to equations, code and numbers.
+//! The command `robot-symbolic`, which turns robot files into equations, code and numbers.
 //!
-//! [`run`] is the whole command, given its arguments and streams. It knows how to ask and how to
-//! show; all else is done by the other crates.
+//! [`run`] is the whole command, given its arguments and streams. It reads arguments and shows results; the other
+//! crates do everything else.
 
 mod commands;
 mod complaints;
@@ -57,12 +57,11 @@ const NAME: &str = "robot-symbolic";
   robot-symbolic eval robots/trttr1.toml --function inverse_dynamics --states states.json
   robot-symbolic crate robots/trttr1.toml -o trttr1
 
-Exit codes, of every command:
+Exit codes of every command:
   0  done
-  1  the robot file or another input is wrong, or the answer is no: a checked file is out of date, a
+  1  the robot file or another input is wrong, or the result is negative: a checked file is out of date, a
      claim is false, two things differ
-  2  the command line is wrong, or standard output cannot be written; for `compare` and `diff`, any input
-     is wrong
+  2  the command line is wrong, or standard output cannot be written; for `compare` and `diff`, also any wrong input
 
 Results go to standard output, messages to standard error. Colors appear only on a terminal, and not if the
 variable NO_COLOR is set."

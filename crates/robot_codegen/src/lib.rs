@@ -1,4 +1,4 @@
-//! Straight-line programs from expressions, and the source code they become.
+//! Straight-line programs from expressions, and the source code that is printed from them.
 //!
 //! A [`ModuleSpec`] names expressions over parameters and inputs; [`Module::compile`] turns it into
 //! straight-line [`Program`]s, the [`interpreter`] runs them and a [`backend`] prints them.

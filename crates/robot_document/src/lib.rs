@@ -1,13 +1,14 @@
 //! Equations of robots as documents.
 //!
-//! [`forms`] puts the equations of motion in the form that is asked for; each side of an equation is a
-//! [`math::Math`], a layout of pieces that no notation owns, made of expressions by a [`SymbolTable`]. A
-//! [`document::Document`] holds headings, text, tables and equations, still in no notation; [`robot`] fills
-//! one from a robot. Each notation is a printer of its own: [`latex`], [`mathml`], [`typst`]; [`html`] makes
-//! a page. HTML and MathML are trees of [`markup`], which escapes all text. The infix text beside each formula is that of `robot_symbolic`, which reads back.
+//! [`forms`] puts the equations of motion in the requested form; each side of an equation is a [`math::Math`], a
+//! layout that is independent of the notation, which a [`SymbolTable`] makes from expressions. A
+//! [`document::Document`] contains headings, text, tables and equations, also independent of the notation; [`robot`]
+//! fills one from a robot. Each notation has its own printer: [`latex`], [`mathml`], [`typst`]; [`html`] makes a
+//! page. HTML and MathML are trees of [`markup`], which escapes all text. The infix text beside each formula is that
+//! of `robot_symbolic`, which reads back.
 //!
-//! [`latex::read`] and [`meaning`] go the way back, from LaTeX to layout and to the expression that it stands
-//! for, so that tests can prove what was printed.
+//! [`latex::read`] and [`meaning`] go the opposite way, from LaTeX to a layout and to the expression for which it
+//! stands, so that tests can prove what was printed.
 
 pub mod base_parameters;
 pub mod document;

@@ -11,12 +11,12 @@ use crate::economical::{Plan, Recursion};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::newton_euler;
 
-/// A robot in symbols, ready to derive functions in one graph.
+/// A symbolic robot, from which functions are derived in one graph.
 #[derive(Debug)]
 pub struct Derivation<'r, 'g> {
     /// The robot.
     pub robot: &'r Robot,
-    /// The robot in symbols.
+    /// The symbolic robot.
     pub mechanism: Mechanism<'g>,
     /// The economical recursion; `None` if a joint axis depends on parameters, for which it
     /// cannot be set up: functions then come from the paper's iterations.
@@ -26,7 +26,7 @@ pub struct Derivation<'r, 'g> {
 }
 
 impl<'r, 'g> Derivation<'r, 'g> {
-    /// Puts the robot into the symbols of `graph`, constants rounded as code needs them.
+    /// Expresses the robot in the symbols of `graph`, with constants rounded as code needs them.
     ///
     /// Without a plan the recursion takes [`Plan::default_for`].
     #[must_use]

@@ -1,8 +1,8 @@
 //! Derivation of a robot's dynamics as symbolic expressions.
 //!
-//! [`mechanism`] puts a checked [`robot_model::robot::Robot`] into symbols; the recursions turn it into
-//! equations of motion, every quantity a named expression: [`newton_euler`] is the paper's, for people, and
-//! [`economical`] a second form of it that needs the fewest operations, for code.
+//! [`mechanism`] makes a symbolic robot from a checked [`robot_model::robot::Robot`]; the recursions turn it into
+//! equations of motion, in which every quantity is a named expression: [`newton_euler`] is the paper's recursion, for
+//! people, and [`economical`] a second form that needs the fewest operations, for code.
 
 pub mod base_parameters;
 mod body;

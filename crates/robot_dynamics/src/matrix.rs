@@ -48,12 +48,12 @@ impl<'g> SymmetricMatrix<'g> {
         self.entries[Self::place(row, column)]
     }
 
-    /// Replaces an entry and the one across the diagonal.
+    /// Replaces an entry and its mirror image across the diagonal.
     pub fn set(&mut self, row: usize, column: usize, value: Expr<'g>) {
         self.entries[Self::place(row, column)] = value;
     }
 
-    /// Adds to an entry, and to the one across the diagonal.
+    /// Adds to an entry and to its mirror image across the diagonal.
     pub fn add(&mut self, row: usize, column: usize, value: Expr<'g>) {
         self.entries[Self::place(row, column)] += value;
     }

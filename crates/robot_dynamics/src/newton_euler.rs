@@ -28,7 +28,7 @@ pub struct LinkMotion<'g> {
     pub angular_velocity: Vector<'g>,
     /// ε̄: angular acceleration, rad/s².
     pub angular_acceleration: Vector<'g>,
-    /// ā: acceleration of the origin, gravity included as an acceleration of the base, m/s².
+    /// ā: acceleration of the origin, including gravity as an acceleration of the base, m/s².
     pub acceleration: Vector<'g>,
     /// ā_c: acceleration of the center of mass, equation (8), m/s².
     pub center_of_mass_acceleration: Vector<'g>,

@@ -8,8 +8,8 @@ use robot_symbolic::{Expr, Graph};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Vector<'g>(pub [Expr<'g>; 3]);
 
-/// A 3 × 3 matrix, row by row. A rotation matrix `R` takes components in the turned frame to
-/// components in the frame it is turned from.
+/// A 3 × 3 matrix, row by row. A rotation matrix `R` transforms components in the rotated frame into components in
+/// the original frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Matrix<'g>(pub [[Expr<'g>; 3]; 3]);
 

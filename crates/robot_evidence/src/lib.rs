@@ -1,22 +1,21 @@
 //! Evidence from the compiled form of generated code.
 //!
-//! [`prove`] compiles a robot's functions with the user's own `rustc`, in the way Cargo's profiles
-//! do, reads the object file and holds it against the claim of the generator: **no conditional
-//! jump, no panic, and no call but that of the sines and cosines**. Each violation of the claim
-//! is named, a [`Violation`] each.
+//! [`prove`] compiles a robot's functions with the user's own `rustc`, in the way Cargo's profiles do, reads the
+//! object file and compares it with the claim of the generator: **no conditional jump, no panic, and no call except
+//! that of the sines and cosines**. Each violation of the claim is a [`Violation`].
 //!
 //! | | dev | release |
 //! |---|---|---|
-//! | generated code and what it calls of `core` | flat | flat |
-//! | the runtime's sines and cosines | a call that is not looked into: it loops over the angles | flat |
-//! | sines and cosines of the standard library | calls of `sin`, `cos` | calls of `sincos` or such |
+//! | generated code and the functions of `core` that it calls | flat | flat |
+//! | the runtime's sines and cosines | a call that is not checked: it loops over the angles | flat |
+//! | sines and cosines of the standard library | calls of `sin`, `cos` | calls of `sincos` or similar |
 //! | copies of arrays | may call `memcpy` | none |
 //! | zeros of large results, such as the regressor's | may call `memset` | may call `memset` |
-//! | the choice between copies of a kernel, each for another processor | one or two jumps on x86-64; each copy is flat | the same |
+//! | the choice between copies of a kernel, each for a different processor | one or two jumps on x86-64; each copy is flat | the same |
 //! | batches, which take slices | shown, nothing claimed | a loop over the states, no panic |
 //!
-//! This is the one part of the project that starts another program. Everything but [`prove`] works
-//! on bytes: [`Module::read`] reads an object file wherever it comes from.
+//! This is the only part of the project that starts another program. Everything except [`prove`] works on bytes:
+//! [`Module::read`] reads an object file from any source.
 
 mod claim;
 mod compile;

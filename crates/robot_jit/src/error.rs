@@ -8,7 +8,7 @@ use robot_codegen::Errors;
 pub enum Error {
     /// The processor has no registers that code is made for.
     #[error(
-        "machine code needs an x86-64 processor with {needed}, which this machine is not; the interpreter \
+        "machine code needs an x86-64 processor with {needed}, which this machine does not have; the interpreter \
          computes the same"
     )]
     Processor {
@@ -17,7 +17,7 @@ pub enum Error {
     },
     /// Sines and cosines of the standard library.
     #[error(
-        "machine code has the polynomial sines and cosines alone; the interpreter has the standard library's"
+        "machine code has only the polynomial sines and cosines; the interpreter has the standard library's"
     )]
     Trigonometry,
     /// A function that was left out.
@@ -55,7 +55,7 @@ pub enum Error {
         reason: String,
     },
     /// Memory that the system does not give, or not for code.
-    #[error("the system gives no memory for code ({0}); the interpreter computes the same")]
+    #[error("the system provides no memory for code ({0}); the interpreter computes the same")]
     Memory(#[from] std::io::Error),
     /// What is wrong with the parameters, or an unknown function.
     #[error(transparent)]

@@ -1,13 +1,13 @@
 //! Straight-line programs as machine code in memory.
 //!
-//! [`compile`] makes code of the functions of a module, for one state and for several side by side in the lanes of
-//! vector registers, in a tenth of a millisecond to some twenty for the longest. A [`Function`] is called as the
-//! interpreter's [`Callable`](robot_codegen::Callable) is, and gives its bits, but for two things: a multiply-add of the
-//! program rounds once, as in code that is compiled for the processor, and those of sines if [`Options::fused`] asks for
-//! it; and a NaN may have other bits.
+//! [`compile`] makes code for the functions of a module, for one state and for several side by side in the lanes of
+//! vector registers, in a tenth of a millisecond to about twenty milliseconds for the longest. A [`Function`] is
+//! called like the interpreter's [`Callable`](robot_codegen::Callable) and gives the same bits, with two exceptions:
+//! a multiply-add of the program rounds once, as in code compiled for the processor, as do those in sines if
+//! [`Options::fused`] asks for it; and a NaN may have other bits.
 //!
-//! For x86-64 with AVX2 and FMA, or AVX-512 F, DQ and VL, chosen when it runs. Elsewhere there is an error;
-//! an [`Executable`] then runs the interpreter.
+//! The code is for x86-64 with AVX2 and FMA, or with AVX-512 F, DQ and VL, chosen at run time. On other processors
+//! [`compile`] returns an error; an [`Executable`] then runs the interpreter.
 
 mod compiled;
 mod emit;

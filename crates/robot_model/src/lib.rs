@@ -1,8 +1,8 @@
 //! The model of a robot, and its readers.
 //!
-//! A robot file is read by [`description`] into a checked [`robot::Robot`], whose values are formulas
-//! with [`mod@unit`]s; what is wrong with it is a [`diagnostic`] with a place, a reason and a remedy.
-//! [`functions`] names what can be derived from a robot. Nothing here knows how. [`signs`] is the alphabet of formulas.
+//! [`description`] reads a robot file into a checked [`robot::Robot`], whose values are formulas with [`mod@unit`]s;
+//! each error is a [`diagnostic`] with a place, a reason and a remedy. [`functions`] names what can be derived from a
+//! robot, but not how. [`signs`] is the alphabet of formulas.
 
 pub mod description;
 pub mod diagnostic;

@@ -9,11 +9,11 @@ pub(crate) const TOLERANCE: f64 = 1e-3;
 /// The verdict on an inertia tensor. Principal moments ascend, kg m².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// Some body has it; all zeros are a point mass.
+    /// It is possible; all zeros describe a point mass.
     Possible,
     /// A principal moment is negative.
     Negative([f64; 3]),
-    /// The largest moment exceeds the sum of the others, by this part of itself.
+    /// The largest moment exceeds the sum of the others, by this fraction of itself.
     Triangle([f64; 3], f64),
 }
 

@@ -1,7 +1,7 @@
 //! The checked robot: what a robot file says, as plain data.
 //!
-//! Values are [`Formula`]s over the robot's parameters, exactly as the file gives them; nothing is
-//! evaluated, merged or repaired here. Units are SI and radians.
+//! Values are [`Formula`]s over the robot's parameters, exactly as the file gives them; nothing is evaluated, merged
+//! or repaired here. Units are SI, with angles in radians.
 
 use robot_symbolic::{Formula, Rational};
 
@@ -19,10 +19,10 @@ pub struct Robot {
     pub description: Option<String>,
     /// Acceleration of gravity in the base frame, m/s²: it points down.
     pub gravity: [Formula; 3],
-    /// Constant angles within this many radians of a multiple of π/2 are meant for that multiple;
-    /// `None` if the file does not say.
+    /// Constant angles within this many radians of a multiple of π/2 stand for that multiple; `None` if the file does
+    /// not say.
     pub snap: Option<f64>,
-    /// Over which parameters of its links the base parameters are.
+    /// The frames of the link parameters that the base parameters combine.
     pub base_frames: BaseFrames,
     /// The symbols that stay parameters of equations and code, in the file's order.
     pub parameters: Vec<Parameter>,
@@ -32,20 +32,20 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Named frames fixed to links or to the base: tips, flanges, merged links.
     pub frames: Vec<Frame>,
-    /// The body that the robot may carry, if the file has one: it is a body of its link too.
+    /// The body that the robot may carry, if the file has one; it is also a body of its link.
     pub payload: Option<Payload>,
 }
 
-/// Over which parameters of links the base parameters are.
+/// The frames of the link parameters that base parameters combine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BaseFrames {
     /// Mass, first moment and inertia tensor about the origin and in the axes of the link's frame in
     /// the file.
     #[default]
     File,
-    /// Mass, first and second moments in frames of Denavit and Hartenberg, in which the regressor
-    /// needs fewer operations: z is the joint axis, and the origin lies on it where the common normal
-    /// with the axis of the parent's joint meets it.
+    /// Mass, first and second moments in Denavit–Hartenberg frames, in which the regressor needs fewer operations: z
+    /// is the joint axis, and the origin lies on it where the common normal with the axis of the parent's joint meets
+    /// it.
     DenavitHartenberg,
 }
 
@@ -102,7 +102,7 @@ pub struct Coordinate {
     pub joint: String,
     /// Radians for a rotation, meters for a translation.
     pub kind: JointKind,
-    /// Lower and upper limit if the file gives them; they bound test states, nothing else.
+    /// Lower and upper limits if the file gives them; they bound only test states.
     pub limits: Option<[Rational; 2]>,
 }
 
@@ -148,16 +148,16 @@ pub struct Joint {
     pub axis: [Formula; 3],
     /// The coordinate that moves it, an index into [`Robot::coordinates`].
     pub coordinate: usize,
-    /// Joint position = `ratio` · q + `offset`; 1 but for a joint that mimics another.
+    /// Joint position = `ratio` · q + `offset`; the ratio is 1 except for a joint that mimics another.
     pub ratio: Formula,
-    /// See `ratio`; 0 but for a joint that mimics another.
+    /// See `ratio`; 0 except for a joint that mimics another.
     pub offset: Formula,
 }
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// The name: the link's, or that of the fixed link which was merged.
+    /// The name: that of the link, or of the fixed link that was merged.
     pub name: String,
     /// Mass, kg.
     pub mass: Formula,
@@ -196,7 +196,7 @@ impl Inertia {
     }
 }
 
-/// A rigid displacement: elementary moves, each in the frame that the ones before it made.
+/// A rigid displacement: a sequence of elementary moves, each in the frame reached by the preceding ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placement(pub Vec<Move>);
 
@@ -255,7 +255,7 @@ pub struct Friction {
     pub coulomb_negative: Formula,
     /// Constant offset, N m or N.
     pub offset: Formula,
-    /// Width v of the smooth sign tanh(q̇ / v), rad/s or m/s; `None` for the sharp sign.
+    /// Width v of the smooth sign tanh(q̇ / v), rad/s or m/s; `None` for the exact sign function.
     pub smoothing: Option<Formula>,
 }
 
@@ -266,7 +266,8 @@ pub struct Drive {
     pub armature: Formula,
     /// The rotor's inertia about its own axis, kg m².
     pub rotor_inertia: Formula,
-    /// Rotor turns per joint turn; the reflected inertia is its square times the rotor's.
+    /// The rotor's turns per turn of the joint; the reflected inertia is the square of this ratio times the rotor's
+    /// inertia.
     pub gear_ratio: Formula,
     /// Whether the spinning rotor's gyroscopic moments are part of the model: the rotor's axis is
     /// then the joint axis and the rotor is carried by the parent link.
@@ -311,13 +312,13 @@ pub struct Frame {
     pub name: String,
     /// The link that carries it; `None` for the base.
     pub link: Option<usize>,
-    /// Its place in that link's frame.
+    /// Its pose in that link's frame.
     pub placement: Placement,
     /// The wrench that the frame exerts on its surroundings, if it is a tip.
     pub wrench: Option<Wrench>,
 }
 
-/// The names of a wrench's components, in the axes of its frame, the moment about its origin: what
+/// The names of a wrench's components, in the axes of its frame, with the moment about its origin: the wrench that
 /// the tip exerts on its surroundings, the paper's payload wrench (25).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrench {

@@ -6,7 +6,7 @@
 
 use crate::robot::{Frame, JointKind, Robot, Wrench};
 
-/// A quantity that each coordinate has one of; functions take it as an array.
+/// A quantity with one value for each coordinate; functions take it as an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum JointVariable {
     /// q: rad or m.
@@ -24,7 +24,7 @@ use JointVariable::{Acceleration, Position, Torque, Velocity};
 impl JointVariable {
     /// All variables, in the order in which functions take them.
     pub const ALL: [JointVariable; 4] = [Position, Velocity, Acceleration, Torque];
-    /// The motion of a joint: its position and the time derivatives of it.
+    /// The motion of a joint: its position and its time derivatives.
     pub const MOTION: [JointVariable; 3] = [Position, Velocity, Acceleration];
 
     /// The name of the array: `q`, `qd`, `qdd`, `tau`.

@@ -1,19 +1,18 @@
-//! The numeric recursive solver: rigid-body dynamics in 6-D spatial vectors on numbers from the
-//! start, after R. Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008.
+//! The numeric recursive solver: rigid-body dynamics in 6-D spatial vectors, numeric from the start, after R.
+//! Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008.
 //!
-//! It is independent of the symbolic derivations of this project, so that it can judge them: the
-//! project's tests hold every generated function against it. It is written for trust, not for
-//! speed.
+//! It is independent of the symbolic derivations of this project, so it can check them: the project's tests compare
+//! every generated function with it. It is written for reliability, not for speed.
 //!
 //! # Conventions
 //!
-//! - SI units, radians. Frames are right-handed. Gravity is the acceleration of gravity in the base
+//! - Units are SI, with angles in radians. Frames are right-handed. Gravity is the acceleration of gravity in the base
 //!   frame: it points down.
 //! - The frame of a link is its joint frame ([`Link::placement`] in the frame of the parent), moved
 //!   by the joint about or along an axis through its origin.
 //! - Inertia tensors are about the center of mass, in the axes of the link frame.
-//! - A wrench is what a frame exerts on its surroundings ([`Wrench`]).
-//! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), friction and wrenches only if they are asked for.
+//! - A wrench is the force and moment that a frame exerts on its surroundings ([`Wrench`]).
+//! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), with friction and wrenches only if requested.
 //! - q, q̇, q̈ and τ are slices over the coordinates; matrices have a row for each torque or
 //!   acceleration.
 //!
@@ -23,7 +22,7 @@
 //! use nalgebra::{Matrix3, Vector3};
 //! use robot_numeric::{Joint, Link, Mechanism, Pose};
 //!
-//! // A pendulum: a point mass of 2 kg, half a metre from a horizontal axis.
+//! // A pendulum: a point mass of 2 kg, half a meter from a horizontal axis.
 //! let bob = Vector3::new(0.5, 0.0, 0.0);
 //! let joint = Joint::revolute(Vector3::y(), 0);
 //! let link = Link::new(None, Pose::identity(), joint, 2.0, bob, Matrix3::zeros());

@@ -12,7 +12,7 @@ const COLUMNS: [&str; 6] = ["×", "+ −", "÷", "√", "sin, cos", "× + ÷ tog
 pub(crate) fn functions(module: &Module) -> Element {
     let mut columns = vec!["Function"];
     columns.extend(COLUMNS);
-    columns.push("once for the parameters");
+    columns.push("once per set of parameters");
     let caption = "Operations per call of each function. Subtractions count as additions, sign \
         changes are not counted.";
     let mut table = Table::new(caption, columns);
@@ -48,11 +48,11 @@ pub(crate) fn options(found: &[Ablation], function: &str) -> Option<Element> {
     let (all, without) = found.split_first()?;
     let least = operations(all)?;
     let caption = format!(
-        "Operations of {function}, multiplications and additions together, without one option or \
+        "Operations of {function} (multiplications plus additions) without one option or \
          pass. The savings do not add up, because the options interact."
     );
     let mut table = Table::new(&caption, ["Without", "Operations", "More than with all"]);
-    table.row("", "nothing: all options and passes", [least.to_string(), String::new()]);
+    table.row("", "nothing (all options and passes)", [least.to_string(), String::new()]);
     for ablation in without {
         let count = operations(ablation)?;
         let more = match count.checked_sub(least) {

@@ -31,9 +31,9 @@ const LINE: f64 = 470.0;
 /// The forms of the page in their order, but for the one that is open.
 const FORMS: [(Form, &str); 6] = [
     (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
-    (Form::Collected, "Collected: common factors before brackets, without friction"),
+    (Form::Collected, "Collected: common factors in front of parentheses, without friction"),
     (Form::Recursive, "Recursive: the iterations link by link"),
-    (Form::Compact, "Compact: repeated expressions have names"),
+    (Form::Compact, "Compact: names for repeated expressions"),
     (Form::Regrouped, "Regrouped: linear in the base parameters"),
     (Form::Expanded, "Expanded: sums of products, without friction"),
 ];
@@ -79,9 +79,9 @@ fn opened(lengths: &[(Form, usize)]) -> Option<Form> {
 
 /// The form of the equations.
 const WORDS: &str = "The joint torques τ (Q in the equations), as functions of the joint \
-    positions, velocities and accelerations. Hover a term, or move to it with Tab and the arrow \
-    keys, to highlight the links and parameters it depends on and the definitions of its \
-    symbols.";
+    positions, velocities and accelerations. Hover over a term, or move to it with Tab and the \
+    arrow keys, to highlight the links and parameters that it depends on and the definitions of \
+    its symbols.";
 
 fn note(words: &str) -> Element {
     holding("p", words).class("note")
@@ -134,7 +134,7 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     if coordinates > MOST_COORDINATES && !link_by_link {
         return Err(format!(
             "This form is not shown: the robot has {coordinates} coordinates, and the form is too \
-             long to read beyond {MOST_COORDINATES}."
+             long to read if there are more than {MOST_COORDINATES}."
         ));
     }
     // Expanded under the root of dry friction, the forces in the joints fill pages.

@@ -41,9 +41,9 @@ pub(crate) fn compiled(compiled: &Compiled) -> Vec<Node> {
         }
         Compiled::Read { compiler, modules } => {
             let words = format!(
-                "The functions as compiled by {compiler}. The counts of a function include \
-                 everything it calls, each once; the stack is that of the deepest chain of \
-                 calls."
+                "The functions, compiled by {compiler}. The counts of a function include \
+                 all functions that it calls, each once; the stack is that of the deepest \
+                 chain of calls."
             );
             let words = Node::from(holding("p", words));
             std::iter::once(words).chain(modules.iter().map(|one| profile(one).into())).collect()
@@ -97,7 +97,7 @@ pub(crate) fn accuracy(accuracy: &Result<Accuracy, String>) -> Vec<Node> {
                  largest difference in a component, relative to the largest component of the \
                  result"
             );
-            let mut table = Table::new(&caption, ["Function", "Worst error"]);
+            let mut table = Table::new(&caption, ["Function", "Largest error"]);
             for (function, error) in worst {
                 table.row(
                     "",

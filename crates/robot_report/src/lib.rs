@@ -1,9 +1,9 @@
 //! A page about a robot: one HTML file that needs nothing else.
 //!
-//! [`report`] is pure: a robot file and what the compiler made of its code go in, the text of the page
-//! comes out, the same bytes for the same input. Everything that comes from the robot file is text by
-//! construction ([`robot_document::markup`] is the one place where text becomes markup), and the page's policy lets a
-//! browser run and load nothing but the page's own style and script, by their hashes.
+//! [`report`] is pure: it takes a robot file and what the compiler made of its code, and returns the text of the
+//! page, the same bytes for the same input. Everything that comes from the robot file is text by construction
+//! ([`robot_document::markup`] is the one place where text becomes markup), and the page's policy lets a browser run
+//! and load only the page's own style and script, by their hashes.
 
 mod costs;
 mod drawing;
@@ -162,8 +162,8 @@ fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> 
         count => (format!("{count} constant angles"), "are shown as multiples"),
     };
     let words = format!(
-        "In tables and equations, {angles} within {tolerance:e} rad of a multiple of π/2 {are}; the generated code takes \
-         the values of the file."
+        "In tables and equations, {angles} within {tolerance:e} rad of a multiple of π/2 {are}; the generated code uses \
+         the values in the file."
     );
     Some(holding("p", words).class("note"))
 }
@@ -189,8 +189,8 @@ fn parameters(robot: &Robot, symbols: &Symbols) -> Section {
 
 /// The content of the grids.
 const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked \
-    const depend on parameters alone. An entry counts as independent of a coordinate if no other \
-    value of the coordinate changes it, at random values of all symbols, parameters included.";
+    const depend only on parameters. An entry counts as independent of a coordinate if no other \
+    value of the coordinate changes it, at random values of all symbols, including parameters.";
 
 fn structure(robot: &Robot) -> Section {
     let grids = Structure::of(robot).build().map(Node::from);

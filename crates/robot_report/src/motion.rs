@@ -27,7 +27,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     {
         Ok(contributions) => contributions,
         Err(error) => {
-            let words = format!("There are no curves: {error}");
+            let words = format!("The curves cannot be shown: {error}");
             return vec![holding("p", words).class("note").into()];
         }
     };
@@ -60,8 +60,8 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
 const WORDS: &str = "Each coordinate oscillates about the middle of its range, or about 0 if it \
     has no limits: q = middle − amplitude · cos(2π k t / 4 s), with k = 1 for odd coordinate \
     numbers and k = 2 for even ones. The amplitude is 0.3 of half the range; without limits it \
-    is 0.8 rad or 0.2 m. Inertia is M q̈, coriolis the Coriolis and centrifugal terms C q̇, \
-    gravity g; the total is their sum, including friction if there is any.";
+    is 0.8 rad or 0.2 m. Inertia is M q̈, coriolis is C q̇, the Coriolis and centrifugal \
+    terms, and gravity is g; the total is their sum, including friction if there is any.";
 
 fn trajectory(robot: &Robot) -> Trajectory {
     let mut trajectory = Trajectory::default();

@@ -126,7 +126,8 @@ fn header(robot: &Robot) -> Element {
 
 fn footer() -> Element {
     let version = env!("CARGO_PKG_VERSION");
-    let words = format!("Written by robot-symbolic {version}. Units are SI and radians.");
+    let words =
+        format!("Written by robot-symbolic {version}. Units are SI, with angles in radians.");
     holding("footer", holding("p", words))
 }
 

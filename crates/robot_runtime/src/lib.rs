@@ -1,9 +1,9 @@
 #![no_std]
 //! The functions that generated robot code calls at run time: numbers, and sines and cosines.
 //!
-//! The dynamics of a robot are additions and multiplications of its velocities, its accelerations
-//! and the sines and cosines of its angles. Generated code does the former; this crate is the
-//! rest, without dependencies, allocation, or a branch that depends on a value.
+//! The dynamics of a robot are additions and multiplications of its velocities, its accelerations and the sines and
+//! cosines of its angles. Generated code contains the additions and multiplications; this crate provides the rest,
+//! without dependencies, allocation, or a branch that depends on a value.
 //!
 //! ```
 //! use robot_runtime::{Scalar, sin_cos_array, sin_cos_each};
@@ -21,7 +21,7 @@
 //!     gravity_sc(&s, &c)
 //! }
 //!
-//! /// At eight states: LLVM vectorises the loop, states side by side.
+//! /// At eight states: LLVM vectorizes the loop, states side by side.
 //! #[inline(never)]
 //! fn gravity_block(q: &[[f64; 2]; 8]) -> [[f64; 2]; 8] {
 //!     let mut torques = [[0.0; 2]; 8];
@@ -47,30 +47,30 @@
 //!
 //! The three with polynomials give the same bits. [`Trig`] makes the source a type parameter.
 //!
-//! | type | range | worst absolute error there | with [`FUSED`] | in last places |
+//! | type | range | largest absolute error in this range | with [`FUSED`] | in last places |
 //! |---|---|---|---|---|
 //! | `f64` | ǀxǀ < 2³⁰ = 1 073 741 824 | 1.7e-16 | 1.4e-16 | 1.6 |
 //! | `f32` | ǀxǀ < 2¹⁷ = 131 072 | 8.8e-8 | 7.2e-8 | 1.2 for ǀxǀ ≤ π/4 |
 //!
-//! Held in `f32` against every number of the range, in `f64` against 4·10⁷ random ones, the three
-//! neighbors of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ beyond, and the angles of the range
-//! that come nearest to one. The last places of `f64` without [`FUSED`] hold up to 2·10⁵; beyond, a sine
-//! or cosine below 10⁻⁵ may be off by 10⁻²¹ more.
+//! These errors were found in `f32` for every number in the range, and in `f64` for 4·10⁷ random numbers, the three
+//! neighbors of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ multiples beyond, and the angles in the range that come
+//! nearest to a multiple. The last places of `f64` without [`FUSED`] are valid up to 2·10⁵; beyond, a sine or cosine
+//! below 10⁻⁵ may be off by 10⁻²¹ more.
 //!
-//! **From the end of the range on sine and cosine are NaN**, as of NaN and infinite angles: no finite
-//! result is wrong, and none lies outside [−1, 1]. Angles that grow without end, of wheels and
-//! spindles, are brought back by whole turns before they get there; the standard library's sine and
-//! cosine take angles of any size.
+//! **Beyond the range, sine and cosine are NaN**, as for NaN and infinite angles: no finite result is wrong,
+//! and none lies outside [−1, 1]. Reduce angles that grow without bound, such as those of wheels and spindles,
+//! by whole turns before they reach the limit; the standard library's sine and cosine accept angles of any
+//! size.
 //!
-//! The same program gives the same bits on every target if [`FUSED`] is the same, with
-//! polynomials; the standard library's sines differ between platforms.
-//! [`trig::double::portable_sin_cos`] gives those without [`FUSED`] on every target.
+//! With polynomials, the same program gives the same bits on every target with the same [`FUSED`]; the standard
+//! library's sines differ between platforms. [`trig::double::portable_sin_cos`] gives those without [`FUSED`] on
+//! every target.
 //!
 //! # Other functions
 //!
 //! | function | error |
 //! |---|---|
-//! | [`Scalar::sqrt`] | correctly rounded with feature `std`; without, no bit differed for any `f32` nor for 3·10⁸ random `f64` |
+//! | [`Scalar::sqrt`] | correctly rounded with feature `std`; without it, no bit differed for any `f32` or for 3·10⁸ random `f64` |
 //! | [`Scalar::tanh`] | below 3 last places everywhere (2.61 in `f32`, every number tried) |
 //! | [`Scalar::mul_add`] | rounds once if [`FUSED`], else twice |
 //! | [`Scalar::abs`], [`Scalar::signum0`] | exact |
@@ -88,12 +88,12 @@
 //! assert_eq!(friction.to_array(), [-1.1, 0.0, 1.05, 2.5]);
 //! ```
 //!
-//! If their number fills vector registers of the target, `f64` and `f32` are computed in them.
+//! If the number of lanes fills vector registers of the target, `f64` and `f32` are computed in these registers.
 //!
-//! # The processor at hand
+//! # The current processor
 //!
-//! A program for any x86-64 may use neither fused multiply-adds nor wide registers. With feature `std` a
-//! [`Kernel`] is compiled for several processors, and [`dispatch`] chooses when it runs:
+//! A program for any x86-64 processor can use neither fused multiply-adds nor wide registers. With feature `std` a
+//! [`Kernel`] is compiled for several processors, and [`dispatch`] chooses at run time:
 //!
 //! ```
 //! use robot_runtime::{Arithmetic, Kernel, dispatch};
@@ -117,16 +117,15 @@
 //! | | levels on x86-64 |
 //! |---|---|
 //! | [`dispatch`], [`dispatch_apart`] | any; AVX2 with fused multiply-adds |
-//! | [`dispatch_block`], for loops over states | AVX-512 besides |
+//! | [`dispatch_block`], for loops over states | also AVX-512 |
 //!
-//! [`Arithmetic`] rounds once where the processor can; what a kernel computes otherwise has the same bits on
-//! every level. A program that is compiled for such a processor, or for another architecture, has no
-//! choice in it.
+//! [`Arithmetic`] rounds once if the processor can; everything else in a kernel has the same bits on every level. A
+//! program that is compiled for such a processor, or for another architecture, contains no choice.
 //!
 //! # Features
 //!
 //! - `std` (on): the choice of the processor, `StdTrig` and `std_sin_cos_array`, the processor's square root, and
-//!   fused multiply-add if the target has it. Without it, the crate needs `core` alone.
+//!   fused multiply-add if the target has it. Without it, the crate needs only `core`.
 //! - `sources` (off): `SOURCES`, the text of the modules, for generators of self-contained crates.
 
 mod runtime;

@@ -1,6 +1,6 @@
 //! The text of this crate's modules.
 
-/// The oldest Rust that the module, and code that is generated for it, needs.
+/// The oldest Rust version that supports the module and the code generated for it.
 pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 
 /// Path and text of every file of the run-time module, its root `mod.rs` first.

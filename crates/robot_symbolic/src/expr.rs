@@ -74,13 +74,13 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// The constant that the expression is, if it is one (π is not a [`Number`]).
+    /// The constant, if the expression is a constant (π is not a [`Number`]).
     #[must_use]
     pub fn as_number(self) -> Option<Number> {
         self.graph.as_number(self.id)
     }
 
-    /// The symbol that the expression is, if it is one.
+    /// The symbol, if the expression is a symbol.
     #[must_use]
     pub fn as_symbol(self) -> Option<SymbolId> {
         match self.graph.node(self.id) {
@@ -137,7 +137,7 @@ impl<'g> Expr<'g> {
         self.apply(Function::Tanh)
     }
 
-    /// 1/x if x is above 0 and finite, NaN elsewhere.
+    /// 1/x if x is above 0 and finite, otherwise NaN.
     #[must_use]
     pub fn recip_positive(self) -> Expr<'g> {
         self.apply(Function::RecipPositive)

@@ -12,8 +12,8 @@ use crate::number::Number;
 use crate::polynomial::AtomTable;
 use crate::rational::Rational;
 
-/// The identity of a node in its [`Graph`]. Operands always have smaller ids than their node, so
-/// that a pass in the order of ids meets operands first.
+/// The identity of a node in its [`Graph`]. Operands always have smaller ids than their node, so a pass in the order
+/// of ids visits operands first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Id(pub(crate) u32);
 
@@ -52,8 +52,8 @@ pub enum Function {
     Sign,
     /// Hyperbolic tangent.
     Tanh,
-    /// 1/x if x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is
-    /// wrong. No formula of a file applies it.
+    /// 1/x if x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is wrong.
+    /// Formulas in files cannot use it.
     RecipPositive,
 }
 
@@ -170,17 +170,16 @@ impl Graph {
         Graph::default()
     }
 
-    /// An empty graph that operations fill up to so many nodes: a derivation that is too long ends soon,
-    /// without memory for what nobody can use.
+    /// An empty graph for at most this many nodes: a derivation that is too long ends early and does not use up memory.
     ///
-    /// If the graph [is full](Graph::is_full), operations return one of their operands instead of a new
-    /// node, so that nothing that was derived means anything.
+    /// If the graph [is full](Graph::is_full), operations return one of their operands instead of a new node, so all
+    /// results are meaningless.
     #[must_use]
     pub fn limited(nodes: usize) -> Graph {
         Graph { limit: Some(nodes), ..Graph::default() }
     }
 
-    /// Whether the limit of the graph was reached: its expressions are of no use then.
+    /// Whether the limit of the graph was reached: its expressions are then meaningless.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.limit.is_some_and(|limit| self.len() >= limit)

@@ -14,8 +14,7 @@
 //!
 //! Around the graph:
 //!
-//! - [`Formula`] is expression text that belongs to no graph, as robot files hold it, checked when it
-//!   is read; [`Graph::parse`] makes an expression of text at once;
+//! - [`Formula`] is expression text that belongs to no graph, as in robot files, checked when it is read; [`Graph::parse`] makes an expression from text directly;
 //! - [`walk`] evaluates, substitutes and differentiates;
 //! - [`Polynomial`] is the canonical form: equality, expansion, collection by symbols;
 //! - [`mod@print`] writes expressions and polynomials as text that reads back.

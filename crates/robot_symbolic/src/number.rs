@@ -6,9 +6,9 @@ use crate::rational::{MAX_BITS, Rational};
 
 /// A constant of an expression.
 ///
-/// Robot files hold decimals, which are exact rationals; sums and products of them stay exact.
-/// A constant becomes `Real` if it has no rational value (the sine of an arbitrary angle,
-/// evaluated for code), or would need more than a few thousand bits.
+/// Robot files contain decimals, which are exact rationals; sums and products of them stay exact. A constant becomes
+/// `Real` if it has no rational value (the sine of an arbitrary angle, evaluated for code), or would need more than a
+/// few thousand bits.
 #[derive(Clone, Debug)]
 pub enum Number {
     /// An exact value.

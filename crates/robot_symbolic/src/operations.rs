@@ -3,10 +3,10 @@
 use crate::expr::Expr;
 use crate::graph::{Function, Id, Node, SymbolId};
 
-/// Operations of a set of expressions, shared ones once. Changes of sign are free.
+/// Operations of a set of expressions; a shared operation counts once, and changes of sign do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
-    /// Products, squares included.
+    /// Products, including squares.
     pub multiplications: usize,
     /// Sums and differences.
     pub additions: usize,
@@ -22,7 +22,7 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// Multiplications and additions together.
+    /// Multiplications plus additions.
     #[must_use]
     pub fn flops(&self) -> usize {
         self.multiplications + self.additions
@@ -35,8 +35,8 @@ impl Operations {
     }
 }
 
-/// The operations that `roots` need each time the symbols change that are not `free`: what depends
-/// on free symbols and constants alone is computed beforehand and costs nothing.
+/// The operations that `roots` need each time the symbols change that are not `free`: an expression that depends only
+/// on free symbols and constants is computed beforehand and does not count.
 ///
 /// Use a [`Counter`] to count repeatedly on one graph.
 #[must_use]
@@ -44,8 +44,8 @@ pub fn operations(roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operat
     Counter::default().count(roots, free)
 }
 
-/// Counts as [`operations`] does, again and again on one graph: its table of the nodes is kept, so that
-/// a count takes the time of what is below its roots, however much else the graph has.
+/// Counts like [`operations`], repeatedly on one graph: the table of nodes is kept, so the time of a count depends on
+/// the expressions below its roots, not on the size of the graph.
 #[derive(Clone, Debug, Default)]
 pub struct Counter {
     marks: Vec<Mark>,

@@ -47,7 +47,7 @@ impl Rational {
         (denominator != 0).then(|| reduce(i128::from(numerator), i128::from(denominator)))
     }
 
-    /// The exact value of decimal text as robot files hold it: `12`, `-0.35`, `1.5e-3`.
+    /// The exact value of decimal text as in robot files: `12`, `-0.35`, `1.5e-3`.
     ///
     /// `None` if the text is not a finite decimal number, or its exponent is beyond ±400 (no `f64`
     /// is that large or small).

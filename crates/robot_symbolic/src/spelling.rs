@@ -3,9 +3,9 @@
 /// Longer words are not typing mistakes.
 const MAX_LENGTH: usize = 64;
 
-/// The candidate that a misspelt word most likely means, upper and lower case being alike: at most a
-/// third of its letters differ, and no more than three. A beginning of a longer word is as good as
-/// one mistake. Of several that are equally near, the one with the same first letter; else the first.
+/// The candidate that a misspelled word most likely means, regardless of case: at most a third of its letters differ,
+/// and no more than three. A prefix of a longer word counts as one mistake. Among several equally near candidates, it
+/// is the first with the same first letter, or else the first.
 ///
 /// ```
 /// let known = ["revolute", "prismatic", "fixed"];

@@ -46,7 +46,7 @@ impl Workers {
         for address in addresses {
             let failed = |reason: &dyn std::fmt::Display| {
                 Error::Query(format!(
-                    "worker {address}: {reason}; a worker is started by `robot-query worker` and named by HOST:PORT"
+                    "worker {address}: {reason}; start a worker with `robot-query worker` and name it as HOST:PORT"
                 ))
             };
             let url = Url::parse(&format!("http://{address}")).map_err(|error| failed(&error))?;

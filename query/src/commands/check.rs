@@ -9,9 +9,10 @@ use robot_query::log::{Log, check};
 use super::inputs::Variables;
 use super::{Engine, show};
 
-/// What is likely wrong with a log: rows with nulls or NaN, times that repeat or go back, units, files that cannot be read
+/// Lists likely mistakes in a log: rows with nulls or NaN, times that repeat or go back, units, files that cannot be
+/// read
 ///
-/// Fails if there is anything. Findings name the file, the row group and the row.
+/// The exit code is 1 if anything is found. Each finding names the file, the row group and the row.
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query check robots/ur5.toml logs --time t --episode episode")]
@@ -26,7 +27,7 @@ pub(super) struct Arguments {
     /// The column of times, s
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
-    /// The column of episodes, in which times begin anew
+    /// The column of episodes; times start again in each episode
     #[arg(long, value_name = "COLUMN", requires = "time")]
     episode: Option<String>,
 }

@@ -8,10 +8,10 @@ use robot_query::convert::{Conversion, convert};
 
 use super::Engine;
 
-/// A recording as a log: joint states of ROS 2 in MCAP, or a LeRobot data set of version 3
+/// Converts a recording to a log: joint states of ROS 2 in MCAP, or a LeRobot data set, version 3
 ///
-/// The log has episode, t, q as recorded, and qd and qdd by cubics fitted to the positions around each sample (Savitzky
-/// and Golay), besides tau if there are efforts. Joints are found by their names.
+/// The log has the columns episode, t, q as recorded, qd and qdd from cubics fitted to the positions around each
+/// sample (Savitzky and Golay), and tau if there are efforts. Joints are found by name.
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query convert robots/ur5.toml recording.mcap -o log.parquet --window 51
@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     robot: String,
     /// The .mcap file, or the folder of the data set
     recording: PathBuf,
-    /// The samples over which a cubic is fitted
+    /// The number of samples to which a cubic is fitted
     #[arg(long, value_name = "N", default_value_t = 21, value_parser = clap::value_parser!(u32).range(5..))]
     window: u32,
     /// The topic, if several have joint states
@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     /// The names of the robot's joints in the recording, in the robot's order [default: those of the robot file]
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     joints: Option<Vec<String>>,
-    /// Positions are in degrees
+    /// The recording has positions in degrees
     #[arg(long)]
     degrees: bool,
     /// The column of torques of a LeRobot data set, with the entries of observation.state

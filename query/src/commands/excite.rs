@@ -10,10 +10,10 @@ use robot_query::motion::{Excitation, excite, limits};
 use super::generate::positive;
 use super::{Engine, noise, written};
 
-/// A periodic trajectory within the limits of the joints along which the base parameters are told apart best
+/// Finds a periodic trajectory within the joint limits that determines the base parameters well
 ///
-/// A Fourier series for each joint; the condition of the regressor is made small. The answer is CSV with t, q1 …,
-/// qd1 … and qdd1 …, which `robot-symbolic torques --trajectory` reads.
+/// The trajectory is a Fourier series for each joint, chosen for a small condition number of the regressor. The
+/// output is CSV with t, q1 …, qd1 … and qdd1 …, which `robot-symbolic torques --trajectory` reads.
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query excite robots/ur5.toml -o excitation.csv --noise 1,1,1,0.1,0.1,0.1")]
@@ -23,7 +23,7 @@ pub(super) struct Arguments {
     /// The period, s
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = positive)]
     period: f64,
-    /// Rows in a second
+    /// Rows per second
     #[arg(long, value_name = "HZ", default_value_t = 100.0, value_parser = positive)]
     rate: f64,
     /// The largest speed of the joints, rad/s or m/s
@@ -32,10 +32,10 @@ pub(super) struct Arguments {
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint
     #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "1")]
     noise: Vec<f64>,
-    /// How many trajectories are tried
+    /// The number of trajectories to try
     #[arg(long, value_name = "N", default_value_t = 1000)]
     tries: usize,
-    /// Where pseudo-random numbers start
+    /// The seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// The CSV file to write

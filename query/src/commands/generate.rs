@@ -18,16 +18,16 @@ use super::{Engine, noise};
 pub(super) struct Arguments {
     /// The robot: a path, or a name in a folder of --robots
     robot: String,
-    /// The number of rows, as 100000 or 1e5
+    /// The number of rows, such as 100000 or 1e5
     #[arg(long, value_name = "N", value_parser = count)]
     rows: u64,
     /// The number of files
     #[arg(long, value_name = "N", default_value_t = 2)]
     files: u64,
-    /// Rows in a second
+    /// Rows per second
     #[arg(long, value_name = "HZ", default_value_t = 1000.0, value_parser = positive)]
     rate: f64,
-    /// Rows of an episode
+    /// Rows per episode
     #[arg(long, value_name = "N", default_value = "10000", value_parser = count)]
     episode: u64,
     /// The largest speed of the joints, rad/s or m/s
@@ -36,10 +36,10 @@ pub(super) struct Arguments {
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint
     #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "0")]
     noise: Vec<f64>,
-    /// A list for each variable, or a column for each variable and joint, which is faster to read
+    /// The layout: a list for each variable, or a column for each variable and joint, which is faster to read
     #[arg(long, value_enum, default_value_t = Columns::Lists)]
     layout: Columns,
-    /// Where pseudo-random numbers start
+    /// The seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// The folder to write

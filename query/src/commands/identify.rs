@@ -18,11 +18,12 @@ use super::Engine;
 use super::inputs::{Inputs, Opened, explained};
 use super::{noise, show, written};
 
-/// The base parameters that explain the measured torques best, with their standard deviations
+/// Estimates the base parameters from measured torques, with their standard deviations
 ///
-/// Weighted least squares by QR decomposition; the log is read once, in any order, and never held in memory. Friction
-/// and drives are identified with the rest if the robot file has them, with any values. Rows with a null, NaN or
-/// infinity are left out and counted. Parameters that the log does not determine keep the value of the robot file.
+/// The method is weighted least squares by QR decomposition; the log is read once, in any order, and never held in
+/// memory. Friction and drives are also identified if the robot file has them, with any values. Rows with a null, NaN
+/// or infinity are left out and counted. Parameters that the log does not determine keep the value from the robot
+/// file.
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query identify robots/ur5.toml logs
@@ -34,18 +35,19 @@ pub(super) struct Arguments {
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint [default: estimated]
     #[arg(long, value_delimiter = ',', value_name = "NUMBERS")]
     noise: Option<Vec<f64>>,
-    /// Keeps parameters near the robot file: the weight of its values, beside that of all rows of the log, as 0.001
+    /// Keep parameters near those of the robot file: the weight of its values relative to that of all rows of the
+    /// log, such as 0.001
     #[arg(long, value_name = "WEIGHT", default_value_t = 0.0)]
     ridge: f64,
-    /// A parameter that is known: its value, or that of the robot file if none is given, and the standard deviation of
-    /// it, 0 if it is fixed
+    /// A known parameter: its value, by default that of the robot file, and its standard deviation, 0 to fix the
+    /// parameter
     #[arg(long, value_delimiter = ',', value_name = "NAME=VALUE:DEVIATION")]
     prior: Vec<Known>,
-    /// A .csv file with the parameters to write
+    /// The .csv file to write, with the parameters
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// A .toml file with the identified values to write, or a .urdf file from one: of all that bodies can have, those that
-    /// explain the log best
+    /// The .toml file to write, or a .urdf file if the robot file is one, with the identified values: among those
+    /// that are physically possible, the ones that explain the log best
     #[arg(long, value_name = "FILE")]
     write_back: Option<PathBuf>,
 }
@@ -106,12 +108,12 @@ fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), E
         estimate.robot_file(&opened.model, &consistent, &path.to_string_lossy())?;
     let path_shown = path.display();
     let said = if consistent.is_estimate {
-        format!("\nbodies can have the estimate; {path_shown} has it\n")
+        format!("\nthe estimate is physically possible; {path_shown} contains it\n")
     } else {
         let percent = 100.0 * (consistent.growth - 1.0);
         format!(
-            "\nno bodies have the estimate; {path_shown} has what they can have and explains the log best, and the \
-             residual is {percent:.3e} % larger\n"
+            "\nthe estimate is physically impossible; {path_shown} contains the possible values that explain the log \
+             best, with a residual {percent:.3e} % larger\n"
         )
     };
     show(&said)?;
@@ -143,7 +145,12 @@ fn shown(estimate: &Estimate) -> String {
         let _ = match parameter.with.as_slice() {
             [] => writeln!(text, "{} has no effect in this log", parameter.name),
             with => {
-                writeln!(text, "{} acts only together with {}", parameter.name, with.join(", "))
+                writeln!(
+                    text,
+                    "{} has an effect only together with {}",
+                    parameter.name,
+                    with.join(", ")
+                )
             }
         };
     }

@@ -23,10 +23,10 @@ pub(super) struct Inputs {
     log: Vec<PathBuf>,
     #[command(flatten)]
     variables: Variables,
-    /// Only rows of which this SQL expression is true, as in "episode < 10"
+    /// Use only rows for which this SQL expression is true, such as "episode < 10"
     #[arg(long = "where", value_name = "SQL")]
     pub(super) filter: Option<String>,
-    /// Shows how the query would be computed, and computes nothing
+    /// Show how the query would be computed, and compute nothing
     #[arg(long)]
     pub(super) explain: bool,
 }
@@ -34,7 +34,7 @@ pub(super) struct Inputs {
 /// The columns of the joints' variables.
 #[derive(Args)]
 pub(super) struct Variables {
-    /// The column of positions: a list, or the beginning of the names of numbered columns [default: q]
+    /// The column of positions: a list, or the prefix of numbered columns [default: q]
     #[arg(long, value_name = "COLUMN")]
     q: Option<String>,
     /// The column of velocities [default: qd]

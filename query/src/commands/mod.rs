@@ -47,16 +47,16 @@ enum What {
 /// What all subcommands share.
 #[derive(Args)]
 struct Engine {
-    /// A folder whose robot files can be named without path and ending; may be repeated
+    /// A folder whose robot files can be named without path and extension; may be repeated
     #[arg(long, global = true, value_name = "FOLDER")]
     robots: Vec<PathBuf>,
-    /// Threads; with 1, the rows of one file stay in their order [default: one for each core]
+    /// Number of threads; with 1, the rows of one file stay in their order [default: one for each core]
     #[arg(long, global = true, value_name = "N")]
     threads: Option<usize>,
-    /// The most memory that a query may keep, MiB
+    /// The maximum memory of a query, MiB
     #[arg(long, global = true, value_name = "MIB", default_value_t = 1024)]
     memory: usize,
-    /// Machines that compute, started by `robot-query worker`; logs must lie under the same paths there
+    /// Workers, started by `robot-query worker`; logs must have the same paths on their machines
     #[arg(long, global = true, value_delimiter = ',', value_name = "HOST:PORT")]
     workers: Vec<String>,
 }

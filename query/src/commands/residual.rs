@@ -16,9 +16,9 @@ use super::inputs::{Inputs, Opened, explained};
 use super::rows::Rows;
 use super::{Engine, show, written};
 
-/// What the model leaves of measured torques, joint by joint
+/// Computes the residuals of measured torques: the measured torques minus those of the model, joint by joint
 ///
-/// The model is that of the robot file, friction included. Rows with a null, NaN or infinity are left out and counted.
+/// The model is that of the robot file, including friction. Rows with a null, NaN or infinity are left out and counted.
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query residual robots/ur5.toml logs
@@ -27,20 +27,20 @@ use super::{Engine, show, written};
 pub(super) struct Arguments {
     #[command(flatten)]
     inputs: Inputs,
-    /// A .parquet or .csv file, or a folder, with the residual of each row
+    /// The .parquet or .csv file, or the folder, to write, with the residual of each row
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
     /// The columns of the log that are kept in the output [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAMES", requires = "output")]
     columns: Option<Vec<String>>,
-    /// Each Parquet file of the log gets a file in the folder; those that an earlier run finished are kept
+    /// Write a file into the folder for each Parquet file of the log, and keep those that an earlier run finished
     #[arg(long, requires = "output")]
     resume: bool,
-    /// An .svg file with the residuals of each joint over time: their mean, their root mean square, the smallest and the
-    /// largest in each of 300 parts
+    /// The .svg file to write, with the residuals of each joint over time: mean, root mean square, smallest and
+    /// largest in each of 300 intervals
     #[arg(long, value_name = "FILE", conflicts_with = "output")]
     plot: Option<PathBuf>,
-    /// The column of times of the plot, s
+    /// The column of times for the plot, s
     #[arg(long, value_name = "COLUMN", default_value = "t", requires = "plot")]
     time: String,
 }

@@ -49,7 +49,7 @@ impl Rows<'_> {
 
     async fn resume(&self, engine: &Engine, answer: &Answer) -> Result<(), Error> {
         let Answer::Folder(folder) = answer else {
-            let reason = "what is resumed is a folder, whose name has no ending, with a file for each file of the log";
+            let reason = "--resume needs a folder, whose name has no extension, for a file for each file of the log";
             return Err(Error::File {
                 path: self.output.to_owned(),
                 row_group: None,
@@ -81,7 +81,7 @@ impl Rows<'_> {
         };
         let found = resume(&opened.log, folder, &question, table).await;
         let Resumed { computed, kept } = found.map_err(|error| opened.located(error))?;
-        eprintln!("{computed} rows, and {kept} that were there");
+        eprintln!("{computed} rows computed, {kept} kept from an earlier run");
         Ok(())
     }
 }

@@ -9,11 +9,12 @@ use robot_query::log::{Answer, Log, write};
 
 use super::{Engine, show};
 
-/// Answers a query, in which the dynamics are functions and files are tables
+/// Runs an SQL query in which the dynamics are functions and files are tables
 ///
-/// `inverse_dynamics('ur5', q, qd, qdd)` and the other functions of a robot take the robot, then for each input a list,
-/// a struct or numbers; `residual('ur5', q, qd, qdd, tau)` is what the model leaves of torques; `identify('ur5', q, qd,
-/// qdd, tau)` is an aggregate. Tables are paths in quotes, or the log that --log names, as `log`.
+/// `inverse_dynamics('ur5', q, qd, qdd)` and the other functions of a robot take the robot, then for each input a
+/// list, a struct or numbers; `residual('ur5', q, qd, qdd, tau)` is the measured torques minus those of the model;
+/// `identify('ur5', q, qd, qdd, tau)` is an aggregate. Tables are paths in quotes, or `log`, the log that --log
+/// names.
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query --robots robots sql \"SELECT t, gravity('ur5', q) FROM 'logs/*.parquet' LIMIT 3\"
@@ -22,7 +23,7 @@ use super::{Engine, show};
 pub(super) struct Arguments {
     /// The query
     query: String,
-    /// Files and folders of the table `log`
+    /// The files and folders of the table `log`
     #[arg(long, value_name = "PATH")]
     log: Vec<PathBuf>,
     /// The .parquet or .csv file, or the folder, to write [default: a table on standard output]

@@ -12,10 +12,11 @@ use super::Engine;
 use super::inputs::Inputs;
 use super::rows::Rows;
 
-/// The torques of the model along a log, with the friction of the robot file
+/// Computes the torques of the model along a log, with the friction of the robot file
 ///
-/// The answer has the columns of the log and the list `torque`. A .parquet or .csv file has the rows in the order of
-/// the log, and is computed by one thread; a folder gets a file from each thread, or with --resume for each file.
+/// The result has the columns of the log and the list `torque`. A .parquet or .csv file has the rows in the order of
+/// the log, and is computed by one thread; a folder gets a file from each thread or, with --resume, for each file of
+/// the log.
 #[derive(Args)]
 #[command(after_help = "Example:
   robot-query torques robots/ur5.toml logs -o torques.parquet --columns episode,t
@@ -29,7 +30,7 @@ pub(super) struct Arguments {
     /// The columns of the log that are kept [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     columns: Option<Vec<String>>,
-    /// Each Parquet file of the log gets a file in the folder; those that an earlier run finished are kept
+    /// Write a file into the folder for each Parquet file of the log, and keep those that an earlier run finished
     #[arg(long)]
     resume: bool,
 }

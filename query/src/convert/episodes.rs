@@ -82,7 +82,7 @@ impl Episodes {
         place: &dyn Fn() -> String,
     ) -> Result<(), Error> {
         if let Some(last) = self.samples.times.last().filter(|last| **last >= time) {
-            let what = if *last == time { "is there twice" } else { "is before the one before it" };
+            let what = if *last == time { "occurs twice" } else { "is before the previous one" };
             return Err(Error::Columns(format!(
                 "{}: time {time} s {what} ({last} s); remove the sample",
                 place()

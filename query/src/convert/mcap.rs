@@ -47,9 +47,11 @@ pub(super) fn convert(
     let failed = |error: mcap::McapError| {
         let reason = match error {
             mcap::McapError::UnsupportedCompression(name) => {
-                format!("its chunks are compressed by {name}; `mcap decompress` removes it")
+                format!(
+                    "its chunks are compressed by {name}; decompress them with `mcap decompress`"
+                )
             }
-            error => format!("it cannot be read ({error}); `mcap recover` may mend it"),
+            error => format!("it cannot be read ({error}); `mcap recover` may repair it"),
         };
         Error::file(input, reason)
     };
@@ -143,7 +145,7 @@ impl Recording<'_> {
             self.places = Some((name.clone(), found));
         }
         if position.len() != name.len() {
-            return Err(wrong("it has not a position for every joint"));
+            return Err(wrong("it does not have a position for every joint"));
         }
         let has_torques = effort.len() == name.len();
         let log = match &mut self.log {
@@ -156,7 +158,7 @@ impl Recording<'_> {
             )?),
         };
         if log.has_torques() != has_torques {
-            return Err(wrong("efforts are there in some messages only"));
+            return Err(wrong("only some messages have efforts"));
         }
         let now = i128::from(stamp.0) * 1_000_000_000 + i128::from(stamp.1);
         let time = (now - *self.first.get_or_insert(now)) as f64 * 1e-9;

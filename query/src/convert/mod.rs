@@ -78,7 +78,7 @@ fn places(
         return Err(Error::file(
             path,
             format!(
-                "{} joints are named, but {} has {}",
+                "{} joints are given, but {} has {}",
                 wanted.len(),
                 model.robot.name,
                 model.joints()

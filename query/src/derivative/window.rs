@@ -71,8 +71,8 @@ impl WindowUDFImpl for Derivative {
 
 fn usage() -> Error {
     Error::Query(
-        "derivative takes a number or a list, the time, the order, 1 or 2, and perhaps the number of samples of a \
-         window, 5 or more, as in derivative(q, t, 1, 21) OVER (PARTITION BY episode ORDER BY t)"
+        "derivative takes a number or a list, the time, the order (1 or 2) and optionally the number of samples in \
+         a window (5 or more), as in derivative(q, t, 1, 21) OVER (PARTITION BY episode ORDER BY t)"
             .to_owned(),
     )
 }
@@ -164,8 +164,8 @@ fn samples(columns: &Columns) -> Result<Samples, Error> {
                 .filter(|last| time.partial_cmp(last) != Some(std::cmp::Ordering::Greater))
             {
                 return Err(Error::Query(format!(
-                    "derivative: time {time} comes after time {last}, and times must rise; write OVER (PARTITION BY the \
-                     episode ORDER BY the time), and remove rows whose time is there twice"
+                    "derivative: time {time} comes after time {last}, and times must increase; write OVER (PARTITION BY the \
+                     episode ORDER BY the time), and remove rows with repeated times"
                 )));
             }
             samples.times.push(time);

@@ -120,7 +120,9 @@ impl Identification {
     /// The measurements of the robot of that name.
     fn of(&mut self, literal: &str) -> Result<&mut Measurements, Error> {
         if self.robot.as_ref().is_some_and(|(known, _)| known != literal) {
-            return Err(Error::Query("identify takes one robot; group by it".to_owned()));
+            return Err(Error::Query(
+                "identify takes one robot; use GROUP BY for several".to_owned(),
+            ));
         }
         match &mut self.robot {
             Some((_, measurements)) => Ok(measurements),
@@ -206,14 +208,16 @@ fn the_only(literals: &ArrayRef) -> Result<String> {
     let literals = literals.as_string::<i32>();
     let literal = literals.iter().next().flatten().ok_or_else(no_robot)?;
     if literals.iter().any(|other| other != Some(literal)) {
-        return Err(Error::Query("identify takes one robot; group by it".to_owned()).into());
+        return Err(
+            Error::Query("identify takes one robot; use GROUP BY for several".to_owned()).into()
+        );
     }
     Ok(literal.to_owned())
 }
 
 fn no_prior() -> Error {
     Error::Query(
-        "what is known beforehand is the last argument of identify, a literal text, as in 'ridge=0.01, ZZR_2=1.2:0.1'"
+        "the prior is the last argument of identify, a literal text such as 'ridge=0.01, ZZR_2=1.2:0.1'"
             .to_owned(),
     )
 }

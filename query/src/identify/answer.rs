@@ -100,7 +100,7 @@ impl Estimate {
     ///
     /// An array that is not an answer of `identify`.
     pub fn from_array(answers: &dyn Array, row: usize) -> Result<Option<Estimate>, Error> {
-        let other = || Error::Query("this is not an answer of identify".to_owned());
+        let other = || Error::Query("this is not a result of identify".to_owned());
         let answers = answers.as_struct_opt().ok_or_else(other)?;
         if answers.fields() != &fields() || row >= answers.len() {
             return Err(other());

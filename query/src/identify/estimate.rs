@@ -185,7 +185,7 @@ impl Measurements {
         let (kept, left) = independent(scaled);
         if kept.is_empty() {
             let reason =
-                "no parameter acts on any torque of the log: all columns of the regressor are 0";
+                "no parameter affects any torque in the log: all columns of the regressor are 0";
             return Err(Error::Identification(reason.to_owned()));
         }
         let rank = kept.len();

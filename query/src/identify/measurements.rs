@@ -170,7 +170,7 @@ impl Measurements {
     ///
     /// A state of another robot.
     pub(crate) fn merge(&mut self, numbers: &[f64]) -> Result<(), Error> {
-        let other = || Error::Query("the state of `identify` is of another robot".to_owned());
+        let other = || Error::Query("the state of `identify` belongs to another robot".to_owned());
         let (counts, mut numbers) = numbers.split_at_checked(3).ok_or_else(other)?;
         let mut merged = self.joints.clone();
         for joint in &mut merged {

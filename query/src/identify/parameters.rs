@@ -42,7 +42,7 @@ impl Parameters {
         let derivation = Derivation::new(robot, &graph, &options, None);
         let found = base_parameters(&derivation).ok_or_else(|| {
             let reason = robot_build::functions::out_of_reach(robot);
-            failed(reason.unwrap_or("its base parameters are out of reach"))
+            failed(reason.unwrap_or("its base parameters cannot be found"))
         })?;
         if graph.is_full() {
             return Err(failed("its base parameters need too many expressions"));

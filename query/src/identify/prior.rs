@@ -45,8 +45,8 @@ impl FromStr for Known {
     fn from_str(text: &str) -> Result<Known, Error> {
         let wrong = || {
             Error::Identification(format!(
-                "`{text}` does not say what is known of a parameter; write NAME=VALUE:DEVIATION, or NAME=:DEVIATION for \
-                 the value of the robot file, as in ZZR_2=1.2:0.1"
+                "`{text}` is not a prior; write NAME=VALUE:DEVIATION, such as ZZR_2=1.2:0.1, or NAME=:DEVIATION for the \
+                 value in the robot file"
             ))
         };
         let (name, known) = text.split_once('=').ok_or_else(wrong)?;
@@ -106,7 +106,7 @@ impl Placed {
 
     /// # Errors
     ///
-    /// A name that no parameter has, or that is there twice.
+    /// A name that no parameter has, or that occurs twice.
     pub(super) fn of(prior: &Prior, parameters: &Parameters) -> Result<Placed, Error> {
         let mut placed = Placed {
             expected: parameters.nominal.as_slice().to_vec(),

@@ -118,11 +118,11 @@ pub fn check(
 const WHAT: [&str; KINDS] = [
     "a value is null",
     "a value is NaN or infinite",
-    "the time is that of the row before",
-    "the time is before that of the row before",
-    "the time is more than 60 s after that of the row before: is it in seconds?",
+    "the time equals that of the previous row",
+    "the time is before that of the previous row",
+    "the time is more than 60 s after that of the previous row: is it in seconds?",
     "a position is beyond 10 turns: is it in radians?",
-    "a position is beyond the limits of the robot file: is it in radians or meters, and the joint the right one?",
+    "a position is beyond the limits of the robot file: is it in radians or meters, and is it the right joint?",
 ];
 
 /// What positions a coordinate may have.

@@ -46,8 +46,10 @@ impl Log {
         let formats = formats?;
         let format = formats[0];
         if let Some(place) = formats.iter().position(|other| *other != format) {
-            let reason =
-                format!("it has another format than {}; read them by themselves", first.display());
+            let reason = format!(
+                "its format differs from that of {}; read them separately",
+                first.display()
+            );
             return Err(Error::file(&files[place], reason));
         }
         let mut log = Log { files, format, rows: vec![] };
@@ -195,9 +197,9 @@ fn format_of(path: &Path) -> Result<Format, Error> {
         Some("parquet") => Ok(Format::Parquet),
         Some("csv") => Ok(Format::Csv),
         Some("mcap") => {
-            let reason = "an MCAP file is not a table; `robot-query convert` makes one";
+            let reason = "an MCAP file is not a table; `robot-query convert` converts it to one";
             Err(Error::file(path, reason))
         }
-        _ => Err(Error::file(path, "its name ends neither with .parquet nor with .csv")),
+        _ => Err(Error::file(path, "its name ends neither in .parquet nor in .csv")),
     }
 }

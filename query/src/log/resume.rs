@@ -53,7 +53,8 @@ pub async fn resume(
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let output = folder.join(format!("{stem}.parquet"));
         if seen.contains(&output) {
-            let reason = "another file of the log has its name; rename it, or answer them apart";
+            let reason =
+                "another file of the log has the same name; rename it, or compute them separately";
             return Err(Error::file(path, reason));
         }
         seen.push(output.clone());
@@ -103,7 +104,7 @@ fn kept(path: &Path, words: &str) -> Result<Resumed, Error> {
     let mut pairs = metadata.key_value_metadata().into_iter().flatten();
     let found = pairs.find(|pair| pair.key == KEY).and_then(|pair| pair.value.as_deref());
     if found != Some(words) {
-        let reason = "it answers another question: of another robot, other columns or another file; remove it or choose \
+        let reason = "it is the result of a different query (another robot, other columns or another file); remove it or choose \
                       another folder";
         return Err(Error::file(path, reason));
     }

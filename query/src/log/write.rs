@@ -46,8 +46,7 @@ impl Answer {
             Some("csv") => Ok(Answer::Csv(path.to_owned())),
             None => Ok(Answer::Folder(path.to_owned())),
             Some(_) => {
-                let reason =
-                    "an answer is a .parquet or .csv file, or a folder, whose name has no ending";
+                let reason = "the output must be a .parquet or .csv file, or a folder, whose name has no extension";
                 Err(Error::file(path, reason))
             }
         }
@@ -103,8 +102,8 @@ pub fn is_whole(rows: u64, wanted: Option<u64>) -> Result<(), Error> {
     match wanted.filter(|wanted| *wanted != rows) {
         None => Ok(()),
         Some(wanted) => Err(Error::Query(format!(
-            "the answer has {rows} of the log's {wanted} rows, and was not kept; were files changed meanwhile? repeat \
-             the query"
+            "the result has {rows} of the log's {wanted} rows and was not kept; perhaps files have changed: repeat the \
+             query"
         ))),
     }
 }
@@ -258,8 +257,8 @@ fn flatten(
         }
         DataType::List(_) | DataType::LargeList(_) | DataType::ListView(_) => {
             Err(Error::Columns(format!(
-                "column `{name}` has lists of any length, which CSV has no place for; write Parquet, or leave it out \
-                 with --columns"
+                "column `{name}` has lists of any length, which CSV cannot represent; write Parquet, or leave it out with \
+                 --columns"
             )))
         }
         _ => {

@@ -52,7 +52,7 @@ pub fn excite(model: &Arc<Model>, how: &Excitation) -> Result<(Trajectory, f64),
     }
     best.filter(|(_, condition)| condition.is_finite()).ok_or_else(|| {
         Error::Identification(
-            "no trajectory that was tried moves all parameters; try more, or faster ones"
+            "none of the trajectories tried determines all parameters; try more, or faster ones"
                 .to_owned(),
         )
     })

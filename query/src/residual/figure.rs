@@ -147,7 +147,7 @@ pub async fn figure(table: DataFrame, model: &Model) -> Result<Figure, Error> {
     let mut stream = table.execute_stream().await?;
     while let Some(batch) = stream.next().await {
         let batch = batch?;
-        let other = || Error::Query("this is not an answer of residual".to_owned());
+        let other = || Error::Query("this is not a result of residual".to_owned());
         let lists = batch.column(0).as_fixed_size_list_opt().ok_or_else(other)?;
         let values = lists.values().as_primitive_opt::<Float64Type>().ok_or_else(other)?.values();
         let times = cast(batch.column(1), &DataType::Float64)
@@ -211,5 +211,5 @@ async fn range(table: DataFrame) -> Result<[f64; 2], Error> {
     };
     let found = batches.iter().find(|batch| batch.num_rows() > 0);
     let found = found.and_then(|batch| Some([number(batch, 0)?, number(batch, 1)?]));
-    found.ok_or_else(|| Error::Columns("the log has no times that are finite".to_owned()))
+    found.ok_or_else(|| Error::Columns("the log has no finite times".to_owned()))
 }

@@ -61,7 +61,7 @@ pub async fn statistics(table: DataFrame, rows: Option<u64>) -> Result<Residuals
     let mut stream = execute_stream(plan, context)?;
     while let Some(batch) = stream.next().await {
         let batch = batch?;
-        let other = || Error::Query("this is not an answer of residual".to_owned());
+        let other = || Error::Query("this is not a result of residual".to_owned());
         let lists = batch.column(0).as_fixed_size_list_opt().ok_or_else(other)?;
         let size = lists.value_length().unsigned_abs() as usize;
         found.sums.resize(size, [0.0; 3]);

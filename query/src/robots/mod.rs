@@ -102,8 +102,6 @@ impl Robots {
             [] => "no robot is registered".to_owned(),
             names => format!("registered are {}", names.join(", ")),
         };
-        format!(
-            "this is not a name that is registered, nor a path to a .toml or .urdf file ({known})"
-        )
+        format!("this is neither a registered name nor a path to a .toml or .urdf file ({known})")
     }
 }

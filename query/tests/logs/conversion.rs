@@ -119,7 +119,7 @@ fn times_that_repeat_and_joints_that_are_missing_are_named() {
     let (input, output) = (folder.path().join("a.mcap"), folder.path().join("log.parquet"));
     recording(&input, &[0.0, 0.01, 0.01, 0.02]);
     let error = converted(&input, &usual(), &output).unwrap_err().to_string();
-    assert!(error.contains("a.mcap, message 3: time 0.01 s is there twice"), "{error}");
+    assert!(error.contains("a.mcap, message 3: time 0.01 s occurs twice"), "{error}");
     recording(&input, &[0.0, 0.01, 0.02, 0.03]);
     let joints = Some(vec!["1".to_owned(), "elbow".to_owned()]);
     let how = Conversion { joints, ..usual() };

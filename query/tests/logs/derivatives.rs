@@ -103,7 +103,7 @@ fn calls_that_make_no_sense_are_refused() {
     let folder = TempDir::new().unwrap();
     let path = recording(folder.path(), |row| STEP * (row - row % 2) as f64);
     let error = asked(&path, 1, "q, t, 1").unwrap_err().to_string();
-    assert!(error.contains("time 0 comes after time 0, and times must rise"), "{error}");
+    assert!(error.contains("time 0 comes after time 0, and times must increase"), "{error}");
     for wrong in ["q, t, 3", "q, t", "q, t, 1, 3", "q, t, 1.5, x", "'q', t, 1"] {
         let error = asked(&path, 1, wrong).unwrap_err().to_string();
         let is_said = error.contains("derivative takes") || error.contains("No field named x");

@@ -115,7 +115,7 @@ fn wrong_words_are_refused() {
         ("ZZR_9=1:1", "`ZZR_9` is not a base parameter; the base parameters are ZZR_1"),
         ("ZZR_2=1:1, ZZR_2=2:1", "`ZZR_2` is named twice"),
         ("ridge=much", "`ridge=much`: a ridge is a number, 0 or more"),
-        ("ZZR_2", "`ZZR_2` does not say what is known of a parameter"),
+        ("ZZR_2", "`ZZR_2` is not a prior"),
     ] {
         let error = identified(1, &files, &path, &format!(", '{words}'")).unwrap_err().to_string();
         assert!(error.contains(wanted), "{words}: {error}");

@@ -56,11 +56,11 @@ fn answers_to_other_questions_are_not_taken() {
     let answers = folder.path().join("answers");
     torques(&log, &answers, "torques", "").unwrap();
     let error = torques(&log, &answers, "torques of another robot", "").unwrap_err().to_string();
-    assert!(error.contains("part-0000.parquet: it answers another question"), "{error}");
+    assert!(error.contains("part-0000.parquet: it is the result of a different query"), "{error}");
     // The log has changed since: another file of the same size.
     fs::copy(&logged[0], &logged[1]).unwrap();
     let error = torques(&log, &answers, "torques", "").unwrap_err().to_string();
-    assert!(error.contains("part-0001.parquet: it answers another question"), "{error}");
+    assert!(error.contains("part-0001.parquet: it is the result of a different query"), "{error}");
 }
 
 #[test]
@@ -70,6 +70,6 @@ fn an_answer_that_lacks_rows_is_not_kept() {
     let log = Log::open(&[folder.path().to_owned()]).unwrap();
     let answers = folder.path().join("answers");
     let error = torques(&log, &answers, "torques", "LIMIT 999").unwrap_err().to_string();
-    assert!(error.contains("the answer has 999 of the log's 1000 rows"), "{error}");
+    assert!(error.contains("the result has 999 of the log's 1000 rows"), "{error}");
     assert_eq!(fs::read_dir(&answers).unwrap().count(), 0);
 }

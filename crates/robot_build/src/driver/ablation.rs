@@ -20,9 +20,9 @@ const MAX_NODES: usize = 40_000;
 /// The functions with one option or pass left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ablation {
-    /// The part that is left out: `none`, a key of a pinned plan, or a pass.
+    /// The option or pass that is left out: `none`, a key of a pinned plan, or a pass.
     pub without: &'static str,
-    /// The cost of each function without it, by the function's name.
+    /// The operation counts of each function without it, by the function's name.
     pub counts: Vec<(String, FunctionCounts)>,
 }
 

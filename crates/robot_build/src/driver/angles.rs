@@ -7,9 +7,9 @@ use robot_model::variable::JointVariable;
 use robot_runtime::trig::double::LIMIT;
 use robot_symbolic::Formula;
 
-/// Why nothing at these positions (rad or m) has a value: the first joint whose angle is one for which the
-/// polynomials of the runtime give NaN, or all angles together, which a plan may add up; `None` if
-/// neither is.
+/// The reason why functions have no values at these positions (rad or m): the first joint whose angle is so large
+/// that the runtime's polynomials give NaN, or the sum of all angles, which a plan may form; `None` if neither is too
+/// large.
 #[must_use]
 pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> Option<String> {
     if trigonometry == Trigonometry::Standard {

@@ -26,7 +26,7 @@ pub enum Resource {
     Stack,
 }
 
-/// A function that costs more than it may.
+/// A function that exceeds its budget.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Over {
     /// The function.
@@ -71,7 +71,7 @@ impl fmt::Display for Over {
     }
 }
 
-/// The most bytes of stack that a function may take; `None` if nothing limits it.
+/// The maximum stack of a function, bytes; `None` if nothing limits it.
 #[must_use]
 pub fn max_stack(programs: &Programs, options: &Options, function: &str) -> Option<u64> {
     let of_file = limits(programs, function).filter_map(|(_, stack)| stack);

@@ -16,7 +16,7 @@ const PARAMETERS: [f64; 5] = [1.5, 0.8, 1.2, 0.6, 1.1];
 pub struct CheckValue {
     /// The function.
     pub function: String,
-    /// The parameters without nominal values, with the values taken for them.
+    /// The parameters without nominal values, with the values used for them.
     pub parameters: Vec<(String, f64)>,
     /// The inputs.
     pub inputs: Vec<(String, Vec<f64>)>,
@@ -28,7 +28,7 @@ pub struct CheckValue {
 ///
 /// # Errors
 ///
-/// A function that the module has not.
+/// If the module does not have the function.
 pub fn check_value(
     name: &str,
     programs: &Programs,

@@ -23,11 +23,11 @@ pub struct Generated {
     pub module_name: String,
     /// Likely mistakes in the robot file.
     pub warnings: Diagnostics,
-    /// The constant angles that were taken for multiples of π/2.
+    /// The constant angles that were snapped to multiples of π/2.
     pub snapped: Vec<Snap>,
-    /// The cost of each function, by its name.
+    /// The operation counts of each function, by its name.
     pub counts: Vec<(String, FunctionCounts)>,
-    /// The names of the sources that were read: a change of any may change the code.
+    /// The names of the sources that were read: a change to any of them may change the code.
     pub files_read: Vec<String>,
 }
 

@@ -27,13 +27,13 @@ pub struct Pivots {
     joints: Vec<String>,
 }
 
-/// A pivot at a state that leaves forward dynamics few digits or none.
+/// A pivot at a state for which forward dynamics has few correct digits or none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pivot {
     /// The joint.
     pub joint: String,
-    /// The pivot as a part of the joint's entry on the diagonal of M; not above 0, or NaN, if the state
-    /// has no accelerations.
+    /// The pivot as a fraction of the joint's entry on the diagonal of M; not above 0, or NaN, if the state has no
+    /// accelerations.
     pub part: f64,
     /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15. With 0 the
     /// pivot is rounding alone, and the state has no accelerations.
@@ -65,19 +65,19 @@ impl Pivots {
         Ok(Pivots { interpreter, joints })
     }
 
-    /// The pivots with sines and cosines from elsewhere than the standard library.
+    /// The pivots with sines and cosines from this source instead of the standard library.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
         let interpreter = self.interpreter.with_trigonometry(trigonometry);
         Pivots { interpreter, ..self }
     }
 
-    /// The smallest pivot at positions, where it is below 10⁻⁸ of the joint's entry on the diagonal of M or
-    /// has fewer than eight digits left.
+    /// The smallest pivot at positions, if it is below 10⁻⁸ of the joint's entry on the diagonal of M or has fewer
+    /// than eight correct digits.
     ///
     /// # Errors
     ///
-    /// Positions of another number.
+    /// If the number of positions is wrong.
     pub fn smallest(&self, q: &[f64]) -> Result<Option<Pivot>, robot_codegen::Errors> {
         let values =
             self.interpreter.call_rounded("pivots", &[(JointVariable::Position.name(), q)])?;

@@ -7,14 +7,13 @@ use crate::error::{Error, Errors};
 /// More problems than this are counted, not shown.
 const MAX_SHOWN: usize = 40;
 
-/// One thing that is wrong.
+/// An error.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// The place, if there is one, and what is wrong, on one line:
-    /// ``lift.toml:52:9: error R0303: `m5` is not a parameter of this robot``.
+    /// The place, if there is one, and the error, on one line: ``lift.toml:52:9: error R0303: `m5` is not a parameter
+    /// of this robot``.
     pub headline: String,
-    /// The rest, on lines of its own: an excerpt of the file, the reason, the remedy. May be
-    /// empty.
+    /// Further lines: an excerpt of the file, the reason, the remedy. May be empty.
     pub details: String,
 }
 
@@ -25,7 +24,7 @@ impl Problem {
 }
 
 impl Errors {
-    /// All that is wrong, thing by thing; never empty. Warnings are left out.
+    /// All errors, one by one; never empty. Warnings are left out.
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems: Vec<Problem> = self.as_slice().iter().flat_map(of_error).collect();

@@ -26,13 +26,13 @@ pub struct Programs {
     pub robot: Robot,
     /// Likely mistakes in the file.
     pub warnings: Diagnostics,
-    /// The constant angles that were taken for multiples of π/2.
+    /// The constant angles that were snapped to multiples of π/2.
     pub snapped: Vec<Snap>,
-    /// The functions that were wanted, each by itself.
+    /// The requested functions, each by itself.
     pub functions: Vec<FunctionKind>,
-    /// The functions that were wanted in one call.
+    /// The requested bundles.
     pub bundles: Vec<Bundle>,
-    /// The limits that the file sets for the functions' cost.
+    /// The budgets of the file for the functions.
     pub budgets: Vec<Budget>,
     /// The programs: what the interpreter runs and the backends print.
     pub module: Module,
@@ -86,7 +86,7 @@ pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
     if options.search { given.or_else(searched) } else { given }
 }
 
-/// The options with the plan that they ask for: what is made with them several times searches once.
+/// The options with the plan that they ask for, so that several uses of them search only once.
 #[must_use]
 pub fn planned(robot: &Robot, options: &Options) -> Options {
     Options { plan: plan_of(robot, options), search: false, ..options.clone() }

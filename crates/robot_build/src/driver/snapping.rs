@@ -16,7 +16,7 @@ const TRIED: [f64; 3] = [1e-6, 1e-4, 1e-3];
 /// The effect of snapping on a robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapping {
-    /// Under the tolerance that is taken.
+    /// The effect of the tolerance in use.
     pub taken: Tried,
     /// The effects of larger tolerances, each of which snaps more angles.
     pub larger: Vec<Tried>,
@@ -29,7 +29,7 @@ pub struct Tried {
     pub tolerance: f64,
     /// The angles that are changed.
     pub snapped: Vec<Snap>,
-    /// Multiplications, additions and divisions of inverse dynamics then, sines and cosines apart.
+    /// Multiplications, additions and divisions of inverse dynamics with this tolerance, without sines and cosines.
     pub operations: usize,
 }
 
@@ -41,12 +41,12 @@ impl Tried {
     }
 }
 
-/// Computes the effect of snapping on a robot: with the tolerance given, else the file's, and with larger ones.
-/// All under one plan, the default one if none is given.
+/// Computes the effect of snapping on a robot, with the given tolerance or else the file's, and with larger ones, all
+/// under one plan, by default the default plan.
 ///
 /// # Errors
 ///
-/// A tolerance that is not an angle; a plan that is not the robot's.
+/// If the tolerance is not an angle, or the plan is not one for the robot.
 pub fn snapping(robot: &Robot, snap: Option<f64>, plan: Option<&Plan>) -> Result<Snapping, Errors> {
     let tolerance = MechanismOptions::ROUNDED.with_snap(snap, robot).snap;
     let taken = tried(robot, tolerance, plan)?;

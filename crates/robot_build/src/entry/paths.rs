@@ -12,7 +12,7 @@ use crate::error::{Error, Errors, shown};
 /// A robot file that has been read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RobotFile {
-    /// Its path, symbolic links followed.
+    /// Its path, with symbolic links followed.
     pub path: PathBuf,
     /// Its text, under the path as it was given.
     pub source: Source,

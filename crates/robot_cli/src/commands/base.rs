@@ -20,16 +20,16 @@ use crate::text;
   robot-symbolic base robots/puma560.toml --format latex --width 8.5cm
   robot-symbolic base robots/puma560.toml --format json
 
-The base parameters are the smallest set of combinations of link and drive parameters that determines the
-joint torques. Each is shown with its formula and its value, and named as by Khalil and Dombre: XX to ZZ are
-the entries of a link's inertia tensor about the origin of its frame, MX, MY, MZ its first moment, M its mass;
-IA is a drive's reflected inertia (armature), FV, FP, FN its viscous, forward and backward friction, FO its
-friction offset, IC the coupling of its rotor. The number of the link follows. In JSON, `column` is the
-parameter's column in the full regressor; the function regressor_base has only these columns.
+The base parameters are the smallest set of combinations of link and drive parameters that determines the joint
+torques. Each is shown with its formula and value, under the name that Khalil and Dombre use: XX to ZZ are the
+entries of a link's inertia tensor about the origin of its frame, MX, MY, MZ its first moment, M its mass; IA is
+a drive's reflected inertia (armature), FV its viscous friction, FP and FN its dry friction forward and
+backward, FO its friction offset, IC the coupling of its rotor. The number of the link follows. In JSON,
+`column` is the parameter's column in the full regressor; the function regressor_base has only these columns.
 
-With --base-frames denavit_hartenberg they are first and second moments (SXX is the integral of x^2 dm) in
-Denavit-Hartenberg frames; the formulas still use the parameters in the file's frames, and the parameters do
-not have a column of their own in the full regressor.")]
+With --base-frames denavit_hartenberg the base parameters are first and second moments (SXX is the integral of
+x^2 dm) in Denavit-Hartenberg frames; their formulas still use the parameters in the file's frames, and they do
+not correspond to single columns of the full regressor.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

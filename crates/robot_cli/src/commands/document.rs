@@ -23,10 +23,10 @@ use crate::robot::RobotArgument;
   robot-symbolic document robots/trttr1.toml -o trttr1.typ
 
 The document contains a figure of the robot, tables of links and masses, the frames, the numbered equations in
-the chosen forms, the symbols that occur with their values, and the joint torques at one state to check an
-implementation against. A file NAME.typ, or --format typst, is for Typst and needs nothing else; NAME.md is Markdown without
-the figure, for pages such as GitHub's. LaTeX needs the
-packages amsmath and geometry, TikZ for the figure, and two runs for references.")]
+the chosen forms, the symbols that occur with their values, and the joint torques at one state, with which an
+implementation can be checked. A file NAME.typ, or --format typst, is for Typst and needs no packages; NAME.md
+is Markdown without the figure, for sites such as GitHub. LaTeX needs the packages amsmath and geometry, TikZ
+for the figure, and two runs for references.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
     /// Number of columns on a page
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
     columns: u8,
-    /// Width of a column, such as 8.5cm [default: what fits on A4]
+    /// Width of a column, such as 8.5cm [default: as wide as fits on A4]
     #[arg(long, value_name = "WIDTH", value_parser = centimeters, allow_hyphen_values = true)]
     width: Option<f64>,
     /// The file to write; `-` is standard output [default: -]

@@ -18,8 +18,8 @@ use crate::robot::{CodeArguments, LanguageArgument, RobotArgument};
   robot-symbolic generate robots/ur5.toml --function all --batch --fused
   robot-symbolic generate robots/ur5.toml --bundle dynamics=mass_matrix,bias
 
-The file contains one module, named after the robot in lower case; it uses the crate robot_runtime.
-With --check nothing is written, and the exit code is 1 if the file is out of date.")]
+The file contains one module, named after the robot in lower case; it uses the crate robot_runtime. --check
+writes nothing, and the exit code is 1 if the file is out of date.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

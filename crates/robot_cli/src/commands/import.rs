@@ -16,9 +16,9 @@ use crate::text;
 #[command(after_help = "Example:
   robot-symbolic import arm.urdf -o robots/arm.toml
 
-The robot file keeps the names and values of the source; every choice that was made is reported. Checks that
-are waived here are waived in the robot file too, so that the other commands accept it. A robot file is meant
-to be edited: an existing file with other content is replaced only with --force.")]
+The robot file keeps the names and values of the source; every choice is reported. Checks that are waived here
+are also waived in the robot file, so the other commands accept it. A robot file is meant to be edited: an
+existing file with other content is replaced only with --force.")]
 pub(crate) struct Arguments {
     /// The URDF file
     file: PathBuf,

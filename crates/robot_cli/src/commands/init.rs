@@ -21,11 +21,11 @@ const NAME: &str = "my_robot";
   robot-symbolic init
   robot-symbolic init two_link
 
-Writes NAME.toml, a planar arm of two links with a comment on each key, to be edited. Its first line names the
-JSON schema for editors; `robot-symbolic schema` writes that. docs/robot-file.md describes all keys, and
-`import` makes a robot file of a URDF file.")]
+Writes NAME.toml, a planar arm with two links and a comment on each key, to be edited. Its first line names the
+JSON schema for editors, which `robot-symbolic schema` writes. docs/robot-file.md describes all keys, and
+`import` converts a URDF file to a robot file.")]
 pub(crate) struct Arguments {
-    /// The name of the robot, and of the file before `.toml`
+    /// The name of the robot, and of the file without `.toml`
     #[arg(default_value = NAME, value_parser = name)]
     name: String,
     #[command(flatten)]
@@ -38,7 +38,9 @@ fn name(text: &str) -> Result<String, String> {
     let name = text.strip_suffix(".toml").unwrap_or(text);
     let is_fine = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(is_fine) {
-        return Err("a name begins with a letter and has letters, digits and _ only".to_owned());
+        return Err(
+            "a name begins with a letter and contains only letters, digits and _".to_owned()
+        );
     }
     let refused = description::read_toml(name, &named(name)).err();
     let refused = refused.as_ref().and_then(|found| found.iter().next());
@@ -67,7 +69,7 @@ impl Arguments {
         if std::fs::read(&path).is_ok_and(|present| present == bytes) {
             writeln!(
                 terminal.errors,
-                "{file} is there already, as init writes it; it is not written again"
+                "{file} already exists as init writes it; it is not written again"
             )?;
         } else {
             let output = Output { path: path.clone(), bytes, ownership };

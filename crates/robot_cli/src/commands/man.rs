@@ -15,11 +15,11 @@ use crate::{Cli, Terminal};
   robot-symbolic man man1
   robot-symbolic man > robot-symbolic.1
 
-The pages contain the texts of --help. `man -l man1/robot-symbolic-equations.1` shows one; in a folder man1
-below a folder of MANPATH, man finds them by name.")]
+The pages contain the text of --help. `man -l man1/robot-symbolic-equations.1` shows one; if they are in a
+folder man1 below a folder in MANPATH, man finds them by name.")]
 pub(crate) struct Arguments {
-    /// The folder to write: a page for the program and one for each command. Without a folder, the
-    /// program's own page goes to standard output
+    /// The folder to write, with a page for the program and one for each command. Without a folder, the program's own
+    /// page goes to standard output
     #[arg(value_name = "DIR")]
     folder: Option<PathBuf>,
     /// Compare the files with what would be written, and write nothing

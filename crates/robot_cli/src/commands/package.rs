@@ -18,8 +18,8 @@ use crate::robot::{CodeArguments, LanguageArgument, RobotArgument};
   robot-symbolic crate robots/trttr1.toml -o trttr1 --check
 
 The crate has no dependencies and does not need the standard library; its README contains the conventions, the
-operation counts and a check value for each function, which the crate's test asserts. With --check nothing is
-written, and the exit code is 1 if a file is out of date.")]
+operation counts and a check value for each function, which the crate's test asserts. --check writes nothing,
+and the exit code is 1 if a file is out of date.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

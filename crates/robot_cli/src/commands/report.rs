@@ -21,25 +21,25 @@ use crate::text;
   robot-symbolic report robots/panda.toml -o panda.html --without-compiler
 
 The page is a single file that needs no other file and no network: the kinematic scheme, tables of joints,
-masses and parameters, the equations of motion, the structure of the matrices, operations by function, stage
-and option, and evidence. It works on screens, dark and light, in print and with screen readers; hover a link,
+masses and parameters, the equations of motion, the structure of the matrices, operations by function, stage and
+option, and evidence. It works on screens, dark and light, in print and with screen readers; hover over a link,
 a parameter or a term to highlight everything related to it.
 
-For the evidence, the code is compiled by rustc (the variable RUSTC, or `rustc`); without a compiler the page
-says that there is none.")]
+For the evidence, rustc compiles the code (the variable RUSTC, or `rustc`); if there is no compiler, the page
+says so.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     #[command(flatten)]
     output: OutputArguments,
-    /// Show the page in the browser; without --output, the page is NAME.html in this folder, NAME that of the
-    /// robot file
+    /// Show the page in the browser; without --output, the page is NAME.html in the current folder, where NAME is
+    /// that of the robot file
     #[arg(long, conflicts_with = "check")]
     open: bool,
     /// Do not start a compiler: the page then has no evidence about machine code
     #[arg(long)]
     without_compiler: bool,
-    /// Leave out the part in which the robot moves, and the script of it
+    /// Leave out the part in which the robot moves, and its script
     #[arg(long)]
     without_live: bool,
 }

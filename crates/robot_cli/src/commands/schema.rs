@@ -15,10 +15,10 @@ use crate::failure::Failure;
 #[command(after_help = "Example:
   robot-symbolic schema -o robot-file.schema.json
 
-With the schema, an editor with a TOML language server completes keys, explains them, and underlines misspelled
-ones, in files that begin with the line
+With the schema, an editor with a TOML language server completes keys, explains them and underlines misspelled
+ones in files that begin with the line
   #:schema ./robot-file.schema.json
-The schema covers keys and types of values; `check` finds everything else.")]
+The schema covers only keys and types of values; `check` also checks their meaning.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     output: OutputArguments,

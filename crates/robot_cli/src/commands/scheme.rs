@@ -13,9 +13,10 @@ use crate::robot::RobotArgument;
   robot-symbolic scheme robots/trttr1.toml -o trttr1.svg
   robot-symbolic scheme robots/trttr1.toml -o trttr1.pdf
 
-The picture is that of `report`: the robot at q = 0, cylinders for revolute joints, boxes for prismatic ones, with
-axes, lengths, frames and names. An SVG file is for browsers and word processors, a file NAME.pdf for LaTeX and
-other programs that take figures; its labels are in the fonts that every PDF viewer has, and are not embedded.")]
+The picture is that of `report`: the robot at q = 0, cylinders for revolute joints, boxes for prismatic ones,
+with axes, lengths, frames and names. An SVG file is for browsers and word processors, a file NAME.pdf for LaTeX
+and other programs that include figures; the PDF uses the standard fonts that every viewer has, and embeds
+none.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

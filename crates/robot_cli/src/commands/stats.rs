@@ -25,16 +25,16 @@ use crate::text;
   robot-symbolic stats robots/puma560.toml --function inverse_dynamics --options
   robot-symbolic stats robots/puma560.toml --function mass_matrix,bias --bundle both=mass_matrix,bias
 
-Subtractions count as additions, sign changes are not counted, and a fused multiply-add counts as both of its
-operations. `other` are absolute values, signs and hyperbolic tangents. The operations of the constructor, once
-per set of parameters, are counted separately.
+Subtractions count as additions, sign changes are not counted, and a fused multiply-add counts as two
+operations. `other` counts absolute values, signs and hyperbolic tangents. The operations of the constructor,
+once per set of parameters, are counted separately.
 
-The size of the code is an estimate for x86-64, most often to a tenth. Code beyond 32 KB does not fit the instruction
-cache of most processors: a call then takes at least the time of fetching it.
+The size of the code is an estimate for x86-64, usually within a tenth. Code larger than 32 KB does not fit the
+instruction cache of most processors: a call then takes at least the time to fetch it.
 
-With --passes, the operations of each function after each pass; `as built` is the result of the recursion,
-`constructor` what remains for calls. With --options, the operations of each function without one option of
-the recursion or one pass; the savings do not add up, because the options interact.")]
+--passes shows the operations of each function after each pass; `as built` is the result of the recursion,
+`constructor` what remains for calls. --options shows the operations of each function without one option of the
+recursion or one pass; the savings do not add up, because the options interact.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

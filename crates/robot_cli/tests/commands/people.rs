@@ -133,7 +133,7 @@ fn a_first_robot_is_written_and_kept() {
     let text = shell.run("cat two_link.toml").output;
     assert!(text.starts_with("#:schema ") && text.contains("name = \"two_link\""), "{text}");
     let untouched = shell.run("robot-symbolic init two_link");
-    let message = "two_link.toml is there already, as init writes it; it is not written again\n";
+    let message = "two_link.toml already exists as init writes it; it is not written again\n";
     assert_eq!((untouched.code, untouched.errors.as_str()), (Some(0), message));
     let again = shell.run("echo '# mine' >> two_link.toml; robot-symbolic init two_link.toml");
     assert_eq!(again.code, Some(1));
@@ -147,7 +147,7 @@ fn a_first_robot_is_written_and_kept() {
 fn a_first_robot_has_a_name_that_robots_can_have() {
     let shell = Shell::new();
     for (name, reason) in [
-        ("two-link", "letters, digits and _ only"),
+        ("two-link", "only letters, digits and _"),
         (
             "q1",
             "a joint's position, velocity, acceleration or torque; choose another name, such as `q1_1`",

@@ -189,7 +189,7 @@ fn a_tuned_plan_is_one_of_those_with_the_fewest_operations() {
     }
     assert_eq!(outcome.code, 0, "{}", outcome.errors);
     // The table of times: operations are 274 at least, and one plan is chosen.
-    let rows = outcome.output.lines().skip_while(|line| !line.contains("ns a call")).skip(1);
+    let rows = outcome.output.lines().skip_while(|line| !line.contains("ns per call")).skip(1);
     let rows: Vec<&str> = rows.take_while(|line| !line.trim().is_empty()).collect();
     assert!(rows.len() > 1, "{}", outcome.output);
     for row in &rows {

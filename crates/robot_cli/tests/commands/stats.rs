@@ -56,7 +56,7 @@ fn code_sizes_are_told() {
     let shown = output(&arguments, "");
     let line = shown.lines().last().unwrap();
     assert!(line.starts_with("forward_dynamics_derivatives: about 3"), "{line}");
-    let end = "KB instruction cache; expect the time of fetching it, some ";
+    let end = "KB instruction cache; expect the time to fetch it, about ";
     assert!(line.contains(end) && line.ends_with(" ns at 3.7 GHz"), "{line}");
 }
 

@@ -54,16 +54,16 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (title, introduction) = match writer.options.form {
         Form::Collected => (
             "Equations of motion, collected",
-            "Common factors stand in front of brackets. Each equation is equal to its expanded form, term by term.",
+            "Common factors stand in front of parentheses. Each equation is equal to its expanded form, term by term.",
         ),
         _ if !writer.options.order.is_empty() => (
             "Equations of motion, expanded",
-            "Before each vector is the relation that it follows from. Terms are in the order of the published equations; even \
+            "Each vector is preceded by the relation that defines it. Terms are in the order of the published equations; even \
              powers of sines are replaced by cosines, and like terms are merged.",
         ),
         _ if writer.options.paper => (
             "Equations of motion, expanded",
-            "Before each vector is the relation that it follows from. Terms are in the order in which the relations yield \
+            "Each vector is preceded by the relation that defines it. Terms are in the order in which the relations yield \
              them; even powers of sines are replaced by cosines, and like terms are merged.",
         ),
         _ => (

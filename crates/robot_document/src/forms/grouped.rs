@@ -62,14 +62,14 @@ fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
     };
     let equal = match is_united {
         true => {
-            " Where a coefficient equals an earlier one, perhaps with the other sign, that one stands in its place."
+            " A coefficient that equals an earlier one, perhaps with the opposite sign, is replaced by it."
         }
         false => "",
     };
     format!(
-        "The coefficients of the accelerations (the entries of the symmetric mass matrix), the Coriolis and \
-         centrifugal terms by {rates}, and the gravity terms. The coefficients depend on the coordinates alone; \
-         those that are zero have no equation of their own.{equal}"
+        "These are the coefficients of the accelerations (the entries of the symmetric mass matrix), the {rates} \
+         for the Coriolis and centrifugal terms, and the gravity terms. They depend only on the coordinates; those \
+         that are zero have no equation of their own.{equal}"
     )
 }
 

@@ -137,7 +137,7 @@ fn conventions(
                 " is the joint torque of a revolute joint or the joint force of a prismatic \
                  joint, positive along the axis. The wrench of a tip is the wrench that the tip \
                  exerts on its surroundings; the external wrench, which acts on the tip, is its \
-                 negative. Units are SI and radians. ",
+                 negative. Units are SI, with angles in radians. ",
             ),
             Inline::text(format!("{friction}{rounded}{}", snapped(snaps))),
         ]),

@@ -49,10 +49,10 @@ pub struct BaseParameters<'g> {
     pub standard: Vec<(StandardParameter, Expr<'g>)>,
     /// The base parameters, in the order of their columns.
     pub base: Vec<BaseParameter<'g>>,
-    /// Whether coefficients were found at seeded states, and rounded: if joints share a coordinate and
-    /// that matters.
+    /// Whether coefficients were found at seeded states and rounded, which is so if joints share a coordinate and
+    /// this matters.
     pub rounded: bool,
-    /// Over which parameters of links they are.
+    /// The frames of the parameters.
     pub frames: BaseFrames,
 }
 

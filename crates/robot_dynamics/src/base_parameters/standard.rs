@@ -12,19 +12,19 @@ pub enum Quantity {
     /// One of the link's ten: m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz, with the first
     /// moment h and the tensor I about the origin of the link's frame, in its axes; kg, kg m, kg m².
     Link(usize),
-    /// One of the link's ten in frames of Denavit and Hartenberg, of which base parameters may be made
-    /// ([`BaseFrames`](robot_model::robot::BaseFrames)): m, h_x, h_y, h_z, and the second moments
-    /// Σ_xx = ∫ x² dm, Σ_xy, Σ_yy, Σ_xz, Σ_yz, Σ_zz.
+    /// One of the link's ten in Denavit–Hartenberg frames, which base parameters may combine
+    /// ([`BaseFrames`](robot_model::robot::BaseFrames)): m, h_x, h_y, h_z, and the second moments Σ_xx = ∫ x² dm,
+    /// Σ_xy, Σ_yy, Σ_xz, Σ_yz, Σ_zz.
     Moment(usize),
     /// The drive's inertia reflected to the joint, kg m² or kg.
     ReflectedInertia,
     /// Viscous friction, N m s/rad or N s/m.
     ViscousFriction,
-    /// Constant friction forwards, N m or N.
+    /// Constant friction for positive velocities, N m or N.
     ForwardFriction,
-    /// Constant friction backwards, N m or N.
+    /// Constant friction for negative velocities, N m or N.
     BackwardFriction,
-    /// A constant, N m or N.
+    /// A constant offset of the torque, N m or N.
     Offset,
     /// The coupling of a gyroscopic rotor with the link that carries it: its inertia times the gear
     /// ratio.
@@ -49,7 +49,7 @@ impl Quantity {
         Quantity::RotorCoupling,
     ];
 
-    /// The name without the number of a link; for inertias those of Khalil and Dombre.
+    /// The name without the number of a link; inertias have the names that Khalil and Dombre use.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {

@@ -45,15 +45,15 @@ pub use regressor::{Column, RegressorColumns};
 pub(crate) use regressor::{regressor, unit_rotor, unit_wrenches};
 pub(crate) use spatial::Wrench;
 
-/// The method that forward dynamics solves M q̈ = b by.
+/// The method by which forward dynamics solves M q̈ = b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
     /// Decomposes the mass matrix: for few joints.
     MassMatrix,
     /// Eliminates joint by joint, without the matrix: for many. Applies if each coordinate moves one joint.
     ArticulatedBodies,
-    /// Eliminates joint by joint with more operations, so that small pivots keep their digits: for robots with
-    /// links that have next to no inertia about their joint axes.
+    /// Eliminates joint by joint with more operations, so small pivots keep their digits: for robots with links that
+    /// have almost no inertia about their joint axes.
     SmallPivots,
 }
 
@@ -120,8 +120,8 @@ impl<'g> Recursion<'g> {
 
     /// q̈ for the joint torques `tau`, with the tips' wrenches if `wrench` asks for them.
     ///
-    /// Solves M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* that make their own joint torques
-    /// cheap ([`LinkPlan::free`]); `None` if the solver does not apply.
+    /// Solves M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* whose joint torques need few operations
+    /// ([`LinkPlan::free`]); `None` if the solver does not apply.
     #[must_use]
     pub fn forward_dynamics(
         &self,
@@ -203,7 +203,7 @@ impl<'g> Recursion<'g> {
         gravity::gravity(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 
-    /// M(q), drives included.
+    /// M(q), including drives.
     #[must_use]
     pub fn mass_matrix(&self) -> SymmetricMatrix<'g> {
         mass_matrix::cheapest(&self.chain.without_idle_turns(&[]), &self.plans)

@@ -12,11 +12,11 @@ use robot_symbolic::{Formula, Rational};
 
 use numbers::{Number, numbers};
 
-/// Limbs that are alike.
+/// Identical limbs.
 #[derive(Clone, Debug)]
 pub struct LikeLimbs {
-    /// One of them, alone on the base. The numbers in which they differ are its parameters, with the first limb's
-    /// values.
+    /// One of the limbs, alone on the base. The numbers in which the limbs differ are its parameters, with the first
+    /// limb's values.
     pub robot: Robot,
     /// The limbs, in the order of the robot's links.
     pub limbs: Vec<Limb>,
@@ -33,10 +33,9 @@ pub struct Limb {
     pub values: Vec<f64>,
 }
 
-/// The limbs of a robot, those that are alike together, in the order of their first links.
+/// The groups of identical limbs of a robot, in the order of their first links.
 ///
-/// `None` if a robot has parameters, or a coordinate that moves joints of several limbs; and if it has no limbs that are
-/// alike.
+/// `None` if the robot has parameters, a coordinate that moves joints of several limbs, or no identical limbs.
 #[must_use]
 pub fn like_limbs(robot: &Robot) -> Option<Vec<LikeLimbs>> {
     if !robot.parameters.is_empty() {

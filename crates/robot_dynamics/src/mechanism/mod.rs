@@ -13,15 +13,15 @@ use robot_symbolic::{Expr, Graph};
 use crate::vector::{Matrix, Vector};
 pub use snapped::snapped;
 
-/// The choices in making expressions of a robot's values.
+/// Options for turning a robot's values into expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MechanismOptions {
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple, so that
-    /// rotations with rounded angles are exact; each change is reported in [`Mechanism::snapped`].
-    /// With 0, constant angles are taken from the file to the last digit.
+    /// Constant angles within this many radians of a multiple of π/2 become that multiple, so that rotations with
+    /// rounded angles are exact; each change is reported in [`Mechanism::snapped`]. With 0, constant angles keep all
+    /// digits of the file.
     pub snap: f64,
-    /// Whether irrational constants (the sine of an arbitrary constant angle) become floating-point
-    /// numbers, as code needs them, or stay symbols, as print does.
+    /// Whether irrational constants (the sine of an arbitrary constant angle) become floating-point numbers, as code
+    /// needs them, or stay symbolic, as printed equations need them.
     pub rounded: bool,
 }
 
@@ -38,7 +38,7 @@ impl MechanismOptions {
     }
 }
 
-/// A robot in symbols.
+/// A symbolic robot.
 ///
 /// Coordinates, velocities and accelerations are the symbols `q1`, `qd1`, `qdd1` …; parameters and
 /// wrench components carry the file's names.
@@ -92,7 +92,7 @@ impl<'g> BaseMotion<'g> {
     }
 }
 
-/// A constant angle that was taken for a multiple of π/2.
+/// A constant angle that was snapped to a multiple of π/2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snap {
     /// The link or frame whose placement has the angle.
@@ -103,7 +103,7 @@ pub struct Snap {
     pub change: f64,
 }
 
-/// A link in symbols. Vectors are in the link's own frame unless said otherwise.
+/// A symbolic link. Vectors are in the link's own frame unless said otherwise.
 #[derive(Clone, Debug)]
 pub struct MechanismLink<'g> {
     /// The parent link; `None` for the base.
@@ -171,7 +171,7 @@ impl<'g> MechanismFriction<'g> {
     }
 }
 
-/// A named frame in symbols.
+/// A symbolic named frame.
 #[derive(Clone, Debug)]
 pub struct MechanismFrame<'g> {
     /// The name.
@@ -207,8 +207,8 @@ impl<'g> Mechanism<'g> {
 }
 
 impl<'g> MechanismLink<'g> {
-    /// The rotation of the link's frame, the joint's motion included: \[R\]ᵢⁱ⁻¹ of the paper, link
-    /// components to parent components.
+    /// The rotation of the link's frame, including the joint's motion: \[R\]ᵢⁱ⁻¹ of the paper, link components to
+    /// parent components.
     #[must_use]
     pub fn joint_rotation(&self) -> Matrix<'g> {
         match self.kind {
@@ -226,7 +226,7 @@ impl<'g> MechanismLink<'g> {
         self.rotation * self.axis
     }
 
-    /// The origin of the link's frame, the joint's motion included, in parent components: r̄ᵢⁱ⁻¹.
+    /// The origin of the link's frame, including the joint's motion, in parent components: r̄ᵢⁱ⁻¹.
     #[must_use]
     pub fn joint_translation(&self) -> Vector<'g> {
         match self.kind {

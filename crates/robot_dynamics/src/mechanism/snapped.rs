@@ -20,8 +20,8 @@ pub(super) fn quarters(angle: &Number, tolerance: f64) -> Option<(i64, f64)> {
     Some((quarters as i64, change))
 }
 
-/// The robot with `pi/2` and the like in place of the constant angles of its poses that are within `tolerance` (rad) of
-/// a multiple of π/2, and the angles that this changes.
+/// The robot in which the constant angles of poses within `tolerance` (rad) of a multiple of π/2 are replaced by
+/// `pi/2` and so on, and the angles that this changes.
 #[must_use]
 pub fn snapped(robot: &Robot, tolerance: f64) -> (Robot, Vec<Snap>) {
     let mut robot = robot.clone();

@@ -9,14 +9,14 @@ use crate::diagnostic::{Diagnostic, Span, code};
 use crate::functions::FunctionKind;
 use crate::robot::Robot;
 
-/// The limits of a function's cost in generated code.
+/// The limits of a function in generated code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// The name of the function or bundle; `None` for every one that is generated.
+    /// The name of the function or bundle; `None` for every generated function.
     pub function: Option<String>,
-    /// The most operations of a call: multiplications, additions and divisions.
+    /// The maximum number of operations of a call: multiplications, additions and divisions.
     pub max_operations: Option<Limit>,
-    /// The most bytes of stack of a call.
+    /// The maximum stack of a call, bytes.
     pub max_stack: Option<Limit>,
 }
 

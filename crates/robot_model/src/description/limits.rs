@@ -1,14 +1,15 @@
 //! The limits of input, each of which has a message of its own.
 
-/// A robot file of more bytes than this is refused.
+/// A robot file with more bytes than this is refused.
 pub const MAX_BYTES: usize = 1 << 20;
-/// A robot of more joints than this is refused.
+/// A robot with more moving joints than this is refused.
 pub const MAX_JOINTS: usize = 64;
-/// A robot file of more links, fixed ones and all, is refused; so many frames and tips, too.
+/// A robot file with more links than this, including fixed ones, is refused, as is one with more frames and tips.
 pub const MAX_LINKS: usize = 512;
-/// A robot of more parameters than this is refused.
+/// A robot with more parameters than this is refused.
 pub const MAX_PARAMETERS: usize = 4096;
-/// More bundles than this are refused: each is a function as long as all of its own.
+/// A robot file with more bundles than this is refused: each bundle is a function as long as all of its functions
+/// together.
 pub const MAX_BUNDLES: usize = 16;
 /// Elements of XML nested deeper than this are refused.
 pub(super) const MAX_DEPTH: usize = 64;

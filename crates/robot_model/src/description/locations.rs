@@ -4,8 +4,8 @@ use robot_symbolic::Formula;
 
 use crate::diagnostic::{Diagnostic, Span, code};
 
-/// Places of a [`crate::robot::Robot`]'s parts, index by index; what the file leaves out is `None`
-/// or is the place of the table that lacks it.
+/// The places of the parts of a [`crate::robot::Robot`], index by index; for a part that the file leaves out, `None`
+/// or the place of the table that lacks it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Locations {
     /// The robot's name.
@@ -20,7 +20,7 @@ pub struct Locations {
     pub frames: Vec<FrameLocation>,
     /// The angles of placements and of tensors' axes, in the order of reading.
     pub angles: Vec<AngleLocation>,
-    /// Bodies that are fixed to the base and therefore no part of the robot.
+    /// Bodies that are fixed to the base and therefore not part of the robot.
     pub dropped: Vec<DroppedBody>,
 }
 
@@ -33,7 +33,7 @@ pub struct AngleLocation {
     pub place: Span,
 }
 
-/// A body without effect on the motion: it is fixed to the base.
+/// A body that has no effect on the motion because it is fixed to the base.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DroppedBody {
     /// The link that has it.

@@ -71,25 +71,25 @@ pub struct Described {
     pub locations: Locations,
     /// Likely mistakes, with the source.
     pub warnings: Diagnostics,
-    /// The reader's decisions where the format leaves a choice, or about content that is not part of a robot here: notes,
-    /// for a file that was not written for this program.
+    /// Notes about the reader's choices if the format leaves one open, and about content that is not part of the
+    /// robot, for a file that was not written for this program.
     pub choices: Diagnostics,
     /// Content of the file about the dynamics that is not part of the robot, such as `the friction of 6 joints`.
     pub left_out: Vec<String>,
-    /// Which functions are generated if the caller names none.
+    /// The functions to generate if the caller names none.
     pub code: Code,
-    /// The limits of the cost of generated code.
+    /// The limits of generated code.
     pub budgets: Vec<Budget>,
     /// The format of the file.
     pub format: Format,
 }
 
-/// A description of another format as a robot file.
+/// A description in another format, converted to a robot file.
 #[derive(Clone, Debug)]
 pub struct Import {
     /// The robot file in TOML.
     pub toml: String,
-    /// The robot, its warnings and the choices that were made.
+    /// The robot, its warnings and the reader's choices.
     pub described: Described,
 }
 
@@ -126,9 +126,9 @@ pub fn read_toml(name: &str, text: &str) -> Result<Described, Diagnostics> {
 
 /// Reads a robot from URDF, the description format of ROS.
 ///
-/// The base is the root link. Fixed links are merged and their frames kept as named frames; joints
-/// that mimic others have the coordinate of the other. Meshes are never opened. The choices that the format leaves
-/// are listed in [`Described::choices`].
+/// The base is the root link. Fixed links are merged and their frames kept as named frames; joints that mimic others
+/// have the coordinate of the other. Meshes are never opened. [`Described::choices`] lists the choices that the
+/// format leaves open.
 ///
 /// # Errors
 ///
@@ -137,9 +137,8 @@ pub fn read_urdf(name: &str, text: &str) -> Result<Described, Diagnostics> {
     described(Format::Urdf, name, text, &Options::default()).map(|(described, _)| described)
 }
 
-/// Writes a description as a robot file in TOML, with the source's names and values. The robot file
-/// gives the same robot, and the same description always the same text. What is a robot file already
-/// stays as it is.
+/// Writes a description as a robot file in TOML, with the source's names and values. The robot file gives the same
+/// robot, and the same description always the same text. A file that already is a robot file stays as it is.
 ///
 /// # Errors
 ///
@@ -157,7 +156,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Import, Diagn
 ///
 /// # Errors
 ///
-/// A file that is too large, or no UTF-8.
+/// If the file is too large or not UTF-8.
 pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
     if bytes.len() > MAX_BYTES {
         return Err(too_large(name, bytes.len()));

@@ -16,15 +16,15 @@ pub enum Format {
 /// The options of reading a file: errors that become warnings, and values that the file does not have.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Lets moving links have no mass; the errors become warnings.
+    /// Accept moving links without mass; the errors become warnings.
     pub allow_massless: bool,
-    /// Takes masses and inertias that no body can have; the errors become warnings.
+    /// Accept masses and inertias that are physically impossible; the errors become warnings.
     pub allow_unphysical: bool,
-    /// Takes the friction of joints in URDF: damping as viscous, friction as constant dry friction. Without
-    /// this it is left out of the robot.
+    /// Read the friction of joints in URDF: damping as viscous friction, friction as constant dry friction. Otherwise
+    /// it is left out of the robot.
     pub friction: bool,
-    /// Values of parameters in place of the nominal ones; every check uses these. Names that are not
-    /// the robot's parameters have no effect.
+    /// Values of parameters that replace the nominal ones; every check uses them. Names that are not the robot's
+    /// parameters have no effect.
     pub values: Vec<(String, Rational)>,
 }
 

@@ -24,18 +24,18 @@ pub struct Key {
     pub name: &'static str,
     /// Its content.
     pub content: Content,
-    /// Whether it must be there.
+    /// Whether it is required.
     pub presence: Presence,
     /// Its purpose.
     pub doc: &'static str,
 }
 
-/// Whether a key must be there.
+/// Whether a key is required.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presence {
-    /// In every table.
+    /// It is required in every table.
     Needed,
-    /// That depends on other keys.
+    /// It depends on other keys whether it is required.
     Depends,
     /// It may be left out.
     Optional,
@@ -130,7 +130,7 @@ const fn key(name: &'static str, content: Content, doc: &'static str) -> Key {
 /// The whole file.
 pub static ROBOT_FILE: Shape = Shape {
     what: "a robot file",
-    doc: "A robot with a fixed base. Units are SI and radians.",
+    doc: "A robot with a fixed base. Units are SI, with angles in radians.",
     keys: &[
         needed("format", Format, "The file format: 1."),
         key(
@@ -343,7 +343,7 @@ pub static DRIVE: Shape = Shape {
         key(
             "gear_ratio",
             Formula,
-            "Rotor turns per joint turn N; the reflected inertia is N^2 times the rotor inertia.",
+            "N, the rotor's turns per turn of the joint; the reflected inertia is N^2 times the rotor inertia.",
         ),
         key("gyroscopic", Boolean, "Includes the gyroscopic moments of the rotor."),
     ],
@@ -401,7 +401,7 @@ pub static CODE: Shape = Shape {
 /// `[[budget]]`.
 pub static BUDGET: Shape = Shape {
     what: "a budget",
-    doc: "Limits on the cost of generated code; a function that exceeds them fails the build.",
+    doc: "Limits on generated code; if a function exceeds them, the build fails.",
     keys: &[
         key("function", Function, "Default: every generated function."),
         key("max_operations", Whole, "Multiplications, additions and divisions per call."),

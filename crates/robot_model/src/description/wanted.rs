@@ -13,7 +13,7 @@ use crate::diagnostic::{Diagnostic, Span, code, quote};
 use crate::functions::{self, ALL_FUNCTIONS, Bundle, FunctionKind, Functions, is_of_frame};
 use crate::robot::Robot;
 
-/// Which functions a file wants to be generated.
+/// The functions that a file asks to be generated.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Code {
     /// The functions, each by itself; if only bundles are named, none.

@@ -102,6 +102,6 @@ codes! {
     PIN = "R0803", "The pinned plan does not match the robot file.";
 }
 
-/// Numbers that no code may have again: those of codes that were removed, whose meaning users and their scripts may
-/// remember, and those that were skipped. To remove a code, add its number.
+/// Codes that must not be used again: removed codes, whose meaning users and their scripts may remember, and skipped
+/// ones. If you remove a code, add it here.
 pub const RETIRED: &[&str] = &["R0616"];

@@ -19,13 +19,13 @@ pub struct Group<'d> {
 }
 
 impl Group<'_> {
-    /// How many they are.
+    /// The number of diagnostics in the group.
     #[must_use]
     pub fn count(&self) -> usize {
         1 + self.others.len()
     }
 
-    /// The message of the first, with the number of all where there are several.
+    /// The message of the first, with the number of all if there are several.
     #[must_use]
     pub fn message(&self) -> String {
         match self.count() {
@@ -34,7 +34,7 @@ impl Group<'_> {
         }
     }
 
-    /// All of them in a line.
+    /// All of them on one line.
     #[must_use]
     pub fn line(&self, source: &Source) -> String {
         match self.others(source) {

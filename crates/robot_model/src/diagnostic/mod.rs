@@ -19,11 +19,11 @@ pub type Span = Range<usize>;
 /// The severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// The file gives no robot.
+    /// The file does not describe a robot.
     Error,
-    /// The file gives a robot, but perhaps not the one that was meant.
+    /// The file describes a robot, but perhaps not the intended one.
     Warning,
-    /// The file gives a robot; this is how it was taken where the format leaves a choice.
+    /// The file describes a robot; the note says how it was read if the format leaves a choice open.
     Note,
 }
 
@@ -39,7 +39,7 @@ impl Severity {
     }
 }
 
-/// Bytes of the source with what is to be said about them.
+/// Bytes of the source with a remark about them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The bytes; empty at a place where something is missing.
@@ -48,7 +48,7 @@ pub struct Label {
     pub text: String,
 }
 
-/// One thing that is wrong.
+/// An error, a warning or a note.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// A stable code of the table [`code::TABLE`], such as `R0101`.
@@ -68,7 +68,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// An error without a place as yet.
+    /// An error, still without a place.
     #[must_use]
     pub fn error(code: &'static str, message: impl Into<String>) -> Diagnostic {
         Diagnostic {
@@ -82,13 +82,13 @@ impl Diagnostic {
         }
     }
 
-    /// A warning without a place as yet.
+    /// A warning, still without a place.
     #[must_use]
     pub fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
     }
 
-    /// A note without a place as yet.
+    /// A note, still without a place.
     #[must_use]
     pub fn note(code: &'static str, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Note, ..Diagnostic::error(code, message) }
@@ -228,8 +228,8 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// Text of a file as a message may hold it: on one line, without control characters, its middle
-/// left out if it is long.
+/// Text of a file as a message may contain it: on one line, without control characters, its middle left out if it is
+/// long.
 #[must_use]
 pub fn quote(text: &str) -> String {
     const HEAD: usize = 40;
@@ -243,8 +243,8 @@ pub fn quote(text: &str) -> String {
     format!("{}…{}", visible(&head), visible(&tail))
 }
 
-/// Text from elsewhere, such as the name of a file, as a message may hold it: on one line, and without control
-/// characters, which a terminal would obey.
+/// Text from elsewhere, such as the name of a file, as a message may contain it: on one line, and without control
+/// characters, which a terminal would execute.
 #[must_use]
 pub fn visible(text: &str) -> String {
     let one = |character: char| {

@@ -17,7 +17,7 @@ pub enum Functions {
 /// The word for all functions if functions are named.
 pub const ALL_FUNCTIONS: &str = "all";
 
-/// Functions in one call, whose common work is done once.
+/// Functions that one call computes, with their common work done once.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bundle {
     /// Its name: that of the function that is generated.
@@ -29,9 +29,9 @@ pub struct Bundle {
 impl Bundle {
     /// The owner of the name; `None` if a bundle can have it.
     ///
-    /// Functions have names, those of frames begin with `jacobian_`, and `all` means all functions. Names that
-    /// differ in case or underscores alone are the same here: a printer of code may name types after bundles. What
-    /// other owners of names yield to bundles.
+    /// Functions have names, those of frames begin with `jacobian_`, and `all` means all functions. Names that differ
+    /// only in case or underscores count as equal: a printer of code may name types after bundles. What other owners
+    /// of names yield to bundles.
     #[must_use]
     pub fn owner_of(name: &str) -> Option<&'static str> {
         let folded = fold(name);
@@ -44,7 +44,7 @@ impl Bundle {
         (folded == ALL_FUNCTIONS).then_some("the word for all functions")
     }
 
-    /// Whether two bundles would be confused: their names differ in case or underscores alone.
+    /// Whether two bundles would be confused: their names differ only in case or underscores.
     #[must_use]
     pub fn is_alike(&self, other: &Bundle) -> bool {
         fold(&self.name) == fold(&other.name)

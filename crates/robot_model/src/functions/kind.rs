@@ -17,9 +17,9 @@ pub struct Effects {
 impl Effects {
     /// Neither.
     pub const NONE: Effects = Effects { friction: false, wrench: false };
-    /// Wrenches alone.
+    /// Only wrenches.
     pub const WRENCH: Effects = Effects { friction: false, wrench: true };
-    /// Friction alone.
+    /// Only friction.
     pub const FRICTION: Effects = Effects { friction: true, wrench: false };
     /// Both.
     pub const BOTH: Effects = Effects { friction: true, wrench: true };
@@ -79,7 +79,7 @@ macro_rules! listed {
 }
 
 functions! {
-    /// Q from q, q̇, q̈, with the effects that are asked for.
+    /// Q from q, q̇, q̈, with the requested effects.
     InverseDynamics(effects: Effects) = Declaration {
         effects,
         motions: true,
@@ -103,7 +103,7 @@ functions! {
     Bias = Declaration::of_motions("bias", STATE);
     /// g from q.
     Gravity = Declaration::of_composites("gravity", POSITION);
-    /// q̈ from q, q̇, τ, with the effects that are asked for.
+    /// q̈ from q, q̇, τ, with the requested effects.
     ForwardDynamics(effects: Effects) = Declaration {
         effects,
         solves: true,
@@ -271,7 +271,7 @@ impl FunctionKind {
         FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 
-    /// Why the robot has no such function; `None` if it has.
+    /// Why the robot does not have the function; `None` if it has.
     #[must_use]
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let Effects { wrench, friction } = self.effects();

@@ -2,9 +2,9 @@
 
 use crate::robot::{BaseFrames, Link, Move, Placement, Robot};
 
-/// Why the base parameters of a robot cannot be found: its joints share coordinates, and lengths,
-/// angles, gravity or ratios are parameters, so that the rank at states with given values proves
-/// nothing; or they are to be over frames of Denavit and Hartenberg, and a joint axis is a parameter.
+/// Why the base parameters of a robot cannot be found: its joints share coordinates, and lengths, angles, gravity or
+/// ratios are parameters, so the rank at states with given values proves nothing; or Denavit–Hartenberg frames are
+/// requested, and a joint axis is a parameter.
 #[must_use]
 pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
     let is_free = |link: &Link| link.joint.axis.iter().any(|axis| axis.symbols().next().is_some());

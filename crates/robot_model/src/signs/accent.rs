@@ -101,7 +101,7 @@ impl Accent {
         self.row().mark
     }
 
-    /// Whether the sign is as wide as what it belongs to.
+    /// Whether the sign is as wide as the piece to which it belongs.
     #[must_use]
     pub const fn stretches(self) -> bool {
         self.row().stretches

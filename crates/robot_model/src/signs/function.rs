@@ -2,7 +2,7 @@
 
 use robot_symbolic::Function;
 
-/// A function that prints by its name. Roots, absolute values and reciprocals have signs of their own.
+/// A function that is printed by its name. Roots, absolute values and reciprocals have signs of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each is its own name")]
 pub enum FunctionName {
@@ -49,7 +49,7 @@ impl FunctionName {
         self.row().1
     }
 
-    /// The name in LaTeX, backslash and all.
+    /// The name in LaTeX, including the backslash.
     #[must_use]
     pub const fn latex(self) -> &'static str {
         self.row().2

@@ -72,7 +72,7 @@ pub(super) fn states(robot: &Robot) -> Element {
         let heading = holding("th", format!("{symbol}, {}", coordinate.joint));
         element("tr").with(heading.attribute("scope", "row")).with_all(cells)
     });
-    let caption = "Positions within the limits of the file; half a turn or 0.5 m to either side if it has none.";
+    let caption = "Positions within the limits in the file; half a turn or 0.5 m to either side if there are none.";
     let table = element("table")
         .class("sliders")
         .with(holding("caption", holding("span", caption)))
@@ -111,7 +111,7 @@ pub(super) fn payload(robot: &Robot) -> Option<Element> {
         let nominal = robot.nominal_value(name);
         sliders.push(one(name, &format!("center {axis}, m"), [nominal - CENTER, nominal + CENTER]));
     }
-    let legend = "Payload; its moments of inertia stay those of the file";
+    let legend = "Payload; its moments of inertia keep their values from the file";
     Some(
         element("fieldset").with(holding("legend", legend)).with_all(sliders.into_iter().flatten()),
     )

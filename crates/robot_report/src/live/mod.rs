@@ -80,12 +80,11 @@ pub(crate) fn live(input: &Input<'_>, robot: &Robot) -> Result<Live, String> {
 }
 
 /// The words above the sliders.
-const WORDS: &str = "Computed in this page by the robot's own code, compiled to WebAssembly: the same numbers, to the last \
-    bit, as those of Rust generated with the same functions.";
+const WORDS: &str = "This page computes these numbers with the robot's own code, compiled to WebAssembly: they are the same, to \
+    the last bit, as those of Rust code generated with the same functions.";
 
 /// The words below the scheme.
-const CAPTION: &str =
-    "The robot to scale. Drag the picture to turn it, or focus it and use the arrow keys, + and −.";
+const CAPTION: &str = "The robot, drawn to scale. Drag the picture to turn it, or focus it and use the arrow keys, + and −.";
 
 fn section(programs: &Programs, module: &[u8]) -> Element {
     let robot = &programs.robot;

@@ -40,8 +40,8 @@ pub(super) fn torques(robot: &Robot) -> Element {
             .with(number("data-cause").class("total"))
             .with_all(cells)
     });
-    let caption = "Joint torques τ and what they consist of: inertia M q̈, Coriolis and centrifugal terms C q̇, gravity g, and \
-        friction if there is any. A bar is as long as its part of the largest value so far; the upright line is τ.";
+    let caption = "Joint torques τ and their contributions: inertia M q̈, Coriolis and centrifugal terms C q̇, gravity g, and \
+        friction if there is any. The length of a bar is relative to the largest value so far; the vertical line is τ.";
     let table = element("table")
         .class("torques")
         .with(holding("caption", holding("span", caption)))
@@ -60,7 +60,7 @@ fn bars(symbol: &str, causes: usize) -> Element {
         .class("bars")
         .attribute("viewBox", format!("-104 0 208 {height}"))
         .attribute("aria-hidden", "true")
-        .with(holding("title", format!("Parts of the torque of {symbol}")))
+        .with(holding("title", format!("Contributions to the torque of {symbol}")))
         .with(holding("desc", "Bars of the numbers in this row."))
         .with(path("sum".to_owned()))
         .with_all(parts)

@@ -20,7 +20,7 @@ pub fn states_from_lanes<T: Scalar, const D: usize, const N: usize>(
     core::array::from_fn(|n| core::array::from_fn(|d| lanes[d][n]))
 }
 
-/// The first `N` states, filled up with zeros: for the rest of a slice that blocks of `N` leave.
+/// The first `N` states, padded with zeros: for the remainder of a slice that is processed in blocks of `N`.
 #[inline(always)]
 pub fn padded_states<T: Scalar, const D: usize, const N: usize>(states: &[[T; D]]) -> [[T; D]; N] {
     let mut block = [[T::ZERO; D]; N];

@@ -5,9 +5,9 @@ extern crate std;
 
 /// Whether [`Scalar::mul_add`](super::Scalar::mul_add) rounds once.
 ///
-/// True with feature `std` (only the standard library offers the instruction in stable Rust) on a
-/// target compiled with it: x86 with `fma`, 64-bit ARM, RISC-V with `d`. Elsewhere a product and a
-/// sum, each rounded, whose results are the same bits on every such target.
+/// True with feature `std` (only the standard library offers the instruction in stable Rust) on a target compiled
+/// with it: x86 with `fma`, 64-bit ARM, RISC-V with `d`. On other targets it is a product and a sum, each rounded,
+/// with the same bits on every such target.
 pub const FUSED: bool = cfg!(all(
     feature = "std",
     any(

@@ -10,9 +10,10 @@ use super::scalar::Scalar;
 
 /// `N` numbers of type `T` on which every operation acts lane by lane.
 ///
-/// An array whose operations go through vector registers if `T` is `f64` or `f32` and `N` a multiple of what a
-/// register of the target holds: on x86-64 two `f64` or four `f32`, with AVX2 four or eight, with AVX-512 eight or
-/// sixteen; on 64-bit ARM two or four. Else, and on other targets, a loop of constant length, which LLVM may vectorise.
+/// The operations on this array use vector registers if `T` is `f64` or `f32` and `N` is a multiple of the numbers
+/// that a register of the target holds: on x86-64 two `f64` or four `f32`, with AVX2 four or eight, with AVX-512
+/// eight or sixteen; on 64-bit ARM two or four. Else, and on other targets, a loop of constant length, which LLVM may
+/// vectorise.
 ///
 /// To evaluate a function of numbers at many states a loop over the states is as fast, at 2
 /// already, and leaves the function as it is: see [`sin_cos_each`](super::sin_cos_each).
@@ -30,7 +31,7 @@ pub type F32x8 = Lanes<f32, 8>;
 pub type F32x16 = Lanes<f32, 16>;
 
 impl<T: Scalar, const N: usize> Lanes<T, N> {
-    /// One number in every lane.
+    /// The same number in every lane.
     #[inline(always)]
     pub const fn splat(value: T) -> Self {
         Self([value; N])
@@ -42,13 +43,13 @@ impl<T: Scalar, const N: usize> Lanes<T, N> {
         Self(values)
     }
 
-    /// Element i is that of lane i.
+    /// The array whose element i is lane i.
     #[inline(always)]
     pub const fn to_array(self) -> [T; N] {
         self.0
     }
 
-    /// `function` of each lane.
+    /// The result of `function` for each lane.
     #[inline(always)]
     #[must_use]
     pub fn map(self, function: impl Fn(T) -> T) -> Self {
@@ -65,7 +66,7 @@ impl<T: Scalar, const N: usize> Lanes<T, N> {
         Self(lanes)
     }
 
-    /// `function` of each lane of `self` and the same lane of `other`.
+    /// The result of `function` for each lane of `self` and the same lane of `other`.
     #[inline(always)]
     #[must_use]
     pub fn zip(self, other: Self, function: impl Fn(T, T) -> T) -> Self {

@@ -13,7 +13,7 @@ use super::real::Real;
 use super::scalar::Scalar;
 
 /// `N` numbers that act lane by lane in the registers of the processor of `A`, as [`Lanes`](super::Lanes) do in those
-/// that the program is compiled for.
+/// of the target.
 ///
 /// Multiply-adds and sines round once where `A` can if `ONCE`; else they have the same bits for every `A`.
 pub struct LanesOn<A, T, const N: usize, const ONCE: bool>([T; N], PhantomData<fn() -> A>);
@@ -25,7 +25,7 @@ impl<A: Arithmetic, T: Real, const N: usize, const ONCE: bool> LanesOn<A, T, N, 
         Self(values, PhantomData)
     }
 
-    /// Element i is that of lane i.
+    /// The array whose element i is lane i.
     #[inline(always)]
     pub const fn to_array(self) -> [T; N] {
         self.0

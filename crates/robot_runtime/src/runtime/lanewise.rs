@@ -2,7 +2,7 @@
 
 use super::scalar::Scalar;
 
-/// An operation of `A` numbers that gives `R`, on each lane alike.
+/// An operation on `A` numbers with `R` results, the same for each lane.
 pub trait Lanewise<const A: usize, const R: usize> {
     /// The operation.
     fn of<V: Scalar>(arguments: [V; A]) -> [V; R];

@@ -4,7 +4,7 @@
 use super::scalar::Scalar;
 use super::trig::Trig;
 
-/// The sine and cosine of the standard library: there are none without feature `std`.
+/// The sine and cosine of the standard library, which do not exist without feature `std`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StdTrig;
 

@@ -9,7 +9,7 @@
 use super::lanewise::Lanewise;
 use super::real::Real;
 
-/// A computation that is compiled for several processors. It is copied, so that nothing is left to drop.
+/// A computation that is compiled for several processors. It is `Copy`, so nothing needs to be dropped.
 pub trait Kernel: Copy {
     /// The result.
     type Output;
@@ -19,7 +19,7 @@ pub trait Kernel: Copy {
     fn run<A: Arithmetic>(self) -> Self::Output;
 }
 
-/// What a kernel computes with on one kind of processor; [`Compiled`] where it is not dispatched.
+/// The arithmetic of a kernel on one kind of processor; [`Compiled`] if the kernel is not dispatched.
 pub trait Arithmetic: sealed::Sealed {
     /// `a · b + c`, in one instruction with one rounding if the processor has it.
     fn mul_add<T: Real>(a: T, b: T, c: T) -> T;
@@ -47,7 +47,7 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// The arithmetic of the target that the program is compiled for: fused if [`FUSED`](super::FUSED).
+/// The arithmetic of the target for which the program is compiled: fused if [`FUSED`](super::FUSED).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Compiled;
 
@@ -82,10 +82,10 @@ impl Arithmetic for Compiled {
     }
 }
 
-/// `kernel` on the processor at hand: with AVX2 and fused multiply-adds if it has them.
+/// Runs `kernel` on the current processor, with AVX2 and fused multiply-adds if it has them.
 ///
-/// The choice is one load and one branch; the kernel then is a function that is not inlined. Where
-/// there is nothing to choose, it is inlined and runs as [`Compiled`].
+/// The choice is one load and one branch; the kernel then is a function that is not inlined. If there is only one
+/// choice, the kernel is inlined and runs as [`Compiled`].
 #[inline(always)]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(all(
@@ -102,8 +102,8 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Compiled>()
 }
 
-/// [`dispatch`] for a kernel that follows calls of the standard library's sine and cosine: on x86-64 never inlined
-/// where multiply-adds are compiled in.
+/// [`dispatch`] for a kernel that follows calls of the standard library's sine and cosine: on x86-64 it is never
+/// inlined if multiply-adds are compiled in.
 #[inline(always)]
 pub fn dispatch_apart<K: Kernel>(kernel: K) -> K::Output {
     if cfg!(all(target_arch = "x86_64", target_feature = "fma")) {
@@ -112,8 +112,8 @@ pub fn dispatch_apart<K: Kernel>(kernel: K) -> K::Output {
     dispatch(kernel)
 }
 
-/// [`dispatch`] for a loop over states, with AVX-512 too; never inlined, for the body of such a loop
-/// is vectorised only in a function of its own.
+/// [`dispatch`] for a loop over states, also with AVX-512; never inlined, because the body of such a loop is
+/// vectorized only in a function of its own.
 #[inline(always)]
 pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
@@ -122,7 +122,7 @@ pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
     apart(kernel)
 }
 
-/// The reference, of which the compiler then knows no longer what it refers to; no instruction.
+/// The same reference, but the compiler no longer knows what it refers to; this takes no instruction.
 ///
 /// LLVM loads numbers that lie side by side together if it sees that they do, and shuffles them: for lanes that are
 /// gathered from several places, in registers of 512 bits where there are some. Single ones among narrower

@@ -3,7 +3,7 @@
 
 macro_rules! recip_positive {
     ($name:ident, $float:ident, $integer:ident, $unsigned:ident) => {
-        /// 1/x if x is above 0 and finite, NaN elsewhere; without a branch.
+        /// 1/x if x is above 0 and finite, otherwise NaN; without a branch.
         #[inline(always)]
         #[must_use]
         pub const fn $name(x: $float) -> $float {

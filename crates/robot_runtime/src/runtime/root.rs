@@ -27,9 +27,9 @@ macro_rules! software_sqrt {
         $name:ident, $float:ident, $integer:ident, $unsigned:ident,
         magic = $magic:literal, split = $split:literal, bias = $bias:literal, scale = $scale:literal
     ) => {
-        /// Square root of `x` by additions and multiplications without a branch: the halved
-        /// exponent as estimate of 1/√x (Lomont, *Fast inverse square root*, 2003), Newton steps,
-        /// and a correction by the exact residual x − s² (Dekker's product, 1971).
+        /// Square root of `x` from additions and multiplications, without a branch: an estimate of 1/√x from the
+        /// halved exponent (Lomont, *Fast inverse square root*, 2003), Newton steps, and a correction by the exact
+        /// residual x − s² (Dekker's product, 1971).
         ///
         /// Within 0.51 units in the last place; √±0 = ±0, √∞ = ∞, NaN below zero and for NaN.
         #[inline(always)]

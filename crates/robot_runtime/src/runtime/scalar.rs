@@ -14,7 +14,7 @@ use super::trig::{block, double, single};
 /// A real number, or several computed side by side: `f64`, `f32` and
 /// [`Lanes`](super::Lanes) of either.
 ///
-/// No method branches on the value, allocates or panics; NaN in is NaN out.
+/// No method branches on the value, allocates or panics; a NaN argument gives a NaN result.
 ///
 /// With the standard library in scope `f64` and `f32` have methods of their own called `mul_add`,
 /// `sqrt`, `tanh` and `sin_cos`, and method syntax on those two types prefers them. Code that is

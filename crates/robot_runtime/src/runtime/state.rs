@@ -6,7 +6,7 @@
 use super::real::Real;
 use super::scalar::Scalar;
 
-/// The numbers of one state: a number, or an array of such.
+/// The numbers of one state: a number, or an array of numbers.
 pub trait State: Copy {
     /// The same of `W` states: each number is an array of `W`.
     type Lanes<const W: usize>: Copy;
@@ -126,7 +126,7 @@ pub fn state<T: Scalar, const N: usize, const W: usize>(
     states.get(index).copied().unwrap_or([T::ZERO; N])
 }
 
-/// Puts a state where it belongs, if there is such a place.
+/// Writes a state to its place, if it exists.
 #[inline(always)]
 pub fn set_state<S, const W: usize>(state: S, states: &mut [S; W], index: usize) {
     if let Some(to) = states.get_mut(index) {
@@ -166,7 +166,7 @@ pub fn chunks<'c, T: Real, const W: usize, const N: usize>(
     })
 }
 
-/// The entries of each column from entry `start` on, filled up with zeros.
+/// The entries of each column from entry `start` on, padded with zeros.
 #[inline(always)]
 pub fn padded_chunks<T: Scalar, const W: usize, const N: usize>(
     columns: &[&[T]; N],

@@ -12,14 +12,14 @@
 
 use super::fused::{mul_add_f32, mul_add_f64};
 
-/// The numbers of the method, for other languages.
+/// The constants of the method, for other languages.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tanh<F: 'static> {
     /// 1.5 · 2⁵² or 1.5 · 2²³: added to a smaller number it leaves the nearest integer in the low bits.
     pub shift: F,
-    /// 2|x| from which on the result rounds to 1.
+    /// The value of 2|x| from which the result rounds to 1.
     pub saturated: F,
-    /// ln 2 in two parts.
+    /// ln 2 as a sum of two parts.
     pub ln_2: [F; 2],
     /// The coefficients of E, from the highest.
     pub exponential: &'static [F],
@@ -32,7 +32,7 @@ macro_rules! tanh {
         ln_2_high = $ln_2_high:expr, ln_2_low = $ln_2_low:expr,
         exponential = [$($coefficient:literal)*]
     ) => {
-        /// The numbers of the hyperbolic tangent.
+        /// The constants of the hyperbolic tangent.
         pub const $numbers: Tanh<$float> = Tanh {
             shift: $shift,
             saturated: $saturated,

@@ -35,8 +35,7 @@ impl<T: Scalar> Trig<T> for PolyTrig {
 /// Sines and cosines of `angles` (radians) by the branch-free polynomials, several at a time in
 /// vector registers: for one state.
 ///
-/// Inlined if debug assertions are off; with them it is a call, so that whatever calls it stays
-/// flat in both.
+/// Inlined if debug assertions are off; otherwise it is a call, so callers stay flat in both cases.
 #[cfg_attr(debug_assertions, inline(never))]
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
@@ -46,9 +45,9 @@ pub fn sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T;
 /// Sines and cosines of `angles` (radians), one after the other in straight-line code: for the
 /// body of a loop over many states.
 ///
-/// LLVM vectorises such a loop across the states when its body is straight, at `opt-level` 2
-/// already; the loop is in a function of its own that is not inlined, takes the states by
-/// reference as arrays (`&[[f64; N]; 8]`) and returns an array. Values as of [`sin_cos_array`].
+/// LLVM vectorizes such a loop across the states if its body is straight-line code, even at `opt-level` 2; the loop
+/// is in a function of its own that is not inlined, takes the states by reference as arrays (`&[[f64; N]; 8]`) and
+/// returns an array. The values are those of [`sin_cos_array`].
 #[inline(always)]
 pub fn sin_cos_each<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]) {
     block::unrolled(angles, T::sin_cos)

@@ -13,14 +13,14 @@ use super::variables::Variables;
 /// The most trees that are tried for one group.
 const MAX_TREES: usize = 128;
 
-/// A joint of a group of parallel ones.
+/// A joint in a group of parallel joints.
 #[derive(Clone, Debug)]
 pub struct Turn<'g> {
     /// The symbol of the joint's angle.
     pub coordinate: Expr<'g>,
     /// Whether the joint turns against the direction of the group.
     pub negative: bool,
-    /// The joint of the group that comes before it, by its place; `None` for one after the body before the group.
+    /// The index of the preceding joint in the group; `None` for a joint that follows the body before the group.
     pub parent: Option<usize>,
 }
 

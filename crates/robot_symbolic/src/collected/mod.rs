@@ -40,7 +40,7 @@ use factoring::{Factoring, Formula};
 use terms::Terms;
 use variables::Variables;
 
-/// Polynomials of more terms are not collected: the time grows with the third power.
+/// Polynomials with more terms are not collected: the time grows with the third power of their number.
 pub const MAX_TERMS: usize = 400;
 
 /// A polynomial of at most so many terms, with one group of parallel joints of at most so many bases of angles, is tried in
@@ -48,12 +48,12 @@ pub const MAX_TERMS: usize = 400;
 const MAX_WHOLE: usize = 60;
 const MAX_BASES: usize = 4;
 
-/// Makes short forms of the polynomials of one graph.
+/// Builds short forms of the polynomials of one graph.
 #[derive(Clone, Copy, Debug)]
 pub struct Collector<'g, 'a> {
-    /// Groups of parallel joints, whose sums of angles may be written; none if these are to be resolved.
+    /// Groups of parallel joints, whose sums of angles may be written; none if sums of angles are to be expanded.
     pub angles: &'a [ParallelAngles<'g>],
-    /// Whether common factors are taken out of brackets.
+    /// Whether common factors are taken out of parentheses.
     pub factors: bool,
 }
 

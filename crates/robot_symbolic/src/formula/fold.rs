@@ -6,7 +6,7 @@ use super::{Formula, Op};
 use crate::graph::Function;
 use crate::rational::Rational;
 
-/// One step of a formula: a leaf, or an operation on what its operands have given.
+/// One step of a formula: a leaf, or an operation on the results of its operands.
 #[derive(Clone, Debug)]
 pub enum Step<'f, T> {
     /// A number without its sign.
@@ -34,8 +34,8 @@ pub enum Step<'f, T> {
 }
 
 impl Formula {
-    /// The result of `step` for the whole formula, operands before operations; `None` if it gives
-    /// nothing for one of the steps.
+    /// The result of `step` for the whole formula, operands before operations; `None` if `step` returns `None` for
+    /// one of the steps.
     pub fn fold<T>(&self, mut step: impl FnMut(Step<'_, T>) -> Option<T>) -> Option<T> {
         let mut stack: Vec<T> = vec![];
         for op in &self.ops {

@@ -20,7 +20,7 @@ pub use fold::Step;
 pub const MAX_EXPONENT: i64 = 64;
 /// Parentheses and signs nested deeper than this are refused.
 pub const MAX_DEPTH: usize = 256;
-/// Texts of more numbers, names and signs than this are refused.
+/// Texts with more numbers, names and signs than this are refused.
 pub const MAX_TOKENS: usize = 100_000;
 
 /// One step of a formula in postfix order.
@@ -212,7 +212,7 @@ impl Graph {
     }
 }
 
-/// Whether `name` means something of itself in a formula: `pi` and the functions.
+/// Whether `name` has a meaning of its own in a formula: `pi` and the functions.
 #[must_use]
 pub fn is_reserved(name: &str) -> bool {
     name == "pi" || name == "tan" || Function::ALL.iter().any(|f| f.name() == name)

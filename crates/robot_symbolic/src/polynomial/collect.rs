@@ -15,8 +15,8 @@ impl<'g> Polynomial<'g> {
     /// The polynomial as a polynomial in some of its symbols: each monomial over them, with the
     /// polynomial in the other atoms that it is multiplied by.
     ///
-    /// The groups come in order of their monomials. A chosen symbol inside of a function, such as q
-    /// in sin(q), or in a denominator that is a sum, stays in the coefficient.
+    /// The groups come in order of their monomials. A chosen symbol inside a function, such as q in sin(q), or in a
+    /// denominator that is a sum, stays in the coefficient.
     #[must_use]
     pub fn collect(&self, symbols: &[&str]) -> Vec<(Monomial, Polynomial<'g>)> {
         let chosen: Vec<Id> =

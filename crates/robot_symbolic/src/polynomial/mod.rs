@@ -48,7 +48,7 @@ pub enum AngleSums {
 /// Sines and cosines of larger multiples of an angle are not expanded.
 pub const MAX_MULTIPLE: i64 = 32;
 
-/// The form of a polynomial, and limits of its cost.
+/// The form of a polynomial, and limits on the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PolynomialOptions {
     /// Expand angle sums, or keep them.
@@ -187,7 +187,7 @@ impl<'g> Polynomial<'g> {
         self.is_empty()
     }
 
-    /// The number that the polynomial is, if it is one.
+    /// The number, if the polynomial is a number.
     #[must_use]
     pub fn as_number(&self) -> Option<Number> {
         terms::as_number(&self.terms)

@@ -25,7 +25,7 @@ pub use polynomial::{
 };
 pub use text::{to_text, to_text_limited};
 
-/// Expressions of more operations, each shared one counted at every use, are not printed.
+/// Expressions with more operations are not printed; a shared operation counts at every use.
 pub const MAX_OPERATIONS: u64 = 1_000_000;
 
 /// An expression that is too long to be written out.
@@ -83,7 +83,7 @@ pub(crate) fn write<'g>(
     Ok(text)
 }
 
-/// Refuses an expression that would be too long written out.
+/// Returns an error if an expression would be too long to write out.
 ///
 /// # Errors
 ///

@@ -19,16 +19,16 @@ pub fn exact_text(value: &Rational) -> String {
         .unwrap_or_else(|| format!("{numerator}/{denominator}"))
 }
 
-/// The absolute value of a number as a printer needs it.
+/// The absolute value of a number, in the form that a printer needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Magnitude {
     /// Digits, perhaps with a point: `7`, `0.35`.
     Decimal(String),
     /// A quotient of integers, if the value is not a decimal.
     Quotient([String; 2]),
-    /// Digits, and the power of ten that they are multiplied with: `1.5`, `-7`.
+    /// Digits, and the power of ten by which they are multiplied: `1.5`, `-7`.
     Scientific([String; 2]),
-    /// An infinity, or no number at all.
+    /// An infinity or NaN.
     NotANumber,
 }
 

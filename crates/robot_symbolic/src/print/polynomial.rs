@@ -11,7 +11,7 @@ use crate::number::Number;
 use crate::polynomial::{Polynomial, compare_powers};
 use crate::print::to_text;
 
-/// A term of a sum as it is to be printed.
+/// A term of a sum, in the form in which it is printed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArrangedTerm<'g> {
     /// Whether the term is subtracted.
@@ -27,7 +27,7 @@ pub struct ArrangedTerm<'g> {
 pub enum ArrangedFactor<'g> {
     /// A symbol, π, a function, or a sum in a denominator.
     Atom(Expr<'g>),
-    /// A sum in brackets, of two terms or more, as [`crate::collected`] makes them.
+    /// A sum in parentheses, of two terms or more, as [`crate::collected`] builds it.
     Sum(Vec<ArrangedTerm<'g>>),
 }
 

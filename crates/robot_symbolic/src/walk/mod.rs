@@ -12,7 +12,7 @@ use crate::graph::{Function, Graph, SymbolId};
 
 pub use evaluator::Evaluator;
 
-/// The expressions that `roots` are made of, operands before results, each once.
+/// The expressions of which `roots` consist, operands before results, each once.
 #[must_use]
 pub fn reachable<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let mut seen = rustc_hash::FxHashSet::default();
@@ -28,8 +28,8 @@ pub fn reachable<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     found
 }
 
-/// Whether `root` is made of more than `limit` expressions, itself and each other once; what is beyond is
-/// not looked at.
+/// Whether `root` consists of more than `limit` expressions, counting itself and each shared one once; the walk stops
+/// at the limit.
 #[must_use]
 pub fn is_longer_than(root: Expr<'_>, limit: usize) -> bool {
     let mut seen = rustc_hash::FxHashSet::default();
@@ -176,7 +176,7 @@ impl<'g> Expr<'g> {
         evaluate(&[self], value)[0]
     }
 
-    /// The expression with symbols replaced; those for which `replace` gives nothing stay.
+    /// The expression with symbols replaced; those for which `replace` returns `None` stay.
     #[must_use]
     pub fn substitute(self, replace: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         let graph = self.graph();

@@ -43,7 +43,7 @@ impl Estimate {
         let comments: Vec<Vec<String>> = (0..links.len()).map(|link| self.comments(link)).collect();
         let text = if new.ends_with(".urdf") {
             if !text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).starts_with('<') {
-                let reason = "a URDF file is written back only from a URDF file; name a .toml file";
+                let reason = "a URDF file can be written only from a URDF file; name a .toml file";
                 return Err(failed(reason.to_owned()));
             }
             let bodies: Result<Vec<Body>, String> =

@@ -21,7 +21,9 @@ pub(super) fn with_values(
     let mut document: DocumentMut =
         import.toml.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
     if standard_rows(document.as_table()) {
-        return Err("values in standard Denavit-Hartenberg frames are not written back".to_owned());
+        return Err(
+            "values in standard Denavit-Hartenberg frames cannot be written back".to_owned()
+        );
     }
     let tables = document.get_mut("link").and_then(Item::as_array_of_tables_mut);
     let tables = tables.ok_or_else(|| "the robot file has no [[link]]".to_owned())?;
@@ -72,7 +74,7 @@ impl Written<'_> {
     fn link(&self, link: &Link, table: &mut Table) -> Result<(), String> {
         if standard_rows(table) {
             return Err(
-                "values in standard Denavit-Hartenberg frames are not written back".to_owned()
+                "values in standard Denavit-Hartenberg frames cannot be written back".to_owned()
             );
         }
         let Body { mass, center, inertia } = self.identified.body(self.place)?;
@@ -117,7 +119,7 @@ impl Written<'_> {
 
     fn drive(&self, table: &mut Table) -> Result<(), String> {
         if self.of_drive(Quantity::RotorCoupling).is_some() {
-            return Err("gyroscopic rotors are not written back".to_owned());
+            return Err("gyroscopic rotors cannot be written back".to_owned());
         }
         let Some(armature) = self.of_drive(Quantity::ReflectedInertia) else {
             return Ok(());

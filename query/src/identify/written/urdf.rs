@@ -27,7 +27,7 @@ pub(super) fn with_bodies(
     };
     let mut edits = vec![];
     for ((link, body), comments) in links.iter().zip(bodies).zip(comments) {
-        let node = find(&link.name).ok_or_else(|| format!("link `{}` is not there", link.name))?;
+        let node = find(&link.name).ok_or_else(|| format!("link `{}` is missing", link.name))?;
         for merged in link.bodies.iter().filter(|body| body.name != link.name) {
             let inertial = find(&merged.name).and_then(inertial);
             edits.extend(

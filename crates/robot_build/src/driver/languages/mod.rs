@@ -14,17 +14,17 @@ use crate::driver::options::Options;
 use crate::driver::programs::{Programs, programs};
 use crate::error::{Error, Errors};
 
-/// A language that code is written in.
+/// A language of generated code.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Language {
     /// Rust, with the runtime crate or a copy of it.
     #[default]
     Rust,
-    /// C99: a header that needs `<math.h>` alone.
+    /// C99: a header that needs only `<math.h>`.
     C,
-    /// C++17: a header over that of C.
+    /// C++17: a header on top of the C header.
     Cpp,
-    /// The header of C as a library of Arduino, in single precision.
+    /// The C header as an Arduino library, in single precision.
     Arduino,
     /// CUDA C++: a header of functions for host and device, and kernels.
     Cuda,
@@ -32,11 +32,11 @@ pub enum Language {
     Matlab,
     /// Python: a module of numbers, or of NumPy arrays.
     Python,
-    /// JavaScript: an ES module with declarations for TypeScript.
+    /// JavaScript: an ES module with TypeScript declarations.
     JavaScript,
     /// WebAssembly: a module with an ES module that loads it.
     Wasm,
-    /// WGSL: compute kernels of WebGPU in single precision.
+    /// WGSL: WebGPU compute kernels, in single precision.
     Wgsl,
 }
 
@@ -72,24 +72,24 @@ impl Language {
         }
     }
 
-    /// What a list of languages says of it.
+    /// Its description in a list of languages.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
-            Language::Rust => "Rust, without the standard library if need be",
+            Language::Rust => "Rust, also without the standard library",
             Language::C => "C99, one header",
-            Language::Cpp => "C++17, a header with a namespace over that of C",
-            Language::Arduino => "C99 as a library of Arduino, in single precision alone",
+            Language::Cpp => "C++17, a header with a namespace, on top of the C header",
+            Language::Arduino => "C99 as an Arduino library, only in single precision",
             Language::Cuda => "CUDA C++, a header with a kernel for each function",
-            Language::Matlab => "MATLAB and Octave, a function a file",
+            Language::Matlab => "MATLAB and Octave, one file for each function",
             Language::Python => "Python, for numbers and for NumPy arrays",
-            Language::JavaScript => "JavaScript, an ES module with declarations for TypeScript",
+            Language::JavaScript => "JavaScript, an ES module with TypeScript declarations",
             Language::Wasm => "WebAssembly, with an ES module that loads it",
-            Language::Wgsl => "WGSL, compute kernels of WebGPU, in single precision alone",
+            Language::Wgsl => "WGSL, WebGPU compute kernels, only in single precision",
         }
     }
 
-    /// The language of a name.
+    /// The language with that name.
     #[must_use]
     pub fn named(name: &str) -> Option<Language> {
         Language::ALL.iter().copied().find(|language| language.name() == name)

@@ -23,7 +23,7 @@ pub struct OptionSpec {
     pub example: &'static str,
     /// Which commands take it.
     pub commands: Commands,
-    /// What the command line's help calls its value; nothing of flags, and of what has only the option's name.
+    /// The name of its value in the command line's help; empty for flags, and if the name of the option suffices.
     pub value_name: &'static str,
     /// The option without which it has no effect, if there is one.
     pub requires: Option<&'static str>,
@@ -57,7 +57,7 @@ pub enum Commands {
     Code,
     /// The command that makes a module for a crate of the user's own.
     Module,
-    /// None: the robot file says it, or it has no meaning there.
+    /// None: the robot file sets it, or it has no meaning in commands.
     None,
 }
 
@@ -73,7 +73,7 @@ pub enum Kind {
     },
     /// An angle, rad.
     Angle,
-    /// A word of several; with each what it means, if its name does not say it. The first is the default.
+    /// One of several words, each with its meaning if the name does not say it. The first is the default.
     Choice(&'static [(&'static str, &'static str)]),
     /// A path of Rust.
     Path,
@@ -126,8 +126,8 @@ impl OptionSpec {
         OPTIONS.iter().find(|option| option.name == name)
     }
 
-    /// A value from its text, as the macro and tables write it; `None` of functions and bundles and where the
-    /// text is not a value of the option.
+    /// A value from its text, as the macro and tables write it; `None` for functions and bundles, and if the text is
+    /// not a value of the option.
     #[must_use]
     pub fn value<'v>(&self, text: &'v str) -> Option<Value<'v>> {
         let quoted = || text.strip_prefix('"')?.strip_suffix('"');
@@ -144,7 +144,7 @@ impl OptionSpec {
         }
     }
 
-    /// The flag of the command line: that of a list is in the singular, for it may be given several times.
+    /// The flag of the command line; that of a list is in the singular, because it may be given several times.
     #[must_use]
     pub fn flag(&self) -> String {
         let name = match self.kind {
@@ -154,8 +154,8 @@ impl OptionSpec {
         format!("--{}", name.replace('_', "-"))
     }
 
-    /// Gives the option a value in `options`; `None` if the value is not one of its kind. Functions and bundles,
-    /// whose names a robot must be known for, and what concerns files alone change nothing.
+    /// Sets the option in `options`; `None` if the value has the wrong kind. Functions and bundles, whose names
+    /// depend on the robot, and options that concern only files change nothing.
     pub fn set(&self, options: &mut Options, value: Value<'_>) -> Option<()> {
         (self.set)(options, value)
     }
@@ -182,7 +182,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         name: "functions",
         title: "functions to generate; `all` for every function of the robot",
         help: "Functions to generate, separated by commas; `all` for every function of the \
-            robot, `jacobian_NAME` and `jacobian_dot_qd_NAME` for those of one frame or moving \
+            robot, `jacobian_NAME` and `jacobian_dot_qd_NAME` for one frame or moving \
             link [default: those of the robot file's [code], else the forms of inverse dynamics \
             and the joint wrenches]",
         group: Group::Derive,
@@ -207,8 +207,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "snap",
         title: "angles near multiples of π/2",
-        help: "Snap constant angles within RAD of a multiple of π/2 to it [default: the robot file's `snap`, else \
-               1e-9 for code and 1e-5 in print]",
+        help: "Snap constant angles within RAD of a multiple of π/2 to that multiple [default: the robot file's `snap`, \
+               else 1e-9 for code and 1e-5 in print]",
         group: Group::Derive,
         kind: Kind::Angle,
         value_name: "RAD",
@@ -283,8 +283,8 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "fused",
         title: "multiply-adds",
-        help: "Multiply and add in one instruction with a single rounding, if the target \
-            supports it",
+        help: "Use instructions that multiply and add with a single rounding, if the target \
+            supports them",
         group: Group::Optimize,
         set: |options, value| value.flag().map(|flag| options.fused = flag),
         ..PLAIN
@@ -319,11 +319,11 @@ pub const OPTIONS: &[OptionSpec] = &[
     OptionSpec {
         name: "limbs",
         title: "[limbs that are alike](generated-code.md#limbs-that-are-alike)",
-        help: "Legs, fingers or arms on a fixed base that differ in numbers alone",
+        help: "Code for legs, fingers or arms on a fixed base that differ only in numbers",
         group: Group::Optimize,
         kind: Kind::Choice(&[
-            ("side_by_side", "In the lanes of one call, where functions use the runtime's sines"),
-            ("apart", "Each by code of its own"),
+            ("side_by_side", "In the lanes of one call, if functions use the runtime's sines"),
+            ("apart", "Separate code for each"),
         ]),
         example: "\"apart\"",
         set: |options, value| {

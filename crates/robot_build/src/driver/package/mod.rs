@@ -17,11 +17,10 @@ use crate::error::Errors;
 
 /// The files of a crate that holds a robot's functions, in a fixed order.
 ///
-/// The crate has no dependencies: the runtime's modules are part of it. Only with
-/// [`Options::parallel`] it has an optional one, `rayon`, for a feature of that name. Its default feature `std`
-/// adds the choice of the processor at run time, fused multiply-add and the processor's square root; without it
-/// the crate is `no_std`, unless [`Options::trigonometry`] is the standard library's, which needs it.
-/// [`Options::runtime`] is without effect.
+/// The crate has no dependencies: the runtime's modules are part of it. With [`Options::parallel`] it has an optional
+/// one, `rayon`, for a feature of that name. Its default feature `std` adds the choice of the processor at run time,
+/// fused multiply-add and the processor's square root; without it the crate is `no_std`, unless
+/// [`Options::trigonometry`] is the standard library's, which needs it. [`Options::runtime`] is without effect.
 ///
 /// # Errors
 ///
@@ -32,7 +31,7 @@ pub fn package(source: &Source, options: &Options) -> Result<Vec<File>, Errors> 
     package_of(&programs, source, options)
 }
 
-/// [`package`] for existing programs, whatever they cost.
+/// [`package`] for existing programs; budgets are not checked.
 ///
 /// # Errors
 ///

@@ -66,25 +66,25 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// The usual functions that a robot has, in `f64`, into `OUT_DIR`.
+    /// A builder that generates the usual functions of a robot, in `f64`, into `OUT_DIR`.
     pub fn new() -> Builder {
         Builder::default()
     }
 
-    /// The functions to generate, by name; `"all"` for all that the robot has, `"jacobian_tool"` for the
+    /// Sets the functions to generate, by name; `"all"` for all functions of the robot, `"jacobian_tool"` for the
     /// function of one frame or moving link.
     ///
-    /// Without this and [`Builder::bundle`] those that the robot file chooses with `[code]`; if it
+    /// The default, without [`Builder::bundle`], is the functions that the robot file chooses with `[code]`; if it
     /// chooses none, those of [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that the robot has.
     pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
         self.functions = Some(names.into_iter().map(Into::into).collect());
         self
     }
 
-    /// A function of that name that computes several functions, given by name, in one call, and their
-    /// common work once: a bundle. Call it again for another.
+    /// Adds a bundle: a function of that name that computes several functions, given by name, in one call, with their
+    /// common work done once. Call this again for another bundle.
     ///
-    /// If there are bundles and no [`Builder::functions`], there are bundles alone.
+    /// If there are bundles and no [`Builder::functions`], only bundles are generated.
     pub fn bundle(
         mut self,
         name: impl Into<String>,
@@ -95,7 +95,7 @@ impl Builder {
         self
     }
 
-    /// The number type of the functions; `f64` without this.
+    /// Sets the number type of the functions; the default is `f64`.
     pub fn scalar(mut self, scalar: Scalar) -> Builder {
         self.options.scalar = scalar;
         self
@@ -108,128 +108,125 @@ impl Builder {
         self
     }
 
-    /// Gives each function a form `…_batch` over slices of states, computed in blocks of so many
-    /// states, which LLVM turns into vectors; [`DEFAULT_BATCH`](crate::DEFAULT_BATCH) is a good
-    /// number. If not called, there is none.
+    /// Gives each function a form `…_batch` over slices of states, computed in blocks of this many states, which LLVM
+    /// vectorizes; [`DEFAULT_BATCH`](crate::DEFAULT_BATCH) is a good number. By default there is no such form.
     pub fn batch(mut self, states: usize) -> Builder {
         self.options.batch = Some(states);
         self
     }
 
-    /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`,
-    /// which the package must depend on. If not called, there is none.
+    /// Whether each batch also has a form `…_batch_parallel`, on the threads of the crate `rayon`, on which the
+    /// package must depend. The default is `false`.
     pub fn parallel(mut self, parallel: bool) -> Builder {
         self.options.parallel = parallel;
         self
     }
 
-    /// Whether products and sums become multiply-adds, which round once on a target that has the
-    /// instruction and are a product and a sum elsewhere. Without this they do not, and the code
-    /// gives the same bits on every target.
+    /// Whether products and sums become multiply-adds, which round once on a target that has the instruction and are
+    /// a product and a sum elsewhere. The default is `false`: the code then gives the same bits on every target.
     pub fn fused(mut self, fused: bool) -> Builder {
         self.options.fused = fused;
         self
     }
 
-    /// The source of sines and cosines; if not called, the runtime's polynomials.
+    /// Sets the source of sines and cosines; the default is the runtime's polynomials.
     pub fn trigonometry(mut self, trigonometry: Trigonometry) -> Builder {
         self.options.trigonometry = trigonometry;
         self
     }
 
-    /// How limbs that are alike are computed; if not called, side by side.
+    /// Sets how identical limbs are computed; the default is side by side.
     pub fn limbs(mut self, limbs: Limbs) -> Builder {
         self.options.limbs = limbs;
         self
     }
 
-    /// Constant angles within `radians` of a multiple of π/2 become that multiple; without this
-    /// what the robot file says with `snap`, or 10⁻⁹.
+    /// Sets the tolerance of snapping: constant angles within `radians` of a multiple of π/2 become that multiple.
+    /// The default is `snap` in the robot file, or 10⁻⁹.
     pub fn snap(mut self, radians: f64) -> Builder {
         self.options.snap = Some(radians);
         self
     }
 
-    /// Over which parameters of links the base parameters are; without this what the robot file says with
-    /// `base_frames`, or those in the file's frames.
+    /// Sets the frames of the base parameters; the default is `base_frames` in the robot file, or the file's frames.
     pub fn base_frames(mut self, frames: BaseFrames) -> Builder {
         self.options.base_frames = Some(frames);
         self
     }
 
-    /// The path of the runtime in generated code; `::robot_runtime` without this.
+    /// Sets the path of the runtime in generated code; the default is `::robot_runtime`.
     pub fn runtime(mut self, path: impl Into<String>) -> Builder {
         self.options.runtime = path.into();
         self
     }
 
-    /// The most operations that a call of any of the functions may take: multiplications, additions
-    /// and divisions. More is an error.
+    /// Limits the operations of a call of each function: multiplications, additions and divisions. More is an error.
     pub fn max_operations(mut self, limit: u64) -> Builder {
         self.options.max_operations = Some(limit);
         self
     }
 
-    /// The most bytes of stack that a call of any of the functions may take, as
-    /// [`budget`](crate::driver::budget) estimates it. More is an error.
+    /// Limits the stack of a call of each function, bytes, as [`budget`](crate::driver::budget) estimates it. More is
+    /// an error.
     pub fn max_stack(mut self, limit: u64) -> Builder {
         self.options.max_stack = Some(limit);
         self
     }
 
-    /// The form of the economical recursion.
+    /// Sets the form of the economical recursion.
     ///
-    /// Without it, the plan that `robot-symbolic search` pinned beside the robot file is taken,
-    /// if there is one; a stale one is an error.
+    /// The default is the plan that `robot-symbolic search` pinned beside the robot file, if there is one; a stale
+    /// plan is an error.
     pub fn plan(mut self, plan: Plan) -> Builder {
         self.options.plan = Some(plan);
         self
     }
 
-    /// The language of the code; Rust without this. In another, each robot becomes a folder `<module>` in `OUT_DIR`: the
-    /// package that `robot-symbolic crate --language` writes, of the same plan. A build script goes on from there: the
-    /// header `OUT_DIR/trttr1/trttr1.h` is for the crate `cc`. Options of Rust alone are errors in other languages.
+    /// Sets the language of the code; the default is Rust. In another language, each robot becomes a folder
+    /// `<module>` in `OUT_DIR`: the package that `robot-symbolic crate --language` writes for the same plan. A build
+    /// script goes on from there: the header `OUT_DIR/trttr1/trttr1.h` is for the crate `cc`. Options of Rust alone
+    /// are errors in other languages.
     #[cfg(feature = "languages")]
     pub fn language(mut self, language: Language) -> Builder {
         self.language = language;
         self
     }
 
-    /// The folder for the code; `OUT_DIR` without this. For those who commit generated code.
+    /// Sets the folder for the code; the default is `OUT_DIR`. Use it to commit generated code.
     ///
-    /// A file that is there under the name of a module and was not generated is an error, not replaced.
+    /// An existing file with the name of a module that was not generated is not replaced; it is an error.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
         self.out_dir = Some(folder.into());
         self
     }
 
-    /// The folder to which paths are relative; that of the package without this.
+    /// Sets the folder to which paths are relative; the default is that of the package.
     pub fn package_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
         self.package_dir = Some(folder.into());
         self
     }
 
-    /// Whether values that no body can have are accepted, with a warning: masses that are negative, tensors
-    /// with a negative principal moment or one that exceeds the sum of the others.
+    /// Whether physically impossible values are accepted, with a warning: negative masses, tensors with a negative
+    /// principal moment or one that exceeds the sum of the others.
     pub fn allow_unphysical(mut self, allow: bool) -> Builder {
         self.options.allow_unphysical = allow;
         self
     }
 
-    /// Whether moving links without mass are taken, with a warning.
+    /// Whether moving links without mass are accepted, with a warning.
     pub fn allow_massless(mut self, allow: bool) -> Builder {
         self.options.allow_massless = allow;
         self
     }
 
-    /// Whether robot files may lie outside of the package.
+    /// Whether robot files may lie outside the package.
     pub fn allow_outside(mut self, allow: bool) -> Builder {
         self.allow_outside = allow;
         self
     }
 
-    /// Whether Cargo is informed, on standard output, of the files that were read and of warnings;
-    /// if not called, it is.
+    /// Whether Cargo is informed, on standard output, of the files that were read and of warnings; the default is
+    /// `true`.
     pub fn emit_directives(mut self, emit: bool) -> Builder {
         self.silent = !emit;
         self

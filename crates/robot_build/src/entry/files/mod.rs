@@ -33,7 +33,7 @@ pub enum Staleness {
     Bytes,
 }
 
-/// Compares the file on disk with what it should hold, ends of lines of text apart; `None` if they are equal.
+/// Compares the file on disk with what it should contain, except for line ends of text; `None` if they are equal.
 ///
 /// # Errors
 ///

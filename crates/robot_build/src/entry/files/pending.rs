@@ -8,8 +8,8 @@ use super::staging::{Staged, remove_leftovers};
 use super::writer::{Folders, Ownership, Writer, cannot_write};
 use crate::error::Errors;
 
-/// A file being written by [`Writer::begin`]: beside its place until it is [put](Pending::put) there, and gone if it
-/// never is. What is written to a stream is there at once.
+/// A file being written by [`Writer::begin`]: it lies beside its place until it is [put](Pending::put) there, and is
+/// removed if it never is. Output to a stream is written at once.
 #[must_use]
 pub struct Pending {
     pub(super) writer: Writer,
@@ -42,7 +42,7 @@ impl Pending {
         Ok(written.map_err(|error| cannot_write(&self.path, &error))?)
     }
 
-    /// Puts the whole file in its place; gives its length, `None` if the file that is there has these bytes already.
+    /// Puts the whole file in its place; returns its length, or `None` if the existing file already has these bytes.
     ///
     /// # Errors
     ///

@@ -18,7 +18,7 @@ pub enum Ownership {
     Marked,
     /// By its first line, for formats without comments: whether a line is one that this program writes.
     Headed(fn(&str) -> bool),
-    /// Not at all: it is written to be edited.
+    /// None: the file is meant to be edited.
     Edited,
 }
 
@@ -60,7 +60,7 @@ impl Default for Writer {
 }
 
 impl Writer {
-    /// A writer that knows no inputs and replaces this program's files alone.
+    /// A writer that knows no inputs and replaces only this program's files.
     pub fn new() -> Writer {
         let remedy = "choose another name, or move that file away";
         Writer { inputs: vec![], force: false, remedy }
@@ -84,7 +84,8 @@ impl Writer {
         self
     }
 
-    /// Whether outputs will be refused, as far as is known before there are any; for long computations.
+    /// Checks whether outputs will be refused, as far as this is known before they exist; for use before long
+    /// computations.
     ///
     /// # Errors
     ///

@@ -262,7 +262,7 @@ impl<'t> Translator<'t, '_> {
         let exponent = self.capture()?;
         self.exponent(&exponent, here)?;
         match self.peek() {
-            "^" => self.fault("a second power", "put the first one in brackets"),
+            "^" => self.fault("a second power", "put the first one in parentheses"),
             _ => Ok(()),
         }
     }
@@ -381,6 +381,6 @@ pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
     };
     ParseError::new(span, message).help(
         "supported are symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, \
-         brackets, indices and powers",
+         parentheses, indices and powers",
     )
 }

@@ -25,12 +25,12 @@ use crate::text;
   robot-symbolic check arm.urdf --deny warnings --allow R0607 --format json
   robot-symbolic check --explain R0608
 
-Errors are violations that no robot can have: every other command refuses such a file. Warnings are likely
-mistakes; most are shown only by this command, and they change nothing. Notes say how the file was
-interpreted. Every diagnostic has a stable code with a page (docs/diagnostics).
+Errors are impossible for any robot: every other command refuses a file with errors. Warnings are likely
+mistakes; they change nothing, and most are shown only by this command. Notes say how the file was interpreted.
+Every diagnostic has a stable code with a page (docs/diagnostics).
 
-Exit codes: 0 no errors; 1 errors in some file, or warnings with --deny warnings; 2 the command line is
-wrong. Text goes to standard error, JSON to standard output.")]
+Exit codes: 0 if there are no errors; 1 if a file has errors, or warnings with --deny warnings; 2 if the command
+line is wrong. Text goes to standard error, JSON to standard output.")]
 pub(crate) struct Arguments {
     /// Robot files, TOML or URDF
     #[arg(required_unless_present = "explain", value_name = "FILE")]

@@ -24,9 +24,9 @@ PRINTED contains equations `(number) quantity = terms`; the quantities a_c1.x, F
 Q1 are those that `equations` prints. In text, each equation starts on a new line and continues on indented
 lines; `#` begins a comment. In LaTeX, each is on a line or in a display (equation, align, \\[ \\] …), and
 everything else is prose; a vector may be a column. Write sines and cosines as \\sin q_2, s_2 or sq_2. Terms may
-be in any order and in brackets. Friction is left out, and so are tip wrenches that no equation contains.
+be in any order and in parentheses. Friction is left out, and so are tip wrenches that no equation contains.
 
-Exit codes: 0 no differences; 1 terms differ; 2 a file or the command line is wrong.")]
+Exit codes: 0 if nothing differs; 1 if terms differ; 2 if a file or the command line is wrong.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,

@@ -29,11 +29,11 @@ const TERMS: usize = 20;
   robot-symbolic diff robots/planar_2r.toml robots/scara.toml --format json
 
 Links, joints, frames and parameters are matched by name, joint torques by the number of the coordinate, terms
-by their symbols. Robot names and remarks are ignored. Terms are those of the joint torques without friction;
+by their symbols. Robot names and comments are ignored. Terms are those of the joint torques without friction;
 torques are compared at the nominal parameters, with friction and without wrenches at the tips. If a part
 cannot be compared, the reason is shown.
 
-Exit codes: 0 no differences; 1 something differs; 2 a file or the command line is wrong.")]
+Exit codes: 0 if nothing differs; 1 if something differs; 2 if a file or the command line is wrong.")]
 pub(crate) struct Arguments {
     /// The first robot file
     a: PathBuf,

@@ -39,13 +39,13 @@ use crate::suggested::FUNCTION;
   [{\"q\": [0.3, 0.5], \"qd\": [0, 1], \"qdd\": [2, 0]}]
   END
 
-States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz;
-wrench_NAME for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz.
-A function needs all its inputs except the wrench, whose default is 0. The wrench is the one that the tip
-exerts on its surroundings. If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench,
-inverse_dynamics_friction means inverse_dynamics_wrench_friction, and likewise for forward_dynamics. Values
-are computed by the straight-line program that the generated code is printed from. States are read and their
-outputs printed one after the other, however many there are; -o writes a file when all are computed.")]
+States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz; wrench_NAME
+for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz. A function needs all
+its inputs except the wrench, whose default is 0. The wrench is the one that the tip exerts on its surroundings.
+If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench, inverse_dynamics_friction means
+inverse_dynamics_wrench_friction, and likewise for forward_dynamics. The values come from the same straight-line
+program from which the code is printed. States are read, and their outputs printed, one by one, however many
+there are; -o writes the file once all are computed.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -62,7 +62,7 @@ pub(crate) struct Arguments {
     settings: Settings,
     #[arg(long, help = help("trigonometry"), default_value = "polynomial", value_parser = trigonometry())]
     trigonometry: Trigonometry,
-    /// The file to write, when all states are computed; `-` is standard output, state by state [default: -]
+    /// The file to write once all states are computed; `-` is standard output, state by state [default: -]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -24,21 +24,21 @@ use crate::text;
   robot-symbolic search robots/ur5.toml
 
 Tries the options of the economical recursion for inverse dynamics, link by link, and counts the operations of
-each. All forms give the same torques. The best plan is pinned beside the robot file, as ur5.plan, and used by
-builds, which do not search themselves. After a change of the robot's mechanics the plan is stale: builds
-refuse it and other commands warn, until you search again. Remarks, names and values of parameters may change.
+each. All forms give the same torques. The best plan is pinned beside the robot file, as ur5.plan; builds, which
+do not search themselves, use it. After a change of the robot's mechanics the plan is stale: builds refuse it
+and other commands warn, until you search again. Remarks, names and values of parameters may change.
 
-With --tune the plans with the fewest operations are also compiled in memory and timed on this machine: a call of
-inverse dynamics at one state, and a state among many. The one whose call is fastest is pinned, if it is faster by 1 %
-than the one with the fewest operations. Another run or machine may choose another plan, which the pin says. Without
---tune the result is the same everywhere.
+With --tune the plans with the fewest operations are also compiled in memory and timed on this machine: a call
+of inverse dynamics at one state, and the time per state in a batch. The plan with the fastest call is pinned if
+it is 1 % faster than the one with the fewest operations. Another run or machine may choose another plan, and
+the pin says so. Without --tune the result is the same everywhere.
 
-For each link the table has the position of its frame's origin on the joint axis (at the foot of the common normal
-to the next or previous axis, say), the direction of its x axis, further options, and the first and second moments S
-of the parent that parts of the link make vanish (residual).
+For each link the table shows the position of its frame's origin on the joint axis (for example at the foot of
+the common normal to the next or previous axis), the direction of its x axis, further options, and the first and
+second moments S of the parent that parts of the link make vanish (residual).
 
-The modification time of the robot file is set to now, so that builds that ran before there was a plan run
-again; its text does not change.")]
+The modification time of the robot file is set to the current time, so builds that ran before there was a plan
+run again; its text does not change.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
@@ -46,7 +46,7 @@ pub(crate) struct Arguments {
     /// targets that multiply and add in one instruction
     #[arg(long)]
     fused: bool,
-    /// Of the plans with the fewest operations pin the one that is fastest on this machine
+    /// Among the plans with the fewest operations, pin the one that is fastest on this machine
     #[arg(long)]
     tune: bool,
     /// Show the result without pinning it

@@ -70,7 +70,7 @@ pub(super) fn search(
 
 /// The rows of a table of times, the fastest call first.
 fn rows(timed: &[Timed], chosen: usize) -> Rows {
-    let title = ["", "operations", "with multiply-adds", "ns a call", "ns a state of many"]
+    let title = ["", "operations", "with multiply-adds", "ns per call", "ns per state of many"]
         .map(str::to_owned);
     let mut order: Vec<usize> = (0..timed.len()).collect();
     order.sort_by(|a, b| timed[*a].call.total_cmp(&timed[*b].call));

@@ -27,19 +27,19 @@ use state::{Look, Settings, Shown, State};
   robot-symbolic watch robots/trttr1.toml
   robot-symbolic watch robots/trttr1.toml --report trttr1.html
 
-Derives the robot again whenever its file or its pinned plan is saved, and shows what has changed since the
-last save without errors: parameters, links, joints and frames, terms of the joint torques, operations, new
-and resolved errors and warnings. If the file has errors or is missing, the command waits for the next save.
-With --report, the page is rewritten at each save without errors; a browser that shows it reloads it and keeps
-its scroll position. If a robot cannot have a page, the last page is kept. Operations are counted under the
+Derives the robot again whenever its file or its pinned plan is saved, and shows what has changed since the last
+save without errors: parameters, links, joints and frames, terms of the joint torques, operations, new and
+resolved errors and warnings. If the file has errors or is missing, the command waits for the next save. With
+--report, the page is rewritten at each save without errors; a browser that shows it reloads it and keeps the
+scroll position. If no page can be made for a robot, the last page is kept. Operations are counted under the
 pinned plans, or under the default plan if either save has no plan; the command never searches.
 
 Changes go to standard output, errors and warnings to standard error. Ctrl-C ends the command. Exit codes: 0 if
-the last save had no errors and its page was written; 1 if not; 2 the command line is wrong.")]
+the last save had no errors and its page was written; 1 otherwise; 2 if the command line is wrong.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// A page about the robot to write, like that of `report --without-compiler`
+    /// Also write a page about the robot, like that of `report --without-compiler`
     #[arg(long, value_name = "PATH")]
     report: Option<PathBuf>,
     #[command(flatten)]

@@ -48,7 +48,7 @@ impl Page {
     ///
     /// A robot that no page can be made of.
     pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Errors> {
-        let reason = "the page was made without a compiler, while the file was watched.".to_owned();
+        let reason = "the page was made without a compiler, because `watch` wrote it.".to_owned();
         let compiled = Compiled::Unread { reason };
         // A page that reloads itself would forget its sliders.
         let live = false;

@@ -130,7 +130,7 @@ impl State {
     fn after_errors(&self, wrong: &[Problem], settings: &Settings<'_>) -> Shown {
         let gone = gone(self.wrong.iter().flatten().collect(), wrong);
         let stands = match &self.valid {
-            None => "the file has errors; waiting for a save without".to_owned(),
+            None => "the file has errors; waiting for a save without errors".to_owned(),
             Some(valid) => {
                 format!(
                     "the file has errors; the last good robot, from {}, is kept",

@@ -111,10 +111,9 @@ fn a_broken_file_keeps_the_last_robot() {
 fn a_file_that_is_broken_from_the_start_is_waited_for() {
     let (is_good, output, errors) = followed([&broken(), ARM].map(look));
     assert!(is_good && errors.contains("error[R0303]"));
-    assert!(
-        output
-            .starts_with("the file has errors; waiting for a save without\n\nsave 1:\ngone: error")
-    );
+    assert!(output.starts_with(
+        "the file has errors; waiting for a save without errors\n\nsave 1:\ngone: error"
+    ));
     assert!(output.ends_with("planar_2r: 2 coordinates, 9 parameters; watching\n"), "{output}");
     assert!(!followed([look(&broken())]).0);
 }

@@ -26,16 +26,16 @@ pub struct LinkPlan {
     pub origin: Origin,
     /// \[t, φ\] How the working frame is turned about the joint axis.
     pub turn: Turn,
-    /// \[a\] Whether the joint joins the parallel group of its parent's joint: rotations then go
-    /// by the sum of the group's angles. Has no effect if the axes are not parallel.
+    /// \[a\] Whether the joint joins the parallel group of its parent's joint: rotations then use the sum of the
+    /// group's angles. This has no effect if the axes are not parallel.
     pub angle_sum: bool,
     /// \[c\] Whether the third column of U comes from the parent's U.
     pub column: bool,
     /// \[u\] Whether the third row of U then comes from doubled products, U₃₁ = ω_x 2ω_z − U₁₃, which
     /// saves an addition if the angular acceleration across the axis is not needed itself.
     pub doubled: bool,
-    /// \[b\] Per component of the moment: products of angular velocities and accelerations in place
-    /// of entries of U.
+    /// \[b\] Per component of the moment: whether products of angular velocities and accelerations replace entries of
+    /// U.
     pub moment: [bool; 3],
     /// \[d\] Whether differences of squared angular velocities come from the diagonal of U, which
     /// saves a square if U's third column is known.
@@ -116,7 +116,7 @@ pub enum Origin {
 /// The turn of a working frame about its joint axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Turn {
-    /// The x axis as near to the file's as the joint axis allows.
+    /// The x axis as close to the file's as the joint axis allows.
     File,
     /// The x axis along the common normal with the next joint's axis.
     NextNormal,
@@ -152,7 +152,7 @@ impl Entry {
 }
 
 impl LinkPlan {
-    /// Frames of modified Denavit–Hartenberg, full regrouping, nothing else.
+    /// Modified Denavit–Hartenberg frames and full regrouping, without other options.
     pub const BASIC: LinkPlan = LinkPlan {
         origin: Origin::NextNormal,
         turn: Turn::NextNormal,
@@ -169,7 +169,7 @@ impl LinkPlan {
 }
 
 impl LinkPlan {
-    /// The options that suit most links, without a search: those that most links of searched plans have.
+    /// Options that suit most links, without a search: most links of searched plans have them.
     pub const DEFAULT: LinkPlan = LinkPlan {
         angle_sum: true,
         column: true,
@@ -190,7 +190,7 @@ impl Plan {
             && projected_at.into_iter().all(|place| place.link < links)
     }
 
-    /// The options that suit most arms, without a search: the cheapest searched plans have most links so.
+    /// Options that suit most arms, without a search: those of most links in the plans with the fewest operations.
     #[must_use]
     pub fn default_for(robot: &Robot) -> Plan {
         Plan::uniform(robot.links.len(), &LinkPlan::DEFAULT)

@@ -7,11 +7,11 @@ use toml::de::{DeTable, DeValue};
 use crate::economical::plan::search::Measure;
 use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
 
-/// A plan and the mechanics that it was searched for.
+/// A plan and the mechanics for which it was searched.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
-    /// Identifies the [mechanics](crate::economical::mechanics()) that the plan was searched for; with any other,
-    /// the pin is stale.
+    /// Identifies the [mechanics](crate::economical::mechanics()) for which the plan was searched; for any other, the
+    /// pin is stale.
     pub fingerprint: String,
     /// Identifies the rest of the pin, [`Pin::content`]; with any other, the pin was edited.
     pub digest: String,

@@ -19,7 +19,7 @@ const MAX_SHOWN: usize = 40;
 /// The style in which diagnostics are rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// Text alone.
+    /// Plain text.
     Plain,
     /// With the colors of a terminal.
     Terminal,

@@ -24,13 +24,13 @@
 use super::super::fused::FUSED;
 use super::super::number::Number;
 
-/// Angles are of less than so many radians.
+/// The limit of the absolute value of angles, rad.
 pub const LIMIT: f64 = 1073741824.0;
 
 /// 1.5 · 2⁵²: added to a smaller number it leaves the nearest integer in the low bits of the sum.
 pub const SHIFT: f64 = 6755399441055744.0;
 
-/// Parts of π/2, each what the ones before leave.
+/// Parts of π/2; each is the remainder of the preceding ones.
 pub const HALF_PI: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33];
 

@@ -12,13 +12,13 @@
 use super::super::fused::FUSED;
 use super::super::number::Number;
 
-/// Angles are of less than so many radians.
+/// The limit of the absolute value of angles, rad.
 pub const LIMIT: f32 = 131072.0;
 
 /// 1.5 · 2²³: added to a smaller number it leaves the nearest integer in the low bits of the sum.
 pub const SHIFT: f32 = 12582912.0;
 
-/// Parts of π/2, each what the ones before leave.
+/// Parts of π/2; each is the remainder of the preceding ones.
 pub const HALF_PI: [f32; 3] = [1.5707964, -4.371139e-8, -1.7151245e-15];
 
 /// π/2 in shorter parts, for multiply-adds that round twice.

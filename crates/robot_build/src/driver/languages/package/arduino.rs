@@ -53,11 +53,12 @@ fn readme(printer: &Printer<'_>) -> String {
         usage.push_str(&format!("{}\n", lines.join("\n")));
     }
     usage.push_str(&format!(
-        "```\n\nPut this folder into `libraries` of your sketchbook, or zip it and take *Add .ZIP Library*. The example `{name}` computes \
-         the check values and prints what differs. Arrays are of type `float`; a matrix is an array, row by row. What depends on parameters \
-         alone is computed once in `double`, which must have 64 bits: on AVR it has not, and the example does not compile there.\n"
+        "```\n\nCopy this folder into `libraries` in your sketchbook, or zip it and use *Add .ZIP Library*. The example `{name}` computes \
+         the check values and prints those that differ. Arrays have the type `float`; a matrix is an array, row by row. Values that \
+         depend only on parameters are computed once in `double`, which must have 64 bits: on AVR it does not, so the example does \
+         not compile there.\n"
     ));
-    let what = "C99, as a library of Arduino: straight-line code without branches or allocation";
+    let what = "C99, as an Arduino library: straight-line code without branches or allocation";
     let constructor = printer.names.item("model_init");
     printer.parts.readme(printer.tree, what, &usage, &constructor)
 }
@@ -70,7 +71,7 @@ fn sketch(printer: &Printer<'_>) -> String {
 
 #include <{name}.h>
 
-static_assert(sizeof(double) == 8, \"what depends on the parameters is computed in 64 bits\");
+static_assert(sizeof(double) == 8, \"values that depend on parameters are computed in 64 bits\");
 
 static int failures = 0;
 

@@ -36,9 +36,9 @@ pub(super) fn options(parts: &Parts<'_>) -> String {
         Trigonometry::Standard => "`-ffast-math` reorders sums: last bits differ",
     };
     format!(
-        "Without `-ffp-contract=off` some compilers fuse products and sums: results then differ in last bits. With gcc add \
-         `-fno-tree-slp-vectorize` where the processor has multiply-adds that round once (`-march=native`): version 12 fuses \
-         there all the same. {sines}."
+        "Without `-ffp-contract=off` some compilers fuse products and sums: the last bits of results then differ. With gcc, also \
+         use `-fno-tree-slp-vectorize` if the processor has multiply-adds that round once (`-march=native`): version 12 \
+         fuses some operations even with `-ffp-contract=off`. {sines}."
     )
 }
 
@@ -50,7 +50,7 @@ pub(super) fn has_bits(parts: &Parts<'_>) -> bool {
 }
 
 /// A function that names the compiler's options under which bits differ, and counts them as failures.
-pub(super) const FLAGS: &str = "/* Says which option of the compiler changes bits. */
+pub(super) const FLAGS: &str = "/* Names the compiler options that change bits. */
 static void name_flags(void)
 {
     /* (1 + e)^2 - 1 - 2 e is e^2 if a product and a sum are fused, else 0. */
@@ -127,8 +127,8 @@ add_test(NAME {name} COMMAND {name}_test)
             );
         }
         usage.push_str(&format!(
-            "Every function is in the header `{name}.h`, which needs the C library's mathematical functions alone. Arrays are \
-             of numbers of type `{}`; a matrix is an array, row by row. To test it:\n\n\
+            "Every function is in the header `{name}.h`, which needs only the C library's mathematical functions. Arrays have \
+             elements of type `{}`; a matrix is an array, row by row. To test it:\n\n\
              ```sh\ncc -std=c99 -O2 -ffp-contract=off test.c -o test -lm && ./test\n```\n\n\
              or with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. {}\n",
             self.real(),
@@ -227,7 +227,7 @@ add_test(NAME {name} COMMAND {name}_test)
     pub(super) fn hidden(&self) -> String {
         let real = self.real();
         format!(
-            "/* The compiler shall not know the numbers, or it computes results by itself, as no program does later. */
+            "/* Hides the numbers from the compiler, which could otherwise compute the results during compilation. */
 static void hide({real} *numbers, int count)
 {{
     volatile {real} number;
@@ -283,7 +283,7 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
             return "    (void)differs;\n".to_owned();
         }
         "    if (differs) {
-        printf(\"%s: last bits differ: compile with -ffp-contract=off and, gcc, -fno-tree-slp-vectorize\\n\", what);
+        printf(\"%s: last bits differ: compile with -ffp-contract=off and, with gcc, -fno-tree-slp-vectorize\\n\", what);
         failures++;
     }
 "

@@ -93,7 +93,7 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         usage.push_str(&format!("const auto result = {name}::{}({arguments});\n", function.name));
     }
     usage.push_str(&format!(
-        "```\n\n`{name}.hpp` includes `{name}.h`, which C takes too; a matrix is an array, row by row. Several outputs are \
+        "```\n\n`{name}.hpp` includes `{name}.h`, which can also be used from C; a matrix is an array, row by row. Several outputs are \
          returned as a structure. To test it:\n\n```sh\nc++ -std=c++17 -O2 -ffp-contract=off test.cpp -o test && \
          ./test\n```\n\nor with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. {}\n",
         options(parts)
@@ -130,7 +130,7 @@ fn comparison(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         true => {
             "        // Where the code promises them, all bits.
         if (std::memcmp(&found[i], &stated[i], sizeof stated[i]) != 0) {
-            printf(\"%s: last bits of entry %zu differ: compile with -ffp-contract=off and, gcc, -fno-tree-slp-vectorize\\n\", what, i);
+            printf(\"%s: last bits of entry %zu differ: compile with -ffp-contract=off and, with gcc, -fno-tree-slp-vectorize\\n\", what, i);
             failures++;
         }
 "

@@ -88,15 +88,15 @@ fn readme(printer: &Printer<'_>) -> String {
         ));
     }
     usage.push_str(&format!(
-        "```\n\nEvery function is in the header `{name}.cuh`, for host and device. Beside each that has inputs stands a kernel \
-         `…_kernel` over `n` states on a grid of any size of one dimension: entry j of state i stands at `[j * stride + i]` of an array in \
-         the memory of the device, so that neighboring threads read neighboring numbers. Arrays are of numbers of type `{real}`; a matrix is \
+        "```\n\nEvery function is in the header `{name}.cuh`, for host and device. Each one with inputs also has a kernel \
+         `…_kernel` over `n` states, on a one-dimensional grid of any size: entry j of state i is at `[j * stride + i]` in an array in \
+         device memory, so neighboring threads read neighboring numbers. Arrays have elements of type `{real}`; a matrix is \
          an array, row by row.{} To test it:\n\n```sh\nnvcc -std=c++17 -O3 -fmad=false example.cu -o example && ./example\n```\n\nor with \
          CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. Without `-fmad=false` the compiler fuses products and \
-         sums: that is faster, and last bits differ, which the test says. `-use_fast_math` does more: divisions and roots are \
-         approximate. The text compiles at run time too (NVRTC, CuPy's `RawModule`): there kernels have their plain names.\n",
+         sums: this is faster, but last bits differ, and the test says so. With `-use_fast_math` divisions and roots are also \
+         approximate. The header can also be compiled at run time (NVRTC, CuPy's `RawModule`): kernels then have their plain names.\n",
         if printer.tree.has_parameters() {
-            " A kernel takes the model by value: it is computed on the host, once."
+            " A kernel takes the model by value; the host computes it once."
         } else {
             ""
         }

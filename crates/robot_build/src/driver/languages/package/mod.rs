@@ -29,8 +29,8 @@ use crate::driver::programs::{Programs, programs};
 use crate::driver::readme::{Sections, paragraph, plain, section};
 use crate::error::Errors;
 
-/// The files of a package with a robot's functions in a language, in a fixed order: what its users build or load at
-/// once, with a README, a description in JSON and a test of the check values.
+/// The files of a package with a robot's functions in a language, in a fixed order: the sources, which can be built
+/// or loaded as they are, a README, a description in JSON and a test of the check values.
 ///
 /// # Errors
 ///
@@ -49,7 +49,7 @@ pub fn package(
     package_of(&programs, source, options, language)
 }
 
-/// [`package()`] of existing programs, whatever they cost.
+/// [`package()`] for existing programs; budgets are not checked.
 ///
 /// # Errors
 ///

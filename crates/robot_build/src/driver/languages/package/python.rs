@@ -63,9 +63,9 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         usage.push_str(&format!("{name}.{}({arguments})\n", function.name));
     }
     usage.push_str(&format!(
-        "```\n\nThe module `{name}.py` needs Python alone. With NumPy each input may be an array: of shape (n,) for one state, of \
-         shape (n, N), a column for each, for many. Install it by `pip install .`, or copy the file; test it by `python \
-         test.py`.\n"
+        "```\n\nThe module `{name}.py` needs only Python. With NumPy each input may be an array: of shape (n,) for one state, or of \
+         shape (n, N), with a column for each state, for many. Install it with `pip install .`, or copy the file; test it with \
+         `python test.py`.\n"
     ));
     parts.readme(tree, "Python", &usage, "Model")
 }

@@ -68,20 +68,20 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         usage.push_str(&format!("{};\n", call(tree, &function.name, check, None)));
     }
     usage.push_str(&format!(
-        "```\n\n`{name}.mjs` loads `{name}.wasm` from beside itself, in a browser and in node; `load` also takes the module's \
-         bytes, its address, a response or a compiled module. Inputs are arrays of any kind. Outputs are new `{real}`s, or \
-         those that are given behind the inputs; a matrix is an array, row by row. Test it by `node test.mjs`.\n\n\
-         Functions whose names end in `_batch` take many states: behind the model the number `n` of states, and in each array \
-         entry `j` of state `i` at `j * n + i`. They compute in the lanes of 128 bits.\n\n\
-         The wrapped functions copy arrays into the module's memory and out of it. To copy nothing, keep arrays there and call \
+        "```\n\n`{name}.mjs` loads `{name}.wasm` from its own folder, in a browser or in Node.js; `load` also accepts the module's \
+         bytes, its URL, a response or a compiled module. Inputs are arrays of any kind. Outputs are new `{real}`s, or \
+         the arrays that are passed after the inputs; a matrix is an array, row by row. Test it with `node test.mjs`.\n\n\
+         Functions whose names end in `_batch` take many states: after the model comes the number `n` of states, and each array has \
+         entry `j` of state `i` at `j * n + i`. They compute in 128-bit lanes.\n\n\
+         The wrapped functions copy arrays into and out of the module's memory. To avoid copies, keep arrays there and call \
          `robot.exports`, whose functions take addresses:\n\n"
     ));
     if let Some((function, _)) = first {
         usage.push_str(&uncopied(tree, function));
     }
     usage.push_str(
-        "\nThe functions over columns take there, behind the model, the number of states and the numbers from one column to \
-         the next. Memory that grows makes earlier views of it empty.\n",
+        "\nFor these, the functions over columns take, after the model, the number of states and the distance from one column to \
+         the next in numbers. When memory grows, earlier views of it become empty.\n",
     );
     parts.readme(tree, "WebAssembly", &usage, "create_model")
 }

@@ -49,28 +49,30 @@ fn described(parts: &Parts<'_>, tree: &Tree<'_>) -> Result<Value, Errors> {
 fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     let name = &tree.name;
     let mut usage = format!(
-        "`{name}.wgsl` has a function for each function of the robot and, beside each that has inputs, an entry point `…_kernel` over `n` \
-         states, in workgroups of {} and any number of them in x. All entry points share one group of bindings:\n\n| binding | \
-         buffer | contents |\n|---|---|---|\n| 0 | storage, read | the inputs: entry j of state i stands at `[j * stride + i]`, where j \
+        "`{name}.wgsl` has a function for each function of the robot and, for each one with inputs, an entry point `…_kernel` over `n` \
+         states, in workgroups of {}, any number of them in x. All entry points share one group of bindings:\n\n| binding | \
+         buffer | contents |\n|---|---|---|\n| 0 | storage, read | the inputs: entry j of state i is at `[j * stride + i]`, where j \
          counts the entries of all inputs together, in their order |\n| 1 | storage, read and write | the outputs, in the same way |\n| 2 | \
          uniform | `n` and `stride`, two `u32`; `stride` is at least `n` |\n",
         wgsl::WORKGROUP
     );
     if wgsl::has_model(tree) {
-        usage.push_str("| 3 | uniform | the model: what depends on the parameters alone |\n");
+        usage.push_str(
+            "| 3 | uniform | the model: the values that depend only on the parameters |\n",
+        );
     }
     usage.push_str(
-        "\nDeclare the group yourself: a layout that is made from an entry point lacks buffers which it does not read. WGSL leaves the \
-         rounding of sums of products open: last bits differ from machine to machine, and what is not a number may be any number. ",
+        "\nDeclare the group yourself: a layout derived from an entry point lacks the buffers that it does not read. WGSL does not \
+         specify the rounding of sums of products: last bits differ from machine to machine, and NaN may become any number. ",
     );
     if wgsl::has_model(tree) {
         usage.push_str(
             "`robot.json` has the numbers of the model at the stated parameters, in their order; for other parameters `create_model` \
-             of a package in JavaScript or Python gives the same fields in double precision. ",
+             in a JavaScript or Python package returns the same fields in double precision. ",
         );
     }
     usage.push_str(
-        "To test the check values, and as an example of a host:\n\n```sh\npip install wgpu numpy && python test.py\n```\n",
+        "`test.py` tests the check values, and is an example of a host:\n\n```sh\npip install wgpu numpy && python test.py\n```\n",
     );
     parts.readme(tree, "WGSL: compute kernels in single precision", &usage, "create_model")
 }
