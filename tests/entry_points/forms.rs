@@ -85,6 +85,27 @@ fn columns_text(dof: usize) -> String {
     )
 }
 
+/// The mass matrices of the same states: by a batch near those of single calls, in columns with the bits of the batch.
+fn masses_text(dof: usize) -> String {
+    format!(
+        "let mut masses = [[[0.0; {dof}]; {dof}]; {STATES}];\n\
+                 assert_eq!(m.mass_matrix_batch(&q, &mut masses), {STATES});\n\
+                 for (q, mass) in q.iter().zip(&masses) {{\n    \
+                   for (row, batch) in m.mass_matrix(q).iter().zip(mass) {{\n        \
+                     for (a, b) in row.iter().zip(batch) {{ assert!((a - b).abs() < 1e-9); }}\n    \
+                   }}\n\
+                 }}\n\
+                 // Of matrices each entry is stored by itself, those that are always 0 are not.\n\
+                 let mut cm: [[Vec<f64>; {dof}]; {dof}] = \
+                   core::array::from_fn(|_| columns(&[[0.0; {dof}]; {STATES}]));\n\
+                 let rows = cm.each_mut().map(|row| row.each_mut().map(|column| &mut column[..]));\n\
+                 assert_eq!(m.mass_matrix_columns(slices(&cq), rows), {STATES});\n\
+                 for (state, mass) in masses.iter().enumerate() {{\n    \
+                   assert_eq!(cm.each_ref().map(|row| row.each_ref().map(|column| column[state])), *mass);\n\
+                 }}"
+    )
+}
+
 /// A program that prints the torques at all states by each form, a state a line.
 fn main_text() -> String {
     let mut text = "#![deny(warnings)]\nmod cases;\nuse robot_runtime::{F32x8, F64x4, Scalar};\n\
@@ -111,7 +132,7 @@ fn main_text() -> String {
             let [q, qd, qdd] = states(dof);
             let each = "q.iter().zip(&qd).zip(&qdd).map(|((q, qd), qdd)|";
             let collect = ").collect::<Vec<_>>()";
-            let columns = columns_text(dof);
+            let (columns, masses) = (columns_text(dof), masses_text(dof));
             writeln!(
                 text,
                 "{{ let m = cases::{path}::{model};\n\
@@ -128,13 +149,7 @@ fn main_text() -> String {
                  assert_eq!(m.inverse_dynamics_batch(&q, &qd, &qdd, &mut tau), {STATES});\n\
                  show(\"batch\", &tau);\n\
                  {columns}\n\
-                 let mut masses = [[[0.0; {dof}]; {dof}]; {STATES}];\n\
-                 assert_eq!(m.mass_matrix_batch(&q, &mut masses), {STATES});\n\
-                 for (q, mass) in q.iter().zip(&masses) {{\n    \
-                   for (row, batch) in m.mass_matrix(q).iter().zip(mass) {{\n        \
-                     for (a, b) in row.iter().zip(batch) {{ assert!((a - b).abs() < 1e-9); }}\n    \
-                   }}\n\
-                 }} }}"
+                 {masses} }}"
             )
             .unwrap();
         }
