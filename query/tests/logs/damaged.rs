@@ -77,6 +77,8 @@ fn likely_mistakes_are_found_with_their_rows() {
         ("tau", 310) => f64::NAN,
         ("q", 50) => 90.0,
         ("t", row) => 0.01 * row as f64,
+        // Of the size of the model's.
+        ("tau", _) => 30.0,
         _ => 0.5,
     };
     write(&path, 400, value);
@@ -107,6 +109,7 @@ fn positions_beyond_the_limits_of_the_robot_are_found() {
     let value = |name: &str, row: usize| match (name, row) {
         ("q", 120) => 3.3,
         ("q", 130) => 45.0,
+        ("tau", _) => 30.0,
         _ => 0.5,
     };
     write(&path, 400, value);
