@@ -15,6 +15,9 @@ const OFTEN: f64 = 20.0;
 /// The correlation with the model's torques from which on a joint's are the same torques in another unit or direction.
 const ALIKE: f64 = 0.5;
 
+/// Torques whose variance is less than this of their mean square do not vary.
+const RESTING: f64 = 1e-9;
+
 /// The rows from which on there is anything to say.
 const ROWS: u64 = 30;
 
@@ -102,9 +105,13 @@ impl Sums {
             return None;
         }
         let ratio = (self.measured_squared / self.model_squared).sqrt();
-        let vary = (self.measured_squared - self.measured.powi(2) / rows)
-            * (self.model_squared - self.model.powi(2) / rows);
-        unit((ratio, (self.product - self.measured * self.model / rows) / vary.sqrt()))
+        let measured = self.measured_squared - self.measured.powi(2) / rows;
+        let model = self.model_squared - self.model.powi(2) / rows;
+        // A robot at rest has torques that vary by rounding alone.
+        let vary =
+            measured > RESTING * self.measured_squared && model > RESTING * self.model_squared;
+        let product = self.product - self.measured * self.model / rows;
+        unit((ratio, if vary { product / (measured * model).sqrt() } else { 0.0 }))
     }
 }
 

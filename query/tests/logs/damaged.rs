@@ -87,7 +87,7 @@ fn likely_mistakes_are_found_with_their_rows() {
     let found = check(&log, &model, &Names::default(), Some("t"), None).unwrap();
     let found: Vec<String> = found.iter().map(ToString::to_string).collect();
     let wanted = [
-        "row group 0: a position is beyond 10 turns: is it in radians?, 1 rows, the first is row 50",
+        "row group 0: a position is beyond 10 turns: is it in radians (see --degrees)?, 1 rows, the first is row 50",
         "row group 1: the time is that of the row before, 1 rows, the first is row 150",
         "row group 2: the time is before that of the row before, 1 rows, the first is row 250",
         "row group 3: a value is NaN or infinite, 1 rows, the first is row 310",
