@@ -1,11 +1,13 @@
 """Rows in a second and memory of `robot-query` over logs of growing size, beside NumPy with Pinocchio over the same files:
-throughput.py ROBOT-QUERY [MOST-ROWS [FOLDER]].
+throughput.py ROBOT-QUERY [MOST-ROWS [FOLDER]] [--single].
 
 All read the same Parquet files, a column for each joint, from the same disk, in turn. Pinocchio's torques are
 `rneaInParallel` where the package has it, else `rnea` row by row; its regressor is `computeJointTorqueRegressor`, folded by
-NumPy's QR decomposition, a block at a time. They take PEER rows at most, since they are far slower.
+NumPy's QR decomposition, a block at a time. They take PEER rows at most, since they are far slower. `--single` has the
+logs in single precision: half as much to read. All compute in double precision.
 """
 
+import argparse
 import math
 import os
 import shutil
@@ -23,6 +25,8 @@ import pyarrow.parquet as pq
 ROBOT = Path(__file__).parents[2] / "robots" / "ur5.toml"
 JOINTS = 6
 PEER = 1_000_000
+# At which number of rows the torques are written to files, too.
+WRITTEN = 10_000_000
 BLOCK = 4096
 
 
@@ -73,7 +77,7 @@ def blocks(files: list[Path], names: list[str], most: int):
         for batch in pq.ParquetFile(file).iter_batches(BLOCK, columns=names):
             batch = batch.slice(0, most - seen)
             seen += batch.num_rows
-            yield np.column_stack([batch[name].to_numpy() for name in names])
+            yield np.column_stack([batch[name].to_numpy().astype(float) for name in names])
             if seen == most:
                 return
 
@@ -136,8 +140,13 @@ def same(command: str, log: Path, rows: int, last: np.ndarray, triangle: np.ndar
 
 
 def main() -> None:
-    command, most = sys.argv[1], int(float(sys.argv[2])) if len(sys.argv) > 2 else 1_000_000
-    folder = Path(sys.argv[3]) if len(sys.argv) > 3 else Path(tempfile.mkdtemp())
+    parser = argparse.ArgumentParser()
+    parser.add_argument("command")
+    parser.add_argument("most", type=float, nargs="?", default=1e6)
+    parser.add_argument("folder", type=Path, nargs="?")
+    parser.add_argument("--single", action="store_true")
+    options = parser.parse_args()
+    command, most, folder = options.command, int(options.most), options.folder or Path(tempfile.mkdtemp())
     model = model_of(ROBOT)
     print(f"{'rows':>11} {'what':28} {'seconds':>9} {'CPU':>9} {'rows/s':>11} {'rows/CPU s':>11} {'MiB':>7}")
 
@@ -151,11 +160,17 @@ def main() -> None:
         if not log.exists():
             files = max(2, rows // 5_000_000)
             arguments = ["--noise", 0.5, "--layout", "columns", "--files", files, "-o", log]
+            arguments += ["--single"] if options.single else []
             row(rows, "generate", *run(command, "generate", ROBOT, "--rows", rows, *arguments))
         files = sorted(log.iterdir())
         states = columns(["q", "qd", "qdd"])
         torques = f"inverse_dynamics('{ROBOT}', {', '.join(states)})"
         row(rows, "robot-query torques", *run(command, "sql", f"SELECT count({torques}) FROM log", "--log", log))
+        if rows == WRITTEN:
+            answer = folder / "answer"
+            written = run(command, "torques", ROBOT, log, "--columns", "episode,t", "-o", answer)
+            row(rows, "robot-query torques, written", *written)
+            shutil.rmtree(answer)
         row(rows, "robot-query identify", *run(command, "identify", ROBOT, log, "--noise", 1))
         if rows <= PEER:
             seconds, cpu, last = pinocchio_torques(model, files, rows)
@@ -165,7 +180,7 @@ def main() -> None:
             row(rows, "Pinocchio and NumPy identify", seconds, cpu)
             same(command, log, rows, last, triangle)
         rows *= 10
-    if len(sys.argv) <= 3:
+    if options.folder is None:
         shutil.rmtree(folder)
 
 

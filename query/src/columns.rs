@@ -3,7 +3,7 @@
 use datafusion::arrow::array::{Array, ArrayRef, AsArray, StructArray};
 use datafusion::arrow::buffer::{NullBuffer, ScalarBuffer};
 use datafusion::arrow::compute::cast;
-use datafusion::arrow::datatypes::{DataType, Field, Float64Type};
+use datafusion::arrow::datatypes::{DataType, Field, Float32Type, Float64Type};
 use std::sync::Arc;
 
 use crate::error::Error;
@@ -25,9 +25,16 @@ pub(crate) struct Columns {
 /// Columns that lie in one buffer.
 #[derive(Debug)]
 struct Part {
-    values: ScalarBuffer<f64>,
+    values: Values,
     starts: Starts,
     entries: usize,
+}
+
+/// Numbers as a log has them, in double or single precision.
+#[derive(Debug)]
+enum Values {
+    Double(ScalarBuffer<f64>),
+    Single(ScalarBuffer<f32>),
 }
 
 /// Where the entries of a row begin.
@@ -94,10 +101,9 @@ impl Columns {
                 self.push_list(argument)
             }
             other if other.is_numeric() || other.is_null() => {
-                let numbers = converted(argument, &DataType::Float64)?;
-                let numbers = numbers.as_primitive::<Float64Type>();
+                let numbers = converted(argument, &precision(other))?;
                 self.restrict(numbers.nulls());
-                let values = numbers.values().clone();
+                let values = Values::of(&numbers);
                 self.parts.push(Part { values, starts: Starts::Every(1), entries: 1 });
                 Ok(())
             }
@@ -113,25 +119,25 @@ impl Columns {
     }
 
     fn push_fixed(&mut self, argument: &ArrayRef, size: i32) -> Result<(), Error> {
-        let lists = converted(argument, &DataType::FixedSizeList(doubles(), size))?;
+        let lists = converted(argument, &DataType::FixedSizeList(item(argument), size))?;
         let lists = lists.as_fixed_size_list();
         let size = size.unsigned_abs() as usize;
         self.restrict(lists.nulls());
-        let numbers = lists.values().as_primitive::<Float64Type>();
+        let numbers = lists.values();
         if let Some(nulls) = numbers.nulls() {
             let whole = |row: usize| (0..size).all(|entry| nulls.is_valid(row * size + entry));
             self.restrict(Some(&(0..self.rows).map(whole).collect()));
         }
-        let values = numbers.values().clone();
+        let values = Values::of(numbers);
         self.parts.push(Part { values, starts: Starts::Every(size), entries: size });
         Ok(())
     }
 
     fn push_list(&mut self, argument: &ArrayRef) -> Result<(), Error> {
-        let lists = converted(argument, &DataType::List(doubles()))?;
+        let lists = converted(argument, &DataType::List(item(argument)))?;
         let lists = lists.as_list::<i32>();
         self.restrict(lists.nulls());
-        let numbers = lists.values().as_primitive::<Float64Type>();
+        let numbers = lists.values();
         let offsets = lists.offsets();
         if let Some(nulls) = numbers.nulls() {
             let whole = |row: &[i32]| (row[0]..row[1]).all(|place| nulls.is_valid(place as usize));
@@ -151,7 +157,7 @@ impl Columns {
             )));
         }
         let starts = Starts::At(offsets.inner().clone());
-        let values = numbers.values().clone();
+        let values = Values::of(numbers);
         self.parts.push(Part { values, starts, entries: entries.unwrap_or(0) });
         Ok(())
     }
@@ -174,6 +180,25 @@ impl Columns {
         rows
     }
 
+    /// Rows from `start` on, a slice for each column, at most [`BLOCK`] of them: those of the log where it has columns of
+    /// doubles, else in `room`, which has [`BLOCK`] places for each column. What rows with nulls have means nothing.
+    pub(crate) fn block<'a>(&'a self, start: usize, room: &'a mut [f64]) -> Vec<&'a [f64]> {
+        let rows = BLOCK.min(self.rows - start);
+        let mut room = room.chunks_exact_mut(BLOCK);
+        let mut slices: Vec<&[f64]> = Vec::with_capacity(self.entries);
+        for part in &self.parts {
+            if let (Values::Double(values), Starts::Every(1)) = (&part.values, &part.starts) {
+                slices.push(&values[start..start + rows]);
+                continue;
+            }
+            for (entry, column) in (0..part.entries).zip(&mut room) {
+                part.read(start, entry, &mut column[..rows]);
+                slices.push(&column[..rows]);
+            }
+        }
+        slices
+    }
+
     /// The number of columns.
     pub(crate) fn entries(&self) -> usize {
         self.entries
@@ -188,22 +213,63 @@ impl Columns {
 impl Part {
     /// An entry of rows from `start` on. A row that is null may have no entries: it reads as 0.
     fn read(&self, start: usize, entry: usize, column: &mut [f64]) {
-        match &self.starts {
-            Starts::Every(1) => column.copy_from_slice(&self.values[start..start + column.len()]),
+        match &self.values {
+            Values::Double(values) => self.starts.read(values, start, entry, column),
+            Values::Single(values) => self.starts.read(values, start, entry, column),
+        }
+    }
+}
+
+impl Starts {
+    fn read<T: Copy + Into<f64>>(
+        &self,
+        values: &[T],
+        start: usize,
+        entry: usize,
+        column: &mut [f64],
+    ) {
+        match self {
             Starts::Every(size) => {
-                let values = self.values[start * size..].chunks_exact(*size);
-                column.iter_mut().zip(values).for_each(|(value, row)| *value = row[entry]);
+                let values = values[start * size..].chunks_exact(*size);
+                column.iter_mut().zip(values).for_each(|(value, row)| *value = row[entry].into());
             }
             Starts::At(starts) => {
                 let starts = starts[start..].windows(2);
                 for (value, ends) in column.iter_mut().zip(starts) {
                     let place = ends[0].unsigned_abs() as usize + entry;
                     let is_there = place < ends[1].unsigned_abs() as usize;
-                    *value = if is_there { self.values[place] } else { 0.0 };
+                    *value = if is_there { values[place].into() } else { 0.0 };
                 }
             }
         }
     }
+}
+
+impl Values {
+    /// Of an array that is of either precision.
+    fn of(numbers: &ArrayRef) -> Values {
+        match numbers.as_primitive_opt::<Float32Type>() {
+            Some(numbers) => Values::Single(numbers.values().clone()),
+            None => Values::Double(numbers.as_primitive::<Float64Type>().values().clone()),
+        }
+    }
+}
+
+/// In which precision numbers of a type are taken.
+fn precision(kind: &DataType) -> DataType {
+    if *kind == DataType::Float32 { DataType::Float32 } else { DataType::Float64 }
+}
+
+/// The entries of lists as they are taken.
+fn item(lists: &ArrayRef) -> Arc<Field> {
+    let kind = match lists.data_type() {
+        DataType::FixedSizeList(item, _)
+        | DataType::List(item)
+        | DataType::LargeList(item)
+        | DataType::ListView(item) => precision(item.data_type()),
+        _ => DataType::Float64,
+    };
+    Arc::new(Field::new_list_field(kind, true))
 }
 
 /// The entries of lists.

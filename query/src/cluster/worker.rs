@@ -5,13 +5,13 @@ use std::sync::Arc;
 
 use datafusion::error::DataFusionError;
 use datafusion::execution::SessionState;
-use datafusion::execution::runtime_env::RuntimeEnvBuilder;
 use datafusion_distributed::{Worker, WorkerQueryContext};
 use tokio::net::TcpListener;
 use tonic::transport::Server;
 use tonic::transport::server::TcpIncoming;
 
 use crate::error::Error;
+use crate::log::runtime;
 use crate::robots::Robots;
 use crate::{derivative, functions, identify};
 
@@ -45,7 +45,7 @@ impl Listener {
 /// A memory limit that the engine refuses; a connection that cannot be served.
 pub async fn serve(listener: Listener, robots: Robots, memory: usize) -> Result<(), Error> {
     let robots = Arc::new(robots);
-    let runtime = RuntimeEnvBuilder::new().with_memory_limit(memory, 1.0).build_arc()?;
+    let runtime = runtime(memory)?;
     let build = move |query: WorkerQueryContext| {
         let state = state(query, &robots);
         async { state }

@@ -41,6 +41,7 @@ impl Arguments {
         show(&found.iter().map(|finding| format!("{finding}\n")).collect::<String>())?;
         match found.len() {
             0 => Ok(()),
+            1 => Err(Error::Columns("1 finding".to_owned())),
             count => Err(Error::Columns(format!("{count} findings"))),
         }
     }

@@ -39,6 +39,9 @@ pub(super) struct Arguments {
     /// The layout: a list for each variable, or a column for each variable and joint, which is faster to read
     #[arg(long, value_enum, default_value_t = Columns::Lists)]
     layout: Columns,
+    /// Numbers of the variables in single precision, in half the space
+    #[arg(long)]
+    single: bool,
     /// The seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -81,6 +84,7 @@ impl Arguments {
                 Columns::Lists => Layout::Lists,
                 Columns::Columns => Layout::Columns,
             },
+            single: self.single,
             seed: self.seed,
         };
         let files = generate(&model, &how, &self.output)?;

@@ -61,6 +61,9 @@ impl Arguments {
         };
         is_whole(estimate.rows + estimate.excluded, opened.rows())?;
         show(&shown(&estimate))?;
+        if let Some(unit) = estimate.unit() {
+            eprintln!("warning: the measured torques are {unit}");
+        }
         if let Some(path) = &self.output {
             written(path, csv(&estimate).as_bytes())?;
         }

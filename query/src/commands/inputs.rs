@@ -31,27 +31,46 @@ pub(super) struct Inputs {
     pub(super) explain: bool,
 }
 
-/// The columns of the joints' variables.
+/// The columns of the joints' variables, and their units.
 #[derive(Args)]
 pub(super) struct Variables {
-    /// The column of positions: a list, or the prefix of numbered columns [default: q]
-    #[arg(long, value_name = "COLUMN")]
-    q: Option<String>,
-    /// The column of velocities [default: qd]
-    #[arg(long, value_name = "COLUMN")]
-    qd: Option<String>,
-    /// The column of accelerations [default: qdd]
-    #[arg(long, value_name = "COLUMN")]
-    qdd: Option<String>,
-    /// The column of measured torques [default: tau]
-    #[arg(long, value_name = "COLUMN")]
-    tau: Option<String>,
+    /// The column of positions: a list, the prefix of numbered columns, a column for each joint with commas between them,
+    /// or `{}` for the joint's name, as in '{}_position' [default: q]
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    q: Option<Vec<String>>,
+    /// The column of velocities, likewise [default: qd]
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    qd: Option<Vec<String>>,
+    /// The column of accelerations, likewise [default: qdd]
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    qdd: Option<Vec<String>>,
+    /// The column of measured torques, likewise [default: tau]
+    #[arg(long, value_name = "COLUMNS", value_delimiter = ',')]
+    tau: Option<Vec<String>>,
+    /// Angles are in degrees, their derivatives in degrees per s and s² [default: rad]
+    #[arg(long)]
+    degrees: bool,
+    /// The factor by which measured torques are multiplied to be in N m or N: 0.001 for N mm, the torque constant times the
+    /// gear ratio for motor currents; one number, or one for each joint
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', allow_negative_numbers = true, value_parser = factor)]
+    tau_factor: Vec<f64>,
+}
+
+/// A number by which torques may be multiplied.
+fn factor(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    let is_factor = number.is_finite() && number != 0.0;
+    if is_factor { Ok(number) } else { Err("not a number other than 0".to_owned()) }
 }
 
 impl Variables {
     pub(super) fn names(&self) -> Names {
-        let Variables { q, qd, qdd, tau } = self;
-        Names { variables: [q, qd, qdd, tau].map(Clone::clone) }
+        let Variables { q, qd, qdd, tau, degrees, tau_factor } = self;
+        Names {
+            variables: [q, qd, qdd, tau].map(Clone::clone),
+            degrees: *degrees,
+            tau_factor: tau_factor.clone(),
+        }
     }
 }
 
@@ -124,9 +143,6 @@ impl Opened {
 
     /// An error with the place in the log, if the log is the reason.
     pub(super) fn located(&self, error: Error) -> Error {
-        match error {
-            Error::Engine(_) => self.log.fault().unwrap_or(error),
-            error => error,
-        }
+        self.log.located(error)
     }
 }

@@ -44,20 +44,27 @@ enum What {
     Worker(worker::Arguments),
 }
 
+/// The heading of options that all subcommands share.
+const SHARED: &str = "Options of all commands";
+
 /// What all subcommands share.
 #[derive(Args)]
 struct Engine {
     /// A folder whose robot files can be named without path and extension; may be repeated
-    #[arg(long, global = true, value_name = "FOLDER")]
+    #[arg(long, global = true, help_heading = SHARED, value_name = "FOLDER")]
     robots: Vec<PathBuf>,
+    /// All joints have viscous and constant dry friction: that of the robot file, for URDF that of `<dynamics>`, otherwise
+    /// with coefficients that are 0 until `identify` finds them
+    #[arg(long, global = true, help_heading = SHARED)]
+    friction: bool,
     /// Number of threads; with 1, the rows of one file stay in their order [default: one for each core]
-    #[arg(long, global = true, value_name = "N")]
+    #[arg(long, global = true, help_heading = SHARED, value_name = "N")]
     threads: Option<usize>,
     /// The maximum memory of a query, MiB
-    #[arg(long, global = true, value_name = "MIB", default_value_t = 1024)]
+    #[arg(long, global = true, help_heading = SHARED, value_name = "MIB", default_value_t = 1024)]
     memory: usize,
     /// Workers, started by `robot-query worker`; logs must have the same paths on their machines
-    #[arg(long, global = true, value_delimiter = ',', value_name = "HOST:PORT")]
+    #[arg(long, global = true, help_heading = SHARED, value_delimiter = ',', value_name = "HOST:PORT")]
     workers: Vec<String>,
 }
 
@@ -65,6 +72,9 @@ impl Engine {
     fn robots(&self) -> Result<Robots, Error> {
         let mut robots = Robots::new();
         self.robots.iter().try_for_each(|folder| robots.register_folder(folder))?;
+        if self.friction {
+            robots.with_friction();
+        }
         Ok(robots)
     }
 

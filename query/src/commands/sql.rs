@@ -40,8 +40,8 @@ impl Arguments {
             session.context.register_table("log", table.into_view())?;
         }
         let located = |error: Error| match &log {
-            Some(log) if matches!(error, Error::Engine(_)) => log.fault().unwrap_or(error),
-            _ => error,
+            Some(log) => log.located(error),
+            None => error,
         };
         let table = session.context.sql(&self.query).await?;
         match &self.output {

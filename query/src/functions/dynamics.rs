@@ -141,11 +141,12 @@ pub(super) fn each_block(
     columns: &Columns,
     mut take: impl FnMut(usize, usize, &[f64]),
 ) -> Result<()> {
-    let mut given = vec![0.0; columns.entries() * BLOCK];
+    let mut room = vec![0.0; columns.entries() * BLOCK];
     let mut found = vec![0.0; handle.output_size() * BLOCK];
     for start in (0..columns.rows()).step_by(BLOCK) {
-        let rows = columns.read(start, &mut given);
-        compute(handle, &given, &mut found, rows)?;
+        let rows = BLOCK.min(columns.rows() - start);
+        let inputs = columns.block(start, &mut room);
+        call(handle, &inputs, &mut found, rows)?;
         take(start, rows, &found);
     }
     Ok(())
@@ -160,7 +161,17 @@ pub(crate) fn compute(
 ) -> Result<(), Error> {
     let inputs: Vec<&[f64]> =
         given.chunks_exact(BLOCK).take(handle.input_size()).map(|column| &column[..rows]).collect();
+    call(handle, &inputs, found, rows)
+}
+
+/// Calls a function for rows of its inputs, a slice each, into the first rows of columns of [`BLOCK`] rows each.
+fn call(
+    handle: Handle<'_>,
+    inputs: &[&[f64]],
+    found: &mut [f64],
+    rows: usize,
+) -> Result<(), Error> {
     let mut outputs: Vec<&mut [f64]> =
         found.chunks_exact_mut(BLOCK).map(|column| &mut column[..rows]).collect();
-    handle.columns(&inputs, &mut outputs).map_err(|error| Error::Query(error.to_string()))
+    handle.columns(inputs, &mut outputs).map_err(|error| Error::Query(error.to_string()))
 }

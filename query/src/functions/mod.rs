@@ -4,6 +4,7 @@ mod dynamics;
 mod literal;
 mod output;
 mod residual;
+mod scaled;
 
 use std::sync::Arc;
 
@@ -18,8 +19,10 @@ pub(crate) use dynamics::{compute, function};
 pub(crate) use literal::text_of;
 use residual::Residual;
 pub use residual::torques_of;
+use scaled::Scaled;
 
-/// Registers every function that is one array over the joints' variables, under its name, and `residual`.
+/// Registers every function that is one array over the joints' variables, under its name, and `residual`
+/// and `scaled`.
 ///
 /// # Errors
 ///
@@ -29,7 +32,13 @@ pub fn register(registry: &mut dyn FunctionRegistry, robots: &Arc<Robots>) -> Re
         registry.register_udf(udf(Dynamics::new(kind, robots.clone())))?;
     }
     registry.register_udf(udf(Residual::new(robots.clone())))?;
+    registry.register_udf(scaled())?;
     Ok(())
+}
+
+/// The function that brings columns into other units.
+pub(crate) fn scaled() -> Arc<ScalarUDF> {
+    udf(Scaled::new())
 }
 
 fn udf(function: impl ScalarUDFImpl + 'static) -> Arc<ScalarUDF> {

@@ -74,17 +74,9 @@ impl Estimate {
 
     /// The factor by which residuals at other base parameters exceed those at the estimate.
     fn growth(&self, base: &DVector<f64>) -> f64 {
-        let count = self.names.len();
         let square = |values: &[f64]| -> f64 {
-            let mut packed = self.triangle.iter();
-            let mut sum = 0.0;
-            for row in 0..=count {
-                let entries: Vec<f64> = packed.by_ref().take(count + 1 - row).copied().collect();
-                let explained = entries.iter().zip(&values[row..]).map(|(r, value)| r * value);
-                let torque = entries.last().copied().unwrap_or(0.0);
-                sum += (torque - explained.sum::<f64>()).powi(2);
-            }
-            sum
+            let rows = self.explained(values);
+            rows.into_iter().map(|(explained, torque)| (torque - explained).powi(2)).sum()
         };
         let (there, here) = (square(base.as_slice()), square(&self.values));
         if there > here { (there / here).sqrt() } else { 1.0 }

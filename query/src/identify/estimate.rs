@@ -7,6 +7,7 @@ use super::parameters::Parameters;
 use super::prior::Placed;
 use super::triangle::Triangle;
 use crate::error::Error;
+use crate::log::unit;
 
 /// Columns of length 1 of which less than this is left beside the others count as combinations of them. The triangle's
 /// rounding errors are some 10⁻¹⁴ of the columns.
@@ -295,6 +296,30 @@ impl Measurements {
             fixed: prior.fixed.iter().map(|column| name(*column)).collect(),
             triangle: all.packed().collect(),
         }
+    }
+}
+
+impl Estimate {
+    /// Of each row of the triangle, what base parameters explain of the torque, and the torque.
+    pub(super) fn explained(&self, base: &[f64]) -> Vec<(f64, f64)> {
+        let count = self.names.len();
+        let mut packed = self.triangle.iter();
+        let row = |row: usize| {
+            let entries: Vec<f64> = packed.by_ref().take(count + 1 - row).copied().collect();
+            let explained = entries.iter().zip(&base[row..]).map(|(r, value)| r * value).sum();
+            (explained, entries.last().copied().unwrap_or(0.0))
+        };
+        (0..=count).map(row).collect()
+    }
+
+    /// What is likely wrong with the units of the torques, judged by those of the robot file along the log.
+    #[must_use]
+    pub fn unit(&self) -> Option<String> {
+        let rows = self.explained(&self.nominal);
+        let sum = |of: fn(f64, f64) -> f64| -> f64 { rows.iter().map(|(e, t)| of(*e, *t)).sum() };
+        let (model, measured) = (sum(|explained, _| explained.powi(2)), sum(|_, tau| tau.powi(2)));
+        let alike = sum(|explained, tau| explained * tau) / (model * measured).sqrt();
+        unit(((measured / model).sqrt(), alike)).filter(|_| measured > 0.0)
     }
 }
 

@@ -1,14 +1,16 @@
 //! What is likely wrong with a log.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use datafusion::arrow::array::ArrayRef;
+use datafusion::arrow::array::{ArrayRef, RecordBatch};
+use datafusion::arrow::datatypes::Schema;
 use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
 use robot_symbolic::Rational;
 
 use super::files::{Log, reader};
+use super::torques::Torques;
 use super::variables::Names;
 use crate::columns::{BLOCK, Columns};
 use crate::error::Error;
@@ -50,7 +52,8 @@ const BEYOND: f64 = 0.1;
 const KINDS: usize = 7;
 
 /// Looks through the Parquet files of a log: rows with nulls, NaN or infinities, times that repeat, go back or are not in
-/// seconds, and positions that are not in radians. `time` and `episode` are columns; time is compared within an episode.
+/// seconds, positions that are not in radians, and torques that are not in N m. `time` and `episode` are columns; time is
+/// compared within an episode.
 ///
 /// # Errors
 ///
@@ -62,57 +65,120 @@ pub fn check(
     time: Option<&str>,
     episode: Option<&str>,
 ) -> Result<Vec<Finding>, Error> {
-    let mut found = vec![];
-    let mut last = Last::default();
+    let mut search = Search { model, names, time, episode, last: Last::default(), found: vec![] };
     for path in log.parquet("check")? {
         let mut row = 0;
         for group in 0..reader(path)?.metadata().num_row_groups() {
-            let failed = |error: &dyn fmt::Display| Error::File {
-                path: path.clone(),
-                row_group: Some(group),
-                reason: format!("it cannot be read ({error}); copy or write the file again"),
-            };
-            let batches = reader(path)?.with_row_groups(vec![group]).build();
-            let mut rows = Rows { first: [None; KINDS], count: [0; KINDS], bounds: vec![] };
-            for batch in batches.map_err(|error| failed(&error))? {
-                let batch = batch.map_err(|error| failed(&error))?;
-                let schema = batch.schema();
-                let mut wanted: Vec<String> = vec![];
-                wanted.extend(episode.map(str::to_owned));
-                wanted.extend(time.map(str::to_owned));
-                let before = wanted.len();
-                if names.of(&schema, JointVariable::Position, model).is_some() {
-                    rows.bounds = bounds(model);
-                }
-                for variable in JointVariable::ALL {
-                    // A log may lack variables; what needs them says so.
-                    wanted.extend(names.of(&schema, variable, model).unwrap_or_default());
-                }
-                let arrays: Result<Vec<ArrayRef>, Error> = wanted
-                    .iter()
-                    .map(|name| {
-                        let missing = || Error::file(path, format!("it has no column `{name}`"));
-                        batch.column_by_name(name).cloned().ok_or_else(missing)
-                    })
-                    .collect();
-                let arrays = arrays?;
-                if arrays.len() == before {
-                    return Err(Error::file(path, "it has no column of q, qd, qdd or tau"));
-                }
-                let has = [episode.is_some(), time.is_some()];
-                rows.look(&arrays, batch.num_rows(), row, has, &mut last)?;
-                row += batch.num_rows() as u64;
-            }
-            for (kind, first) in rows.first.iter().enumerate() {
-                if let Some(row) = first {
-                    let (path, what) = (path.clone(), WHAT[kind].to_owned());
-                    let rows = rows.count[kind];
-                    found.push(Finding { path, row_group: group, row: *row, rows, what });
-                }
-            }
+            row = search.group(path, group, row)?;
         }
     }
-    Ok(found)
+    Ok(search.found)
+}
+
+/// A search through the files of a log, in their order.
+struct Search<'a> {
+    model: &'a Model,
+    names: &'a Names,
+    time: Option<&'a str>,
+    episode: Option<&'a str>,
+    last: Last,
+    found: Vec<Finding>,
+}
+
+impl Search<'_> {
+    /// Looks through a row group, whose first row in the file is `first`; gives the row after its last.
+    fn group(&mut self, path: &Path, group: usize, first: u64) -> Result<u64, Error> {
+        let failed = |error: &dyn fmt::Display| Error::File {
+            path: path.to_owned(),
+            row_group: Some(group),
+            reason: format!("it cannot be read ({error}); copy or write the file again"),
+        };
+        let batches = reader(path)?.with_row_groups(vec![group]).build();
+        let mut row = first;
+        let mut rows = None;
+        for batch in batches.map_err(|error| failed(&error))? {
+            let batch = batch.map_err(|error| failed(&error))?;
+            let wanted = Wanted::of(self, &batch.schema(), path)?;
+            let arrays = wanted.arrays(&batch, path)?;
+            let rows = match &mut rows {
+                Some(rows) => rows,
+                rows => rows.insert(Rows::new(self.model, &wanted)?),
+            };
+            rows.look(&wanted, &arrays, batch.num_rows(), row, &mut self.last)?;
+            row += batch.num_rows() as u64;
+        }
+        let Some(rows) = rows else { return Ok(row) };
+        let mut note = |row: u64, rows: u64, what: String| {
+            self.found.push(Finding { path: path.to_owned(), row_group: group, row, rows, what });
+        };
+        for (kind, found) in rows.first.iter().enumerate() {
+            if let Some(row) = found {
+                note(*row, rows.count[kind], WHAT[kind].to_owned());
+            }
+        }
+        if let Some(torques) = &rows.torques {
+            for what in torques.units(self.model) {
+                note(first, torques.rows(), what);
+            }
+        }
+        Ok(row)
+    }
+}
+
+/// The columns that are looked at: episode and time, if they are named, then those of the variables that are there.
+struct Wanted {
+    names: Vec<String>,
+    has_episode: bool,
+    has_time: bool,
+    /// The factors that bring the columns of variables into SI units, in their order.
+    factors: Vec<f64>,
+    has_positions: bool,
+    has_all: bool,
+}
+
+impl Wanted {
+    fn of(search: &Search<'_>, schema: &Schema, path: &Path) -> Result<Wanted, Error> {
+        let Search { model, names, time, episode, .. } = search;
+        let mut wanted: Vec<String> = vec![];
+        wanted.extend(episode.map(str::to_owned));
+        wanted.extend(time.map(str::to_owned));
+        let mut factors = vec![];
+        let mut are_there = vec![];
+        for variable in JointVariable::ALL {
+            // A log may lack variables; what needs them says so.
+            let columns = names.of(schema, variable, model)?;
+            are_there.push(columns.is_some());
+            if let Some(columns) = columns {
+                wanted.extend(columns);
+                let own = names.factors(variable, model)?;
+                factors.extend(own.unwrap_or_else(|| vec![1.0; model.joints()]));
+            }
+        }
+        if factors.is_empty() {
+            return Err(Error::file(path, "it has no column of q, qd, qdd or tau"));
+        }
+        Ok(Wanted {
+            names: wanted,
+            has_episode: episode.is_some(),
+            has_time: time.is_some(),
+            factors,
+            has_positions: are_there[0],
+            has_all: are_there.iter().all(|is_there| *is_there),
+        })
+    }
+
+    /// The columns before those of variables.
+    fn before(&self) -> usize {
+        usize::from(self.has_episode) + usize::from(self.has_time)
+    }
+
+    fn arrays(&self, batch: &RecordBatch, path: &Path) -> Result<Vec<ArrayRef>, Error> {
+        let column = |name: &String| {
+            let missing = || Error::file(path, format!("it has no column `{name}`"));
+            batch.column_by_name(name).cloned().ok_or_else(missing)
+        };
+        self.names.iter().map(column).collect()
+    }
 }
 
 const WHAT: [&str; KINDS] = [
@@ -121,8 +187,9 @@ const WHAT: [&str; KINDS] = [
     "the time equals that of the previous row",
     "the time is before that of the previous row",
     "the time is more than 60 s after that of the previous row: is it in seconds?",
-    "a position is beyond 10 turns: is it in radians?",
-    "a position is beyond the limits of the robot file: is it in radians or meters, and is it the right joint?",
+    "a position is beyond 10 turns: is it in radians (see --degrees)?",
+    "a position is beyond the limits of the robot file: is it in radians (see --degrees) or meters, and is it the right \
+     joint?",
 ];
 
 /// What positions a coordinate may have.
@@ -162,9 +229,16 @@ struct Rows {
     first: [Option<u64>; KINDS],
     count: [u64; KINDS],
     bounds: Vec<Bounds>,
+    torques: Option<Torques>,
 }
 
 impl Rows {
+    fn new(model: &Model, wanted: &Wanted) -> Result<Rows, Error> {
+        let torques = wanted.has_all.then(|| Torques::new(model)).transpose()?;
+        let bounds = if wanted.has_positions { bounds(model) } else { vec![] };
+        Ok(Rows { first: [None; KINDS], count: [0; KINDS], bounds, torques })
+    }
+
     fn note(&mut self, kind: usize, row: u64) {
         self.first[kind].get_or_insert(row);
         self.count[kind] += 1;
@@ -173,51 +247,91 @@ impl Rows {
     /// Looks at the rows of a batch, whose first is `first`.
     fn look(
         &mut self,
+        wanted: &Wanted,
         arrays: &[ArrayRef],
         rows: usize,
         first: u64,
-        [has_episode, has_time]: [bool; 2],
         last: &mut Last,
     ) -> Result<(), Error> {
         let columns = Columns::of_all(arrays, rows)?;
+        let before = wanted.before();
+        // Lists of rows that are all null have no length.
+        let are_null = columns.valid().is_some_and(|valid| valid.null_count() == rows);
+        if columns.entries() != before + wanted.factors.len() && !are_null {
+            return Err(Error::Columns(format!(
+                "the columns of the joints' variables have {} entries, where the robot needs {}",
+                columns.entries() - before,
+                wanted.factors.len()
+            )));
+        }
         let mut values = vec![0.0; columns.entries() * BLOCK];
-        let before = usize::from(has_episode) + usize::from(has_time);
         for start in (0..rows).step_by(BLOCK) {
             let count = columns.read(start, &mut values);
-            for place in 0..count {
-                let row = first + (start + place) as u64;
-                if columns.valid().is_some_and(|valid| valid.is_null(start + place)) {
-                    self.note(0, row);
-                    continue;
-                }
-                let value = |entry: usize| values[entry * BLOCK + place];
-                if (before..columns.entries()).any(|entry| !value(entry).is_finite()) {
-                    self.note(1, row);
-                }
-                let positions = self.bounds.iter().enumerate();
-                let positions = positions.filter(|(joint, _)| before + joint < columns.entries());
-                let mut positions =
-                    positions.map(|(joint, bounds)| (value(before + joint), bounds));
-                if positions.clone().any(|(position, bounds)| position.abs() > bounds.turns) {
-                    self.note(5, row);
-                } else if positions.any(|(at, bounds)| at < bounds.low || at > bounds.high) {
-                    self.note(6, row);
-                }
-                if has_time {
-                    let now = value(usize::from(has_episode));
-                    let episode = if has_episode { value(0) } else { 0.0 };
-                    if let Some(time) = last.time.filter(|_| last.episode == episode) {
-                        match now - time {
-                            0.0 => self.note(2, row),
-                            step if step < 0.0 => self.note(3, row),
-                            step if step > APART => self.note(4, row),
-                            _ => {}
-                        }
-                    }
-                    *last = Last { episode, time: Some(now) };
-                }
+            let variables = values.chunks_exact_mut(BLOCK).skip(before);
+            for (column, factor) in variables.zip(&wanted.factors) {
+                column.iter_mut().for_each(|value| *value *= factor);
+            }
+            let mut are_whole = [true; BLOCK];
+            for (place, is_whole) in are_whole[..count].iter_mut().enumerate() {
+                let is_null = columns.valid().is_some_and(|valid| valid.is_null(start + place));
+                let row = Row { values: &values, place, row: first + (start + place) as u64 };
+                *is_whole = self.row(wanted, &row, is_null, last);
+            }
+            if let Some(torques) = &mut self.torques
+                && !are_null
+            {
+                torques.push(&values[before * BLOCK..], &are_whole[..count])?;
             }
         }
         Ok(())
+    }
+
+    /// Looks at a row; gives whether all its values are numbers.
+    fn row(&mut self, wanted: &Wanted, row: &Row<'_>, is_null: bool, last: &mut Last) -> bool {
+        if is_null {
+            self.note(0, row.row);
+            return false;
+        }
+        let before = wanted.before();
+        let are_finite =
+            (before..before + wanted.factors.len()).all(|entry| row.value(entry).is_finite());
+        if !are_finite {
+            self.note(1, row.row);
+        }
+        let positions = self.bounds.iter().enumerate();
+        let mut positions = positions.map(|(joint, bounds)| (row.value(before + joint), bounds));
+        if positions.clone().any(|(position, bounds)| position.abs() > bounds.turns) {
+            self.note(5, row.row);
+        } else if positions.any(|(at, bounds)| at < bounds.low || at > bounds.high) {
+            self.note(6, row.row);
+        }
+        if wanted.has_time {
+            let now = row.value(usize::from(wanted.has_episode));
+            let episode = if wanted.has_episode { row.value(0) } else { 0.0 };
+            if let Some(time) = last.time.filter(|_| last.episode == episode) {
+                match now - time {
+                    0.0 => self.note(2, row.row),
+                    step if step < 0.0 => self.note(3, row.row),
+                    step if step > APART => self.note(4, row.row),
+                    _ => {}
+                }
+            }
+            *last = Last { episode, time: Some(now) };
+        }
+        are_finite
+    }
+}
+
+/// A row of a block.
+struct Row<'a> {
+    values: &'a [f64],
+    place: usize,
+    /// Its number in the file.
+    row: u64,
+}
+
+impl Row<'_> {
+    fn value(&self, entry: usize) -> f64 {
+        self.values[entry * BLOCK + self.place]
     }
 }

@@ -26,7 +26,8 @@ pub(super) enum Format {
 
 impl Log {
     /// The log of files and folders; of a folder all `.parquet` files in it and below, in the order of their names.
-    /// The footer of each Parquet file is read.
+    /// The footer of each Parquet file is read. Files and folders of buckets, as `s3://logs/arm`, are read by the query
+    /// alone.
     ///
     /// # Errors
     ///
@@ -65,18 +66,29 @@ impl Log {
         &self.files
     }
 
-    /// The number of rows, which footers of Parquet files say; `None` for CSV.
+    /// The number of rows, which footers of Parquet files say; `None` for CSV and for buckets.
     #[must_use]
     pub fn rows(&self) -> Option<u64> {
-        (self.format == Format::Parquet).then(|| self.rows.iter().sum())
+        let are_known = self.format == Format::Parquet && self.remote().is_none();
+        are_known.then(|| self.rows.iter().sum())
+    }
+
+    /// The first file or folder that lies in a bucket.
+    fn remote(&self) -> Option<&PathBuf> {
+        self.files.iter().find(|path| is_remote(path))
     }
 
     /// The files, if they are Parquet.
     ///
     /// # Errors
     ///
-    /// CSV files, of which `what` knows nothing.
+    /// CSV files and buckets, of which `what` knows nothing.
     pub(super) fn parquet(&self, what: &str) -> Result<&[PathBuf], Error> {
+        if let Some(path) = self.remote() {
+            let reason =
+                format!("`{what}` reads files of this machine; copy it from the bucket first");
+            return Err(Error::file(path, reason));
+        }
         match self.format {
             Format::Parquet => Ok(&self.files),
             Format::Csv => {
@@ -105,7 +117,7 @@ impl Log {
     fn check_columns(&self) -> Result<Vec<u64>, Error> {
         let mut known: Option<(&Path, SchemaRef)> = None;
         let mut rows = vec![];
-        for path in &self.files {
+        for path in self.files.iter().filter(|path| !is_remote(path)) {
             let reader = reader(path)?;
             rows.push(reader.metadata().file_metadata().num_rows().unsigned_abs());
             let schema = reader.schema().clone();
@@ -128,13 +140,30 @@ impl Log {
         Ok(rows)
     }
 
+    /// An error of a query over the log with the place in it, if the log is the reason.
+    #[must_use]
+    pub fn located(&self, error: Error) -> Error {
+        let Error::Engine(reason) = &error else {
+            return error;
+        };
+        match (self.fault(), self.remote()) {
+            (Some(fault), _) => fault,
+            (None, Some(path)) => {
+                let advice = "`robot-query check` over a copy names the file and the row group";
+                Error::file(path, format!("{reason}; if a file is not whole, {advice}"))
+            }
+            (None, None) => error,
+        }
+    }
+
     /// The first place at which the files cannot be read: why a query over them failed.
     #[must_use]
     pub fn fault(&self) -> Option<Error> {
         if self.format == Format::Csv {
             return None;
         }
-        self.files.iter().find_map(|path| match reader(path) {
+        let mut local = self.files.iter().filter(|path| !is_remote(path));
+        local.find_map(|path| match reader(path) {
             Err(error) => Some(error),
             Ok(found) => (0..found.metadata().num_row_groups()).find_map(|group| {
                 let reason = unreadable(path, group)?;
@@ -168,7 +197,18 @@ pub(crate) fn reader(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File
     })
 }
 
+/// Whether a path is in a bucket.
+fn is_remote(path: &Path) -> bool {
+    path.to_str().is_some_and(|path| path.starts_with("s3://"))
+}
+
 fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
+    if is_remote(path) {
+        // The name of a folder ends with a slash, which is how the engine knows it.
+        let folder = if path.extension().is_none() { path.join("") } else { path.to_owned() };
+        files.push(folder);
+        return Ok(());
+    }
     let failed = |error: std::io::Error| Error::file(path, error);
     let found = std::fs::metadata(path).map_err(failed)?;
     if !found.is_dir() {
@@ -200,6 +240,8 @@ fn format_of(path: &Path) -> Result<Format, Error> {
             let reason = "an MCAP file is not a table; `robot-query convert` converts it to one";
             Err(Error::file(path, reason))
         }
+        // A folder of a bucket.
+        None if is_remote(path) => Ok(Format::Parquet),
         _ => Err(Error::file(path, "its name ends neither in .parquet nor in .csv")),
     }
 }

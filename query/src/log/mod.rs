@@ -6,6 +6,8 @@ mod place;
 mod progress;
 mod resume;
 mod session;
+mod stores;
+mod torques;
 mod variables;
 mod write;
 
@@ -15,7 +17,9 @@ pub(crate) use files::reader;
 pub(crate) use place::{Place, empty_folder};
 pub use progress::Progress;
 pub use resume::{Question, Resumed, resume};
+pub(crate) use session::runtime;
 pub use session::{Session, Settings};
+pub(crate) use torques::unit;
 pub use variables::Names;
 pub(crate) use write::properties;
 pub use write::{Answer, is_whole, write};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use datafusion::execution::runtime_env::RuntimeEnvBuilder;
+use datafusion::execution::runtime_env::{RuntimeEnv, RuntimeEnvBuilder};
 use datafusion::execution::{FunctionRegistry, SessionStateBuilder};
 use datafusion::prelude::{
     CsvReadOptions, DataFrame, ParquetReadOptions, SessionConfig, SessionContext,
@@ -10,6 +10,7 @@ use datafusion::prelude::{
 use datafusion_distributed::{DistributedExt, SessionStateBuilderExt};
 
 use super::files::{Format, Log};
+use super::stores::Stores;
 use crate::cluster::{Texts, WORTH, Workers};
 use crate::error::Error;
 use crate::robots::Robots;
@@ -22,6 +23,16 @@ pub struct Settings {
     pub threads: usize,
     /// The most memory that queries may take for what they keep, bytes.
     pub memory: usize,
+}
+
+/// What queries share: the most memory that they may keep, bytes, and the stores that they read from.
+///
+/// # Errors
+///
+/// A limit that the engine refuses.
+pub(crate) fn runtime(memory: usize) -> Result<Arc<RuntimeEnv>, Error> {
+    let builder = RuntimeEnvBuilder::new().with_memory_limit(memory, 1.0);
+    Ok(builder.with_object_store_registry(Arc::new(Stores::default())).build_arc()?)
 }
 
 /// A session.
@@ -53,8 +64,7 @@ impl Session {
             .with_target_partitions(settings.threads.max(1))
             .with_information_schema(true);
         config.options_mut().execution.parquet.pushdown_filters = true;
-        let runtime =
-            RuntimeEnvBuilder::new().with_memory_limit(settings.memory, 1.0).build_arc()?;
+        let runtime = runtime(settings.memory)?;
         let mut builder = SessionStateBuilder::new()
             .with_config(config)
             .with_runtime_env(runtime)

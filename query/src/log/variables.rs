@@ -1,27 +1,43 @@
-//! The columns of a log that have the joints' variables.
+//! The columns of a log that have the joints' variables, and their units.
 
 use datafusion::arrow::datatypes::{DataType, Schema};
-use datafusion::logical_expr::Expr;
+use datafusion::functions_nested::expr_fn::make_array;
+use datafusion::logical_expr::{Expr, lit};
 use datafusion::prelude::ident;
 
 use crate::error::Error;
+use crate::functions::scaled;
 use crate::robots::Model;
+use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
 
-/// The names of columns where they are not the usual ones.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// The names and units of columns where they are not the usual ones.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Names {
-    /// Of q, q̇, q̈ and τ, by the variable's place in [`JointVariable::ALL`].
-    pub variables: [Option<String>; 4],
+    /// Of q, q̇, q̈ and τ, by the variable's place in [`JointVariable::ALL`]: one name, or one for each joint.
+    pub variables: [Option<Vec<String>>; 4],
+    /// Whether angles are in degrees, and their derivatives in degrees per s and s².
+    pub degrees: bool,
+    /// What torques are multiplied with to be in N m or N: nothing, one number, or one for each joint.
+    pub tau_factor: Vec<f64>,
+}
+
+/// The columns of a variable in a log.
+enum Found {
+    Columns(Vec<String>),
+    Missing,
+    /// Columns numbered from 0 to the number of joints.
+    Ambiguous(String),
 }
 
 impl Names {
-    /// The columns of variables of a robot's joints, in the order of a call: a list or struct of the name, or numbers
-    /// with the name and the number of the joint behind it, as `q1` or `q_1`.
+    /// The columns of variables of a robot's joints, in the order of a call, in SI units: a list or struct of the name, or
+    /// numbers with the name and the number of the joint behind it, as `q1` or `q_1`, from 1 or from 0. `{}` in a name
+    /// stands for the name of the joint.
     ///
     /// # Errors
     ///
-    /// Columns that are missing.
+    /// Columns that are missing or could be others; another number of factors than joints.
     pub fn columns(
         &self,
         schema: &Schema,
@@ -30,50 +46,150 @@ impl Names {
     ) -> Result<Vec<Expr>, Error> {
         let mut found = vec![];
         for variable in variables {
-            let columns = self.of(schema, *variable, model);
-            let missing = || missing(schema, *variable, self.name(*variable), model);
-            found.extend(columns.ok_or_else(missing)?.into_iter().map(ident));
+            let columns = self.of(schema, *variable, model)?;
+            let columns = columns.ok_or_else(|| self.missing(schema, *variable, model))?;
+            let columns: Vec<Expr> = columns.into_iter().map(ident).collect();
+            match self.factors(*variable, model)? {
+                None => found.extend(columns),
+                Some(factors) => {
+                    let factors = make_array(factors.into_iter().map(lit).collect());
+                    found.push(scaled().call(std::iter::once(factors).chain(columns).collect()));
+                }
+            }
         }
         Ok(found)
     }
 
+    /// What a variable's entries are multiplied with to be in SI units; `None` if they are.
+    ///
+    /// # Errors
+    ///
+    /// Another number of factors than joints.
+    pub(super) fn factors(
+        &self,
+        variable: JointVariable,
+        model: &Model,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let joints = model.joints();
+        match (variable, self.tau_factor.as_slice()) {
+            (JointVariable::Torque, []) => Ok(None),
+            (JointVariable::Torque, [one]) => Ok(Some(vec![*one; joints])),
+            (JointVariable::Torque, all) if all.len() == joints => Ok(Some(all.to_vec())),
+            (JointVariable::Torque, all) => Err(Error::Columns(format!(
+                "--tau-factor has {} numbers; give one, or one for each of {joints} joints",
+                all.len()
+            ))),
+            _ if self.degrees => {
+                let factor = |kind: JointKind| match kind {
+                    JointKind::Revolute => 1_f64.to_radians(),
+                    JointKind::Prismatic => 1.0,
+                };
+                let coordinates = model.robot.coordinates.iter();
+                Ok(Some(coordinates.map(|coordinate| factor(coordinate.kind)).collect()))
+            }
+            _ => Ok(None),
+        }
+    }
+
     /// The names of the columns of a variable; `None` if they are missing.
+    ///
+    /// # Errors
+    ///
+    /// Columns that could be others.
     pub(super) fn of(
         &self,
         schema: &Schema,
         variable: JointVariable,
         model: &Model,
-    ) -> Option<Vec<String>> {
-        let (name, joints) = (self.name(variable), model.joints());
-        let is_nested = |kind: &DataType| kind.is_nested() || joints == 1;
-        if schema.column_with_name(name).is_some_and(|(_, field)| is_nested(field.data_type())) {
-            return Some(vec![name.to_owned()]);
+    ) -> Result<Option<Vec<String>>, Error> {
+        match found(schema, &self.given(variable), model) {
+            Found::Columns(columns) => Ok(Some(columns)),
+            Found::Missing => Ok(None),
+            Found::Ambiguous(name) => {
+                let (joints, option) = (model.joints(), variable.name());
+                Err(Error::Columns(format!(
+                    "the log has {name}0 to {name}{joints}, one more than {} has joints; name a column for each joint, \
+                     as in --{option} {name}1,{name}2",
+                    model.robot.name
+                )))
+            }
         }
-        ["", "_"].iter().find_map(|between| {
-            let names = (1..=joints).map(|joint| format!("{name}{between}{joint}"));
-            let names: Vec<String> = names.collect();
-            let are_there = names.iter().all(|name| schema.column_with_name(name).is_some());
-            are_there.then_some(names)
-        })
     }
 
-    /// The name of a variable's column, or the beginning of the names of several.
-    fn name(&self, variable: JointVariable) -> &str {
+    /// The names that are looked for.
+    fn given(&self, variable: JointVariable) -> Vec<String> {
         let place = JointVariable::ALL.iter().position(|other| *other == variable);
-        let given = place.and_then(|place| self.variables[place].as_deref());
-        given.unwrap_or(variable.name())
+        let given = place.and_then(|place| self.variables[place].clone());
+        given.unwrap_or_else(|| vec![variable.name().to_owned()])
+    }
+
+    fn missing(&self, schema: &Schema, variable: JointVariable, model: &Model) -> Error {
+        let there: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
+        let (there, joints) = (there.join(", "), model.joints());
+        let (meaning, option) = (variable.meaning().to_lowercase(), variable.name());
+        let robot = &model.robot.name;
+        let names = self.given(variable);
+        let reason = match names.as_slice() {
+            [name] if name.contains("{}") => {
+                let wanted: Vec<String> = by_joints(name, model);
+                format!(
+                    "the log has not the columns {} for {meaning} of {robot}",
+                    wanted.join(", ")
+                )
+            }
+            [name] => format!(
+                "the log has no column `{name}` with a list, nor {name}1 to {name}{joints}, for {meaning} of {robot}"
+            ),
+            names if names.len() != joints => format!(
+                "--{option} names {} columns for {meaning} of {robot}, which has {joints} joints",
+                names.len()
+            ),
+            names => {
+                let is_missing = |name: &&String| schema.column_with_name(name).is_none();
+                let gone: Vec<&str> = names.iter().filter(is_missing).map(String::as_str).collect();
+                format!("the log has no column `{}` for {meaning} of {robot}", gone.join("`, `"))
+            }
+        };
+        Error::Columns(format!(
+            "{reason}; its columns are {there}; name it with --{option}: a list, the beginning of numbered columns, a \
+             column for each joint with commas between them, or {{}} for the joint's name as in --{option} \
+             '{option}_{{}}'"
+        ))
     }
 }
 
-fn missing(schema: &Schema, variable: JointVariable, name: &str, model: &Model) -> Error {
-    let there: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
+/// A name with the name of each joint in it.
+fn by_joints(name: &str, model: &Model) -> Vec<String> {
+    let coordinates = model.robot.coordinates.iter();
+    coordinates.map(|coordinate| name.replace("{}", &coordinate.joint)).collect()
+}
+
+fn found(schema: &Schema, names: &[String], model: &Model) -> Found {
     let joints = model.joints();
-    Error::Columns(format!(
-        "the log has no column `{name}` with a list, nor {name}1 to {name}{joints}, for {} of {}; its columns are {}; \
-         name it with --{}",
-        variable.meaning(),
-        model.robot.name,
-        there.join(", "),
-        variable.name()
-    ))
+    let are_there =
+        |names: &[String]| names.iter().all(|name| schema.column_with_name(name).is_some());
+    let [name] = names else {
+        let are_all = names.len() == joints && are_there(names);
+        return if are_all { Found::Columns(names.to_vec()) } else { Found::Missing };
+    };
+    let is_nested = |kind: &DataType| kind.is_nested() || joints == 1;
+    if schema.column_with_name(name).is_some_and(|(_, field)| is_nested(field.data_type())) {
+        return Found::Columns(vec![name.clone()]);
+    }
+    if name.contains("{}") {
+        let names = by_joints(name, model);
+        return if are_there(&names) { Found::Columns(names) } else { Found::Missing };
+    }
+    for between in ["", "_"] {
+        let numbered = |first: usize| -> Option<Vec<String>> {
+            let names = (first..first + joints).map(|joint| format!("{name}{between}{joint}"));
+            Some(names.collect()).filter(|names: &Vec<String>| are_there(names))
+        };
+        match (numbered(1), numbered(0)) {
+            (Some(_), Some(_)) => return Found::Ambiguous(format!("{name}{between}")),
+            (Some(names), None) | (None, Some(names)) => return Found::Columns(names),
+            (None, None) => {}
+        }
+    }
+    Found::Missing
 }

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use datafusion::arrow::array::{
     ArrayRef, FixedSizeListArray, Float64Array, Int64Array, RecordBatch,
 };
+use datafusion::arrow::compute::cast;
 use datafusion::arrow::datatypes::{DataType, Field, Schema};
+use datafusion::arrow::error::ArrowError;
 use datafusion::parquet::arrow::ArrowWriter;
 use robot_model::variable::JointVariable;
 use robot_symbolic::Random;
@@ -38,6 +40,8 @@ pub struct Generation {
     pub noise: Vec<f64>,
     /// The columns of a joint's variable.
     pub layout: Layout,
+    /// Whether the variables are written in single precision, which needs half the space.
+    pub single: bool,
     /// Where pseudo-random numbers start.
     pub seed: u64,
 }
@@ -86,7 +90,7 @@ fn part(
     path: &Path,
 ) -> Result<(), Error> {
     let failed = |error: &dyn std::fmt::Display| Error::file(path, error);
-    let schema = Arc::new(schema(model, how.layout));
+    let schema = Arc::new(schema(model, how));
     let (place, file) = Place::create(path)?;
     let writer = ArrowWriter::try_new(file, schema.clone(), Some(properties(false)));
     let mut writer = writer.map_err(|error| failed(&error))?;
@@ -103,22 +107,29 @@ fn part(
     place.keep()
 }
 
-fn schema(model: &Model, layout: Layout) -> Schema {
+fn schema(model: &Model, how: &Generation) -> Schema {
     let joints = model.joints();
-    let size = i32::try_from(joints).unwrap_or(i32::MAX);
-    let variables = JointVariable::ALL.iter().flat_map(|variable| match layout {
-        Layout::Lists => {
-            let kind = DataType::FixedSizeList(doubles(), size);
-            vec![Field::new(variable.name(), kind, false)]
-        }
+    let variables = JointVariable::ALL.iter().flat_map(|variable| match how.layout {
+        Layout::Lists => vec![Field::new(variable.name(), list(joints, how.single), false)],
         Layout::Columns => {
             let name = |joint: usize| format!("{}_{joint}", variable.name());
-            (1..=joints).map(|joint| Field::new(name(joint), DataType::Float64, false)).collect()
+            (1..=joints).map(|joint| Field::new(name(joint), number(how.single), false)).collect()
         }
     });
     let first =
         [Field::new("episode", DataType::Int64, false), Field::new("t", DataType::Float64, false)];
     Schema::new(first.into_iter().chain(variables).collect::<Vec<_>>())
+}
+
+/// The type of numbers of variables.
+fn number(single: bool) -> DataType {
+    if single { DataType::Float32 } else { DataType::Float64 }
+}
+
+/// The type of lists of variables.
+fn list(joints: usize, single: bool) -> DataType {
+    let item = Arc::new(Field::new_list_field(number(single), true));
+    DataType::FixedSizeList(item, i32::try_from(joints).unwrap_or(i32::MAX))
 }
 
 /// The states of rows.
@@ -152,14 +163,19 @@ impl<'a> States<'a> {
         let time = rows.map(|row| (row % length) as f64 / self.how.rate);
         let mut arrays: Vec<ArrayRef> =
             vec![Arc::new(episode), Arc::new(time.collect::<Float64Array>())];
+        let single = self.how.single;
+        let failed = |error: ArrowError| Error::Query(error.to_string());
         match self.how.layout {
             Layout::Columns => {
-                let column = |column| -> ArrayRef { Arc::new(Float64Array::from(column)) };
-                arrays.extend(columns.into_iter().map(column));
+                for column in columns {
+                    let column = cast(&Float64Array::from(column), &number(single));
+                    arrays.push(column.map_err(failed)?);
+                }
             }
             Layout::Lists => {
                 for columns in columns.chunks(joints) {
-                    arrays.push(lists(columns, count)?);
+                    let lists = lists(columns, count)?;
+                    arrays.push(cast(&lists, &list(joints, single)).map_err(failed)?);
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Robots as queries name them: by a registered name, a path, or the text of a robot file.
 
+mod friction;
 mod model;
 
 use std::collections::{BTreeMap, HashMap};
@@ -15,6 +16,8 @@ pub use model::{Compiled, Model};
 #[derive(Debug, Default)]
 pub struct Robots {
     names: BTreeMap<String, PathBuf>,
+    /// Whether joints get friction that their files do not have.
+    friction: bool,
     models: Mutex<Models>,
 }
 
@@ -36,6 +39,12 @@ impl Robots {
     /// Gives a robot file a name.
     pub fn register(&mut self, name: &str, path: &Path) {
         self.names.insert(name.to_owned(), path.to_owned());
+    }
+
+    /// Gives all joints viscous and constant dry friction: that of the robot file, for URDF that of `<dynamics>`, else with
+    /// coefficients that are 0 until they are identified.
+    pub fn with_friction(&mut self) {
+        self.friction = true;
     }
 
     /// Registers the robot files of a folder, `.toml` and `.urdf`, under their names without the ending.
@@ -78,8 +87,19 @@ impl Robots {
         Ok(model)
     }
 
-    /// The text of a robot and the options with its pinned plan.
+    /// The text of a robot and the options with its pinned plan, which is of the file without other friction.
     fn source(&self, literal: &str) -> Result<(Source, Options), Error> {
+        let (source, options) = self.read(literal)?;
+        if !self.friction {
+            return Ok((source, options));
+        }
+        let failed = |reason: String| Error::Robot { robot: source.name.clone(), reason };
+        let changed = friction::with_friction(source.clone()).map_err(failed)?;
+        Ok((changed, Options { plan: None, ..options }))
+    }
+
+    /// The text of a robot file and the options with its pinned plan.
+    fn read(&self, literal: &str) -> Result<(Source, Options), Error> {
         let options = Options { search: false, ..Options::default() };
         if literal.contains('\n') {
             return Ok((Source { name: "robot".to_owned(), text: literal.to_owned() }, options));
@@ -99,7 +119,7 @@ impl Robots {
     fn unknown(&self) -> String {
         let names: Vec<&str> = self.names.keys().map(String::as_str).collect();
         let known = match names.as_slice() {
-            [] => "no robot is registered".to_owned(),
+            [] => "no robot is registered; --robots FOLDER registers those of a folder".to_owned(),
             names => format!("registered are {}", names.join(", ")),
         };
         format!("this is neither a registered name nor a path to a .toml or .urdf file ({known})")

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use datafusion::arrow::array::RecordBatch;
-use datafusion::arrow::compute::concat_batches;
 use datafusion_distributed::display_plan_ascii;
 use robot_query::cluster::{Listener, Workers, serve};
 use robot_query::identify::Estimate;
@@ -12,7 +11,7 @@ use robot_query::log::{Log, Session, Settings};
 use robot_query::{Error, Robots};
 use tokio::runtime::Runtime;
 
-use super::support::{difference, files, generation, log, robot, rows};
+use super::support::{difference, files, generation, log, robot, rows, rows_of};
 
 const SETTINGS: Settings = Settings { threads: 2, memory: 1 << 30 };
 
@@ -43,16 +42,8 @@ fn addresses(workers: &[Worker]) -> Vec<String> {
 
 /// The rows of a query over a log, computed by workers.
 fn asked(addresses: &[String], files: &[PathBuf], query: &str) -> Result<RecordBatch, Error> {
-    let workers = Workers::at(addresses)?;
-    Runtime::new().unwrap().block_on(async {
-        let session = Session::on(Robots::new(), SETTINGS, workers)?;
-        let table = session.table(&Log::open(files)?).await?;
-        session.context.register_table("log", table.into_view())?;
-        let table = session.context.sql(query).await?;
-        let schema = table.schema().inner().clone();
-        let batches = table.collect().await?;
-        Ok(concat_batches(&schema, &batches).unwrap())
-    })
+    let session = Session::on(Robots::new(), SETTINGS, Workers::at(addresses)?)?;
+    rows_of(&session, files, query)
 }
 
 /// The plan of a query, with its stages.

@@ -77,6 +77,8 @@ fn likely_mistakes_are_found_with_their_rows() {
         ("tau", 310) => f64::NAN,
         ("q", 50) => 90.0,
         ("t", row) => 0.01 * row as f64,
+        // Of the size of the model's.
+        ("tau", _) => 30.0,
         _ => 0.5,
     };
     write(&path, 400, value);
@@ -85,7 +87,7 @@ fn likely_mistakes_are_found_with_their_rows() {
     let found = check(&log, &model, &Names::default(), Some("t"), None).unwrap();
     let found: Vec<String> = found.iter().map(ToString::to_string).collect();
     let wanted = [
-        "row group 0: a position is beyond 10 turns: is it in radians?, 1 rows, the first is row 50",
+        "row group 0: a position is beyond 10 turns: is it in radians (see --degrees)?, 1 rows, the first is row 50",
         "row group 1: the time equals that of the previous row, 1 rows, the first is row 150",
         "row group 2: the time is before that of the previous row, 1 rows, the first is row 250",
         "row group 3: a value is NaN or infinite, 1 rows, the first is row 310",
@@ -107,6 +109,7 @@ fn positions_beyond_the_limits_of_the_robot_are_found() {
     let value = |name: &str, row: usize| match (name, row) {
         ("q", 120) => 3.3,
         ("q", 130) => 45.0,
+        ("tau", _) => 30.0,
         _ => 0.5,
     };
     write(&path, 400, value);

@@ -1,5 +1,6 @@
 //! The functions against the numeric solver, over all kinds of columns.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use datafusion::arrow::array::{
@@ -13,10 +14,11 @@ use robot_build::FunctionKind;
 use robot_model::variable::JointVariable;
 use robot_numeric::random::Random;
 use robot_query::Robots;
+use robot_query::motion::Layout;
 use robot_testing::solver::{expected, state};
 use tokio::runtime::Runtime;
 
-use super::support::{difference, robot, session};
+use super::support::{difference, files, generation, log, robot, rows, session};
 
 const ROWS: usize = 300;
 
@@ -195,4 +197,26 @@ fn residuals_are_torques_less_those_of_the_model() {
     let found = numbers(&answered(columns(more), &query));
     let wanted: Vec<f64> = (0..6 * 9).map(|i| i as f64).collect();
     assert!(difference(&found, &wanted) < 1e-13);
+}
+
+#[test]
+fn numbers_in_single_precision_are_taken_as_they_are() {
+    let path = robot("planar_2r");
+    let mut how = generation(&path, 2000);
+    how.single = true;
+    let lists = log(&path, &how);
+    how.layout = Layout::Columns;
+    let columns = log(&path, &how);
+    let torques = |folder: &Path, arguments: &str| {
+        let query = format!("SELECT inverse_dynamics('{path}', {arguments}) FROM log");
+        numbers(rows(1, &files(folder), &query).unwrap().column(0))
+    };
+    let names = ["q_1", "q_2", "qd_1", "qd_2", "qdd_1", "qdd_2"];
+    let wanted = names.map(|name| format!("CAST({name} AS DOUBLE)")).join(", ");
+    let wanted = torques(columns.path(), &wanted);
+    assert_eq!(torques(columns.path(), &names.join(", ")), wanted);
+    assert_eq!(torques(lists.path(), "q, qd, qdd"), wanted);
+    how.single = false;
+    let doubles = log(&path, &how);
+    assert_ne!(torques(doubles.path(), &names.join(", ")), wanted);
 }

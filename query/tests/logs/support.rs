@@ -32,6 +32,7 @@ pub(crate) fn generation(path: &str, rows: u64) -> Generation {
         limits: limits(&model, 2.0),
         noise: vec![0.5; model.joints()],
         layout: Layout::Lists,
+        single: false,
         seed: 3,
     }
 }
@@ -44,10 +45,18 @@ pub(crate) fn log(path: &str, how: &Generation) -> TempDir {
     folder
 }
 
-/// The rows of a query over a log, as one batch.
+/// The rows of a query over a log, as one batch, computed by this process.
 pub(crate) fn rows(threads: usize, files: &[PathBuf], query: &str) -> Result<RecordBatch, Error> {
+    rows_of(&session(threads), files, query)
+}
+
+/// The rows of a query over a log, as one batch.
+pub(crate) fn rows_of(
+    session: &Session,
+    files: &[PathBuf],
+    query: &str,
+) -> Result<RecordBatch, Error> {
     Runtime::new().unwrap().block_on(async {
-        let session = session(threads);
         let table = session.table(&Log::open(files)?).await?;
         session.context.register_table("log", table.into_view())?;
         let table = session.context.sql(query).await?;

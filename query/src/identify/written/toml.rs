@@ -42,7 +42,27 @@ pub(super) fn with_values(
         own.link(link, table).map_err(|reason| format!("link `{}`: {reason}", link.name))?;
         comment(comments, table);
     }
+    drop_unused(&mut document, &import.toml);
     Ok(document.to_string())
+}
+
+/// Removes the parameters that the values used before, and that nothing uses any more.
+fn drop_unused(document: &mut DocumentMut, before: &str) {
+    let after = document.to_string();
+    let times = |text: &str, name: &str| {
+        let words = text.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+        words.filter(|word| *word == name).count()
+    };
+    let Some(parameters) = document.get_mut("parameters").and_then(Item::as_table_like_mut) else {
+        return;
+    };
+    let names: Vec<String> = parameters.iter().map(|(name, _)| name.to_owned()).collect();
+    for name in names.iter().filter(|name| times(before, name) > 1 && times(&after, name) == 1) {
+        parameters.remove(name);
+    }
+    if parameters.is_empty() {
+        document.remove("parameters");
+    }
 }
 
 /// Writes comments above a table.

@@ -15,37 +15,50 @@ const LINES: usize = 5;
 /// and within so many bytes of the start or the end.
 const BYTES: u64 = 4096;
 
-/// The first bytes of a regular file.
-pub(super) fn beginning(path: &Path) -> Result<Vec<u8>> {
-    let mut bytes = vec![];
-    File::open(path)?.take(BYTES).read_to_end(&mut bytes)?;
-    Ok(bytes)
+/// Both ends of a regular file, where its mark may be.
+pub(super) struct Ends {
+    beginning: Vec<u8>,
+    last_line: Vec<u8>,
 }
 
-/// The last line of a regular file, without the bytes that are far from the end.
-fn last_line(path: &Path) -> Result<Vec<u8>> {
-    let mut file = File::open(path)?;
-    let length = file.metadata()?.len();
-    file.seek(SeekFrom::Start(length.saturating_sub(BYTES)))?;
-    let mut bytes = vec![];
-    file.take(BYTES).read_to_end(&mut bytes)?;
-    let end = bytes.trim_ascii_end();
-    let start = end.iter().rposition(|byte| *byte == b'\n').map_or(0, |newline| newline + 1);
-    Ok(end.get(start..).unwrap_or_default().to_owned())
-}
+impl Ends {
+    /// Of the file at a path; bytes that are far from both ends are not read.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read.
+    pub(super) fn of(path: &Path) -> Result<Ends> {
+        let mut file = File::open(path)?;
+        let length = file.metadata()?.len();
+        let mut beginning = vec![];
+        file.by_ref().take(BYTES).read_to_end(&mut beginning)?;
+        file.seek(SeekFrom::Start(length.saturating_sub(BYTES)))?;
+        let mut last = vec![];
+        file.take(BYTES).read_to_end(&mut last)?;
+        let end = last.trim_ascii_end();
+        let start = end.iter().rposition(|byte| *byte == b'\n').map_or(0, |newline| newline + 1);
+        let last_line = end.get(start..).unwrap_or_default().to_owned();
+        Ok(Ends { beginning, last_line })
+    }
 
-/// Whether a regular file that begins so has the mark.
-pub(super) fn is_marked(path: &Path, beginning: &[u8]) -> Result<bool> {
-    let mut first = beginning.split(|byte| *byte == b'\n').take(LINES);
-    Ok(first.any(has_mark) || has_mark(&last_line(path)?))
+    /// Whether the file has the mark.
+    pub(super) fn are_marked(&self) -> bool {
+        let first = self.beginning.split(|byte| *byte == b'\n').take(LINES);
+        first.chain([self.last_line.as_slice()]).any(has_mark)
+    }
+
+    /// Whether the file has nothing in it.
+    pub(super) fn are_empty(&self) -> bool {
+        self.beginning.is_empty()
+    }
+
+    /// The first line, if it is text.
+    pub(super) fn first_line(&self) -> &str {
+        let line = self.beginning.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        std::str::from_utf8(line).unwrap_or_default().trim_end()
+    }
 }
 
 fn has_mark(line: &[u8]) -> bool {
     MARKERS.iter().any(|mark| line.windows(mark.len()).any(|part| part == mark.as_bytes()))
-}
-
-/// The first line of a text that begins so, if it is text.
-pub(super) fn first_line(beginning: &[u8]) -> &str {
-    let line = beginning.split(|byte| *byte == b'\n').next().unwrap_or_default();
-    std::str::from_utf8(line).unwrap_or_default().trim_end()
 }

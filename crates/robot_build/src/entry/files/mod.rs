@@ -12,6 +12,7 @@ mod writer;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use marker::Ends;
 pub use marker::MARKER;
 pub use pending::Pending;
 pub use writer::{Output, Ownership, Writer};
@@ -72,11 +73,8 @@ pub fn remaining(folder: &Path, files: &[File]) -> Vec<PathBuf> {
     let written: BTreeSet<PathBuf> = files.iter().map(|file| file.path_in(folder)).collect();
     let folders: BTreeSet<&Path> = written.iter().filter_map(|path| path.parent()).collect();
     let entries = folders.into_iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
-    let is_own = |path: &PathBuf| {
-        path.is_file()
-            && marker::beginning(path)
-                .is_ok_and(|text| marker::is_marked(path, &text).unwrap_or(false))
-    };
+    let is_own =
+        |path: &PathBuf| path.is_file() && Ends::of(path).is_ok_and(|ends| ends.are_marked());
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let found: BTreeSet<PathBuf> =
         paths.filter(|path| !written.contains(path)).filter(is_own).collect();
