@@ -6,10 +6,11 @@
 //! program rounds once, as in code that is compiled for the processor, and those of sines if [`Options::fused`] asks for
 //! it; and a NaN may have other bits.
 //!
-//! For x86-64 with AVX2 and FMA, or AVX-512 F, DQ and VL, chosen when it runs. Elsewhere there is an error;
-//! an [`Executable`] then runs the interpreter.
+//! For x86-64 with AVX2 and FMA, or AVX-512 F, DQ and VL, chosen when it runs; for a 64-bit ARM by cranelift. Elsewhere
+//! there is an error; an [`Executable`] then runs the interpreter.
 
 mod compiled;
+mod cranelift;
 mod emit;
 mod error;
 mod executable;
