@@ -161,7 +161,8 @@ fn random_functions_have_the_bits_of_the_reference() {
 }
 
 /// Millions of small functions: `ROBOT_JIT_FUNCTIONS=10000000` is so many that have no multiply-adds, against the
-/// interpreter, and more that have some, against the reference; `ROBOT_JIT_FIRST` is the first seed, of fifty functions:
+/// interpreter, and more that have some, against the reference; `ROBOT_JIT_FIRST` is the first seed, of fifty functions. Each
+/// seed is for one kind of registers, in turn:
 ///
 /// ```text
 /// cargo test --release -p robot_jit --lib -- --ignored --nocapture
@@ -178,7 +179,8 @@ fn many_random_functions_have_the_bits_of_the_interpreter() {
     for seed in first.. {
         let fused = Fused::rarely(seed);
         let module = module(seed, SMALL_FUNCTIONS, Size::Small, fused.program);
-        compare_module(&module, &registers, (seed, fused), SMALL_STATES);
+        let kind = seed as usize % registers.len();
+        compare_module(&module, &registers[kind..=kind], (seed, fused), SMALL_STATES);
         compared[usize::from(fused.any())] += SMALL_FUNCTIONS as u64;
         let is_done = compared[0] >= asked;
         if is_done || (seed + 1 - first).is_multiple_of(10_000) {
