@@ -1,7 +1,8 @@
 //! Code in memory, and the calls of it: the `unsafe` of this crate.
 //!
 //! Code reads and writes by the pointers that it is given, and below the stack pointer where cranelift made it. What it
-//! may reach follows from the function that it was made from, and is checked before each call: the number of inputs, of outputs, of states.
+//! may reach follows from the function that it was made from, and is checked before each call: the number of inputs, of
+//! outputs, of states.
 //! Pages are written first and executable after; they are never both, and are unmapped when the last owner goes.
 
 #![allow(unsafe_code)]
@@ -96,8 +97,8 @@ pub(crate) fn place(
     };
     let functions = functions.into_iter();
     let placed = functions.map(|(SingleEntry(single), LanesEntry(lanes))| {
-        // SAFETY: at these addresses lies code that `emit_single` and `emit_lanes` made with these signatures, in pages that
-        // live as long as the pointers to them; the machine has its registers.
+        // SAFETY: at these addresses lies code that `emit_single` and `emit_lanes` made with these signatures, in pages
+        // that live as long as the pointers to them; the machine has its registers.
         let (run_single, run_lanes) = unsafe {
             (
                 transmute::<*const u8, Single>(start(&single)),
@@ -146,9 +147,9 @@ impl SingleCode {
 
     #[inline]
     fn enter(&self, inputs: &[f64], outputs: &mut [f64], working: &mut [Line]) {
-        // SAFETY: `call` checked the lengths, and `place` that the machine has the registers. The code reads entries of inputs and writes entries of outputs below
-        // them, reads constants of the pool that was made with it, and has as much working memory as it uses, which it
-        // writes before it reads.
+        // SAFETY: `call` checked the lengths, and `place` that the machine has the registers. The code reads entries of
+        // inputs and writes entries of outputs below them, reads constants of the pool that was made with it, and has as
+        // much working memory as it uses, which it writes before it reads.
         unsafe {
             (self.0.run)(
                 inputs.as_ptr(),

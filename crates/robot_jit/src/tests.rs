@@ -161,8 +161,8 @@ fn random_functions_have_the_bits_of_the_reference() {
 }
 
 /// Millions of small functions: `ROBOT_JIT_FUNCTIONS=10000000` is so many that have no multiply-adds, against the
-/// interpreter, and more that have some, against the reference; `ROBOT_JIT_FIRST` is the first seed, of fifty functions. Each
-/// seed is for one kind of registers, in turn:
+/// interpreter, and more that have some, against the reference; `ROBOT_JIT_FIRST` is the first seed, of fifty functions.
+/// Each seed is for one kind of registers, in turn:
 ///
 /// ```text
 /// cargo test --release -p robot_jit --lib -- --ignored --nocapture
@@ -186,7 +186,8 @@ fn many_random_functions_have_the_bits_of_the_interpreter() {
         if is_done || (seed + 1 - first).is_multiple_of(10_000) {
             let [interpreted, fused] = compared;
             println!(
-                "{registers:?}, seeds {first} to {seed}: {interpreted} functions have the bits of the interpreter, {fused} fused ones those of the reference"
+                "{registers:?}, seeds {first} to {seed}: {interpreted} functions have the bits of the interpreter, {fused} \
+                 fused ones those of the reference"
             );
         }
         if is_done {

@@ -45,14 +45,15 @@ pub(crate) fn encode(
 
 /// The processor at hand.
 fn processor() -> Result<OwnedTargetIsa, Fault> {
-    let mut builder = isa::lookup_by_name(std::env::consts::ARCH).map_err(said)?;
-    let extensions: &[&str] = match std::env::consts::ARCH {
-        // Of every processor with AVX2 and FMA.
-        "x86_64" => {
-            &["has_sse3", "has_ssse3", "has_sse41", "has_sse42", "has_avx", "has_avx2", "has_fma"]
-        }
-        _ => &[],
+    let is_arm = cfg!(target_arch = "aarch64");
+    // Of every x86-64 with AVX2 and FMA.
+    let extensions: &[&str] = if is_arm {
+        &[]
+    } else {
+        &["has_sse3", "has_ssse3", "has_sse41", "has_sse42", "has_avx", "has_avx2", "has_fma"]
     };
+    let architecture = if is_arm { "aarch64" } else { "x86_64" };
+    let mut builder = isa::lookup_by_name(architecture).map_err(said)?;
     for extension in extensions {
         builder.enable(extension).map_err(said)?;
     }
