@@ -1,5 +1,5 @@
-//! Machine code in memory beside the same functions compiled by rustc for this processor, and by cranelift: calls in turn within one
-//! process, the least of many short batches. The sines of both round once, and all bits must be the same; with
+//! Machine code in memory beside the same functions compiled by rustc for this processor, and by cranelift: calls in turn
+//! within one process, the least of many short batches. The sines of all round once, and all bits must be the same; with
 //! `portable` those of machine code are the interpreter's, which take longer.
 //!
 //! ```text
@@ -185,7 +185,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let filter = arguments.next().unwrap_or_default();
     let fused = arguments.next().is_none_or(|word| word != "portable");
     println!(
-        "| function | call ns | rustc ns | ratio | cranelift's | column ns | rustc ns | ratio | cranelift's | compiled in ms | by cranelift |"
+        "| function | call ns | rustc ns | ratio | cranelift's | column ns | rustc ns | ratio | cranelift's \
+         | compiled in ms | by cranelift |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     let mut ratios = [const { vec![] }; 4];
