@@ -40,7 +40,8 @@ def compare(title, results):
     (_, first), *others = results.items()
     for name, result in others:
         error = np.abs(np.asarray(result) - first).max() / np.abs(first).max()
-        if not error < (1e-3 if name == "dynibo" and title != "mass_matrix" else 1e-9):
+        has_gravity = title in ("inverse_dynamics", "bias", "gravity", "forward_dynamics")
+        if not error < (1e-3 if name == "dynibo" and has_gravity else 1e-9):
             sys.exit(f"{title}: {name} differs from this package by {error:.1e} of the largest value")
 
 
@@ -61,33 +62,52 @@ def optional(make):
         return {}
 
 
-def of_pinocchio(path):
+def of_pinocchio(path, tip):
     model = pin.buildModelFromUrdf(path)
     data = model.createData()
+    frame, axes = model.getFrameId(tip), pin.LOCAL_WORLD_ALIGNED
+    zero = np.zeros(model.nv)
+
+    def pose(q):
+        pin.framesForwardKinematics(model, data, q)
+        return data.oMf[frame].translation
+
+    def acceleration(q, qd):
+        pin.forwardKinematics(model, data, q, qd, zero)
+        return pin.getFrameClassicalAcceleration(model, data, frame, axes).vector
+
     return model, {
         "inverse_dynamics": lambda q, qd, x: pin.rnea(model, data, q, qd, x),
         "mass_matrix": lambda q, qd, x: pin.crba(model, data, q),
         "bias": lambda q, qd, x: pin.nonLinearEffects(model, data, q, qd),
         "gravity": lambda q, qd, x: pin.computeGeneralizedGravity(model, data, q),
         "forward_dynamics": lambda q, qd, x: pin.aba(model, data, q, qd, x),
+        "pose": lambda q, qd, x: pose(q),
+        "jacobian": lambda q, qd, x: pin.computeFrameJacobian(model, data, q, frame, axes),
+        "jacobian_dot_qd": lambda q, qd, x: acceleration(q, qd),
     }
 
 
-def of_dynibo(path):
+def of_dynibo(path, tip):
     import dynibo
 
     robot = dynibo.Robot.from_urdf(path)
-    n = robot.joint_count
+    n, tip = robot.joint_count, robot.link_id(tip)
+    # Its columns have the angular velocity first.
+    rows = [3, 4, 5, 0, 1, 2]
     return {
         "inverse_dynamics": lambda q, qd, x: robot.inverse_dynamics(q, qd, x),
         "mass_matrix": lambda q, qd, x: robot.mass_matrix(q).reshape(n, n),
         "bias": lambda q, qd, x: robot.velocity_product_forces(q, qd) + robot.gravity(q),
         "gravity": lambda q, qd, x: robot.gravity(q),
         "forward_dynamics": lambda q, qd, x: robot.forward_dynamics(q, qd, x),
+        "pose": lambda q, qd, x: robot.forward_kinematics(q, tip).translation,
+        "jacobian": lambda q, qd, x: robot.jacobian(q, tip).reshape(n, 6).T[rows],
+        "jacobian_dot_qd": lambda q, qd, x: (qd @ robot.jacobian_derivative(q, qd, tip).reshape(n, 6))[rows],
     }
 
 
-def of_frax(path):
+def of_frax(path, offset):
     import warnings
 
     import jax
@@ -95,7 +115,7 @@ def of_frax(path):
     warnings.filterwarnings("ignore", module="frax")
     import frax
 
-    robot = frax.Manipulator(path)
+    robot = frax.Manipulator(path, ee_offset=offset)
     up = np.array([0, 0, 9.81, 0, 0, 0])  # The acceleration of the base that stands for gravity.
     traced = {
         "inverse_dynamics": lambda q, qd, x: robot.rnea(q, qd, x, up, None),
@@ -103,6 +123,9 @@ def of_frax(path):
         "bias": lambda q, qd, x: robot.nonlinear_bias(q, qd),
         "gravity": lambda q, qd, x: robot.gravity_vector(q),
         "forward_dynamics": lambda q, qd, x: robot.forward_dynamics(q, qd, x, None),
+        "pose": lambda q, qd, x: robot.ee_transform(q)[:3, 3],
+        "jacobian": lambda q, qd, x: robot.ee_jacobian(q),
+        "jacobian_dot_qd": lambda q, qd, x: robot.ee_jacobian_and_derivative(q, qd)[1] @ qd,
     }
     compiled = {name: jax.jit(function) for name, function in traced.items()}
     state = np.zeros(robot.num_joints)
@@ -113,19 +136,24 @@ def of_frax(path):
     return calls | {"batch": lambda q, qd, x: np.asarray(batch(q, qd, x))}
 
 
-def of_package(arm):
+def of_package(arm, tip):
+    poses, jacobian, jacobian_dot_qd = arm.frame_poses, getattr(arm, f"jacobian_{tip}"), getattr(arm, f"jacobian_dot_qd_{tip}")
     return {
         "inverse_dynamics": lambda q, qd, x: arm.inverse_dynamics(q, qd, x),
         "mass_matrix": lambda q, qd, x: arm.mass_matrix(q),
         "bias": lambda q, qd, x: arm.bias(q, qd),
         "gravity": lambda q, qd, x: arm.gravity(q),
         "forward_dynamics": lambda q, qd, x: arm.forward_dynamics(q, qd, x),
+        # The poses of all frames, the last of which is the tip's.
+        "pose": lambda q, qd, x: poses(q)[1][..., -1, :],
+        "jacobian": lambda q, qd, x: jacobian(q),
+        "jacobian_dot_qd": lambda q, qd, x: jacobian_dot_qd(q, qd),
     }
 
 
 def upper(matrix):
     """Pinocchio fills the upper triangle of the mass matrix alone."""
-    return np.triu(matrix) if np.ndim(matrix) == 2 else matrix
+    return np.triu(matrix) if np.ndim(matrix) == 2 and len(matrix) == len(matrix[0]) else matrix
 
 
 def calls(arm, contenders, random):
@@ -167,10 +195,13 @@ def main():
     path = os.path.abspath(sys.argv[1])
     states = int(float(sys.argv[2])) if len(sys.argv) > 2 else 1_000_000
     arm, random = robots.load(path), np.random.default_rng(1)
-    model, functions = of_pinocchio(path)
-    contenders = {"this package": of_package(arm), "pin": functions}
-    contenders |= {"dynibo": found} if (found := optional(lambda: of_dynibo(path))) else {}
-    contenders |= {"frax": found} if (found := optional(lambda: of_frax(path))) else {}
+    tip = [name for name in arm.functions if name.startswith("jacobian_dot_qd_")][-1].removeprefix("jacobian_dot_qd_")
+    model, functions = of_pinocchio(path, tip)
+    offset = model.frames[model.getFrameId(tip)].placement.homogeneous
+    contenders = {"this package": of_package(arm, tip), "pin": functions}
+    contenders |= {"dynibo": found} if (found := optional(lambda: of_dynibo(path, tip))) else {}
+    contenders |= {"frax": found} if (found := optional(lambda: of_frax(path, offset))) else {}
+    print(f"the tip is {tip}")
     batches(arm, model, functions, contenders.get("frax"), states, random)
     calls(arm, contenders, random)
 

@@ -1,5 +1,5 @@
-//! Machine code in memory beside the same functions compiled by rustc for this processor: calls in turn within one
-//! process, the least of many short batches. The sines of both round once, and all bits must be the same; with
+//! Machine code in memory beside the same functions compiled by rustc for this processor, and by cranelift: calls in turn
+//! within one process, the least of many short batches. The sines of all round once, and all bits must be the same; with
 //! `portable` those of machine code are the interpreter's, which take longer.
 //!
 //! ```text
@@ -12,6 +12,8 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use functions::{FUNCTIONS, Function, options};
+use robot_codegen::Module;
+use robot_jit::{Compiled, Options, Registers};
 use robot_symbolic::Random;
 
 /// The states of a batch, which stay in the cache.
@@ -50,20 +52,18 @@ fn repeats(run: impl FnMut()) -> usize {
     (10e3 / least_of(20, run)).ceil() as usize
 }
 
-/// The least times of two that are run in turn, in nanoseconds a state.
-fn in_turn(rounds: usize, mut one: impl FnMut(), mut other: impl FnMut()) -> [f64; 2] {
-    let repeats = repeats(&mut one);
-    let mut least = [f64::INFINITY; 2];
-    let mut time = |which: usize, run: &mut dyn FnMut()| {
-        run();
-        let start = Instant::now();
-        (0..repeats).for_each(|_| run());
-        let time = start.elapsed().as_nanos() as f64 / (repeats * STATES) as f64;
-        least[which] = least[which].min(time);
-    };
+/// The least times of contenders that are run in turn, in nanoseconds a state.
+fn in_turn<const N: usize>(rounds: usize, mut contenders: [&mut dyn FnMut(); N]) -> [f64; N] {
+    let repeats = repeats(&mut contenders[0]);
+    let mut least = [f64::INFINITY; N];
     for _ in 0..rounds {
-        time(0, &mut one);
-        time(1, &mut other);
+        for (least, run) in least.iter_mut().zip(&mut contenders) {
+            run();
+            let start = Instant::now();
+            (0..repeats).for_each(|_| run());
+            let time = start.elapsed().as_nanos() as f64 / (repeats * STATES) as f64;
+            *least = least.min(time);
+        }
     }
     least
 }
@@ -74,71 +74,109 @@ const COMPILATIONS: u32 = 50;
 /// How often code is placed in memory: in some 3 % of the places it is slower by a factor, whoever made it.
 const PLACES: usize = 3;
 
-/// The ratios of single calls and of columns.
-fn compare(
-    function: &Function,
-    module: &robot_codegen::Module,
-    (rounds, fused): (usize, bool),
-) -> Result<[f64; 2], Box<dyn Error>> {
-    let options = robot_jit::Options {
-        functions: Some(vec![function.name.to_owned()]),
-        fused,
-        ..robot_jit::Options::default()
-    };
-    let start = processor_time();
-    for _ in 0..COMPILATIONS {
-        drop(black_box(robot_jit::compile_with(module, &[], &options)?));
+/// A function with the code that is made in memory.
+struct Compared<'a> {
+    function: &'a Function,
+    module: &'a Module,
+    options: Options,
+}
+
+impl<'a> Compared<'a> {
+    fn new(function: &'a Function, module: &'a Module, fused: bool) -> Compared<'a> {
+        let functions = Some(vec![function.name.to_owned()]);
+        Compared { function, module, options: Options { functions, fused, ..Options::default() } }
     }
-    let compile = (processor_time() - start) / f64::from(COMPILATIONS);
-    let places: Result<Vec<_>, _> =
-        (0..PLACES).map(|_| robot_jit::compile_with(module, &[], &options)).collect();
-    let places = places?;
-    let jits: Result<Vec<_>, _> =
-        places.iter().map(|place| place.function(function.name)).collect();
-    let jits = jits?;
-    let (taken, given) = (jits[0].input_size(), jits[0].output_size());
-    let mut random = Random::new(3);
-    let inputs = filled(taken, &mut random);
-    let inputs: Vec<&[f64]> = inputs.iter().map(|column| &column.0[..]).collect();
-    let rows: Vec<Vec<f64>> =
-        (0..STATES).map(|state| inputs.iter().map(|column| column[state]).collect()).collect();
-    let mut states = [(); 2].map(|()| vec![0.0; given]);
-    let mut columns = [(); 2].map(|()| filled(given, &mut random));
-    let [a, b] = &mut states;
-    let [mut c, mut d] = columns.each_mut().map(|columns| slices(columns));
-    let mut least = [[f64::INFINITY; 2]; 2];
-    for jit in &jits {
-        let calls = in_turn(
-            rounds,
-            || {
-                let call = |row| jit.entries(black_box(row), black_box(a)).unwrap_or_default();
-                rows.iter().map(Vec::as_slice).for_each(call);
-            },
-            || rows.iter().for_each(|row| (function.single)(black_box(row), black_box(b))),
-        );
-        let batches = in_turn(
-            rounds,
-            || jit.columns(black_box(&inputs), black_box(&mut c)).unwrap_or_default(),
-            || (function.columns)(black_box(&inputs), black_box(&mut d)),
-        );
-        for (least, times) in least.iter_mut().zip([calls, batches]) {
-            *least = [least[0].min(times[0]), least[1].min(times[1])];
+
+    fn compile(&self, registers: Registers) -> Result<Compiled<'a>, robot_jit::Error> {
+        let options = Options { registers: Some(registers), ..self.options.clone() };
+        robot_jit::compile_with(self.module, &[], &options)
+    }
+
+    /// Milliseconds to compile.
+    fn compilation(&self, registers: Registers) -> Result<f64, robot_jit::Error> {
+        let start = processor_time();
+        for _ in 0..COMPILATIONS {
+            drop(black_box(self.compile(registers)?));
         }
+        Ok((processor_time() - start) / f64::from(COMPILATIONS) / 1e6)
     }
-    if fused && (states[0] != states[1] || c != d) {
-        return Err(format!("{} {}: other bits", function.robot, function.name).into());
+
+    /// Nanoseconds of the three makers, for a call and for a state of columns.
+    fn times(&self, rounds: usize) -> Result<[[f64; 3]; 2], Box<dyn Error>> {
+        let name = self.function.name;
+        let best = Registers::detect()?;
+        let mut random = Random::new(3);
+        let mut least = [[f64::INFINITY; 3]; 2];
+        for _ in 0..PLACES {
+            let compiled = [self.compile(best)?, self.compile(Registers::Bits128)?];
+            let [ours, cranelift] = [compiled[0].function(name)?, compiled[1].function(name)?];
+            let inputs = filled(ours.input_size(), &mut random);
+            let inputs: Vec<&[f64]> = inputs.iter().map(|column| &column.0[..]).collect();
+            let row = |state: usize| inputs.iter().map(|column| column[state]).collect();
+            let rows: Vec<Vec<f64>> = (0..STATES).map(row).collect();
+            let mut states = [(); 3].map(|()| vec![0.0; ours.output_size()]);
+            let mut columns = [(); 3].map(|()| filled(ours.output_size(), &mut random));
+            let single = |code: robot_jit::Function<'_>, state: &mut [f64]| {
+                for row in &rows {
+                    code.entries(black_box(row), black_box(&mut *state)).unwrap_or_default();
+                }
+            };
+            let single_rustc = |state: &mut [f64]| {
+                for row in &rows {
+                    (self.function.single)(black_box(row), black_box(&mut *state));
+                }
+            };
+            let [a, b, c] = &mut states;
+            let calls: [&mut dyn FnMut(); 3] =
+                [&mut || single(ours, a), &mut || single_rustc(b), &mut || single(cranelift, c)];
+            let calls = in_turn(rounds, calls);
+            let [mut a, mut b, mut c] = columns.each_mut().map(|columns| slices(columns));
+            let many = |code: robot_jit::Function<'_>, outputs: &mut [&mut [f64]]| {
+                code.columns(black_box(&inputs), black_box(outputs)).unwrap_or_default();
+            };
+            let batches: [&mut dyn FnMut(); 3] = [
+                &mut || many(ours, &mut a),
+                &mut || (self.function.columns)(black_box(&inputs), black_box(&mut b)),
+                &mut || many(cranelift, &mut c),
+            ];
+            let batches = in_turn(rounds, batches);
+            let same = states[0] == states[2] && a == c;
+            if !same || self.options.fused && (states[0] != states[1] || a != b) {
+                return Err(format!("{} {name}: other bits", self.function.robot).into());
+            }
+            for (least, time) in
+                least.as_flattened_mut().iter_mut().zip([calls, batches].as_flattened())
+            {
+                *least = least.min(*time);
+            }
+        }
+        Ok(least)
     }
-    let [[ours, theirs], [ours_columns, theirs_columns]] = least;
-    let ratios = least.map(|[ours, theirs]| ours / theirs);
+}
+
+/// The ratios to rustc of single calls and of columns: of this project's code, and of cranelift's.
+fn compare(compared: &Compared<'_>, rounds: usize) -> Result<[f64; 4], Box<dyn Error>> {
+    let milliseconds =
+        [Registers::detect()?, Registers::Bits128].map(|registers| compared.compilation(registers));
+    let [ours, cranelift] = milliseconds;
+    let [calls, columns] = compared.times(rounds)?;
+    let ratios = [calls, columns].map(|[ours, rustc, cranelift]| [ours / rustc, cranelift / rustc]);
     println!(
-        "| {} {} | {ours:.1} | {theirs:.1} | {:.2} | {ours_columns:.2} | {theirs_columns:.2} | {:.2} | {:.2} |",
-        function.robot,
-        function.name,
-        ratios[0],
-        ratios[1],
-        compile / 1e6,
+        "| {} {} | {:.1} | {:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} |",
+        compared.function.robot,
+        compared.function.name,
+        calls[0],
+        calls[1],
+        ratios[0][0],
+        ratios[0][1],
+        columns[0],
+        columns[1],
+        ratios[1][0],
+        ratios[1][1],
+        ours?,
+        cranelift?,
     );
-    Ok(ratios)
+    Ok([ratios[0][0], ratios[1][0], ratios[0][1], ratios[1][1]])
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -147,23 +185,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     let filter = arguments.next().unwrap_or_default();
     let fused = arguments.next().is_none_or(|word| word != "portable");
     println!(
-        "| function | code in memory ns | rustc ns | ratio | columns | rustc | ratio | compiled in ms |"
+        "| function | call ns | rustc ns | ratio | cranelift's | column ns | rustc ns | ratio | cranelift's \
+         | compiled in ms | by cranelift |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
-    let mut ratios = [vec![], vec![]];
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    let mut ratios = [const { vec![] }; 4];
     for robot in options::ROBOTS {
         let (file, options) = options::robot(robot)?;
         let module = robot_build::programs(&file.source, &options)?.module;
         for function in FUNCTIONS.iter().filter(|function| function.robot == robot) {
             if format!("{robot} {}", function.name).contains(&filter) {
-                let found = compare(function, &module, (rounds, fused))?;
+                let found = compare(&Compared::new(function, &module, fused), rounds)?;
                 for (all, ratio) in ratios.iter_mut().zip(found) {
                     all.push(ratio);
                 }
             }
         }
     }
-    for (what, ratios) in ["calls", "columns"].iter().zip(&mut ratios) {
+    let names = ["calls", "columns", "cranelift's calls", "cranelift's columns"];
+    for (what, ratios) in names.iter().zip(&mut ratios) {
         ratios.sort_by(f64::total_cmp);
         let logarithms: f64 = ratios.iter().map(|ratio| ratio.ln()).sum();
         let mean = (logarithms / ratios.len() as f64).exp();

@@ -138,7 +138,8 @@ fn emit(
     }
     let failed = |fault| match fault {
         Fault::Missing => Error::Load { function: name() },
-        Fault::Encoding(error) => Error::Encoding { function: name(), reason: error.to_string() },
+        Fault::Encoding(reason) => Error::Encoding { function: name(), reason },
+        Fault::Stack(bytes) => Error::Stack { function: name(), bytes },
     };
     let single = emit_single(function, fields, target).map_err(failed)?;
     let lanes = emit_lanes(function, fields, target).map_err(failed)?;

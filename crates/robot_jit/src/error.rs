@@ -8,11 +8,10 @@ use robot_codegen::Errors;
 pub enum Error {
     /// The processor has no registers that code is made for.
     #[error(
-        "machine code needs an x86-64 processor with {needed}, which this machine does not have; the interpreter \
-         computes the same"
+        "machine code needs {needed}, which this machine does not have; the interpreter computes the same"
     )]
     Processor {
-        /// The extensions.
+        /// The processor, and its extensions.
         needed: &'static str,
     },
     /// Sines and cosines of the standard library.
@@ -43,6 +42,16 @@ pub enum Error {
         values: usize,
         /// The most that there may be.
         most: usize,
+    },
+    /// A function whose values do not fit into the stack of a thread.
+    #[error(
+        "function `{function}` would take {bytes} bytes of the stack as machine code; the interpreter computes the same"
+    )]
+    Stack {
+        /// The function.
+        function: String,
+        /// The bytes.
+        bytes: u32,
     },
     /// An instruction that could not be encoded: a fault of this crate.
     #[error(

@@ -6,6 +6,7 @@ use robot_codegen::{
 };
 
 use crate::compiled::{Compiled, Function, Options, code_of};
+use crate::error::Error;
 
 /// A module with its parameters given. Functions are machine code if there is some for the machine and the source of sines;
 /// else they are interpreted, as are functions with multiply-adds, which machine code rounds once and the interpreter
@@ -61,13 +62,20 @@ impl<'m> Executable<'m> {
         let interpreter = interpreter.with_trigonometry(trigonometry);
         let functions = interpreter.module().functions.iter();
         let plain = functions.filter(|function| !has_multiply_adds(function));
-        let functions = Some(plain.map(|function| function.name.clone()).collect());
-        let options = Options { trigonometry, functions, ..Options::default() };
+        let mut names: Vec<String> = plain.map(|function| function.name.clone()).collect();
         // Whatever machine code lacks, the interpreter has.
-        Executable(match code_of(&interpreter, &options) {
-            Ok(code) => Code::Native(Compiled::new(interpreter, code)),
-            Err(_) => Code::Interpreted(interpreter),
-        })
+        let code = loop {
+            let functions = Some(names.clone());
+            match code_of(&interpreter, &Options { trigonometry, functions, ..Options::default() })
+            {
+                Ok(code) => break Code::Native(Compiled::new(interpreter, code)),
+                Err(Error::Size { function, .. } | Error::Stack { function, .. }) => {
+                    names.retain(|name| *name != function);
+                }
+                Err(_) => break Code::Interpreted(interpreter),
+            }
+        };
+        Executable(code)
     }
 
     /// A function by its name.

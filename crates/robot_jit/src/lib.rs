@@ -6,10 +6,11 @@
 //! a multiply-add of the program rounds once, as in code compiled for the processor, as do those in sines if
 //! [`Options::fused`] asks for it; and a NaN may have other bits.
 //!
-//! The code is for x86-64 with AVX2 and FMA, or with AVX-512 F, DQ and VL, chosen at run time. On other processors
-//! [`compile`] returns an error; an [`Executable`] then runs the interpreter.
+//! The code is for x86-64 with AVX2 and FMA, or with AVX-512 F, DQ and VL, chosen at run time, and by cranelift for 64-bit
+//! ARM. On other processors [`compile`] returns an error; an [`Executable`] then runs the interpreter.
 
 mod compiled;
+mod cranelift;
 mod emit;
 mod error;
 mod executable;

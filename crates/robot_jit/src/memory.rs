@@ -1,7 +1,8 @@
 //! Code in memory, and the calls of it: the `unsafe` of this crate.
 //!
-//! Code reads and writes by the pointers that it is given and touches no stack. What it may reach follows from the
-//! function that it was made from, and is checked before each call: the number of inputs, of outputs, of states.
+//! Code reads and writes by the pointers that it is given, and below the stack pointer where cranelift made it. What it
+//! may reach follows from the function that it was made from, and is checked before each call: the number of inputs, of
+//! outputs, of states.
 //! Pages are written first and executable after; they are never both, and are unmapped when the last owner goes.
 
 #![allow(unsafe_code)]
@@ -25,8 +26,7 @@ const NUMBERS_OF_LINE: usize = 8;
 /// Lines of working memory that a call of one state has on the stack; more are allocated.
 const LINES_ON_STACK: usize = 48;
 
-/// The types of the code, by the ABI of System V on every system. Elsewhere than on x86-64 nothing has them, as
-/// `place` refuses.
+/// The types of the code: on x86-64 by the ABI of System V on every system, elsewhere by that of C.
 macro_rules! types {
     ($abi:literal) => {
         type Single = unsafe extern $abi fn(*const f64, *mut f64, *const u64, *mut Line);
@@ -46,23 +46,23 @@ types!("sysv64");
 #[cfg(not(target_arch = "x86_64"))]
 types!("C");
 
-/// Code in executable memory.
+/// Code in executable memory, which is called as a function of type `F`.
 #[derive(Debug)]
-struct Code {
-    /// The pages of all functions, kept while one lives.
-    pages: Arc<Mmap>,
-    /// Where in them the code starts.
-    start: usize,
+struct Code<F> {
+    /// The start of the code, in `pages`.
+    run: F,
     entry: Entry,
+    /// The pages of all functions, kept while one lives.
+    _pages: Arc<Mmap>,
 }
 
 /// Code for one state at a time.
 #[derive(Debug)]
-pub(crate) struct SingleCode(Code);
+pub(crate) struct SingleCode(Code<Single>);
 
 /// Code for several states side by side.
 #[derive(Debug)]
-pub(crate) struct LanesCode(Code);
+pub(crate) struct LanesCode(Code<Lanes>);
 
 /// Between pieces of code: traps.
 const TRAP: u8 = 0xcc;
@@ -87,23 +87,40 @@ pub(crate) fn place(
         start += size(entry);
     }
     let pages = Arc::new(pages.make_exec()?);
+    #[cfg(target_arch = "aarch64")]
+    renew_instructions(&pages)?;
     let mut next = 0;
-    let mut code = |entry: Entry| {
-        let start = next;
-        next += size(&entry);
-        Code { pages: pages.clone(), start, entry }
+    let mut start = |entry: &Entry| {
+        let start = pages[next..].as_ptr();
+        next += size(entry);
+        start
     };
     let functions = functions.into_iter();
     let placed = functions.map(|(SingleEntry(single), LanesEntry(lanes))| {
-        (SingleCode(code(single)), LanesCode(code(lanes)))
+        // SAFETY: at these addresses lies code that `emit_single` and `emit_lanes` made with these signatures, in pages
+        // that live as long as the pointers to them; the machine has its registers.
+        let (run_single, run_lanes) = unsafe {
+            (
+                transmute::<*const u8, Single>(start(&single)),
+                transmute::<*const u8, Lanes>(start(&lanes)),
+            )
+        };
+        let (single_pages, lanes_pages) = (pages.clone(), pages.clone());
+        (
+            SingleCode(Code { run: run_single, entry: single, _pages: single_pages }),
+            LanesCode(Code { run: run_lanes, entry: lanes, _pages: lanes_pages }),
+        )
     });
     Ok(placed.collect())
 }
 
-impl Code {
-    fn address(&self) -> *const u8 {
-        self.pages[self.start..].as_ptr()
-    }
+/// Has all processors fetch the instructions of these pages anew, which an ARM does not do by itself.
+#[cfg(target_arch = "aarch64")]
+fn renew_instructions(pages: &Mmap) -> std::io::Result<()> {
+    use wasmtime_internal_jit_icache_coherence::{clear_cache, pipeline_flush_mt};
+    // SAFETY: the pages are mapped, and nothing runs in them yet; the pipelines are flushed after it.
+    unsafe { clear_cache(pages.as_ptr().cast(), pages.len()) }.map_err(std::io::Error::other)?;
+    pipeline_flush_mt().map_err(std::io::Error::other)
 }
 
 impl SingleCode {
@@ -130,14 +147,11 @@ impl SingleCode {
 
     #[inline]
     fn enter(&self, inputs: &[f64], outputs: &mut [f64], working: &mut [Line]) {
-        // SAFETY: the address is that of code which `emit_single` made with this signature, in pages that `self` owns;
-        // `place` checked that the machine has its registers.
-        let run = unsafe { transmute::<*const u8, Single>(self.0.address()) };
-        // SAFETY: `call` checked the lengths. The code reads entries of inputs and writes entries of outputs below
-        // them, reads constants of the pool that was made with it, and has as much working memory as it uses, which it
-        // writes before it reads.
+        // SAFETY: `call` checked the lengths, and `place` that the machine has the registers. The code reads entries of
+        // inputs and writes entries of outputs below them, reads constants of the pool that was made with it, and has as
+        // much working memory as it uses, which it writes before it reads.
         unsafe {
-            run(
+            (self.0.run)(
                 inputs.as_ptr(),
                 outputs.as_mut_ptr(),
                 self.0.entry.pool.as_ptr(),
@@ -173,12 +187,10 @@ impl LanesCode {
         let inputs: Vec<*const f64> = inputs.iter().map(|column| column.as_ptr()).collect();
         let outputs: Vec<*mut f64> = outputs.iter_mut().map(|column| column.as_mut_ptr()).collect();
         let mut working = vec![EMPTY; entry.working.div_ceil(NUMBERS_OF_LINE)];
-        // SAFETY: as in `SingleCode::enter`, of `emit_lanes`.
-        let run = unsafe { transmute::<*const u8, Lanes>(self.0.address()) };
         // SAFETY: each column has at least `states` numbers, and the code touches those of whole registers from 0 below
         // `states`, which is a multiple of them and not 0; the rest as in `SingleCode::enter`.
         unsafe {
-            run(
+            (self.0.run)(
                 inputs.as_ptr(),
                 outputs.as_ptr(),
                 entry.pool.as_ptr(),

@@ -9,6 +9,9 @@ pub enum Registers {
     Avx2,
     /// 32 registers of 512 bits: AVX-512 F, DQ and VL.
     Avx512,
+    /// Registers of 128 bits of a 64-bit ARM, for which cranelift makes the code; with the feature `cranelift` those of
+    /// x86-64 with AVX2 and FMA, too, which are taken only if they are asked for.
+    Bits128,
 }
 
 impl Registers {
@@ -16,14 +19,20 @@ impl Registers {
     ///
     /// # Errors
     ///
-    /// Another architecture than x86-64, or a processor without AVX2 and FMA: the interpreter computes the same.
+    /// Another architecture than x86-64 and 64-bit ARM, or an x86-64 without AVX2 and FMA: the interpreter computes the
+    /// same.
     pub fn detect() -> Result<Registers, Error> {
-        if Registers::Avx512.are_here() {
-            Ok(Registers::Avx512)
-        } else if Registers::Avx2.are_here() {
-            Ok(Registers::Avx2)
-        } else {
-            Err(Error::Processor { needed: "AVX2 and FMA" })
+        let widest = [Registers::Avx512, Registers::Avx2, Registers::Bits128];
+        let here = widest.into_iter().find(|registers| registers.are_here());
+        here.ok_or(Error::Processor { needed: Registers::Avx2.needed() })
+    }
+
+    /// What the processor must be, or have.
+    fn needed(self) -> &'static str {
+        match self {
+            Registers::Avx2 => "an x86-64 processor with AVX2 and FMA, or a 64-bit ARM",
+            Registers::Avx512 => "an x86-64 processor with AVX-512 F, DQ and VL",
+            Registers::Bits128 => "a 64-bit ARM, or the feature `cranelift`",
         }
     }
 
@@ -33,10 +42,7 @@ impl Registers {
     ///
     /// A machine without them.
     pub fn check(self) -> Result<Registers, Error> {
-        let needed = match self {
-            Registers::Avx2 => "AVX2 and FMA",
-            Registers::Avx512 => "AVX-512 F, DQ and VL",
-        };
+        let needed = self.needed();
         if self.are_here() { Ok(self) } else { Err(Error::Processor { needed }) }
     }
 
@@ -46,14 +52,7 @@ impl Registers {
         match self {
             Registers::Avx2 => 4,
             Registers::Avx512 => 8,
-        }
-    }
-
-    /// How many registers there are.
-    pub(crate) const fn count(self) -> usize {
-        match self {
-            Registers::Avx2 => 16,
-            Registers::Avx512 => 32,
+            Registers::Bits128 => 2,
         }
     }
 
@@ -68,11 +67,12 @@ impl Registers {
                     && is_x86_feature_detected!("avx512dq")
                     && is_x86_feature_detected!("avx512vl")
             }
+            Registers::Bits128 => avx2 && cfg!(feature = "cranelift"),
         }
     }
 
     #[cfg(not(target_arch = "x86_64"))]
     fn are_here(self) -> bool {
-        false
+        self == Registers::Bits128 && cfg!(target_arch = "aarch64")
     }
 }

@@ -46,10 +46,19 @@ pub(crate) fn number(random: &mut Random, rarely: usize) -> f64 {
     }
 }
 
+/// How long functions are.
+#[derive(Clone, Copy)]
+pub(crate) enum Size {
+    /// From one operation to 2,500.
+    Any,
+    /// From ten operations to sixty, of up to eight inputs and three angles, with few calls: many in little time.
+    Small,
+}
+
 /// A module without parameters of so many random functions, `f0` and so on; with multiply-adds if `fused`.
-pub(crate) fn module(seed: u64, functions: usize, fused: bool) -> Module {
+pub(crate) fn module(seed: u64, functions: usize, size: Size, fused: bool) -> Module {
     let mut random = Random::new(seed);
-    let functions = (0..functions).map(|index| function(&mut random, index, fused)).collect();
+    let functions = (0..functions).map(|index| function(&mut random, index, size, fused)).collect();
     Module {
         name: format!("seed {seed}"),
         doc: vec![],
@@ -59,10 +68,14 @@ pub(crate) fn module(seed: u64, functions: usize, fused: bool) -> Module {
     }
 }
 
-fn function(random: &mut Random, index: usize, fused: bool) -> Function {
-    let inputs = 1 + random.index(24);
-    let angles = angles(random, inputs);
-    let core = core(random, inputs, angles.results().len(), fused);
+fn function(random: &mut Random, index: usize, size: Size, fused: bool) -> Function {
+    let inputs = 1 + random.index(if let Size::Any = size { 24 } else { 8 });
+    let angles = match size {
+        Size::Any => angles(random, inputs, 9),
+        Size::Small if random.index(3) == 0 => angles(random, inputs, 1),
+        Size::Small => Builder::new().finish(vec![]),
+    };
+    let core = core(random, inputs, angles.results().len(), size, fused);
     let symbols = (0..inputs).map(|entry| format!("x{entry}")).collect();
     let output = Output {
         name: "y".to_owned(),
@@ -88,10 +101,10 @@ fn function(random: &mut Random, index: usize, fused: bool) -> Function {
     }
 }
 
-/// Up to eleven angles: neighboring inputs, then some that are computed.
-fn angles(random: &mut Random, inputs: usize) -> Program {
+/// Angles: up to so many neighboring inputs, then up to two that are computed.
+fn angles(random: &mut Random, inputs: usize, most: usize) -> Program {
     let mut builder = Builder::new();
-    let plain = random.index(10).min(inputs);
+    let plain = random.index(most + 1).min(inputs);
     let first = random.index(inputs - plain + 1);
     let load = |builder: &mut Builder, entry: usize| builder.load(Source::Input(entry as u32));
     let mut results: Vec<Value> =
@@ -104,8 +117,21 @@ fn angles(random: &mut Random, inputs: usize) -> Program {
     builder.finish(results)
 }
 
-/// Between few and several hundred operations, whose operands are from anywhere before or from near.
-fn core(random: &mut Random, inputs: usize, angles: usize, fused: bool) -> Program {
+/// So many operations.
+fn length(random: &mut Random, size: Size) -> usize {
+    let longest = match size {
+        Size::Small => return 10 + random.index(51),
+        // The longest are ordered otherwise.
+        Size::Any => match random.index(60) {
+            0 => 2500,
+            short => [10, 60, 300][short % 3],
+        },
+    };
+    1 + random.index(longest)
+}
+
+/// Operations whose operands are from anywhere before or from near.
+fn core(random: &mut Random, inputs: usize, angles: usize, size: Size, fused: bool) -> Program {
     let mut builder = Builder::new();
     let mut pool: Vec<Value> =
         (0..inputs).map(|entry| builder.load(Source::Input(entry as u32))).collect();
@@ -117,15 +143,13 @@ fn core(random: &mut Random, inputs: usize, angles: usize, fused: bool) -> Progr
         let constant = builder.constant(number(random, 4));
         pool.push(constant);
     }
-    // The longest are ordered otherwise.
-    let length = match random.index(60) {
-        0 => 2500,
-        short => [10, 60, 300][short % 3],
-    };
+    let length = length(random, size);
     let window = [8, 40, 1000][random.index(3)];
-    for _ in 0..1 + random.index(length) {
+    // Calls are long as code.
+    let kinds = if let Size::Any = size { 24 } else { 23 };
+    for _ in 0..length {
         let [a, b, c] = [0; 3].map(|_| pool[pool.len() - 1 - random.index(window.min(pool.len()))]);
-        let operation = match random.index(24) {
+        let operation = match random.index(kinds) {
             0..=5 => Operation::Add(a, b),
             6..=9 => Operation::Sub(a, b),
             10..=15 => Operation::Mul(a, b),

@@ -1,20 +1,28 @@
 //! Random functions against the interpreter and a reference, and what code reads and writes.
 
 use iced_x86::{Decoder, DecoderOptions, InstructionInfoFactory, Mnemonic, OpAccess, Register};
-use robot_codegen::{Interpreter, Module, Trigonometry};
+use robot_codegen::module::Function;
+use robot_codegen::program::{Builder, Operation, Program, Source, Value};
+use robot_codegen::{Callable, Interpreter, Module, Trigonometry};
 use robot_symbolic::Random;
 
 use crate::emit::{Entry, Target, emit_lanes, emit_single};
-use crate::testing::{module, number, reference};
-use crate::{Error, Options, Registers, compile_with};
+use crate::testing::{Size, module, number, reference};
+use crate::{Compiled, Error, Executable, Options, Registers, compile_with};
 
 /// Modules of so many functions each, one half with multiply-adds.
 const MODULES: u64 = 250;
 const FUNCTIONS: usize = 40;
 const STATES: usize = 13;
 
+/// Modules of so many small functions each.
+const SMALL_MODULES: u64 = 20;
+const SMALL_FUNCTIONS: usize = 50;
+/// A register of eight numbers and one state more, or two of four.
+const SMALL_STATES: usize = 9;
+
 fn registers() -> Vec<Registers> {
-    let both = [Registers::Avx2, Registers::Avx512].into_iter();
+    let both = [Registers::Avx2, Registers::Avx512, Registers::Bits128].into_iter();
     both.filter(|registers| registers.check().is_ok()).collect()
 }
 
@@ -22,92 +30,168 @@ fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
-/// The columns of inputs, and for each state the expected outputs.
-fn states(
-    module: &Module,
-    name: &str,
+/// What is rounded once: the program's multiply-adds, and those of sines.
+#[derive(Clone, Copy)]
+struct Fused {
+    program: bool,
+    sines: bool,
+}
+
+impl Fused {
+    fn of(seed: u64) -> Fused {
+        Fused { program: seed.is_multiple_of(2), sines: seed.is_multiple_of(5) }
+    }
+
+    /// Three in sixty.
+    fn rarely(seed: u64) -> Fused {
+        Fused { program: [0, 1].contains(&(seed % 60)), sines: [1, 2].contains(&(seed % 60)) }
+    }
+
+    /// Whether the interpreter gives other bits: it rounds each product.
+    fn any(self) -> bool {
+        self.program || self.sines
+    }
+}
+
+/// The columns of inputs, and the rows of expected outputs.
+struct Expected {
+    inputs: Vec<Vec<f64>>,
+    outputs: Vec<Vec<f64>>,
+}
+
+/// So many states with what is expected: the values of the reference, which are those of the interpreter unless
+/// something is fused.
+fn expected(
+    function: Callable<'_>,
+    program: &Function,
     random: &mut Random,
-    fused: bool,
-) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
-    let function = module.function(name).unwrap();
-    let size = function.inputs[0].symbols.len();
+    fused: Fused,
+    states: usize,
+) -> Expected {
+    let size = function.input_size();
     let rarely = [3, 20, 1000][random.index(3)];
     let rows: Vec<Vec<f64>> =
-        (0..STATES).map(|_| (0..size).map(|_| number(random, rarely)).collect()).collect();
-    let expected = rows.iter().map(|row| reference(function, row, fused)).collect();
-    let columns = (0..size).map(|entry| rows.iter().map(|row| row[entry]).collect()).collect();
-    (columns, expected)
+        (0..states).map(|_| (0..size).map(|_| number(random, rarely)).collect()).collect();
+    let outputs: Vec<Vec<f64>> =
+        rows.iter().map(|row| reference(program, row, fused.sines)).collect();
+    if !fused.any() {
+        let mut interpreted = vec![0.0; function.output_size()];
+        for (row, right) in rows.iter().zip(&outputs) {
+            function.entries(row, &mut interpreted).unwrap();
+            let is_same = interpreted.iter().zip(right).all(|(a, b)| same(*a, *b));
+            assert!(is_same, "{}: {interpreted:?} is not {right:?}", function.name());
+        }
+    }
+    let inputs = (0..size).map(|entry| rows.iter().map(|row| row[entry]).collect()).collect();
+    Expected { inputs, outputs }
 }
 
-/// `fused`: the program's multiply-adds round once, and those of sines.
-fn compare(module: &Module, registers: Registers, random: &mut Random, fused: [bool; 2]) {
-    let [fused, fused_sines] = fused;
-    let options = Options { registers: Some(registers), fused: fused_sines, ..Options::default() };
-    let compiled = compile_with(module, &[], &options).unwrap();
-    let interpreter = Interpreter::new(module, &[]).unwrap();
-    for function in &module.functions {
-        let place = format!("{} {} {registers:?}", module.name, function.name);
-        let (columns, expected) = states(module, &function.name, random, fused_sines);
-        let jit = compiled.function(&function.name).unwrap();
-        let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        // A number before and behind each column that nobody may write.
-        let mut lanes = vec![vec![7.5; STATES + 2]; jit.output_size()];
-        let mut outputs: Vec<&mut [f64]> =
-            lanes.iter_mut().map(|column| &mut column[1..=STATES]).collect();
-        jit.columns(&inputs, &mut outputs).unwrap();
-        for (state, expected) in expected.iter().enumerate() {
-            let row: Vec<f64> = columns.iter().map(|column| column[state]).collect();
-            let named = [("x", row.as_slice())];
-            let mut single = vec![7.5; expected.len() + 2];
-            jit.entries(&row, &mut single[1..=expected.len()]).unwrap();
-            assert_eq!([single[0], single[expected.len() + 1]], [7.5; 2], "{place}");
-            let interpreted = interpreter.function(&function.name).unwrap().call(&named).unwrap();
-            for (entry, right) in expected.iter().enumerate() {
-                let [one, many] = [single[entry + 1], lanes[entry][state + 1]];
-                assert!(same(one, *right), "{place}: [{entry}] is {one:e}, not {right:e}");
-                assert!(
-                    same(many, *right),
-                    "{place}: [{entry}] in lanes is {many:e}, not {right:e}"
-                );
-                assert!(
-                    fused || fused_sines || same(interpreted[entry], *right),
-                    "{place}: {right:e}"
-                );
-            }
+/// Calls a function state by state and over columns.
+fn compare(place: &str, function: crate::Function<'_>, expected: &Expected) {
+    let states = expected.outputs.len();
+    let inputs: Vec<&[f64]> = expected.inputs.iter().map(Vec::as_slice).collect();
+    // A number before and behind each column that nobody may write.
+    let size = function.output_size();
+    let mut lanes = vec![vec![7.5; states + 2]; size];
+    let mut outputs: Vec<&mut [f64]> =
+        lanes.iter_mut().map(|column| &mut column[1..=states]).collect();
+    function.columns(&inputs, &mut outputs).unwrap();
+    let mut row = vec![0.0; inputs.len()];
+    let mut single = vec![7.5; size + 2];
+    for (state, expected) in expected.outputs.iter().enumerate() {
+        row.iter_mut().zip(&inputs).for_each(|(entry, column)| *entry = column[state]);
+        function.entries(&row, &mut single[1..=size]).unwrap();
+        assert_eq!([single[0], single[size + 1]], [7.5; 2], "{place}");
+        for (entry, right) in expected.iter().enumerate() {
+            let [one, many] = [single[entry + 1], lanes[entry][state + 1]];
+            assert!(same(one, *right), "{place}: [{entry}] is {one:e}, not {right:e}");
+            assert!(same(many, *right), "{place}: [{entry}] in lanes is {many:e}, not {right:e}");
         }
-        assert!(lanes.iter().all(|column| column[0] == 7.5 && column[STATES + 1] == 7.5));
+    }
+    assert!(lanes.iter().all(|column| column[0] == 7.5 && column[states + 1] == 7.5));
+}
+
+/// All functions of a module, for all registers of this machine.
+fn compare_module(
+    module: &Module,
+    registers: &[Registers],
+    (seed, fused): (u64, Fused),
+    states: usize,
+) {
+    let mut random = Random::new(seed);
+    let interpreter = Interpreter::new(module, &[]).unwrap();
+    let compiled: Vec<Compiled<'_>> = registers
+        .iter()
+        .map(|registers| {
+            let registers = Some(*registers);
+            let options = Options { registers, fused: fused.sines, ..Options::default() };
+            compile_with(module, &[], &options).unwrap()
+        })
+        .collect();
+    for program in &module.functions {
+        let name = &program.name;
+        let function = interpreter.function(name).unwrap();
+        let expected = expected(function, program, &mut random, fused, states);
+        for compiled in &compiled {
+            let place = format!("{} {name} {:?}", module.name, compiled.registers());
+            compare(&place, compiled.function(name).unwrap(), &expected);
+        }
     }
 }
 
+/// A number of the environment.
+fn variable(name: &str) -> Option<u64> {
+    std::env::var(name).ok().map(|number| number.parse().unwrap())
+}
+
+/// `ROBOT_JIT_MODULES`: how many, where 250 take too long.
 #[test]
 fn random_functions_have_the_bits_of_the_reference() {
-    for seed in 0..MODULES {
-        let fused = seed % 2 == 0;
-        let module = module(seed, FUNCTIONS, fused);
-        let mut random = Random::new(seed);
-        for registers in registers() {
-            compare(&module, registers, &mut random, [fused, seed % 5 == 0]);
-        }
+    let registers = registers();
+    for seed in 0..variable("ROBOT_JIT_MODULES").unwrap_or(MODULES) {
+        let fused = Fused::of(seed);
+        let module = module(seed, FUNCTIONS, Size::Any, fused.program);
+        compare_module(&module, &registers, (seed, fused), STATES);
+    }
+    for seed in 0..SMALL_MODULES {
+        let fused = Fused::rarely(seed);
+        let module = module(seed, SMALL_FUNCTIONS, Size::Small, fused.program);
+        compare_module(&module, &registers, (seed, fused), SMALL_STATES);
     }
 }
 
-/// `ROBOT_JIT_MODULES=10000 cargo test --release -p robot_jit -- --ignored --nocapture`, of forty functions each, and
-/// `ROBOT_JIT_FIRST` the first seed.
+/// Millions of small functions: `ROBOT_JIT_FUNCTIONS=10000000` is so many that have no multiply-adds, against the
+/// interpreter, and more that have some, against the reference; `ROBOT_JIT_FIRST` is the first seed, of fifty functions.
+/// Each seed is for one kind of registers, in turn:
+///
+/// ```text
+/// cargo test --release -p robot_jit --lib -- --ignored --nocapture
+/// ```
 #[test]
 #[ignore = "takes minutes"]
-fn many_random_functions_have_the_bits_of_the_reference() {
-    let number = |name: &str| std::env::var(name).ok().map(|number| number.parse().unwrap());
-    let first: u64 = number("ROBOT_JIT_FIRST").unwrap_or(MODULES);
-    let end = first + number("ROBOT_JIT_MODULES").unwrap_or(10_000);
-    for seed in first..end {
-        let fused = seed % 2 == 0;
-        let module = module(seed, FUNCTIONS, fused);
-        let mut random = Random::new(seed);
-        for registers in registers() {
-            compare(&module, registers, &mut random, [fused, seed % 5 == 0]);
+fn many_random_functions_have_the_bits_of_the_interpreter() {
+    let first = variable("ROBOT_JIT_FIRST").unwrap_or(SMALL_MODULES);
+    let asked = variable("ROBOT_JIT_FUNCTIONS").unwrap_or(100_000);
+    let registers = registers();
+    assert!(!registers.is_empty());
+    // Functions against the interpreter, and against the reference alone.
+    let mut compared = [0u64; 2];
+    for seed in first.. {
+        let fused = Fused::rarely(seed);
+        let module = module(seed, SMALL_FUNCTIONS, Size::Small, fused.program);
+        let kind = seed as usize % registers.len();
+        compare_module(&module, &registers[kind..=kind], (seed, fused), SMALL_STATES);
+        compared[usize::from(fused.any())] += SMALL_FUNCTIONS as u64;
+        let is_done = compared[0] >= asked;
+        if is_done || (seed + 1 - first).is_multiple_of(10_000) {
+            let [interpreted, fused] = compared;
+            println!(
+                "{registers:?}, seeds {first} to {seed}: {interpreted} functions have the bits of the interpreter, {fused} \
+                 fused ones those of the reference"
+            );
         }
-        if (seed + 1 - first).is_multiple_of(100) {
-            println!("seeds {first} to {seed}: {} functions", (seed + 1 - first) * 40);
+        if is_done {
+            break;
         }
     }
 }
@@ -181,7 +265,7 @@ fn check_addresses(entry: &Entry, lanes: usize, place: &str) {
 #[test]
 fn code_touches_nothing_but_its_memory() {
     for seed in 0..40 {
-        let module = module(seed, FUNCTIONS, seed % 2 == 0);
+        let module = module(seed, FUNCTIONS, Size::Any, seed % 2 == 0);
         for function in &module.functions {
             for registers in [Registers::Avx2, Registers::Avx512] {
                 let place = format!("seed {seed} {} {registers:?}", function.name);
@@ -198,7 +282,7 @@ fn code_touches_nothing_but_its_memory() {
 #[test]
 fn wrong_sizes_are_refused() {
     let Some(registers) = registers().pop() else { return };
-    let module = module(3, 1, false);
+    let module = module(3, 1, Size::Any, false);
     let options = Options { registers: Some(registers), ..Options::default() };
     let compiled = compile_with(&module, &[], &options).unwrap();
     let function = compiled.function("f0").unwrap();
@@ -226,7 +310,7 @@ fn wrong_sizes_are_refused() {
 #[test]
 fn states_are_calls() {
     let Some(registers) = registers().pop() else { return };
-    let module = module(5, 3, false);
+    let module = module(5, 3, Size::Any, false);
     let options = Options { registers: Some(registers), ..Options::default() };
     let compiled = compile_with(&module, &[], &options).unwrap();
     let function = compiled.function("f2").unwrap();
@@ -249,7 +333,7 @@ fn what_cannot_be_compiled_is_an_error() {
         assert!(matches!(Registers::detect(), Err(Error::Processor { .. })));
         return;
     };
-    let mut module = module(1, 2, false);
+    let mut module = module(1, 2, Size::Any, false);
     let standard = Options { trigonometry: Trigonometry::Standard, ..Options::default() };
     let found = compile_with(&module, &[], &standard);
     assert!(matches!(found, Err(Error::Trigonometry)));
@@ -265,9 +349,46 @@ fn what_cannot_be_compiled_is_an_error() {
     assert!(matches!(compile_with(&module, &[], &options), Err(Error::Load { .. })));
 }
 
+/// A program whose second half needs all values of the first.
+fn wide_program(values: usize) -> Program {
+    let mut builder = Builder::new();
+    let x = builder.load(Source::Input(0));
+    let products: Vec<Value> = (0..values)
+        .map(|index| {
+            let constant = builder.constant(1.0 + index as f64);
+            builder.push(Operation::Mul(x, constant))
+        })
+        .collect();
+    let mut sum = |sum, next: &Value| builder.push(Operation::Add(sum, *next));
+    let upwards = products.iter().fold(x, &mut sum);
+    let downwards = products.iter().rev().fold(x, &mut sum);
+    builder.finish(vec![upwards, downwards])
+}
+
+#[test]
+fn a_function_without_code_is_interpreted_and_others_are_not() {
+    if registers().is_empty() {
+        return;
+    }
+    let mut module = module(1, 2, Size::Small, false);
+    module.functions[0].core = wide_program(1 << 17);
+    module.functions[0].outputs[0].shape = vec![2];
+    assert!(matches!(
+        compile_with(&module, &[], &Options::default()),
+        Err(Error::Size { function, .. }) if function == "f0"
+    ));
+    let executable = Executable::new(&module, &[], Trigonometry::Polynomial).unwrap();
+    let [long, short] = ["f0", "f1"].map(|name| executable.function(name).unwrap());
+    assert!(!long.is_native() && short.is_native());
+    let mut found = [0.0; 2];
+    long.entries(&vec![1.0; long.input_size()], &mut found).unwrap();
+    let numbers = f64::from(1 << 17);
+    assert_eq!(found, [1.0 + numbers * (numbers + 1.0) / 2.0; 2]);
+}
+
 #[test]
 fn code_is_shared_between_threads() {
     fn shared<T: Send + Sync>() {}
-    shared::<crate::Compiled<'static>>();
+    shared::<Compiled<'static>>();
     shared::<crate::Function<'static>>();
 }

@@ -2,21 +2,20 @@
 
 use iced_x86::Code;
 
-use super::Shape;
+use super::{Shape, Vectors};
 use crate::list::Binary;
-use crate::processor::Registers;
 
 /// One instruction for each shape: AVX2 on one number and on four, AVX-512 on one, four and eight.
 pub(super) type Codes = [Code; 5];
 
 /// The instruction for a shape.
 pub(super) fn code(codes: &Codes, shape: Shape) -> Code {
-    codes[match (shape.registers, shape.lanes) {
-        (Registers::Avx2, 1) => 0,
-        (Registers::Avx2, _) => 1,
-        (Registers::Avx512, 1) => 2,
-        (Registers::Avx512, 4) => 3,
-        (Registers::Avx512, _) => 4,
+    codes[match (shape.vectors, shape.lanes) {
+        (Vectors::Avx2, 1) => 0,
+        (Vectors::Avx2, _) => 1,
+        (Vectors::Avx512, 1) => 2,
+        (Vectors::Avx512, 4) => 3,
+        (Vectors::Avx512, _) => 4,
     }]
 }
 

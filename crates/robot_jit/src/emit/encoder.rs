@@ -3,9 +3,8 @@
 use iced_x86::{Code, Encoder, IcedError, Instruction, MemoryOperand, Register};
 
 use super::codes::{self, Codes, code};
-use super::{Addressing, Shape};
+use super::{Addressing, Shape, Vectors};
 use crate::list::{Binary, Home, WIDE};
-use crate::processor::Registers;
 
 /// The arguments of a function, as the ABI of System V has them.
 const INPUTS: Register = Register::RDI;
@@ -131,9 +130,9 @@ impl Bytes {
     /// The numbers between constants in memory. AVX2 has no instruction that spreads one, so that there
     /// they fill a register, a wide one in code for one state.
     pub(super) fn constant_numbers(narrow: Shape) -> usize {
-        match narrow.registers {
-            Registers::Avx512 => 1,
-            Registers::Avx2 => WIDE,
+        match narrow.vectors {
+            Vectors::Avx512 => 1,
+            Vectors::Avx2 => WIDE,
         }
     }
 
@@ -170,20 +169,20 @@ impl Bytes {
     /// An operand of an instruction that computes numbers (`arithmetic`) or bits of whole registers.
     fn third(&mut self, memory: Memory, arithmetic: bool) -> MemoryOperand {
         let is_constant = matches!(memory, Memory::Home(Home::Constant(_)));
-        let spread = match self.shape.registers {
-            Registers::Avx2 => false,
-            Registers::Avx512 if self.shape.lanes == 1 => !arithmetic,
-            Registers::Avx512 => is_constant,
+        let spread = match self.shape.vectors {
+            Vectors::Avx2 => false,
+            Vectors::Avx512 if self.shape.lanes == 1 => !arithmetic,
+            Vectors::Avx512 => is_constant,
         };
         self.memory(memory, spread)
     }
 
     /// Whether an instruction may read this memory itself.
     pub(super) fn reads(&self, memory: Memory, arithmetic: bool) -> bool {
-        let Shape { registers, lanes } = self.shape;
+        let Shape { vectors, lanes } = self.shape;
         let is_constant = matches!(memory, Memory::Home(Home::Constant(_)));
         // Masks for one number would read beyond it.
-        arithmetic || lanes > 1 || registers == Registers::Avx512 || is_constant
+        arithmetic || lanes > 1 || vectors == Vectors::Avx512 || is_constant
     }
 
     /// The encoding of an instruction on these registers and memory.
@@ -194,7 +193,7 @@ impl Bytes {
     /// The shape with whose encoding the instruction is short: that of AVX2 has no registers beyond the sixteenth, and
     /// spreads no numbers of memory.
     fn short(&self, registers: [u8; 2], memory: Option<&MemoryOperand>) -> Shape {
-        let is_short = self.shape.registers == Registers::Avx512
+        let is_short = self.shape.vectors == Vectors::Avx512
             && self.shape.lanes <= WIDE
             && registers.iter().all(|register| *register < 16)
             && memory.is_none_or(|memory| {
@@ -205,8 +204,8 @@ impl Bytes {
                 let is_scaled = displacement % step == 0 && byte(displacement / step);
                 !memory.is_broadcast && (byte(displacement) || !is_scaled)
             });
-        let registers = if is_short { Registers::Avx2 } else { self.shape.registers };
-        Shape { registers, ..self.shape }
+        let vectors = if is_short { Vectors::Avx2 } else { self.shape.vectors };
+        Shape { vectors, ..self.shape }
     }
 
     fn three(&mut self, codes: &Codes, to: u8, a: u8, b: Operand, arithmetic: bool) {
@@ -298,7 +297,7 @@ impl Bytes {
     /// The first numbers of two values side by side.
     pub(super) fn pair(&mut self, to: u8, a: u8, b: Operand) {
         let other = if let Operand::Register(b) = b { b } else { 0 };
-        let is_long = self.short([to.max(a), other], None).registers == Registers::Avx512;
+        let is_long = self.short([to.max(a), other], None).vectors == Vectors::Avx512;
         let codes = |codes: [Code; 2]| codes[usize::from(is_long)];
         let (to, a) = (Register::XMM0 + u32::from(to), Register::XMM0 + u32::from(a));
         let instruction = match b {
@@ -321,9 +320,9 @@ impl Bytes {
     /// The first two numbers of two values side by side.
     pub(super) fn join(&mut self, to: u8, a: u8, b: u8) {
         let [to, a] = [to, a].map(|register| Register::YMM0 + u32::from(register));
-        let code = match self.shape.registers {
-            Registers::Avx2 => Code::VEX_Vinsertf128_ymm_ymm_xmmm128_imm8,
-            Registers::Avx512 => Code::EVEX_Vinsertf64x2_ymm_k1z_ymm_xmmm128_imm8,
+        let code = match self.shape.vectors {
+            Vectors::Avx2 => Code::VEX_Vinsertf128_ymm_ymm_xmmm128_imm8,
+            Vectors::Avx512 => Code::EVEX_Vinsertf64x2_ymm_k1z_ymm_xmmm128_imm8,
         };
         self.put(Instruction::with4(code, to, a, Register::XMM0 + u32::from(b), 1));
     }
@@ -331,18 +330,18 @@ impl Bytes {
     /// The second number of a value.
     pub(super) fn second(&mut self, to: u8, a: u8) {
         let [to, a] = [to, a].map(|register| Register::XMM0 + u32::from(register));
-        let code = match self.shape.registers {
-            Registers::Avx2 => Code::VEX_Vunpckhpd_xmm_xmm_xmmm128,
-            Registers::Avx512 => Code::EVEX_Vunpckhpd_xmm_k1z_xmm_xmmm128b64,
+        let code = match self.shape.vectors {
+            Vectors::Avx2 => Code::VEX_Vunpckhpd_xmm_xmm_xmmm128,
+            Vectors::Avx512 => Code::EVEX_Vunpckhpd_xmm_k1z_xmm_xmmm128b64,
         };
         self.put(Instruction::with3(code, to, a, a));
     }
 
     /// The third and fourth number of a value.
     pub(super) fn upper(&mut self, to: u8, a: u8) {
-        let code = match self.shape.registers {
-            Registers::Avx2 => Code::VEX_Vextractf128_xmmm128_ymm_imm8,
-            Registers::Avx512 => Code::EVEX_Vextractf64x2_xmmm128_k1z_ymm_imm8,
+        let code = match self.shape.vectors {
+            Vectors::Avx2 => Code::VEX_Vextractf128_xmmm128_ymm_imm8,
+            Vectors::Avx512 => Code::EVEX_Vextractf64x2_xmmm128_k1z_ymm_imm8,
         };
         let (to, a) = (Register::XMM0 + u32::from(to), Register::YMM0 + u32::from(a));
         self.put(Instruction::with3(code, to, a, 1));

@@ -4,7 +4,8 @@ use iced_x86::IcedError;
 use robot_codegen::module::Function;
 
 use super::encoder::Bytes;
-use super::{Addressing, Shape, Target, registers};
+use super::{Addressing, Shape, Target, Vectors, registers};
+use crate::cranelift;
 use crate::list::{List, Missing, Model, Pool, Sines, Writer, lower};
 use crate::processor::Registers;
 
@@ -41,7 +42,10 @@ fn inputs(function: &Function) -> usize {
 #[derive(Debug)]
 pub(crate) enum Fault {
     Missing,
-    Encoding(IcedError),
+    /// What the encoder says.
+    Encoding(String),
+    /// A function whose code would take more than this of the stack.
+    Stack(u32),
 }
 
 impl From<Missing> for Fault {
@@ -52,7 +56,7 @@ impl From<Missing> for Fault {
 
 impl From<IcedError> for Fault {
     fn from(error: IcedError) -> Fault {
-        Fault::Encoding(error)
+        Fault::Encoding(error.to_string())
     }
 }
 
@@ -62,9 +66,7 @@ pub(crate) fn emit_lanes(
     fields: &[f64],
     target: Target,
 ) -> Result<LanesEntry, Fault> {
-    let shape = Shape { registers: target.registers, lanes: target.registers.lanes() };
-    let entry = emit(function, fields, target, (shape, Addressing::Columns), Sines::Single)?;
-    Ok(LanesEntry(entry))
+    emit(function, fields, target, Addressing::Columns).map(LanesEntry)
 }
 
 /// Code for one state.
@@ -73,10 +75,11 @@ pub(crate) fn emit_single(
     fields: &[f64],
     target: Target,
 ) -> Result<SingleEntry, Fault> {
-    let shape = Shape { registers: target.registers, lanes: 1 };
-    let entry = emit(function, fields, target, (shape, Addressing::Row), Sines::SideBySide)?;
-    Ok(SingleEntry(entry))
+    emit(function, fields, target, Addressing::Row).map(SingleEntry)
 }
+
+/// The most bytes of the stack that code may use: a thread of Rust has 2 MiB.
+const MOST_STACK: u32 = 256 << 10;
 
 /// Steps from which on displacements are long.
 const LONG: usize = 1000;
@@ -89,28 +92,61 @@ fn emit(
     function: &Function,
     fields: &[f64],
     target: Target,
-    (shape, addressing): (Shape, Addressing),
-    sines: Sines,
+    addressing: Addressing,
 ) -> Result<Entry, Fault> {
     let mut pool = Pool::default();
     let mut writer = Writer::new(&mut pool, target.registers, target.fused);
+    let lanes = match addressing {
+        Addressing::Row => 1,
+        Addressing::Columns => target.registers.lanes(),
+    };
+    let vectors = Vectors::of(target.registers);
+    let sines = match (vectors, addressing) {
+        (Some(_), Addressing::Row) => Sines::SideBySide,
+        _ => Sines::Single,
+    };
     lower(&mut writer, function, fields, sines)?;
-    // Of 32 registers 24, of 16 twelve: a few are left for operands from memory.
-    let registers = target.registers.count() / 4 * 3;
-    let overlap = if addressing == Addressing::Row { 3 } else { 4 };
-    let scheduled = writer.list.scheduled(Model { registers, overlap });
-    let (mut code, mut working) = encode(&scheduled, &pool, shape, addressing)?;
-    if code.len() > CACHED {
-        (code, working) = encode(&scheduled.depth_first(), &pool, shape, addressing)?;
-    }
+    let list = writer.list;
+    let (code, working, numbers) = match vectors {
+        Some(vectors) => {
+            let shape = Shape { vectors, lanes };
+            let (code, working) = ordered(&list, &pool, shape, addressing)?;
+            (code, working, Bytes::constant_numbers(shape))
+        }
+        None => {
+            let (code, stack) = cranelift::encode(&list.depth_first(), lanes, addressing)?;
+            if stack > MOST_STACK {
+                return Err(Fault::Stack(stack));
+            }
+            (code, 0, 1)
+        }
+    };
     Ok(Entry {
         code,
-        pool: pool.spread(Bytes::constant_numbers(shape)),
+        pool: pool.spread(numbers),
         working: working as usize,
         inputs: inputs(function),
         outputs: function.core.results().len(),
         registers: target.registers,
     })
+}
+
+/// The code of a list in a better order, and the numbers of working memory that it uses.
+fn ordered(
+    list: &List,
+    pool: &Pool,
+    shape: Shape,
+    addressing: Addressing,
+) -> Result<(Vec<u8>, u32), IcedError> {
+    // Of 32 registers 24, of 16 twelve: a few are left for operands from memory.
+    let registers = shape.vectors.count() / 4 * 3;
+    let overlap = if addressing == Addressing::Row { 3 } else { 4 };
+    let scheduled = list.scheduled(Model { registers, overlap });
+    let found = encode(&scheduled, pool, shape, addressing)?;
+    if found.0.len() > CACHED {
+        return encode(&scheduled.depth_first(), pool, shape, addressing);
+    }
+    Ok(found)
 }
 
 /// The code of a list, and the numbers of working memory that it uses.

@@ -1,4 +1,4 @@
-//! Machine code of x86-64 from lists.
+//! Machine code from lists: of x86-64 here, of other processors by cranelift.
 
 mod codes;
 mod encoder;
@@ -16,10 +16,36 @@ pub(crate) struct Target {
     pub(crate) fused: bool,
 }
 
-/// The registers, and how many of their numbers an instruction computes: 1, 4 or 8.
+/// Instructions of x86-64.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Vectors {
+    Avx2,
+    Avx512,
+}
+
+impl Vectors {
+    /// The instructions on registers, if they are of x86-64 and code is made for them here.
+    fn of(registers: Registers) -> Option<Vectors> {
+        match registers {
+            Registers::Avx2 => Some(Vectors::Avx2),
+            Registers::Avx512 => Some(Vectors::Avx512),
+            Registers::Bits128 => None,
+        }
+    }
+
+    /// How many registers there are.
+    const fn count(self) -> usize {
+        match self {
+            Vectors::Avx2 => 16,
+            Vectors::Avx512 => 32,
+        }
+    }
+}
+
+/// The instructions, and how many numbers one computes: 1, 4 or 8.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape {
-    pub(crate) registers: Registers,
+    pub(crate) vectors: Vectors,
     pub(crate) lanes: usize,
 }
 

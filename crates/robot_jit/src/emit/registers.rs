@@ -91,7 +91,7 @@ struct Body<'a> {
 pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
     let (uses, needed) = Uses::new(list);
     let count = list.steps.len();
-    let value = vec![None; bytes.shape.registers.count()];
+    let value = vec![None; bytes.shape.vectors.count()];
     let mut body = Body {
         list,
         bytes,

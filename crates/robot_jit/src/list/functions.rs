@@ -48,7 +48,7 @@ impl Writer<'_> {
                 let zero = self.bits(0);
                 self.binary(GreaterInteger, zero, x)
             }
-            Registers::Avx512 => self.value(Instruction::SpreadSign(x)),
+            Registers::Avx512 | Registers::Bits128 => self.value(Instruction::SpreadSign(x)),
         }
     }
 

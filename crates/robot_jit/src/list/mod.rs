@@ -82,7 +82,7 @@ pub(crate) enum Instruction {
     Sqrt(Id),
     /// The bits moved up.
     ShiftLeft(Id, u8),
-    /// The sign in all bits; AVX-512 alone has it.
+    /// The sign in all bits; AVX2 has it not.
     SpreadSign(Id),
     /// a b + c, rounded once.
     MulAdd(Id, Id, Id),
@@ -97,22 +97,6 @@ pub(crate) enum Instruction {
 }
 
 impl Instruction {
-    pub(crate) fn operands(self) -> impl Iterator<Item = Id> {
-        let operands = match self {
-            Instruction::Home(_) => [None; 3],
-            Instruction::Sqrt(a)
-            | Instruction::ShiftLeft(a, _)
-            | Instruction::SpreadSign(a)
-            | Instruction::Second(a)
-            | Instruction::Upper(a) => [Some(a), None, None],
-            Instruction::Binary(_, a, b) | Instruction::Pair(a, b) | Instruction::Join(a, b) => {
-                [Some(a), Some(b), None]
-            }
-            Instruction::MulAdd(a, b, c) => [Some(a), Some(b), Some(c)],
-        };
-        operands.into_iter().flatten()
-    }
-
     /// The same instruction on other values.
     pub(crate) fn map(self, at: impl Fn(Id) -> Id) -> Instruction {
         match self {

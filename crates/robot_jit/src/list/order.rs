@@ -3,18 +3,31 @@
 use super::{Id, Instruction, List, Step};
 
 /// The values that a step uses, each once.
+#[inline]
 pub(crate) fn operands(step: Step) -> impl Iterator<Item = Id> {
-    let operands: [Option<Id>; 3] = match step {
-        Step::Store(value, _) => [Some(value), None, None],
-        Step::Value(instruction) => {
-            let mut operands = instruction.operands();
-            std::array::from_fn(|_| operands.next())
+    let (mut found, mut count) = ([Id::at(0); 3], 0);
+    let mut add = |value: Id| {
+        if !found[..count].contains(&value) {
+            found[count] = value;
+            count += 1;
         }
     };
-    let [a, b, c] = operands;
-    let b = b.filter(|b| Some(*b) != a);
-    let c = c.filter(|c| Some(*c) != a && Some(*c) != b);
-    [a, b, c].into_iter().flatten()
+    match step {
+        Step::Store(value, _) => add(value),
+        Step::Value(instruction) => match instruction {
+            Instruction::Home(_) => {}
+            Instruction::Sqrt(a)
+            | Instruction::ShiftLeft(a, _)
+            | Instruction::SpreadSign(a)
+            | Instruction::Second(a)
+            | Instruction::Upper(a) => add(a),
+            Instruction::Binary(_, a, b) | Instruction::Pair(a, b) | Instruction::Join(a, b) => {
+                [a, b].into_iter().for_each(add);
+            }
+            Instruction::MulAdd(a, b, c) => [a, b, c].into_iter().for_each(add),
+        },
+    }
+    found.into_iter().take(count)
 }
 
 /// For each step whether something stored depends on it.

@@ -8,7 +8,6 @@
 //! than it takes.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet};
 
 use super::order::{needed, operands};
 use super::{Binary, Id, Instruction, List, Step};
@@ -45,36 +44,55 @@ pub(crate) struct Model {
     pub(crate) overlap: u32,
 }
 
-/// A step by the cycles that are waited for it.
-type Ready = (Reverse<u32>, u32);
+/// A step by the cycles that are waited for it, the one waited for longest being the greatest, and then the first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Ready {
+    height: u32,
+    position: Reverse<u32>,
+}
+
+/// No operand.
+const NONE: u32 = u32::MAX;
+
+/// More cycles than any step takes.
+const CYCLES: usize = 32;
 
 struct Scheduler<'l> {
     list: &'l List,
     model: Model,
     /// Cycles from the start of each step to the last store that waits for it.
     height: Vec<u32>,
-    /// The steps that use each value, each once.
-    users: Vec<Vec<u32>>,
+    /// The operands of each step that are computed, and then `NONE`.
+    operands: Vec<[u32; 3]>,
+    /// The steps that use values, each once, value by value.
+    users: Vec<u32>,
+    /// For each value where its users begin, and at last where they end.
+    first_user: Vec<u32>,
     /// For each step, the operands that have not started.
     missing: Vec<u32>,
     /// For each value, the steps that still need it.
     uses: Vec<u32>,
+    /// The values whose lives each step would end now, less the one that it begins.
+    ended: Vec<i8>,
     /// The cycle in which the operands of each step are there.
     start: Vec<u32>,
-    /// For each unit the steps whose operands are there, the one waited for longest first.
-    ready: [BTreeSet<Ready>; 3],
-    /// Steps whose operands have started, by the cycle in which they are there.
-    waiting: BTreeMap<u32, Vec<u32>>,
+    /// For each unit the steps whose operands are there, in order.
+    ready: [Vec<Ready>; 3],
+    /// Steps whose operands have started, by the last digits of the cycle in which they are there.
+    waiting: [Vec<u32>; CYCLES],
     now: u32,
     alive: usize,
     order: Vec<usize>,
+    is_started: Vec<bool>,
+    /// How many steps have not started.
+    left: usize,
 }
 
 impl List {
     /// The steps as a processor would start them.
     pub(crate) fn scheduled(&self, model: Model) -> List {
         let mut scheduler = Scheduler::new(self, model);
-        while !scheduler.is_done() {
+        while scheduler.left > 0 {
             scheduler.cycle();
         }
         self.in_order(&scheduler.order)
@@ -91,36 +109,72 @@ impl<'l> Scheduler<'l> {
             list,
             model,
             height: vec![0; count],
-            users: vec![vec![]; count],
+            operands: vec![[NONE; 3]; count],
+            users: vec![],
+            first_user: vec![0; count + 1],
             missing: vec![0; count],
             uses: vec![0; count],
+            ended: vec![0; count],
             start: vec![0; count],
-            ready: [const { BTreeSet::new() }; 3],
-            waiting: BTreeMap::new(),
+            ready: [const { vec![] }; 3],
+            waiting: [const { vec![] }; CYCLES],
             now: 0,
             alive: 0,
             order: order.collect(),
+            is_started: vec![false; count],
+            left: 0,
         };
-        for (position, step) in list.steps.iter().enumerate().rev() {
-            if !needed[position] || is_home(position) {
-                continue;
+        let steps = || (0..count).filter(|position| needed[*position] && !is_home(*position));
+        for position in steps().rev() {
+            let found = operands(list.steps[position]).filter(|value| !list.is_home(*value));
+            for (operand, value) in scheduler.operands[position].iter_mut().zip(found) {
+                *operand = value.index() as u32;
             }
-            scheduler.height[position] += scheduler.latency(*step);
-            for value in operands(*step).filter(|value| !list.is_home(*value)) {
-                let index = value.index();
+            scheduler.left += 1;
+            scheduler.height[position] += scheduler.latency(list.steps[position]);
+            for value in scheduler.computed(position) {
                 let height = scheduler.height[position];
-                scheduler.height[index] = scheduler.height[index].max(height);
-                scheduler.users[index].push(position as u32);
-                scheduler.uses[index] += 1;
+                scheduler.height[value] = scheduler.height[value].max(height);
+                scheduler.uses[value] += 1;
                 scheduler.missing[position] += 1;
             }
         }
-        for position in (0..count).filter(|position| needed[*position] && !is_home(*position)) {
+        scheduler.find_users(steps());
+        for position in steps() {
+            let ended = scheduler.computed(position).filter(|value| scheduler.uses[*value] == 1);
+            let begun = i8::from(matches!(list.steps[position], Step::Value(_)));
+            scheduler.ended[position] = ended.count() as i8 - begun;
             if scheduler.missing[position] == 0 {
                 scheduler.make_ready(position);
             }
         }
         scheduler
+    }
+
+    /// Fills in the users, of the steps in their order.
+    fn find_users(&mut self, steps: impl Iterator<Item = usize>) {
+        let mut end = 0;
+        for (first, uses) in self.first_user.iter_mut().zip(&self.uses) {
+            *first = end;
+            end += uses;
+        }
+        self.users = vec![0; end as usize];
+        let mut next = self.first_user.clone();
+        for position in steps {
+            for value in self.computed(position) {
+                self.users[next[value] as usize] = position as u32;
+                next[value] += 1;
+            }
+        }
+        if let Some(last) = self.first_user.last_mut() {
+            *last = end;
+        }
+    }
+
+    /// The operands of a step that are computed.
+    fn computed(&self, position: usize) -> impl Iterator<Item = usize> + use<> {
+        let operands = self.operands[position].into_iter();
+        operands.take_while(|operand| *operand != NONE).map(|operand| operand as usize)
     }
 
     fn latency(&self, step: Step) -> u32 {
@@ -129,15 +183,10 @@ impl<'l> Scheduler<'l> {
 
     /// Starts what can start in a cycle.
     fn cycle(&mut self) {
-        if self.ready.iter().all(BTreeSet::is_empty) {
-            self.now = self.waiting.first_key_value().map_or(self.now, |(cycle, _)| *cycle);
-        }
-        while let Some(entry) = self.waiting.first_entry().filter(|entry| *entry.key() <= self.now)
-        {
-            for position in entry.remove() {
-                self.make_ready(position as usize);
-            }
-        }
+        let slot = self.now as usize % CYCLES;
+        let mut due = std::mem::take(&mut self.waiting[slot]);
+        due.drain(..).for_each(|position| self.make_ready(position as usize));
+        self.waiting[slot] = due;
         let mut units = UNITS;
         while let Some(position) = self.next(units) {
             units[cost(self.list.steps[position]).1] -= 1;
@@ -149,48 +198,57 @@ impl<'l> Scheduler<'l> {
     /// The step to start next, if a unit is free for one.
     fn next(&self, units: [u8; 3]) -> Option<usize> {
         let free = || self.ready.iter().zip(units).filter(|(_, free)| *free > 0);
-        let first = free().filter_map(|(ready, _)| ready.first()).min()?;
+        let first = free().filter_map(|(ready, _)| ready.last()).max()?;
         if self.alive < self.model.registers {
-            return Some(first.1 as usize);
+            return Some(first.position.0 as usize);
         }
-        let looked_at = free().flat_map(|(ready, _)| ready.iter().take(LOOKED_AT));
-        let best = looked_at.min_by_key(|(height, position)| {
-            (Reverse(self.ended(*position as usize)), *height, *position)
-        });
-        best.map(|(_, position)| *position as usize)
+        let looked_at =
+            free().flat_map(|(ready, _)| &ready[ready.len().saturating_sub(LOOKED_AT)..]);
+        let best = looked_at.max_by_key(|ready| (self.ended[ready.position.0 as usize], **ready));
+        best.map(|ready| ready.position.0 as usize)
+    }
+
+    /// The unit of a step, and its place among those that are ready.
+    fn place(&self, position: usize) -> (usize, Ready) {
+        let unit = cost(self.list.steps[position]).1;
+        (unit, Ready { height: self.height[position], position: Reverse(position as u32) })
     }
 
     fn make_ready(&mut self, position: usize) {
-        let unit = cost(self.list.steps[position]).1;
-        self.ready[unit].insert((Reverse(self.height[position]), position as u32));
+        let (unit, ready) = self.place(position);
+        let at = self.ready[unit].partition_point(|other| *other < ready);
+        self.ready[unit].insert(at, ready);
     }
 
-    fn is_done(&self) -> bool {
-        self.ready.iter().all(BTreeSet::is_empty) && self.waiting.is_empty()
-    }
-
-    /// The values whose lives a step ends, less the one that it begins.
-    fn ended(&self, position: usize) -> isize {
-        let step = self.list.steps[position];
-        let ended = operands(step).filter(|value| self.uses[value.index()] == 1).count();
-        ended as isize - isize::from(matches!(step, Step::Value(_)))
+    fn range_of_users(&self, value: usize) -> std::ops::Range<usize> {
+        self.first_user[value] as usize..self.first_user[value + 1] as usize
     }
 
     fn begin(&mut self, position: usize) {
-        let step = self.list.steps[position];
-        self.ready[cost(step).1].remove(&(Reverse(self.height[position]), position as u32));
+        let (unit, ready) = self.place(position);
+        let at = self.ready[unit].partition_point(|other| *other < ready);
+        self.ready[unit].remove(at);
         self.order.push(position);
-        self.alive = self.alive.saturating_add_signed(-self.ended(position));
-        for value in operands(step).filter(|value| !self.list.is_home(*value)) {
-            self.uses[value.index()] -= 1;
+        self.is_started[position] = true;
+        self.left -= 1;
+        self.alive = self.alive.saturating_add_signed(-isize::from(self.ended[position]));
+        for value in self.computed(position) {
+            self.uses[value] -= 1;
+            if self.uses[value] == 1 {
+                // One step is left that needs it, and would end its life.
+                let users =
+                    self.users[self.range_of_users(value)].iter().map(|user| *user as usize);
+                let last = users.into_iter().find(|user| !self.is_started[*user]);
+                last.into_iter().for_each(|user| self.ended[user] += 1);
+            }
         }
-        let done = self.now + self.latency(step);
-        for user in std::mem::take(&mut self.users[position]) {
-            let index = user as usize;
+        let done = self.now + self.latency(self.list.steps[position]);
+        for user in self.range_of_users(position) {
+            let index = self.users[user] as usize;
             self.start[index] = self.start[index].max(done);
             self.missing[index] -= 1;
             if self.missing[index] == 0 {
-                self.waiting.entry(self.start[index]).or_default().push(user);
+                self.waiting[self.start[index] as usize % CYCLES].push(index as u32);
             }
         }
     }

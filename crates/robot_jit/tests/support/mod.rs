@@ -7,7 +7,7 @@ use robot_jit::{Function, Registers};
 
 /// The registers that this machine has. None on others than x86-64, where there is nothing to compare.
 pub(crate) fn registers() -> Vec<Registers> {
-    let both = [Registers::Avx2, Registers::Avx512].into_iter();
+    let both = [Registers::Avx2, Registers::Avx512, Registers::Bits128].into_iter();
     both.filter(|registers| registers.check().is_ok()).collect()
 }
 
