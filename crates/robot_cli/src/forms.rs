@@ -51,7 +51,7 @@ pub(crate) struct EquationArguments {
           "no_references", "letters"])]
     style: Option<StyleName>,
     /// Equations like those published in this file, which has them as `compare` reads them: in the style paper, with the
-    /// terms and factors in the order of the file
+    /// terms and factors in the order of the file, and with its numbers
     #[arg(long, value_name = "PRINTED", conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
           "no_references", "letters"])]
     like: Option<PathBuf>,
