@@ -107,9 +107,8 @@ impl LayoutArguments {
                 };
                 shown.push_str(&format!("{gap}{comment} {}\n", group.title));
             }
-            let numbered = |equation: &Equation| NumberedEquation {
-                label: self.numbers.then(|| equation.label()),
-                equation: equation.clone(),
+            let numbered = |equation: &Equation| {
+                group.numbered(equation, self.numbers.then(|| equation.label()))
             };
             let list: Vec<NumberedEquation> = group.equations.iter().map(numbered).collect();
             shown.push_str(&print(&list, layout)?);

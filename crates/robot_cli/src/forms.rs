@@ -51,7 +51,7 @@ pub(crate) struct EquationArguments {
           "no_references", "letters"])]
     style: Option<StyleName>,
     /// Print equations like the published ones in this file, in the format that `compare` reads: in the paper's
-    /// style, with terms and factors in the order of the file
+    /// style, with terms and factors in the order of the file, and with its numbers
     #[arg(long, value_name = "PRINTED", conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
           "no_references", "letters"])]
     like: Option<PathBuf>,

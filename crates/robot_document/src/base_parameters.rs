@@ -144,14 +144,18 @@ impl BaseSet {
 }
 
 impl BaseEntry {
-    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; if nothing is regrouped, `MY_2 = 0.1`.
+    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; if nothing is regrouped, `MY_2 = 0.1`. A parameter of the file that looks like its name
+    /// in print, such as a mass M_3, is the name alone.
     fn equation(&self) -> Equation {
         let formula = if self.coefficients.len() > 1 { &self.formula } else { &self.value };
+        let right = chained(formula, &self.value);
+        let is_same = latex::formula(&right) == latex::formula(&self.left);
+        let right = if is_same { Math::default() } else { right };
         Equation {
             name: self.name.clone(),
             text: self.value.text.clone(),
             left: self.left.clone(),
-            right: chained(formula, &self.value),
+            right,
         }
     }
 }

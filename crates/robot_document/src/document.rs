@@ -50,6 +50,8 @@ pub struct NumberedEquation {
     /// The label by which text can refer to it: letters, digits, `-`, `:`; `None` for an equation
     /// without a number.
     pub label: Option<String>,
+    /// The number of an equation with a label: that of a published text, or the next one.
+    pub number: Option<String>,
     /// The equation.
     pub equation: Equation,
 }

@@ -97,7 +97,11 @@ fn read_back<'g>(
         let list: Vec<NumberedEquation> = group
             .equations
             .iter()
-            .map(|equation| NumberedEquation { label: None, equation: equation.clone() })
+            .map(|equation| NumberedEquation {
+                label: None,
+                number: None,
+                equation: equation.clone(),
+            })
             .collect();
         let latex = latex::equations(&list, Layout::of_centimeters(width))?;
         let read = latex::read_equations(&latex).unwrap();
@@ -236,8 +240,11 @@ fn arrays<'g>(
     let arranged = printed.arranged(Room::Points(layout.width - 44.0));
     let mut shown: BTreeMap<String, Math> = BTreeMap::new();
     for group in &arranged.groups {
-        let numbered =
-            |one: &Equation| NumberedEquation { label: Some(one.label()), equation: one.clone() };
+        let numbered = |one: &Equation| NumberedEquation {
+            label: Some(one.label()),
+            number: None,
+            equation: one.clone(),
+        };
         let list: Vec<NumberedEquation> = group.equations.iter().map(numbered).collect();
         let latex = latex::equations(&list, layout).unwrap();
         let read = latex::read_equations(&latex).unwrap_or_else(|error| panic!("{error}: {latex}"));

@@ -222,7 +222,11 @@ fn reduce(numerator: i128, denominator: i128) -> Rational {
     let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
     // The divisor is at most |denominator| < 2^127, so the casts are exact.
     let divisor = if denominator < 0 { -(divisor as i128) } else { divisor as i128 };
-    let (numerator, denominator) = (numerator / divisor, denominator / divisor);
+    of_lowest(numerator / divisor, denominator / divisor)
+}
+
+/// The quotient of numbers that have no common divisor, the denominator positive.
+fn of_lowest(numerator: i128, denominator: i128) -> Rational {
     match (i64::try_from(numerator), i64::try_from(denominator)) {
         // i64::MIN is left to the big form so that negation never overflows.
         (Ok(numerator), Ok(denominator)) if numerator != i64::MIN => {
@@ -233,6 +237,19 @@ fn reduce(numerator: i128, denominator: i128) -> Rational {
             IBig::from(denominator),
         )))),
     }
+}
+
+/// The greatest common divisor of two numbers of one word, neither of them `i64::MIN`; of 0 and a denominator that
+/// denominator.
+fn common(a: i64, b: i64) -> i64 {
+    let (mut x, mut y) = (a.abs(), b.abs());
+    if x == 1 || y == 1 {
+        return 1;
+    }
+    while y != 0 {
+        (x, y) = (y, x % y);
+    }
+    x
 }
 
 /// The greatest common divisor; 64-bit arithmetic as soon as both fit.
@@ -281,7 +298,18 @@ impl std::ops::Sub for &Rational {
 impl std::ops::Mul for &Rational {
     type Output = Rational;
     fn mul(self, other: &Rational) -> Rational {
-        self.combine(other, |a, b, c, d| Some((a * c, b * d)), |a, b| a * b)
+        let (
+            Repr::Small { numerator: a, denominator: b },
+            Repr::Small { numerator: c, denominator: d },
+        ) = (&self.0, &other.0)
+        else {
+            return from_big(self.to_big() * other.to_big());
+        };
+        // Each factor is in lowest terms, so that nothing but these divisors can be common to the products.
+        let (left, right) = (common(*a, *d), common(*c, *b));
+        let numerator = i128::from(a / left) * i128::from(c / right);
+        let denominator = i128::from(b / right) * i128::from(d / left);
+        of_lowest(numerator, denominator)
     }
 }
 

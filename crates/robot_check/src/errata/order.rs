@@ -9,7 +9,8 @@ use robot_symbolic::Graph;
 use super::{Options, read};
 
 /// The order in which printed equations, as [`compare`](super::compare) reads them, have the terms and factors of a robot's
-/// quantities; of a quantity printed twice that of the later equation, and none if it only names a quantity.
+/// quantities, and the numbers that they give them; of a quantity printed twice those of the later equation, and no order if it only
+/// names a quantity.
 ///
 /// # Errors
 ///
@@ -26,6 +27,7 @@ pub fn term_order(
         .map_err(|errors| Diagnostics::new(source.clone(), errors))?;
     let mut order = TermOrder::default();
     for equation in printed {
+        order.set_number(&equation.quantity, &equation.number);
         // With one term there is nothing to order but its factors, and that term may be another quantity's name.
         if equation.terms.len() > 1 {
             order.insert(&equation.quantity, equation.terms);

@@ -176,7 +176,9 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
     };
     let ((_, end), (before, after)) = (ends(&motion.t), ends(&energies.total));
     let drift = drift(&energies.total);
-    let [end, before, after] = [end, before, after].map(number);
+    // The change tells what further digits would.
+    let rounded = |energy: f64| format!("{energy:.5e}").parse().unwrap_or(energy);
+    let [end, before, after] = [end, rounded(before), rounded(after)].map(number);
     let drift = match drift {
         Some(0.0) => ", no change".to_owned(),
         Some(drift) => format!(", a relative change of {drift:.1e}"),

@@ -88,6 +88,23 @@ fn latex_is_an_environment_of_amsmath() {
     assert!(narrow.contains(r"    &\quad "), "{narrow}");
 }
 
+/// A mass M_3 of the file that is a base parameter is no equation M_3 = M_3, and text tells both apart.
+#[test]
+fn a_parameter_of_the_file_is_a_name_alone_where_it_looks_like_its_own() {
+    let shown = |format: &str| output(&["base", &robot("trttr1"), "--format", format], "");
+    for (format, line) in [
+        ("latex", "  M_3 & \\\\"),
+        ("typst", "$ M_3 & $"),
+        ("markdown", "M_3"),
+        ("text", "M_3 = M3"),
+    ] {
+        let shown = shown(format);
+        assert!(shown.lines().any(|shown| shown == line), "{line} is not in {shown}");
+        assert!(!shown.contains("M_3 = M_3") && !shown.contains("M_3 &= M_3"), "{shown}");
+    }
+    assert_eq!(shown("mathml").matches("<mtd></mtd>").count(), 1);
+}
+
 #[test]
 fn typst_numbers_the_formulas() {
     let shown = output(

@@ -291,6 +291,29 @@ fn terms_are_in_the_order_of_the_text() {
     }
 }
 
+/// The number of a column is the one that the text gives to all of its components.
+#[test]
+fn equations_have_the_numbers_of_the_text() {
+    let text = root().join("docs/trttr1.printed");
+    let numbered = |format: &str| {
+        let like = ["--like", text.to_str().unwrap(), "--numbers"];
+        let arguments = ["equations", &robot("trttr1"), "--format", format];
+        output(&[arguments.as_slice(), &like].concat(), "")
+    };
+    let latex = numbered("latex");
+    for (number, label) in [("13", "a-c5"), ("17", "F4"), ("35", "F-l1"), ("53", "Q1")] {
+        let end = format!(r" \tag{{{number}}} \label{{eq:{label}}}");
+        assert_eq!(latex.matches(&end).count(), 1, "{end} is not in {latex}");
+    }
+    let relation = latex.lines().find(|line| line.starts_with(r"  \bar{a}_{c_1}^{1} &= "));
+    assert!(relation.unwrap().ends_with(r" \notag \\"), "{latex}");
+    let typst = numbered("typst");
+    let set = "#[#set math.equation(numbering: _ => [(17)])\n$ ";
+    assert!(typst.contains(set) && typst.contains("$ <eq:F4>]"), "{typst}");
+    assert!(numbered("mathml").contains("<mtext>(17)</mtext>"));
+    assert!(!latex.contains(r"\label{eq:relation"), "{latex}");
+}
+
 /// Published LaTeX has an order as well; equations that are not in it keep the style's.
 #[test]
 fn the_order_of_latex_is_kept() {

@@ -448,6 +448,7 @@ fn compact_equations_are_those_of_mechanics() {
     let shown = output(&["equations", &robot("trttr1"), "--form", "compact"], "");
     assert!(shown.contains("Jx5*sin(q5)^2 + Jz5*cos(q5)^2") && !shown.contains("0.5*"), "{shown}");
     assert!(!shown.contains("Q4 = x_") && shown.contains("sin(q2)*Q4"), "{shown}");
+    assert!(shown.contains("(l4 + q4)*x_2") && !shown.contains("l4*x_2"), "{shown}");
     // Roots of numbers belong to the coefficient.
     let arguments = ["equations", &robot("panda"), "--form", "recursive", "--format", "latex"];
     let shown = rounded_output(&arguments);

@@ -1,11 +1,10 @@
 //! Coefficients that are equal to an earlier one: they have no equation of their own.
 
-use robot_symbolic::collected::length;
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 use robot_symbolic::{Expr, Number, Polynomial};
 
 use super::Writer;
-use super::coefficients::{LIMITS, MIN_LENGTH, Section, Shown, Sum};
+use super::coefficients::{LIMITS, Section, Shown, Sum};
 use crate::error::Error;
 
 /// Puts the earlier coefficient of a section in the place of each later one that equals it, perhaps with the other
@@ -20,10 +19,7 @@ pub(super) fn replace<'g>(
     for (section, shown) in sections.iter().zip(shown).filter(|(section, _)| !section.by_symbols) {
         let mut earlier: Vec<(&str, Polynomial<'g>)> = vec![];
         for (coefficient, shown) in section.coefficients.iter().zip(shown) {
-            let Shown::Short { value, terms } = shown else { continue };
-            if length(terms) < MIN_LENGTH {
-                continue;
-            }
+            let Some(value) = shown.comparable() else { continue };
             let opposite = value.scale(&Number::integer(-1));
             let same = earlier.iter().find_map(|(name, known)| match () {
                 () if is_equal(known, value) => Some((*name, false)),

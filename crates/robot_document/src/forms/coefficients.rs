@@ -7,6 +7,7 @@ use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
 use super::compact::definitions;
 use super::definitions::Root;
+use super::naming::named_length;
 use super::{Equation, Group, Writer, aliases, generalized_force, letters, references, shapes};
 use crate::error::Error;
 use crate::math::Math;
@@ -17,8 +18,11 @@ pub(super) const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 200_000 };
 /// The most terms of an expansion that is collected.
 pub(super) const MAX_TERMS: usize = 160;
-/// The most printed symbols of a coefficient, some six lines; names make longer ones shorter.
+/// The most printed symbols of an entry of a matrix, some six lines.
 pub(super) const MAX_LENGTH: usize = 200;
+/// The most printed symbols of a coefficient that is written out where others need named parts: the limit by which the
+/// coefficients and the named parts of the longer ones are shortest together.
+const LENGTHS: [usize; 4] = [300, 200, 130, 80];
 /// The printed symbols of the shortest coefficient that is written by another one.
 pub(super) const MIN_LENGTH: usize = 3;
 
@@ -49,6 +53,7 @@ impl<'g> Coefficient<'g> {
 }
 
 /// How a coefficient is printed.
+#[derive(Clone)]
 pub(super) enum Shown<'g> {
     /// Not at all: what is 0 only once it is expanded is left out as well.
     Zero,
@@ -60,9 +65,23 @@ pub(super) enum Shown<'g> {
         terms: Vec<ArrangedTerm<'g>>,
     },
     /// By names of parts.
-    Long,
+    Long {
+        /// The value; `None` if its expansion is too long.
+        value: Option<Polynomial<'g>>,
+    },
     /// Not at all: an earlier coefficient of its section stands in its place.
     Earlier,
+}
+
+impl<'g> Shown<'g> {
+    /// The value of a coefficient that is printed, if it is worth to be compared with others.
+    pub(super) fn comparable(&self) -> Option<&Polynomial<'g>> {
+        match self {
+            Shown::Short { value, terms } => (length(terms) >= MIN_LENGTH).then_some(value),
+            Shown::Long { value } => value.as_ref(),
+            Shown::Zero | Shown::Earlier => None,
+        }
+    }
 }
 
 /// How the coefficients are printed, by section.
@@ -72,14 +91,51 @@ pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Ve
             Ok(value) if value.is_zero() => Shown::Zero,
             Ok(value) if value.len() <= MAX_TERMS => {
                 let terms = writer.collected(&value);
-                match length(&terms) <= MAX_LENGTH {
+                match length(&terms) <= LENGTHS[0] {
                     true => Shown::Short { value, terms },
-                    false => Shown::Long,
+                    false => Shown::Long { value: Some(value) },
                 }
             }
-            _ => Shown::Long,
+            value => Shown::Long { value: value.ok() },
         };
     sections.iter().map(|section| section.coefficients.iter().map(coefficient).collect()).collect()
+}
+
+/// Leaves coefficients to named parts from the length on by which all is shortest; none where no coefficient needs
+/// such parts.
+pub(super) fn limit<'g>(
+    writer: &Writer<'_, 'g>,
+    sections: &[Section<'g>],
+    shown: &mut [Vec<Shown<'g>>],
+) {
+    if !shown.iter().flatten().any(|shown| matches!(shown, Shown::Long { .. })) {
+        return;
+    }
+    // As they will be printed, by earlier ones.
+    let mut printed = shown.to_vec();
+    if writer.options.references {
+        references::refer(writer, sections, &mut printed);
+    }
+    let coefficients = || sections.iter().flat_map(|section| &section.coefficients);
+    let total = |most: usize| {
+        let (mut written, mut named) = (0, vec![]);
+        for (coefficient, shown) in coefficients().zip(printed.iter().flatten()) {
+            match shown {
+                Shown::Short { terms, .. } if length(terms) <= most => written += length(terms),
+                Shown::Short { .. } | Shown::Long { .. } => named.push(coefficient.value),
+                Shown::Zero | Shown::Earlier => {}
+            }
+        }
+        written + named_length(&named, writer.options.digits)
+    };
+    let Some(most) = LENGTHS.into_iter().min_by_key(|most| total(*most)) else { return };
+    for (shown, printed) in shown.iter_mut().flatten().zip(printed.iter().flatten()) {
+        if let (Shown::Short { value, .. }, Shown::Short { terms, .. }) = (&*shown, printed)
+            && length(terms) > most
+        {
+            *shown = Shown::Long { value: Some(value.clone()) };
+        }
+    }
 }
 
 /// The joint torques as sums of products of coefficients that have names, and the coefficients: written out if
@@ -156,7 +212,8 @@ pub(super) fn definitions_of<'g>(
 ) -> Result<Vec<Group>, Error> {
     let is_long = |(section, shown): (&Section<'g>, &Vec<Shown<'g>>)| {
         let long = section.coefficients.iter().zip(shown);
-        let long = long.filter(|(_, shown)| !section.by_symbols && matches!(shown, Shown::Long));
+        let long =
+            long.filter(|(_, shown)| !section.by_symbols && matches!(shown, Shown::Long { .. }));
         long.map(|(coefficient, _)| coefficient.root()).collect::<Vec<_>>()
     };
     let long: Vec<Root<'g>> = sections.iter().zip(shown).flat_map(is_long).collect();
@@ -170,12 +227,12 @@ pub(super) fn definitions_of<'g>(
             let (name, left) = (coefficient.name.clone(), coefficient.shape.clone());
             equations.push(match shown {
                 Shown::Zero | Shown::Earlier => continue,
-                Shown::Long if defined.contains(&name) => continue,
+                Shown::Long { .. } if defined.contains(&name) => continue,
                 Shown::Short { terms, .. } => writer.of_terms(name, left, terms)?,
-                Shown::Long if section.by_symbols => {
+                Shown::Long { .. } if section.by_symbols => {
                     writer.of_expression(name, left, coefficient.value)?
                 }
-                Shown::Long => {
+                Shown::Long { .. } => {
                     writer.of_expression(name, left, named.rewritten(coefficient.value))?
                 }
             });

@@ -89,6 +89,8 @@ pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<A
     let Ok(polynomial) = Polynomial::of(value, &limits) else { return built };
     let collector = Collector { angles: &[], factors: true };
     let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
+    // Of forms that are equally long the collector may leave one with a product more.
+    let collected = arranged::factored(collected, &writer.order);
     let is_shorter = length(&collected) < length(&built)
         && arranged::operations(&collected) <= arranged::operations(&built);
     if is_shorter { collected } else { built }

@@ -3,7 +3,7 @@
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Rational, walk};
 
-use super::coefficients::{Coefficient, Section, Shown, Sum, by_name, motions, shown};
+use super::coefficients::{Coefficient, Section, Shown, Sum, by_name, limit, motions, shown};
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::matrices::{Known, Term, attach};
 use super::{Group, Writer, aliases};
@@ -36,6 +36,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     if writer.options.references {
         aliases::replace(&sections, &mut shown, &mut sums);
     }
+    limit(writer, &sections, &mut shown);
     let is_united = shown.iter().flatten().any(|shown| matches!(shown, Shown::Earlier));
     let introduction = introduction(writer, is_united);
     let known = Known::new(writer, &sections, &shown, &sums)?;

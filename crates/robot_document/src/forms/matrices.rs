@@ -53,7 +53,7 @@ impl<'g> Known<'g> {
                     let equation = writer.of_terms(String::new(), Math::default(), terms)?;
                     known.values.insert(name, (written(equation), coefficient.value));
                 }
-                Shown::Long | Shown::Earlier => {}
+                Shown::Long { .. } | Shown::Earlier => {}
             }
         }
         Ok(known)

@@ -23,6 +23,8 @@ mod regrouped;
 mod shapes;
 mod vectors;
 
+use std::collections::BTreeMap;
+
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
@@ -35,6 +37,7 @@ use robot_symbolic::collected::{Collector, ParallelAngles};
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
+use crate::document::NumberedEquation;
 use crate::error::Error;
 use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_text};
 use crate::math::Math;
@@ -76,6 +79,8 @@ pub struct Group {
     pub arrays: Option<Vec<Array>>,
     /// The relations of vectors from which quantities follow, shown before these where vectors are columns.
     pub relations: Vec<Relation>,
+    /// The numbers that a published text gives to equations, by their names; empty if equations have running numbers.
+    pub numbers: BTreeMap<String, String>,
 }
 
 /// An equation: a quantity or a defined symbol, and what it is.
@@ -87,7 +92,7 @@ pub struct Equation {
     pub text: String,
     /// The left side.
     pub left: Math,
-    /// The right side: a sum.
+    /// The right side: a sum; empty if the left side is all that is shown.
     pub right: Math,
 }
 
@@ -118,7 +123,16 @@ impl Group {
             vector: None,
             arrays: None,
             relations: vec![],
+            numbers: BTreeMap::new(),
         }
+    }
+
+    /// An equation of the group with its number if it has a label; none if the published text gives it none.
+    #[must_use]
+    pub fn numbered(&self, equation: &Equation, label: Option<String>) -> NumberedEquation {
+        let number = label.as_ref().and_then(|_| self.numbers.get(&equation.name)).cloned();
+        let label = label.filter(|_| number.is_some() || self.numbers.is_empty());
+        NumberedEquation { label, number, equation: equation.clone() }
     }
 
     /// Quantities of the robot.
@@ -132,6 +146,11 @@ impl Group {
 }
 
 impl Equation {
+    /// Whether it is a name alone, without a right side.
+    pub(crate) fn is_name(&self) -> bool {
+        self.right.pieces().is_empty()
+    }
+
     /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component; of a
     /// matrix without what it depends on.
     #[must_use]
@@ -220,6 +239,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         rounded |= group.tidy(options.digits);
         let own = group.equations.iter_mut().filter(|_| !group.definitions);
         own.chain(&mut group.vector).for_each(|equation| writer.name_torque(equation));
+        group.numbers = options.order.numbers();
     }
     Ok(Equations { groups, symbols: writer.symbols, rounded })
 }

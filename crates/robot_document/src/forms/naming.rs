@@ -113,6 +113,31 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec
     worthy
 }
 
+/// About how many symbols `roots` take in print with the parts that deserve a name, before like terms are merged.
+pub(super) fn named_length(roots: &[Expr<'_>], digits: Option<usize>) -> usize {
+    let named: FxHashSet<Id> =
+        worth_naming(roots, digits).iter().map(|worthy| worthy.expr.id()).collect();
+    // The length of each part, and whether it is a sum, which takes brackets as a factor.
+    let mut known: FxHashMap<Id, (usize, bool)> = FxHashMap::default();
+    let mut total = 0;
+    for expr in walk::reachable(roots) {
+        let of = |operand: Expr<'_>| known.get(&operand.id()).copied().unwrap_or_default();
+        let factor = |operand: Expr<'_>| of(operand).0 + usize::from(of(operand).1);
+        let (length, is_sum) = match expr.view() {
+            View::Number(_) | View::Pi | View::Symbol(_) | View::Call(..) => (1, false),
+            View::Neg(a) => of(a),
+            View::Add(a, b) | View::Sub(a, b) => (of(a).0 + of(b).0 + 1, true),
+            View::Mul(a, b) => (factor(a) + factor(b), false),
+            View::Div(a, b) => (factor(a) + factor(b) + 1, false),
+        };
+        let is_named = named.contains(&expr.id());
+        total += if is_named { length } else { 0 };
+        known.insert(expr.id(), if is_named { (1, false) } else { (length, is_sum) });
+    }
+    let of_roots = roots.iter().filter_map(|root| known.get(&root.id()));
+    total + of_roots.map(|(length, _)| length).sum::<usize>()
+}
+
 fn operand_sizes(expr: Expr<'_>, sizes: &FxHashMap<Id, usize>) -> usize {
     let size = |operand: &Expr<'_>| sizes.get(&operand.id()).copied().unwrap_or_default();
     expr.operands().iter().map(size).sum()

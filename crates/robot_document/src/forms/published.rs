@@ -11,7 +11,10 @@ use rustc_hash::FxHashMap;
 ///
 /// Derived terms that the text does not have, for it has a mistake, stand where it has the term that they resemble most.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct TermOrder(BTreeMap<String, Vec<Formula>>);
+pub struct TermOrder {
+    terms: BTreeMap<String, Vec<Formula>>,
+    numbers: BTreeMap<String, String>,
+}
 
 /// Atoms with their exponents, in the order of writing.
 type Product<'g> = Vec<(Expr<'g>, i32)>;
@@ -22,13 +25,36 @@ const MAX_PAIRS: usize = 1_000_000;
 impl TermOrder {
     /// Sets the terms of a quantity, such as `F_l5.x`.
     pub fn insert(&mut self, quantity: &str, terms: Vec<Formula>) {
-        self.0.insert(quantity.to_owned(), terms);
+        self.terms.insert(quantity.to_owned(), terms);
+    }
+
+    /// Sets the number that the text gives to the equation of a quantity, without parentheses. One that is not of ASCII letters,
+    /// digits, points and hyphens is not kept.
+    pub fn set_number(&mut self, quantity: &str, number: &str) {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-');
+        if !number.is_empty() && number.chars().all(is_plain) {
+            self.numbers.insert(quantity.to_owned(), number.to_owned());
+        }
     }
 
     /// Whether it has no quantity.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.terms.is_empty()
+    }
+
+    /// The numbers of the text by the names of equations: of components, and of columns whose components have one number.
+    pub(super) fn numbers(&self) -> BTreeMap<String, String> {
+        let mut columns: BTreeMap<String, Option<&String>> = BTreeMap::new();
+        for (quantity, number) in &self.numbers {
+            if let Some((column, _)) = quantity.split_once('.') {
+                let known = columns.entry(column.to_owned()).or_insert(Some(number));
+                *known = known.filter(|known| *known == number);
+            }
+        }
+        let columns =
+            columns.into_iter().filter_map(|(name, number)| Some((name, number?.clone())));
+        self.numbers.clone().into_iter().chain(columns).collect()
     }
 
     /// The terms of a quantity in the order of the text; `None` if the text does not have the quantity, or either has
@@ -39,7 +65,7 @@ impl TermOrder {
         terms: &[ArrangedTerm<'g>],
         graph: &'g Graph,
     ) -> Option<Vec<ArrangedTerm<'g>>> {
-        let printed = self.0.get(quantity)?.iter().map(|term| product(term, graph));
+        let printed = self.terms.get(quantity)?.iter().map(|term| product(term, graph));
         let printed: Vec<Product<'g>> = printed.collect::<Option<_>>()?;
         let of_atoms = |term: &ArrangedTerm<'g>| {
             let factors = term.factors.iter();
@@ -201,6 +227,20 @@ mod tests {
         assert_eq!(of(&["l*v*l*m", "-f", "m*l^2*v"]).unwrap(), "2*l^2*v*m - f + m*g*cos(q)");
         assert_eq!(of(&["f*(m + g)"]), None);
         assert_eq!(TermOrder::default().arranged("Q1", &[], &Graph::new()), None);
+    }
+
+    #[test]
+    fn columns_have_the_number_that_their_components_share() {
+        let mut order = TermOrder::default();
+        for (quantity, number) in
+            [("F1.x", "14"), ("F1.y", "14"), ("M_l2.x", "42"), ("M_l2.y", "43"), ("Q1", "53\\")]
+        {
+            order.set_number(quantity, number);
+        }
+        let numbers = order.numbers();
+        let found = ["F1", "F1.x", "M_l2", "M_l2.y", "Q1"].map(|name| numbers.get(name));
+        let found = found.map(|number| number.map(String::as_str));
+        assert_eq!(found, [Some("14"), Some("14"), None, Some("43"), None]);
     }
 
     #[test]

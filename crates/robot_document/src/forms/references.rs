@@ -6,7 +6,7 @@ use robot_symbolic::{Monomial, Number, Polynomial, Rational};
 use rustc_hash::FxHashMap;
 
 use super::Writer;
-use super::coefficients::{MIN_LENGTH, Section, Shown};
+use super::coefficients::{MAX_TERMS, MIN_LENGTH, Section, Shown};
 
 /// The factors of an earlier coefficient, as numerator and denominator.
 const FACTORS: [(i64, i64); 6] = [(1, 1), (-1, 1), (2, 1), (-2, 1), (1, 2), (-1, 2)];
@@ -32,8 +32,11 @@ struct Way {
     left: usize,
 }
 
-/// Writes a coefficient as a multiple of an earlier one of its section, plus a rest, if that is at most two thirds as
-/// long.
+/// The most printed symbols of a coefficient that is written by an earlier one and not by named parts.
+const MAX_BY_EARLIER: usize = 60;
+
+/// Writes a coefficient as a multiple of an earlier one of its section, plus a rest: if that is at most two thirds as
+/// long, or short where the coefficient would need named parts.
 pub(super) fn refer<'g>(
     writer: &Writer<'_, 'g>,
     sections: &[Section<'g>],
@@ -45,19 +48,24 @@ pub(super) fn refer<'g>(
         }
         let mut earlier: Vec<Earlier<'g>> = vec![];
         for (coefficient, shown) in section.coefficients.iter().zip(shown) {
-            let Shown::Short { value, terms } = shown else { continue };
+            let (value, most) = match shown {
+                Shown::Short { value, terms } => (value.clone(), 2 * length(terms) / 3),
+                Shown::Long { value: Some(value) } => (value.clone(), MAX_BY_EARLIER),
+                Shown::Long { value: None } | Shown::Zero | Shown::Earlier => continue,
+            };
             let mut depth = 0;
-            if length(terms) >= MIN_LENGTH
-                && let Some((by_earlier, below)) = shortest(writer, value, &earlier)
-                && 3 * length(&by_earlier) <= 2 * length(terms)
+            if most >= 2 * MIN_LENGTH / 3
+                && let Some((terms, below)) = shortest(writer, &value, &earlier)
+                && length(&terms) <= most
             {
-                (*terms, depth) = (by_earlier, below + 1);
+                *shown = Shown::Short { value: value.clone(), terms };
+                depth = below + 1;
             }
             if depth < MAX_DEPTH {
                 let numbers =
                     value.terms().map(|(monomial, number)| (monomial.clone(), number.clone()));
                 let numbers = numbers.collect();
-                let (name, value) = (coefficient.name.clone(), value.clone());
+                let name = coefficient.name.clone();
                 earlier.push(Earlier { name, value, numbers, depth });
             }
         }
@@ -70,9 +78,12 @@ fn shortest<'g>(
     value: &Polynomial<'g>,
     earlier: &[Earlier<'g>],
 ) -> Option<(Vec<ArrangedTerm<'g>>, usize)> {
+    let of_like_length =
+        |(_, earlier): &(usize, &Earlier<'g>)| earlier.value.len() < 2 * value.len();
     let mut ways: Vec<Way> = earlier
         .iter()
         .enumerate()
+        .filter(of_like_length)
         .filter_map(|(place, earlier)| best_way(place, value, earlier))
         .collect();
     ways.sort_by_key(|way| way.left);
@@ -85,6 +96,9 @@ fn shortest<'g>(
             coefficient: if factor.is_negative() { -&factor } else { factor },
             factors: vec![(ArrangedFactor::Atom(writer.graph.symbol(&earlier.name)), 1)],
         }];
+        if rest.len() > MAX_TERMS {
+            return None;
+        }
         if !rest.is_zero() {
             terms.extend(writer.collected(&rest));
         }

@@ -8,7 +8,7 @@ use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 use robot_symbolic::{Expr, Number, Polynomial};
 
 use super::coefficients::{
-    Coefficient, Section, Shown, Sum, by_name, define_all, definitions_of, shown,
+    Coefficient, Section, Shown, Sum, by_name, define_all, definitions_of, limit, shown,
 };
 use super::loads::{frictions, wrenches};
 use super::{Equation, Group, Writer, aliases, generalized_force, shapes};
@@ -47,6 +47,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
                 aliases::replace_symbols(sections.first(), shown.first_mut(), &mut sums);
                 aliases::replace(&sections, &mut shown, &mut sums);
             }
+            limit(writer, &sections, &mut shown);
             by_name(writer, TITLE, introduction, &sections, shown, sums)?
         }
     });
@@ -58,7 +59,7 @@ fn length_of(shown: &Shown<'_>) -> Option<usize> {
     match shown {
         Shown::Zero => Some(0),
         Shown::Short { terms, .. } => Some(length(terms)),
-        Shown::Long | Shown::Earlier => None,
+        Shown::Long { .. } | Shown::Earlier => None,
     }
 }
 
@@ -269,7 +270,7 @@ fn inline<'g>(
                 Some(Shown::Short { terms: own, .. }) => {
                     terms.push(product(writer, parameter, own));
                 }
-                Some(Shown::Long | Shown::Earlier) | None => {
+                Some(Shown::Long { .. } | Shown::Earlier) | None => {
                     terms.push(product(writer, writer.graph.symbol(&name), &[unit()]));
                 }
             }

@@ -43,6 +43,9 @@ const INDENT: f64 = 14.5;
 ///
 /// A piece that does not fit.
 pub(crate) fn right_side(equation: &Equation, available: f64) -> Result<Vec<Math>, Error> {
+    if equation.is_name() {
+        return Ok(vec![Math::default()]);
+    }
     let rest = available - INDENT;
     broken(&equation.right, available - EQUALS, rest).map_err(|wide| Error::Narrow {
         name: equation.name.clone(),

@@ -22,6 +22,7 @@ mtd { text-align: left; padding: 0.25rem 0 }
 mtd:first-child { text-align: right; text-align: -webkit-right }
 mtd:nth-child(3) { padding-left: 2rem; text-align: right; text-align: -webkit-right }
 mtd mtd:nth-child(n) { text-align: center; text-align: -webkit-center; padding: 0.15rem 0.4rem }
+mtd mtd[columnalign=left]:nth-child(n) { text-align: left; text-align: -webkit-left }
 mtable[columnalign=left] mtd:nth-child(n) { text-align: left; text-align: -webkit-left; padding: 0 }";
 
 /// How a page is made.
@@ -51,7 +52,12 @@ pub fn page(title: &str, groups: &[Group], options: PageOptions) -> Result<Strin
         }
         let mut rows = vec![];
         for equation in &group.equations {
-            rows.extend(self::rows(equation, layout, numbers)?);
+            let running = numbers.map(|number| number.to_string());
+            let number = match group.numbers.is_empty() {
+                true => running,
+                false => running.and_then(|_| group.numbers.get(&equation.name).cloned()),
+            };
+            rows.extend(self::rows(equation, layout, number.as_deref())?);
             numbers = numbers.map(|number| number + 1);
         }
         let table = element("mtable")
@@ -81,13 +87,14 @@ fn lines(name: &'static str, children: impl IntoIterator<Item = Element>) -> Ele
 }
 
 /// The lines of an equation, the number at the last one.
-fn rows(equation: &Equation, layout: Layout, number: Option<usize>) -> Result<Vec<Element>, Error> {
+fn rows(equation: &Equation, layout: Layout, number: Option<&str>) -> Result<Vec<Element>, Error> {
     let apart = if number.is_some() { NUMBER } else { 0.0 };
     let lines = right_side(equation, layout.width - width(&equation.left) - apart)?;
     let last = lines.len().saturating_sub(1);
     let mut rows = vec![];
     for (place, line) in lines.iter().enumerate() {
         let (left, right) = match place {
+            0 if equation.is_name() => (mathml::formula(&equation.left), vec![]),
             0 => {
                 let equals = mathml::formula(&Math::Sign('=')).attribute("form", "infix");
                 (mathml::formula(&equation.left), vec![equals, mathml::formula(line)])

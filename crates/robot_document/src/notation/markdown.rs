@@ -1,5 +1,7 @@
 //! Markdown: displayed equations between `$$`, formulas in lines between `$`, as GitHub and others render them.
 
+use std::collections::BTreeMap;
+
 use crate::breaking::right_side;
 use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
@@ -24,12 +26,13 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
 fn display(
     NumberedEquation { equation, .. }: &NumberedEquation,
     layout: Layout,
-    number: Option<usize>,
+    number: Option<&str>,
 ) -> Result<String, Error> {
     let lines = right_side(equation, layout.width - width(&equation.left))?;
     let lines: Vec<String> = lines.iter().map(formula).collect();
     let left = formula(&equation.left);
     let display = match lines.as_slice() {
+        _ if equation.is_name() => left,
         [single] => format!("{left} = {single}"),
         lines => {
             let lines = lines.join(" \\\\\n&\\quad ");
@@ -38,7 +41,8 @@ fn display(
     };
     let tag = number.map(|number| format!(" \\tag{{{number}}}")).unwrap_or_default();
     // GitHub takes no \operatorname, others no space in place of a column.
-    let display = display.replace(r"\operatorname{", r"\mathrm{").replace("{@{}l@{}}", "{l}");
+    let display = display.replace(r"\operatorname{", r"\mathrm{");
+    let display = display.replace("[b]{@{}l@{}}", "{l}").replace("{@{}l@{}}", "{l}");
     Ok(format!("\n$$\n{display}{tag}\n$$\n"))
 }
 
@@ -52,10 +56,13 @@ pub fn document(document: &Document, layout: Layout) -> Result<String, Error> {
         Block::Equations(list) => Some(list),
         _ => None,
     });
-    let labels: Vec<&str> = lists.flatten().filter_map(|one| one.label.as_deref()).collect();
+    let labeled = lists.flatten().filter_map(|one| Some((one.label.as_deref()?, &one.number)));
+    let numbered = |(place, (label, own)): (usize, (&'_ str, &Option<String>))| {
+        (label.to_owned(), own.clone().unwrap_or_else(|| (place + 1).to_string()))
+    };
+    let labels: Labels = labeled.enumerate().map(numbered).collect();
     let mut markdown = format!("# {}\n", text(&document.title));
     let mut tables = 0;
-    let mut number = 0;
     for block in &document.blocks {
         match block {
             Block::Heading(level, title) => {
@@ -72,9 +79,8 @@ pub fn document(document: &Document, layout: Layout) -> Result<String, Error> {
             Block::Figure(_) => {}
             Block::Equations(list) => {
                 for equation in list {
-                    let is_numbered = equation.label.is_some();
-                    number += usize::from(is_numbered);
-                    markdown.push_str(&display(equation, layout, is_numbered.then_some(number))?);
+                    let number = equation.label.as_ref().and_then(|label| labels.get(label));
+                    markdown.push_str(&display(equation, layout, number.map(String::as_str))?);
                 }
             }
         }
@@ -82,7 +88,10 @@ pub fn document(document: &Document, layout: Layout) -> Result<String, Error> {
     Ok(markdown)
 }
 
-fn table(table: &Table, number: usize, labels: &[&str]) -> String {
+/// The numbers of equations by their labels.
+type Labels = BTreeMap<String, String>;
+
+fn table(table: &Table, number: usize, labels: &Labels) -> String {
     let row = |cells: &Vec<Cell>| {
         let cells: Vec<String> = cells.iter().map(|cell| line(cell, labels)).collect();
         format!("| {} |\n", cells.join(" | "))
@@ -95,13 +104,13 @@ fn table(table: &Table, number: usize, labels: &[&str]) -> String {
 }
 
 /// A line of text.
-fn line(inlines: &[Inline], labels: &[&str]) -> String {
+fn line(inlines: &[Inline], labels: &Labels) -> String {
     let one = |inline: &Inline| match inline {
         Inline::Text(content) => text(content),
         Inline::Emphasis(content) => format!("*{}*", text(content)),
         Inline::Math(math) => inline_math(math),
-        Inline::Reference(label) => match labels.iter().position(|known| known == label) {
-            Some(place) => format!("({})", place + 1),
+        Inline::Reference(label) => match labels.get(label) {
+            Some(number) => format!("({number})"),
             None => text(label),
         },
     };
@@ -185,6 +194,8 @@ mod tests {
     #[test]
     fn references_are_numbers_of_equations() {
         let inlines = [Inline::text("see "), Inline::Reference("Q2".to_owned())];
-        assert_eq!(line(&inlines, &["Q1", "Q2"]), "see (2)");
+        let numbers = [("Q1", "1"), ("Q2", "54")];
+        let numbers = numbers.map(|(label, number)| (label.to_owned(), number.to_owned()));
+        assert_eq!(line(&inlines, &Labels::from(numbers)), "see (54)");
     }
 }

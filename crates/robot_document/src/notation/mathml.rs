@@ -182,12 +182,28 @@ fn styled(font: Font, inside: &Math) -> Element {
 }
 
 fn matrix(rows: &[Vec<Math>]) -> Element {
-    bracketed(rows.iter().map(|row| row.iter().map(formula).collect()))
+    let is_apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
+    let rows = rows.iter().map(|row| row.iter().map(formula).collect());
+    // A column with entries of several lines begins each at the left.
+    in_brackets(rows, if is_apart { Some("left") } else { None })
 }
 
 /// A matrix of these entries, row by row.
 pub fn bracketed(rows: impl IntoIterator<Item = Vec<Element>>) -> Element {
-    let cell = |entry: Element| element("mtd").with(entry);
+    in_brackets(rows, None)
+}
+
+fn in_brackets(
+    rows: impl IntoIterator<Item = Vec<Element>>,
+    align: Option<&'static str>,
+) -> Element {
+    let cell = |entry: Element| {
+        let cell = element("mtd").with(entry);
+        match align {
+            Some(align) => cell.attribute("columnalign", align),
+            None => cell,
+        }
+    };
     let rows = rows.into_iter().map(|row| element("mtr").with_all(row.into_iter().map(cell)));
     let table = element("mtable").with_all(rows);
     let [open, close] = [("[", "prefix"), ("]", "postfix")]

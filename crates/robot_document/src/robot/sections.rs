@@ -3,7 +3,7 @@
 use robot_dynamics::quantity::Kind;
 
 use super::paragraph;
-use crate::document::{Block, Inline, NumberedEquation, Table};
+use crate::document::{Block, Inline, Table};
 use crate::forms::{Equation, EquationOptions, Equations, Form, Group};
 use crate::math::Math;
 
@@ -32,9 +32,8 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
         if shown.is_empty() {
             continue;
         }
-        let numbered = |equation: &Equation| NumberedEquation {
-            label: Some(format!("{}:{}", form.name(), equation.label())),
-            equation: equation.clone(),
+        let numbered = |equation: &Equation| {
+            group.numbered(equation, Some(format!("{}:{}", form.name(), equation.label())))
         };
         blocks.push(Block::Equations(shown.into_iter().map(numbered).collect()));
     }

@@ -67,10 +67,7 @@ impl Group {
                 if x.abs() != y.abs() {
                     continue;
                 }
-                let common = a.common(b);
-                let (Some(a), Some(b)) = (a.quotient(&common), b.quotient(&common)) else {
-                    continue;
-                };
+                let [common, a, b] = a.split(b);
                 if let Some((variable, negative)) = self.sum_of([&a, &b], x == y) {
                     let number = if negative { -x } else { x.clone() };
                     return Some(([i, j], (common.product(&Powers::of(variable)), number)));

@@ -27,10 +27,24 @@ pub(super) struct Candidate {
     pub(super) factor: Terms,
     /// Q; for a square, K.
     pub(super) quotient: Terms,
-    /// R.
-    pub(super) rest: Terms,
+    /// The places of the terms of K Q, in order: R is the other terms.
+    used: Vec<usize>,
     /// The printed symbols that it saves, by lengths of parts that are not yet factored.
     gain: isize,
+}
+
+impl Candidate {
+    /// Whether a square is taken apart: x (x + y).
+    fn splits_power(&self) -> bool {
+        let [(factor, _)] = self.factor.as_slice() else { return false };
+        let quotient = self.quotient.as_slice();
+        factor.iter().any(|(one, _)| quotient.iter().any(|(powers, _)| powers.exponent(one) > 0))
+    }
+
+    /// R, of the terms of f.
+    pub(super) fn rest(&self, terms: &Terms) -> Terms {
+        terms.without(&self.used)
+    }
 }
 
 /// The candidates of a sum, best first. `figures` are the absolute values of coefficients that may be printed.
@@ -43,15 +57,27 @@ pub(super) fn candidates(terms: &Terms, figures: &FxHashSet<Rational>) -> Vec<Ca
     found.extend(seeker.pairs());
     found.extend(seeker.numbers());
     found.retain(|candidate| candidate.gain >= 0);
-    // The sort is stable: of equal gains the first kind.
-    found.sort_by_key(|candidate| Reverse(candidate.gain));
+    // The sort is stable: of equal gains the first kind, but x (x + y) after others.
+    found.sort_by_key(|candidate| (Reverse(candidate.gain), candidate.splits_power()));
     found
+}
+
+/// Two terms of a sum, divided by what they have in common, the lesser one first.
+struct Pair<'t> {
+    common: Powers,
+    numbers: [&'t Rational; 2],
+    places: [usize; 2],
 }
 
 struct Seeker<'t> {
     terms: &'t Terms,
     figures: &'t FxHashSet<Rational>,
     places: FxHashMap<&'t Powers, usize>,
+    /// The variables of each term, by [`Powers::bits`].
+    bits: Vec<u64>,
+    /// The printed symbols of each term without its sign.
+    lengths: Vec<usize>,
+    /// The printed symbols of all.
     length: usize,
 }
 
@@ -59,21 +85,25 @@ impl<'t> Seeker<'t> {
     fn new(terms: &'t Terms, figures: &'t FxHashSet<Rational>) -> Seeker<'t> {
         let places = terms.as_slice().iter().enumerate();
         let places = places.map(|(place, (powers, _))| (powers, place)).collect();
-        Seeker { terms, figures, places, length: terms.unsigned_length() }
+        let bits = terms.as_slice().iter().map(|(powers, _)| powers.bits()).collect();
+        let lengths = terms.as_slice().iter().map(term_length).collect();
+        Seeker { terms, figures, places, bits, lengths, length: terms.unsigned_length() }
     }
 
     /// f = K Q + R from the places of the terms of K Q.
     fn candidate(&self, factor: Terms, quotient: Terms, mut used: Vec<usize>) -> Candidate {
         used.sort_unstable();
-        let rest = self.terms.without(&used);
+        let taken: usize = used.iter().filter_map(|place| self.lengths.get(*place)).sum();
+        // A sign less for each term that is taken, and none within K Q.
+        let rest = (self.length - taken).saturating_sub(used.len());
         let square = factor == quotient && factor.len() > 1;
         let product = match square {
             true => part(&factor) + 1,
             false => part(&factor) + part(&quotient),
         };
-        let length = product + rest.unsigned_length() + usize::from(!rest.is_zero());
+        let length = product + rest + usize::from(used.len() < self.terms.len());
         let gain = self.length.cast_signed() - length.cast_signed();
-        Candidate { factor, quotient, rest, gain }
+        Candidate { factor, quotient, used, gain }
     }
 
     /// Whether a coefficient may be printed.
@@ -120,7 +150,11 @@ impl<'t> Seeker<'t> {
     fn divided(&self, seed: &Powers) -> Option<(Powers, Terms, Vec<usize>)> {
         let mut used = vec![];
         let mut quotient: Vec<Term> = vec![];
-        for (place, (powers, number)) in self.terms.as_slice().iter().enumerate() {
+        let needed = seed.bits();
+        let has_variables =
+            |place: &usize| self.bits.get(*place).is_some_and(|bits| bits & needed == needed);
+        let all = self.terms.as_slice().iter().enumerate();
+        for (place, (powers, number)) in all.filter(|(place, _)| has_variables(place)) {
             if let Some(left) = powers.quotient(seed) {
                 quotient.push((left, number.clone()));
                 used.push(place);
@@ -147,6 +181,9 @@ impl<'t> Seeker<'t> {
         let mut quotient: Vec<Term> = vec![];
         for (powers, number) in self.terms.as_slice() {
             let Some(left) = powers.quotient(first) else { continue };
+            if !divisor.as_slice().iter().all(|(own, _)| self.has(&own.product(&left))) {
+                continue;
+            }
             let ratio = number * &inverse;
             if !self.allows(&ratio) {
                 continue;
@@ -158,6 +195,11 @@ impl<'t> Seeker<'t> {
         }
         let quotient = Terms::sum(quotient);
         (quotient.len() > 1).then(|| self.candidate(divisor.clone(), quotient, used))
+    }
+
+    /// Whether a term has these powers.
+    fn has(&self, powers: &Powers) -> bool {
+        self.places.contains_key(powers)
     }
 
     /// The places of the terms of a product of a sum with one term, all of them unused.
@@ -178,26 +220,38 @@ impl<'t> Seeker<'t> {
 
     /// Sums of two terms that are factors of several products (double-cube divisors).
     fn pairs(&self) -> Vec<Candidate> {
-        type Key = (Powers, Powers, Rational);
-        type Use = (Powers, Rational, [usize; 2]);
         let all = self.terms.as_slice();
         if all.len() > MAX_PAIRED {
             return vec![];
         }
-        let mut found: IndexMap<Key, Vec<Use>, FxBuildHasher> = IndexMap::default();
+        let mut alike: IndexMap<(Powers, Powers), Vec<Pair<'t>>, FxBuildHasher> =
+            IndexMap::default();
         for (i, (a, x)) in all.iter().enumerate() {
             for (j, (b, y)) in all.iter().enumerate().skip(i + 1) {
-                let common = a.common(b);
-                let (Some(a), Some(b)) = (a.quotient(&common), b.quotient(&common)) else {
-                    continue;
-                };
-                let (a, b, x, y) = if a <= b { (a, b, x, y) } else { (b, a, y, x) };
-                let Some(inverse) = x.recip() else { continue };
-                found.entry((a, b, y * &inverse)).or_default().push((common, x.clone(), [i, j]));
+                let [common, a, b] = a.split(b);
+                let (a, b, numbers) = if a <= b { (a, b, [x, y]) } else { (b, a, [y, x]) };
+                alike.entry((a, b)).or_default().push(Pair { common, numbers, places: [i, j] });
             }
         }
-        let several = found.into_iter().filter(|(_, uses)| uses.len() > 1);
-        several.filter_map(|((a, b, ratio), uses)| self.by_pair(&a, &b, &ratio, &uses)).collect()
+        // Most pairs occur once: only of the others the numbers are compared.
+        let mut found: Vec<(Powers, Powers, Rational, Vec<Pair<'t>>)> = vec![];
+        for ((a, b), pairs) in alike.into_iter().filter(|(_, pairs)| pairs.len() > 1) {
+            let mut by_ratio: IndexMap<Rational, Vec<Pair<'t>>, FxBuildHasher> =
+                IndexMap::default();
+            for pair in pairs {
+                let [x, y] = pair.numbers;
+                let Some(inverse) = x.recip() else { continue };
+                by_ratio.entry(y * &inverse).or_default().push(pair);
+            }
+            let several = by_ratio.into_iter().filter(|(_, pairs)| pairs.len() > 1);
+            found.extend(several.map(|(ratio, pairs)| (a.clone(), b.clone(), ratio, pairs)));
+        }
+        // In the order of the first pair of each.
+        found.sort_by_key(|(.., pairs)| pairs.first().map(|pair| pair.places));
+        let candidate = |(a, b, ratio, pairs): (Powers, Powers, Rational, Vec<Pair<'t>>)| {
+            self.by_pair(&a, &b, &ratio, &pairs)
+        };
+        found.into_iter().filter_map(candidate).collect()
     }
 
     fn by_pair(
@@ -205,27 +259,29 @@ impl<'t> Seeker<'t> {
         a: &Powers,
         b: &Powers,
         ratio: &Rational,
-        uses: &[(Powers, Rational, [usize; 2])],
+        pairs: &[Pair<'t>],
     ) -> Option<Candidate> {
         // Of the ways to share numbers between the two factors the first that makes no new ones.
-        let mut scales = std::iter::once(Rational::ONE).chain(uses.iter().map(|(_, x, _)| x.abs()));
+        let first = |pair: &Pair<'t>| pair.numbers[0];
+        let mut scales =
+            std::iter::once(Rational::ONE).chain(pairs.iter().map(|pair| first(pair).abs()));
         let fits = |scale: &Rational| {
             let inverse = scale.recip();
             self.allows(&(ratio * scale))
                 && inverse.is_some_and(|inverse| {
-                    uses.iter().all(|(_, x, _)| self.allows(&(x * &inverse)))
+                    pairs.iter().all(|pair| self.allows(&(first(pair) * &inverse)))
                 })
         };
         let scale = scales.find(fits)?;
         let inverse = scale.recip()?;
         let mut used: Vec<usize> = vec![];
         let mut quotient: Vec<Term> = vec![];
-        for (common, number, places) in uses {
-            if places.iter().any(|place| used.contains(place)) {
+        for pair in pairs {
+            if pair.places.iter().any(|place| used.contains(place)) {
                 continue;
             }
-            used.extend(places);
-            quotient.push((common.clone(), number * &inverse));
+            used.extend(pair.places);
+            quotient.push((pair.common.clone(), first(pair) * &inverse));
         }
         let factor = Terms::sum([(a.clone(), scale.clone()), (b.clone(), ratio * &scale)]);
         let quotient = Terms::sum(quotient);

@@ -205,6 +205,37 @@ impl Formula {
         Some(formula)
     }
 
+    /// The formula with each sum in brackets multiplied out that is as short so, if it has brackets within brackets.
+    fn unnested(&self, early: usize) -> Option<Formula> {
+        if self.depth() < 2 {
+            return None;
+        }
+        let mut formula = self.clone();
+        for (sum, _) in formula.products.iter_mut().flat_map(|product| &mut product.sums) {
+            let flat = Formula::flat(&sum.terms()).in_brackets(&Rational::ONE, early);
+            if flat.length() <= sum.length() {
+                *sum = Rc::new(flat);
+            }
+        }
+        (formula.depth() < self.depth()).then_some(formula)
+    }
+
+    /// The sum multiplied out.
+    fn terms(&self) -> Terms {
+        Terms::sum(self.products.iter().flat_map(|product| {
+            let own = Terms::single(product.powers.clone(), product.coefficient.clone());
+            let factors = product.sums.iter().flat_map(|(sum, exponent)| {
+                let terms = sum.terms();
+                (0..*exponent).map(move |_| terms.clone())
+            });
+            let all = factors.fold(own, |all, factor| {
+                let products = factor.as_slice().iter().map(|term| all.times(term));
+                Terms::sum(products.flat_map(|part| part.as_slice().to_vec()))
+            });
+            all.as_slice().to_vec()
+        }))
+    }
+
     /// Whether the sum reads better with its signs changed: most of them are minus.
     fn is_rather_negative(&self) -> bool {
         let is_negative = |product: &&Product| product.coefficient.is_negative();
@@ -282,21 +313,23 @@ impl Factoring {
         let mut best = Formula::flat(terms);
         let mut least = best.measure(self.early, place.depth > 0);
         for candidate in candidates(terms, &self.figures).into_iter().take(width) {
-            let formula = self.of_candidate(&candidate, place);
-            let measure = formula.measure(self.early, place.depth > 0);
-            if measure < least {
-                (best, least) = (formula, measure);
+            let formula = self.of_candidate(terms, &candidate, place);
+            for formula in formula.unnested(self.early).into_iter().chain([formula]) {
+                let measure = formula.measure(self.early, place.depth > 0);
+                if measure < least {
+                    (best, least) = (formula, measure);
+                }
             }
         }
         best
     }
 
-    fn of_candidate(&mut self, candidate: &Candidate, place: Place) -> Formula {
-        let Candidate { factor, quotient, rest, .. } = candidate;
-        let product = self.product(&[factor, quotient], place);
+    fn of_candidate(&mut self, terms: &Terms, candidate: &Candidate, place: Place) -> Formula {
+        let product = self.product(&[&candidate.factor, &candidate.quotient], place);
         let mut products = vec![product];
+        let rest = candidate.rest(terms);
         products.extend(
-            self.best(rest, Place { depth: place.depth + 1, ..place }).products.iter().cloned(),
+            self.best(&rest, Place { depth: place.depth + 1, ..place }).products.iter().cloned(),
         );
         Formula::sorted(products, |_| false)
     }

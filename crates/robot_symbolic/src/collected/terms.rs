@@ -86,6 +86,32 @@ impl Powers {
         Powers(self.iter().filter_map(shared).collect())
     }
 
+    /// The largest product that divides both, and both divided by it.
+    pub(super) fn split(&self, other: &Powers) -> [Powers; 3] {
+        let (mut common, mut own, mut others) = (SmallVec::new(), SmallVec::new(), SmallVec::new());
+        let (mut a, mut b) = (self.iter().peekable(), other.iter().peekable());
+        loop {
+            match (a.peek().copied(), b.peek().copied()) {
+                (Some(x), Some(y)) if x.0 == y.0 => {
+                    let shared = x.1.min(y.1);
+                    common.push((x.0, shared));
+                    own.extend((x.1 > shared).then(|| (x.0, x.1 - shared)));
+                    others.extend((y.1 > shared).then(|| (y.0, y.1 - shared)));
+                    a.next();
+                    b.next();
+                }
+                (Some(x), y) if y.is_none_or(|y| x.0 < y.0) => own.extend(a.next()),
+                (_, Some(_)) => others.extend(b.next()),
+                _ => return [Powers(common), Powers(own), Powers(others)],
+            }
+        }
+    }
+
+    /// A set that has the variables of the product, as bits; others may share a bit.
+    pub(super) fn bits(&self) -> u64 {
+        self.iter().fold(0, |bits, (variable, _)| bits | 1 << (variable % 64))
+    }
+
     /// The square root, if all exponents are even.
     pub(super) fn root(&self) -> Option<Powers> {
         let halved = |(variable, exponent): (Variable, u16)| {
@@ -148,10 +174,6 @@ impl Terms {
 
     pub(super) fn len(&self) -> usize {
         self.0.len()
-    }
-
-    pub(super) fn is_zero(&self) -> bool {
-        self.0.is_empty()
     }
 
     /// The terms but those at `places`, which are in order.

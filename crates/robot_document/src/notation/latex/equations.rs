@@ -59,7 +59,7 @@ struct Writer {
 
 impl Writer {
     fn add(&mut self, numbered: &NumberedEquation, available: f64) -> Result<(), Error> {
-        let NumberedEquation { label, equation } = numbered;
+        let NumberedEquation { label, number, equation } = numbered;
         let lines = right_side(equation, available)?;
         let left = formula(&equation.left);
         let last = lines.len().saturating_sub(1);
@@ -72,12 +72,16 @@ impl Writer {
                 self.end(Cut::Within);
             }
             let mut row = match (place, self.rows.is_empty()) {
+                (0, _) if equation.is_name() => format!("  {left} &"),
                 (0, _) => format!("  {left} &= {}", formula(line)),
                 (_, true) => format!(r"  \phantom{{{left}}} &\quad {}", continued(line)),
                 (_, false) => format!(r"    &\quad {}", continued(line)),
             };
             match label {
-                Some(label) if place == last => row.push_str(&format!(r" \label{{eq:{label}}}")),
+                Some(label) if place == last => {
+                    let tag = number.as_ref().map(|number| format!(r" \tag{{{number}}}"));
+                    row.push_str(&format!(r"{} \label{{eq:{label}}}", tag.unwrap_or_default()));
+                }
                 _ if self.numbered => row.push_str(r" \notag"),
                 _ => {}
             }

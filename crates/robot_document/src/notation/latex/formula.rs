@@ -138,25 +138,26 @@ impl Writer {
     }
 
     fn matrix(&mut self, rows: &[Vec<Math>]) {
-        self.push(r"\begin{bmatrix}");
-        // Entries of several lines are set further apart than these.
+        // A column with entries of several lines begins each at the left, further apart than the lines.
         let apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
+        let [begin, gap, end] = match apart {
+            true => [r"\left[\begin{array}{@{}l@{}}", r" \\[6pt] ", r" \end{array}\right]"],
+            false => [r"\begin{bmatrix}", r" \\ ", r" \end{bmatrix}"],
+        };
+        self.push(begin);
         for (place, row) in rows.iter().enumerate() {
-            self.push(match (place, apart) {
-                (0, _) => " ",
-                (_, false) => r" \\ ",
-                (_, true) => r" \\[6pt] ",
-            });
+            self.push(if place == 0 { " " } else { gap });
             for (column, entry) in row.iter().enumerate() {
                 self.push(if column == 0 { "" } else { " & " });
                 self.write(entry, Spacing::Wide);
             }
         }
-        self.push(r" \end{bmatrix}");
+        self.push(end);
     }
 
+    /// The lines of an entry, by the last of which it stands in its column: the gap below is measured from there.
     fn lines(&mut self, lines: &[Math]) {
-        self.push(r"\begin{array}{@{}l@{}}");
+        self.push(r"\begin{array}[b]{@{}l@{}}");
         for (place, line) in lines.iter().enumerate() {
             match place {
                 0 => {

@@ -171,7 +171,7 @@ impl<'t> Reader<'t> {
             "cdot" => Ok(Math::Sign('·')),
             "times" => Ok(Math::Sign('×')),
             "begin" if self.take("{bmatrix}") => Ok(Math::Matrix(self.entries("bmatrix")?)),
-            "begin" if self.take("{array}{@{}l@{}}") => self.lines(),
+            "begin" if self.take("{array}[b]{@{}l@{}}") => self.lines(),
             "" => match self.rest().chars().next() {
                 Some(sign @ ('#' | '$' | '%' | '&' | '{' | '}' | '_')) => {
                     self.place += 1;
@@ -205,6 +205,10 @@ impl<'t> Reader<'t> {
         }
         if self.take("|") {
             return Ok(Math::Fenced(Fence::Bars, Box::new(self.row(End::Right('|'))?)));
+        }
+        if self.take(r"[\begin{array}{@{}l@{}}") {
+            let column = Math::Matrix(self.entries("array")?);
+            return if self.take(r"\right]") { Ok(column) } else { self.fault("no right bracket") };
         }
         if self.take("[") {
             return Ok(Math::Fenced(Fence::Brackets, Box::new(self.row(End::Right(']'))?)));

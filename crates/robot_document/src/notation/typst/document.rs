@@ -30,7 +30,7 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     let is_numbered = list.iter().any(|one| one.label.is_some());
     let numbering = if is_numbered { "\"(1)\"" } else { "none" };
     let mut typst = format!("#[\n#set math.equation(numbering: {numbering})\n");
-    for NumberedEquation { label, equation } in list {
+    for NumberedEquation { label, number: own, equation } in list {
         let number = if label.is_some() { NUMBER } else { 0.0 };
         let available = layout.width - width(&equation.left) - number - MARGIN;
         let left = formula(&equation.left);
@@ -40,6 +40,7 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
             let mut shown = vec![];
             for (place, line) in lines.iter().enumerate() {
                 shown.push(match (part, place) {
+                    (0, 0) if equation.is_name() => format!("{left} &"),
                     (0, 0) => format!("{left} & = {}", formula(line)),
                     (_, 0) => format!("#hide(${left}$) & quad {}", continued(line, Place::Free)),
                     _ => format!("& quad {}", continued(line, Place::Free)),
@@ -47,8 +48,16 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
             }
             let shown = shown.join(" \\\n    ");
             typst.push_str(&match label {
-                Some(label) if part == last => format!("$ {shown} $ <eq:{label}>\n"),
+                Some(label) if part == last => match own {
+                    Some(own) => format!(
+                        "#[#set math.equation(numbering: _ => [({own})])\n$ {shown} $ <eq:{label}>]\n"
+                    ),
+                    None => format!("$ {shown} $ <eq:{label}>\n"),
+                },
                 Some(_) => format!("#[#set math.equation(numbering: none)\n$ {shown} $]\n"),
+                None if is_numbered => {
+                    format!("#[#set math.equation(numbering: none)\n$ {shown} $]\n")
+                }
                 None => format!("$ {shown} $\n"),
             });
         }

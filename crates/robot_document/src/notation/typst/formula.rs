@@ -46,11 +46,12 @@ fn shown(math: &Math, place: Place) -> String {
         Math::Matrix(rows) => {
             let cell = |entry: &Math| shown(entry, Place::Argument);
             let row = |row: &Vec<Math>| row.iter().map(cell).collect::<Vec<_>>().join(", ");
-            // Entries of several lines are set further apart than these.
+            // A column with entries of several lines begins each at the left, further apart than the lines.
             let is_apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
-            let gap = if is_apart { 0.8 } else { 0.35 };
+            let layout =
+                if is_apart { "align: #left, row-gap: #0.8em" } else { "row-gap: #0.35em" };
             let rows: Vec<String> = rows.iter().map(row).collect();
-            format!("mat(delim: \"[\", row-gap: #{gap}em, {})", rows.join("; "))
+            format!("mat(delim: \"[\", {layout}, {})", rows.join("; "))
         }
         Math::Lines(lines) => {
             let line = |(index, line)| match index {
