@@ -27,8 +27,9 @@ pub fn term_order(
     let mut order = TermOrder::default();
     for equation in printed {
         // With one term there is nothing to order but its factors, and that term may be another quantity's name.
-        if equation.terms.len() > 1 {
-            order.insert(&equation.quantity, equation.terms);
+        match equation.terms.len() {
+            0 | 1 => order.insert_name(&equation.quantity),
+            _ => order.insert(&equation.quantity, equation.terms),
         }
     }
     Ok(order)
